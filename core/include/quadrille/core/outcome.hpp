@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+namespace quadrille {
+
+/// What is minimised. The cost of an agent is the time at which it arrives at its goal for the last
+/// time; the makespan is the largest of them.
+enum class Objective { sum_of_costs, makespan };
+
+/// What is claimed about an instance. Only `optimal` and `infeasible` are proofs.
+enum class Status {
+  optimal,     ///< A plan whose cost equals the proven lower bound.
+  feasible,    ///< A plan, and a proven lower bound that is smaller than its cost.
+  infeasible,  ///< Proved: no plan exists.
+  unknown,     ///< No plan; a limit ended the search, or a proof was lost.
+};
+
+/// Which limit ended a search. `none`: it ended by itself.
+enum class StopReason { none, wall_time, cpu_time, memory, conflicts, interrupt };
+
+[[nodiscard]] std::string_view to_string(Objective objective) noexcept;   ///< "sum-of-costs" | "makespan"
+[[nodiscard]] std::string_view to_string(Status status) noexcept;         ///< "optimal" | ...
+[[nodiscard]] std::string_view to_string(StopReason reason) noexcept;     ///< "none" | "wall-time" | ...
+
+}  // namespace quadrille

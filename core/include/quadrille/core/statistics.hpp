@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace quadrille {
+
+/// Counters of one search. All start at zero and only grow.
+struct Statistics {
+  double cpu_s = 0;         ///< CPU time of the search.
+  double wall_s = 0;        ///< Wall-clock time of the search.
+  double peak_rss_mib = 0;  ///< Largest resident set of the process.
+  std::int64_t sat_calls = 0;
+  std::int64_t conflicts = 0;  ///< Clauses learned by the SAT solver.
+  std::int64_t decisions = 0;  ///< Decision levels opened by the SAT solver.
+  std::int64_t variables = 0;
+  std::int64_t clauses = 0;            ///< All clauses given to the SAT solver, lemmas included.
+  std::int64_t collision_clauses = 0;  ///< Of these, clauses that rule out a conflict of two agents.
+  std::int64_t checks = 0;             ///< Times the consistency of an assignment was checked.
+  std::int64_t models_checked = 0;     ///< Of these, checks of complete assignments.
+  std::int64_t cores = 0;              ///< Unsatisfiable cores that raised the lower bound.
+};
+
+}  // namespace quadrille

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "quadrille/core/ids.hpp"
+#include "quadrille/core/outcome.hpp"
+
+namespace quadrille::discrete {
+
+/// The vertex of one agent at timesteps 0, 1, ...; the agent stays at the last one for ever. Never
+/// empty in a valid plan.
+using Path = std::vector<VertexId>;
+
+/// Timestep of the last arrival at the last vertex: trailing repetitions cost nothing. Requires a
+/// non-empty path.
+[[nodiscard]] Cost arrival(const Path& path);
+/// Where the path is at a timestep, its last vertex from its end on. Requires a non-empty path.
+[[nodiscard]] inline VertexId position(const Path& path, Timestep t) {
+  const auto at = static_cast<std::size_t>(t);
+  return at < path.size() ? path[at] : path.back();
+}
+
+/// One path per agent.
+struct Plan {
+  IdVector<AgentId, Path> paths;
+
+  /// Sum or maximum of the agents' arrivals; 0 without agents.
+  [[nodiscard]] Cost cost(Objective objective) const;
+  friend bool operator==(const Plan&, const Plan&) = default;
+};
+
+/// Drops trailing repetitions, so that every path ends with its arrival.
+void trim(Plan& plan);
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/core/result.hpp"
+#include "quadrille/core/statistics.hpp"
+#include "quadrille/discrete/instance.hpp"
+#include "quadrille/discrete/plan.hpp"
+
+namespace quadrille::discrete {
+
+/// The solving systems; see docs/architecture.md.
+enum class System {
+  dpll,      ///< The default; at present the same as dpll_mdd with continuous watching.
+  dpll_mdd,  ///< MDD path model, collision clauses made inside the search as `check` says.
+  smt_cbs,   ///< MDD path model, collision clauses made after each complete assignment.
+  mdd_sat,   ///< MDD path model, all collision clauses made before solving.
+};
+[[nodiscard]] std::string_view to_string(System system) noexcept;  ///< "dpll" | "dpll-mdd" | ...
+[[nodiscard]] std::optional<System> parse_system(std::string_view text) noexcept;
+
+/// When the DPLL systems check the consistency of an unfinished assignment. Complete assignments
+/// are always checked.
+struct CheckSchedule {
+  enum class Kind {
+    fractions,  ///< Once each time a given share of the literals has become assigned.
+    watch,      ///< At each assignment, O(1) per literal.
+    propagate,  ///< As watch, and a used vertex is denied to all other agents, with late reasons.
+  };
+  struct Fraction {
+    std::int32_t numerator = 1, denominator = 2;
+    friend bool operator==(const Fraction&, const Fraction&) = default;
+  };
+  Kind kind = Kind::watch;
+  std::vector<Fraction> fractions;  ///< Increasing, each in (0, 1).
+  friend bool operator==(const CheckSchedule&, const CheckSchedule&) = default;
+};
+/// Reads "watch", "propagate" or a list such as "1/2,3/4". Errors (out_of_range, syntax).
+[[nodiscard]] Result<CheckSchedule> parse_check_schedule(std::string_view text);
+[[nodiscard]] std::string to_string(const CheckSchedule& schedule);
+
+/// A look at a running search.
+struct Progress {
+  Cost lower_bound = 0;
+  double elapsed_s = 0;
+  std::int64_t conflicts = 0;
+};
+
+struct SolveOptions {
+  Objective objective = Objective::sum_of_costs;
+  System system = System::dpll;
+  CheckSchedule check;  ///< Of dpll_mdd; the other systems have their own.
+  Limits limits;
+  std::uint32_t seed = 0;
+  /// Called on the solving thread, at most a few times a second. May be empty.
+  std::function<void(const Progress&)> on_progress;
+
+  /// Debugging: check every lemma against the rules. Slow.
+  bool audit = false;
+  /// Debugging: a plan that is known to be valid. Every clause is checked to allow it; no clause
+  /// may exclude a valid plan. Slow.
+  std::optional<Plan> known_plan;
+};
+
+struct SolveOutcome {
+  Status status = Status::unknown;
+  /// Present for optimal and feasible, trimmed and verified.
+  std::optional<Plan> plan;
+  std::optional<Cost> cost;  ///< Of `plan`.
+  Cost lower_bound = 0;      ///< Proven, for every status but infeasible.
+  StopReason stop = StopReason::none;
+  std::string explanation;   ///< For infeasible: why. For unknown: what stopped the search.
+  Statistics statistics;
+  /// A check of the program's own work failed; status is unknown then.
+  std::optional<Error> internal_error;
+};
+
+/// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
+/// options and seed as long as no limit is met. Does not print. Thread-safe.
+[[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/statistics.hpp"
+#include "quadrille/sat/lemma.hpp"
+#include "quadrille/sat/theory.hpp"
+
+namespace quadrille::sat {
+
+enum class Verdict { sat, unsat, unknown };
+
+struct EngineOptions {
+  std::uint32_t seed = 0;     ///< Of the solver's random choices, 0 .. 2'000'000'000.
+  bool inprocessing = false;  ///< Let the solver rewrite the formula between conflicts.
+  /// Hears every clause; null: nobody. Must outlive the engine.
+  ClauseObserver* observer = nullptr;
+};
+
+/// Limits of one call of solve, besides those of the LimitMonitor. Meeting one gives `unknown`.
+struct SolveBudget {
+  std::optional<int> conflicts;
+  std::optional<int> decisions;
+};
+
+/// The DPLL(MAPF) engine: an incremental SAT solver that consults a theory while it searches.
+/// Deterministic for given calls and seed. One thread.
+class Engine {
+ public:
+  /// `theory` may be null (plain SAT solving); otherwise it outlives the engine.
+  explicit Engine(Theory* theory, const EngineOptions& options = {});
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// A new variable's positive literal. Not during solve: see TheoryContext::new_lit.
+  [[nodiscard]] Lit new_lit();
+  /// Adds a clause for good. Not during solve: see TheoryContext::add_lemma.
+  void add_clause(const Lemma& lemma);
+  /// Which value the solver tries first for the variable of `lit`: `lit` true.
+  void set_phase(Lit lit);
+  void clear_phase(Lit lit);
+
+  /// Searches for an assignment that satisfies all clauses, the assumptions and the theory. `unknown`
+  /// only when `limits` or `budget` ended the search.
+  [[nodiscard]] Verdict solve(std::span<const Lit> assumptions, LimitMonitor& limits,
+                              const SolveBudget& budget = {});
+  /// Requires that the last verdict was sat and nothing was added since.
+  [[nodiscard]] bool model_value(Lit lit) const;
+  /// Requires that the last verdict was unsat. Some of its assumptions that cannot hold together,
+  /// in the order in which they were given; empty if the clauses alone are unsatisfiable.
+  [[nodiscard]] std::vector<Lit> core() const;
+
+  /// Adds what this engine did to `statistics` (sat_calls, conflicts, decisions, variables, clauses,
+  /// collision_clauses, checks, models_checked).
+  void add_statistics(Statistics& statistics) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadrille::sat
