@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "quadrille/core/result.hpp"
+#include "quadrille/discrete/instance.hpp"
+
+namespace quadrille::discrete {
+
+/// Reads an instance in the YAML of libMultiRobotPlanning: `map` with `dimensions` and `obstacles`,
+/// and `agents` with `start` and `goal`. Its target assignment (`potentialGoals`) and roadmaps are
+/// refused, as are anchors, aliases, unknown keys and tags other than `!!python/tuple`. Agents keep
+/// the order of the file; their names are not kept. Errors as read_instance_json.
+[[nodiscard]] Result<Instance> read_instance_yaml(std::istream& in, const std::string& file);
+[[nodiscard]] Result<Instance> read_instance_yaml(const std::filesystem::path& path);
+/// Writes that YAML with agents named agent0, agent1, ... Errors: io; invalid_instance if the graph
+/// is no grid.
+[[nodiscard]] std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& file,
+                                                       const Instance& instance);
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/core/result.hpp"
+#include "quadrille/discrete/graph.hpp"
+#include "quadrille/discrete/plan.hpp"
+
+namespace quadrille::discrete {
+
+/// The formats of plan files; docs/formats.md has an example of each.
+enum class PlanFormat {
+  json,        ///< This project's JSON: a plan, or the result of a solve.
+  cbsh2,       ///< `Agent 0: (row,column)->(row,column)->`; grids only.
+  visualizer,  ///< `0:(x,y),(x,y),`, one line per timestep; grids only.
+  yaml,        ///< libMultiRobotPlanning's `schedule`.
+};
+[[nodiscard]] std::string_view to_string(PlanFormat format) noexcept;  ///< "json" | "cbsh2" | ...
+[[nodiscard]] std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept;
+/// Guesses from the first characters that are not white space: `{` is json, a digit visualizer,
+/// `Agent ` cbsh2, anything else yaml.
+[[nodiscard]] PlanFormat detect_plan_format(std::string_view text) noexcept;
+/// .json, .yaml and .yml; other extensions mean nothing.
+[[nodiscard]] std::optional<PlanFormat> plan_format_of(const std::filesystem::path& path);
+
+/// A plan as a file states it. Nothing is claimed about its validity: see verify.
+struct PlanFile {
+  Plan plan;  ///< Paths are as long as in the file; never empty. Vertices belong to the graph.
+  /// Costs that the file states, which the reader does not compare with the plan.
+  std::optional<Cost> sum_of_costs;
+  std::optional<Cost> makespan;
+};
+
+/// Reads a plan on `graph`; without `format` the content decides. Errors, with file and line: io,
+/// syntax, out_of_range (file above kMaxFileBytes), invalid_plan (a place that is no vertex of the
+/// graph; a result without a plan; a format that needs a grid).
+[[nodiscard]] Result<PlanFile> read_plan(std::istream& in, const std::string& file,
+                                         const Graph& graph,
+                                         std::optional<PlanFormat> format = std::nullopt);
+[[nodiscard]] Result<PlanFile> read_plan(const std::filesystem::path& path, const Graph& graph,
+                                         std::optional<PlanFormat> format = std::nullopt);
+
+/// Writes a plan, with its costs where the format has a place for them. Reading it back gives an
+/// equal plan; visualizer and only visualizer extends all paths to the longest one. Errors: io;
+/// invalid_plan if a path is empty, a vertex does not belong to the graph, or the format needs a
+/// grid.
+[[nodiscard]] std::optional<Error> write_plan(std::ostream& out, const std::string& file,
+                                              const Graph& graph, const Plan& plan,
+                                              PlanFormat format);
+
+/// The value of the key `plan` in this project's JSON, on one line: per agent a list of `[x, y]`
+/// (vertex numbers on graphs that are no grids), one per timestep. Requires vertices of the graph.
+[[nodiscard]] std::string plan_to_json(const Graph& graph, const Plan& plan);
+
+}  // namespace quadrille::discrete
