@@ -58,7 +58,7 @@ class Engine {
   [[nodiscard]] std::vector<Lit> core() const;
 
   /// Adds what this engine did to `statistics` (sat_calls, conflicts, decisions, variables, clauses,
-  /// collision_clauses, checks, models_checked).
+  /// collision_clauses, models_checked).
   void add_statistics(Statistics& statistics) const;
 
  private:

@@ -23,6 +23,9 @@ class TheoryContext {
   [[nodiscard]] virtual Truth value(Lit lit) const = 0;
   /// Decision level at which `lit` was announced. Requires an assigned literal.
   [[nodiscard]] virtual std::size_t level(Lit lit) const = 0;
+  /// How many variables have a value, and how many there are.
+  [[nodiscard]] virtual std::size_t num_assigned() const = 0;
+  [[nodiscard]] virtual std::size_t num_variables() const = 0;
   /// Queues a clause that holds in the theory, whatever its literals' values. The solver gets it at
   /// its next opportunity; a clause that is false then is a conflict.
   virtual void add_lemma(const Lemma& lemma) = 0;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "quadrille/sat/engine.hpp"
+
+namespace quadrille::sat {
+
+/// Counts in unary: a balanced tree of adders over inputs that are unary numbers themselves, and that
+/// may grow after the tree was built (Bailleux and Boufkhad 2003, CP; grown on demand as by Martins
+/// et al. 2014, CP). Only the direction "inputs imply outputs" is encoded: enough to forbid large
+/// sums.
+class Totalizer {
+ public:
+  /// The literal "input number `input` is at least `k`", k >= 1. Must be the same literal each time,
+  /// and true for k whenever it is true for k+1 (the engine must have those clauses).
+  using Input = std::function<Lit(std::size_t input, int k)>;
+
+  /// `engine` and what `input` refers to must outlive the totalizer. Adds no clause yet.
+  Totalizer(Engine& engine, std::size_t num_inputs, Input input);
+
+  /// A literal that is implied when the inputs' sum is at least `k`, k >= 1; assuming its negation
+  /// bounds the sum. Invalid if there are no inputs. Adds the clauses for all sums up to `k` that
+  /// are missing: O(num_inputs * k^2) in all. Not during solve.
+  [[nodiscard]] Lit at_least(int k);
+
+ private:
+  struct Adder {
+    std::size_t left, right;  // numbers of tree items; see output()
+    std::vector<Lit> sums;    // [k-1]: at least k
+  };
+  [[nodiscard]] Lit output(std::size_t item, int k) const;
+  void grow(std::size_t item, int k);
+  void add(std::vector<Lit>& clause);
+
+  Engine& engine_;
+  Input input_;
+  std::size_t num_inputs_;
+  // Tree items: 0 .. num_inputs-1 are the inputs, the others adders in an order in which children
+  // come before parents. The last one is the root.
+  std::vector<Adder> adders_;
+};
+
+}  // namespace quadrille::sat

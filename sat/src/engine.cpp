@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// The only file that knows CaDiCaL.
+#include "quadrille/sat/engine.hpp"
+
+#include <cadical.hpp>
+#include <tracer.hpp>
+#include <vector>
+
+#include "quadrille/core/contract.hpp"
+#include "theory_host.hpp"
+
+namespace quadrille::sat {
+namespace {
+
+/// Hands each clause that the solver derives to the observer.
+class DerivedClauseTracer final : public CaDiCaL::Tracer {
+ public:
+  explicit DerivedClauseTracer(ClauseObserver& observer) : observer_(observer) {}
+  void add_derived_clause(std::uint64_t, bool, const std::vector<int>& clause,
+                          const std::vector<std::uint64_t>&) override {
+    lits_.clear();
+    for (const int literal : clause) lits_.push_back(Lit::from_dimacs(literal));
+    observer_.on_learned(lits_);
+  }
+
+ private:
+  ClauseObserver& observer_;
+  std::vector<Lit> lits_;
+};
+
+/// A theory that has no opinion, for plain SAT solving: the solver's decisions are still counted.
+class NoTheory final : public Theory {
+ public:
+  void on_assign(std::span<const Lit>) override {}
+  void on_retract(std::size_t) override {}
+  void check(Effort, TheoryContext&) override {}
+  Lemma explain(Lit, std::vector<Lit>&) override {
+    QUADRILLE_REQUIRE(false, "nothing was propagated");
+    return {};
+  }
+};
+
+}  // namespace
+
+class Engine::Impl final : public CaDiCaL::ExternalPropagator,
+                           public CaDiCaL::Terminator,
+                           public CaDiCaL::Learner {
+ public:
+  Impl(Theory* theory, const EngineOptions& options)
+      : observed_(theory != nullptr),
+        observer_(options.observer),
+        host_(theory != nullptr ? *theory : no_theory_,
+              {[this] { return new_lit(); }, [this](const Lemma& lemma) { count(lemma); }}) {
+    // Options can be set only before anything else is done with the solver.
+    if (!options.inprocessing) solver_.configure("plain");
+    set("quiet", 1);
+    set("seed", static_cast<int>(options.seed));
+    // A propagator's clauses make these useless or wrong: incremental lazy backtracking, local
+    // search and lucky phases look at the clauses alone.
+    set("ilb", 0);
+    set("walk", 0);
+    set("lucky", 0);
+    set("phase", 0);  // few of the many usages happen
+    set("exteagerreasons", 0);
+    set("exteagerrecalc", 0);
+    set("chrono", 1);
+    are_reasons_forgettable = true;
+    solver_.connect_terminator(this);
+    solver_.connect_learner(this);
+    if (observer_ != nullptr) {
+      tracer_ = std::make_unique<DerivedClauseTracer>(*observer_);
+      solver_.connect_proof_tracer(tracer_.get(), false);
+    }
+    solver_.connect_external_propagator(this);
+    // Without any observed variable the solver would not ask the propagator for clauses.
+    if (observed_) static_cast<void>(new_lit());
+  }
+
+  ~Impl() override {
+    solver_.disconnect_external_propagator();
+    if (tracer_) solver_.disconnect_proof_tracer(tracer_.get());
+    solver_.disconnect_learner();
+    solver_.disconnect_terminator();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  Lit new_lit() {
+    const int variable = ++num_variables_;
+    host_.add_variable(variable);
+    // Observed before it occurs anywhere: the solver is silently wrong otherwise.
+    if (observed_) solver_.add_observed_var(variable);
+    return Lit::from_dimacs(variable);
+  }
+
+  void count(const Lemma& lemma) {
+    ++num_clauses_;
+    if (lemma.kind == LemmaKind::collision) ++num_collision_clauses_;
+    if (observer_ != nullptr) observer_->on_lemma(lemma);
+  }
+
+  void add_clause(const Lemma& lemma) {
+    count(lemma);
+    add_to_solver(lemma.clause);
+  }
+
+  Verdict solve(std::span<const Lit> assumptions, LimitMonitor& limits, const SolveBudget& budget) {
+    ++num_solves_;
+    limits_ = &limits;
+    assumptions_.assign(assumptions.begin(), assumptions.end());
+    for (const Lit lit : assumptions_) solver_.assume(lit.dimacs());
+    if (budget.conflicts) solver_.limit("conflicts", *budget.conflicts);
+    if (budget.decisions) solver_.limit("decisions", *budget.decisions);
+    const int answer = limits.exhausted_now() ? 0 : solver_.solve();
+    limits_ = nullptr;
+    // Adding a clause ends the solver's knowledge of its answer: fetch that first.
+    failed_.clear();
+    if (answer == 20)
+      for (const Lit lit : assumptions_)
+        if (solver_.failed(lit.dimacs())) failed_.push_back(lit);
+    model_.clear();
+    if (answer == 10) {
+      model_.resize(static_cast<std::size_t>(num_variables_) + 1);
+      for (int v = 1; v <= num_variables_; ++v)
+        model_[static_cast<std::size_t>(v)] = solver_.val(v) > 0;
+    }
+    if (answer == 0) solver_.reset_assumptions();
+    // After a conflict the solver leaves the rest of the queue alone; it is still true.
+    for (const QueuedLemma& rest : host_.take_queue()) add_to_solver(rest.clause);
+    last_ = answer == 10 ? Verdict::sat : answer == 20 ? Verdict::unsat : Verdict::unknown;
+    return last_;
+  }
+
+  bool model_value(Lit lit) const {
+    QUADRILLE_REQUIRE(last_ == Verdict::sat, "there is a model");
+    const auto v = static_cast<std::size_t>(lit.variable());
+    QUADRILLE_REQUIRE(v < model_.size(), "the variable is older than the model");
+    return model_[v] == lit.positive();
+  }
+
+  const std::vector<Lit>& failed() const {
+    QUADRILLE_REQUIRE(last_ == Verdict::unsat, "the last verdict was unsat");
+    return failed_;
+  }
+
+  void set_phase(Lit lit) { solver_.phase(lit.dimacs()); }
+  void clear_phase(Lit lit) { solver_.unphase(lit.variable()); }
+
+  void add_statistics(Statistics& statistics) const {
+    statistics.sat_calls += num_solves_;
+    statistics.conflicts += num_conflicts_;
+    statistics.decisions += host_.num_levels_opened();
+    statistics.variables += num_variables_;
+    statistics.clauses += num_clauses_;
+    statistics.collision_clauses += num_collision_clauses_;
+    statistics.models_checked += host_.num_models_checked();
+  }
+
+ private:
+  void set(const char* name, int value) {
+    QUADRILLE_REQUIRE(solver_.set(name, value), "the solver knows its option");
+  }
+
+  void add_to_solver(std::span<const Lit> clause) {
+    for (const Lit lit : clause) solver_.add(lit.dimacs());
+    solver_.add(0);
+  }
+
+  // CaDiCaL::ExternalPropagator
+  void notify_assignment(const std::vector<int>& lits) override { host_.notify_assignment(lits); }
+  void notify_new_decision_level() override { host_.notify_new_decision_level(); }
+  void notify_backtrack(std::size_t level) override { host_.notify_backtrack(level); }
+  bool cb_check_found_model(const std::vector<int>&) override { return host_.check_found_model(); }
+  int cb_propagate() override { return host_.propagate(); }
+  int cb_add_reason_clause_lit(int propagated) override {
+    return host_.next_reason_literal(propagated);
+  }
+  bool cb_has_external_clause(bool& forgettable) override { return host_.has_clause(forgettable); }
+  int cb_add_external_clause_lit() override { return host_.next_clause_literal(); }
+
+  // CaDiCaL::Terminator
+  bool terminate() override { return limits_ != nullptr && limits_->exhausted(); }
+
+  // CaDiCaL::Learner
+  bool learning(int) override {
+    ++num_conflicts_;
+    if (limits_ != nullptr) limits_->add_conflicts(1);
+    return false;
+  }
+  void learn(int) override {}
+
+  NoTheory no_theory_;
+  const bool observed_;
+  ClauseObserver* const observer_;
+  TheoryHost host_;
+  CaDiCaL::Solver solver_;
+  std::unique_ptr<DerivedClauseTracer> tracer_;
+  LimitMonitor* limits_ = nullptr;
+  int num_variables_ = 0;
+  std::vector<Lit> assumptions_, failed_;
+  std::vector<bool> model_;
+  Verdict last_ = Verdict::unknown;
+  std::int64_t num_solves_ = 0, num_conflicts_ = 0, num_clauses_ = 0, num_collision_clauses_ = 0;
+};
+
+Engine::Engine(Theory* theory, const EngineOptions& options)
+    : impl_(std::make_unique<Impl>(theory, options)) {}
+Engine::~Engine() = default;
+
+Lit Engine::new_lit() { return impl_->new_lit(); }
+void Engine::add_clause(const Lemma& lemma) { impl_->add_clause(lemma); }
+void Engine::set_phase(Lit lit) { impl_->set_phase(lit); }
+void Engine::clear_phase(Lit lit) { impl_->clear_phase(lit); }
+Verdict Engine::solve(std::span<const Lit> assumptions, LimitMonitor& limits,
+                      const SolveBudget& budget) {
+  return impl_->solve(assumptions, limits, budget);
+}
+bool Engine::model_value(Lit lit) const { return impl_->model_value(lit); }
+std::vector<Lit> Engine::core() const { return impl_->failed(); }
+void Engine::add_statistics(Statistics& statistics) const { impl_->add_statistics(statistics); }
+
+}  // namespace quadrille::sat
