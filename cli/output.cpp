@@ -15,8 +15,6 @@
 namespace quadrille::cli {
 namespace {
 
-constexpr const char* kStdout = "standard output";
-
 Error io_error(const std::string& path, int code) {
   return {ErrorCode::io, fmt::format("cannot write: {}", std::strerror(code)), {path, 0}};
 }
@@ -70,50 +68,52 @@ Result<OutputFile> OutputFile::probe(std::string path) {
   return OutputFile(path, target, true);
 }
 
-std::optional<Error> OutputFile::write(std::string_view text) const {
-  if (is_stdout()) return write_stdout(text);
+int OutputFile::write(std::string_view text) const {
+  if (is_stdout()) return write_all(STDOUT_FILENO, text);
   if (replace_) return replace(text);
   const int file = ::open(target_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return io_error(path_, errno);
-  int code = write_all(file, text);
-  if (::close(file) != 0 && code == 0) code = errno;
-  if (code != 0) return io_error(path_, code);
-  return std::nullopt;
+  if (file < 0) return errno;
+  const int code = write_all(file, text);
+  return ::close(file) != 0 && code == 0 ? errno : code;
 }
 
-std::optional<Error> OutputFile::replace(std::string_view text) const {
+int OutputFile::replace(std::string_view text) const {
   const std::string temporary = temporary_name(target_);
   const int file = create_temporary(temporary);
-  if (file < 0) return io_error(path_, errno);
+  if (file < 0) return errno;
   struct stat status {};
-  if (::stat(target_.c_str(), &status) == 0) ::fchmod(file, status.st_mode & 07777);
-  int code = write_all(file, text);
+  int code = 0;
+  if (::stat(target_.c_str(), &status) == 0 && ::fchmod(file, status.st_mode & 07777) != 0)
+    code = errno;
+  if (code == 0) code = write_all(file, text);
   // Some file systems report a full disk only here.
   if (code == 0 && ::fsync(file) != 0) code = errno;
   if (::close(file) != 0 && code == 0) code = errno;
   if (code == 0 && ::rename(temporary.c_str(), target_.c_str()) != 0) code = errno;
-  if (code == 0) return std::nullopt;
-  ::unlink(temporary.c_str());
-  return io_error(path_, code);
-}
-
-std::optional<Error> write_stdout(std::string_view text) {
-  const int code = write_all(STDOUT_FILENO, text);
-  if (code != 0) return io_error(kStdout, code);
-  return std::nullopt;
+  if (code != 0) ::unlink(temporary.c_str());
+  return code;
 }
 
 void Console::print(std::string_view text) {
-  if (quiet_ || error_) return;
+  if (quiet_ || failure_ != 0) return;
   if (to_stderr_)
     (void)write_all(STDERR_FILENO, text);
   else
-    error_ = write_stdout(text);
+    failure_ = write_all(STDOUT_FILENO, text);
 }
 
 void report_error(const Error& error) {
-  if (error.where.file == kStdout && error.message == io_error(kStdout, EPIPE).message) return;
   (void)write_all(STDERR_FILENO, fmt::format("quadrille: {}\n", error.to_string()));
+}
+
+void report_write_failure(const std::string& path, int code) {
+  if (code != EPIPE) report_error(io_error(path == "-" ? "standard output" : path, code));
+}
+
+bool write_or_report(const OutputFile& file, std::string_view text) {
+  const int code = file.write(text);
+  if (code != 0) report_write_failure(file.path(), code);
+  return code == 0;
 }
 
 }  // namespace quadrille::cli
