@@ -32,7 +32,7 @@ enum class PlanFormat {
 /// A plan as a file states it. Nothing is claimed about its validity: see verify.
 struct PlanFile {
   Plan plan;  ///< Paths are as long as in the file; never empty. Vertices belong to the graph.
-  /// Costs that the file states, which the reader does not compare with the plan.
+  /// Costs that the file states; the reader does not compare them with the plan.
   std::optional<Cost> sum_of_costs;
   std::optional<Cost> makespan;
 };

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "quadrille/discrete/plan_formats.hpp"
+
+namespace quadrille::discrete {
+
+// One pair of functions per format; see read_plan and write_plan. The text has no NUL byte; the
+// plan to write has no empty path and only vertices of the graph. cbsh2 and visualizer require a
+// grid.
+[[nodiscard]] Result<PlanFile> read_json_plan(const std::string& text, const std::string& file,
+                                              const Graph& graph);
+[[nodiscard]] Result<PlanFile> read_cbsh2_plan(const std::string& text, const std::string& file,
+                                               const Graph& graph);
+[[nodiscard]] Result<PlanFile> read_visualizer_plan(const std::string& text,
+                                                    const std::string& file, const Graph& graph);
+[[nodiscard]] Result<PlanFile> read_yaml_plan(const std::string& text, const std::string& file,
+                                              const Graph& graph);
+
+void write_json_plan(std::ostream& out, const Graph& graph, const Plan& plan);
+void write_cbsh2_plan(std::ostream& out, const Graph& graph, const Plan& plan);
+void write_visualizer_plan(std::ostream& out, const Graph& graph, const Plan& plan);
+void write_yaml_plan(std::ostream& out, const Graph& graph, const Plan& plan);
+
+/// One path as JSON, such as `[[0, 0], [1, 0]]`.
+[[nodiscard]] std::string path_to_json(const Graph& graph, const Path& path);
+
+}  // namespace quadrille::discrete
