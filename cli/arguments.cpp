@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <system_error>
+
+namespace quadrille::cli {
+namespace {
+
+/// The whole text as a number; nullopt if it is anything else.
+template <class Number>
+std::optional<Number> parse_whole(const std::string& text) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+CLI::Option* add_number(CLI::App& app, const std::string& name, std::optional<double>& number,
+                        double most, const std::string& wanted, const std::string& help) {
+  const auto read = [&number, name, most, wanted](const std::string& text) {
+    const auto parsed = parse_whole<double>(text);
+    // from_chars knows "inf" and "nan", and -0 is not less than 0.
+    if (!parsed || !std::isfinite(*parsed) || std::signbit(*parsed) || *parsed > most)
+      refuse_value(name, text, wanted);
+    number = *parsed;
+  };
+  return app.add_option_function<std::string>(name, read, help);
+}
+
+}  // namespace
+
+void refuse_value(const std::string& name, const std::string& text, const std::string& wanted) {
+  throw CLI::ValidationError(name, fmt::format("'{}' is not {}", text, wanted));
+}
+
+CLI::Option* add_integer(CLI::App& app, const std::string& name,
+                         std::optional<std::int64_t>& number, std::int64_t least, std::int64_t most,
+                         const std::string& help) {
+  const auto read = [&number, name, least, most](const std::string& text) {
+    const auto parsed = parse_whole<std::int64_t>(text);
+    if (!parsed || *parsed < least || *parsed > most)
+      refuse_value(name, text, fmt::format("a whole number from {} to {}", least, most));
+    number = *parsed;
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name("N");
+}
+
+CLI::Option* add_seconds(CLI::App& app, const std::string& name, std::optional<double>& number,
+                         const std::string& help) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  return add_number(app, name, number, kMost, "a number of seconds, 0 or more", help)
+      ->type_name("SECONDS");
+}
+
+CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<double>& number,
+                       const std::string& help) {
+  return add_number(app, name, number, 1, "a number from 0 to 1", help)->type_name("SHARE");
+}
+
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file,
+                      const std::string& help) {
+  const auto read = [&file, name](const std::string& text) {
+    if (text.empty()) refuse_value(name, text, "a file name");
+    file = text;
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name("FILE");
+}
+
+ExitCode usage_error(const CLI::App& app, const std::string& message) {
+  const std::string parent = app.get_parent() == nullptr ? "" : app.get_parent()->get_name() + " ";
+  fmt::print(stderr, "quadrille: {}\nSee '{}{} --help'.\n", message, parent, app.get_name());
+  return ExitCode::usage;
+}
+
+}  // namespace quadrille::cli

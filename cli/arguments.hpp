@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "exit_codes.hpp"
+
+namespace quadrille::cli {
+
+/// One subcommand: its options, already added to the program, and what it does once they are read.
+struct Subcommand {
+  CLI::App* app;
+  std::function<ExitCode()> run;
+};
+
+/// Throws the usage error "'text' is not <wanted>" for the option.
+[[noreturn]] void refuse_value(const std::string& name, const std::string& text,
+                               const std::string& wanted);
+
+/// Adds an option that takes a whole number in [least, most], written in decimal digits and nothing
+/// else.
+CLI::Option* add_integer(CLI::App& app, const std::string& name,
+                         std::optional<std::int64_t>& number, std::int64_t least, std::int64_t most,
+                         const std::string& help);
+
+/// Adds an option that takes a finite number of seconds >= 0.
+CLI::Option* add_seconds(CLI::App& app, const std::string& name, std::optional<double>& number,
+                         const std::string& help);
+/// Adds an option that takes a number in [0, 1].
+CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<double>& number,
+                       const std::string& help);
+
+/// Adds an option that takes a file name, which may not be empty.
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file,
+                      const std::string& help);
+
+/// Adds an option that takes one of `names`, as `choose` understands them.
+template <class Choice>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& choice,
+                        const std::string& names, std::optional<Choice> (*choose)(std::string_view),
+                        const std::string& help) {
+  const auto read = [&choice, name, names, choose](const std::string& text) {
+    const auto chosen = choose(text);
+    if (!chosen) refuse_value(name, text, names);
+    choice = *chosen;
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name("NAME");
+}
+
+/// Says on stderr what is wrong with the command line.
+ExitCode usage_error(const CLI::App& app, const std::string& message);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <vector>
+
+#include "output.hpp"
+#include "signals.hpp"
+#include "subcommands.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+constexpr const char* kFooter =
+    "Example:\n"
+    "  quadrille solve --map empty-8-8.map --scen empty-8-8-random-1.scen --agents 10\n"
+    "\n"
+    "'quadrille COMMAND --help' describes a command and gives an example.\n"
+    "\n";
+
+ExitCode print_stdout(const std::string& text) {
+  Console console(false, false);
+  console.print(text);
+  if (console.failure() == 0) return ExitCode::success;
+  report_write_failure("-", console.failure());
+  return ExitCode::output;
+}
+
+ExitCode run(int argc, char** argv) {
+  ignore_broken_pipes();
+  CLI::App program("Quadrille: exact multi-agent path finding", "quadrille");
+  program.set_version_flag("--version", "quadrille " QUADRILLE_VERSION);
+  program.require_subcommand(1);
+  program.footer(std::string(kFooter) + kExitCodesHelp);
+  program.get_formatter()->column_width(28);
+  const std::vector<Subcommand> subcommands = {add_solve(program), add_verify(program),
+                                               add_info(program), add_generate(program),
+                                               add_convert(program)};
+  const CLI::App* active = &program;
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForVersion& version) {
+    return print_stdout(std::string(version.what()) + "\n");
+  } catch (const CLI::Success&) {  // --help, at either level
+    for (const Subcommand& subcommand : subcommands)
+      if (subcommand.app->parsed()) active = subcommand.app;
+    return print_stdout(active->help());
+  } catch (const CLI::ParseError& error) {
+    for (const Subcommand& subcommand : subcommands)
+      if (subcommand.app->parsed()) active = subcommand.app;
+    return usage_error(*active, error.what());
+  }
+  for (const Subcommand& subcommand : subcommands)
+    if (subcommand.app->parsed()) return subcommand.run();
+  return ExitCode::usage;
+}
+
+}  // namespace
+}  // namespace quadrille::cli
+
+int main(int argc, char** argv) {
+  using quadrille::cli::ExitCode;
+  ExitCode code = ExitCode::internal;
+  try {
+    code = quadrille::cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("quadrille: the system has no more memory\n", stderr);
+    code = ExitCode::unknown;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "quadrille: unexpected error: %s\n", error.what());
+  }
+  return static_cast<int>(code);
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "output.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace quadrille::cli {
+namespace {
+
+Error io_error(const std::string& path, int code) {
+  return {ErrorCode::io, fmt::format("cannot write: {}", std::strerror(code)), {path, 0}};
+}
+
+/// 0 or the errno of the failure. Goes on after a signal, so that an interrupt loses nothing.
+int write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// A name beside `target` that is this process's own.
+std::string temporary_name(const std::string& target) {
+  return fmt::format("{}.{}.tmp", target, ::getpid());
+}
+
+int create_temporary(const std::string& name) {
+  return ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string path, std::string target, bool replace)
+    : path_(std::move(path)), target_(std::move(target)), replace_(replace) {}
+
+Result<OutputFile> OutputFile::probe(std::string path) {
+  if (path == "-") return OutputFile(path, path, false);
+  std::error_code ignored;
+  // Replacing a symbolic link itself would surprise.
+  std::string target = std::filesystem::weakly_canonical(path, ignored).string();
+  if (target.empty()) target = path;
+
+  struct stat status {};
+  const bool exists = ::stat(target.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) return io_error(path, EISDIR);
+  if (exists && ::access(target.c_str(), W_OK) != 0) return io_error(path, errno);
+  if (exists && !S_ISREG(status.st_mode)) return OutputFile(path, target, false);
+
+  const std::string temporary = temporary_name(target);
+  const int file = create_temporary(temporary);
+  if (file < 0) {
+    if (exists) return OutputFile(path, target, false);
+    return io_error(path, errno);
+  }
+  ::close(file);
+  ::unlink(temporary.c_str());
+  return OutputFile(path, target, true);
+}
+
+int OutputFile::write(std::string_view text) const {
+  if (is_stdout()) return write_all(STDOUT_FILENO, text);
+  if (replace_) return replace(text);
+  const int file = ::open(target_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) return errno;
+  const int code = write_all(file, text);
+  return ::close(file) != 0 && code == 0 ? errno : code;
+}
+
+int OutputFile::replace(std::string_view text) const {
+  const std::string temporary = temporary_name(target_);
+  const int file = create_temporary(temporary);
+  if (file < 0) return errno;
+  struct stat status {};
+  int code = 0;
+  if (::stat(target_.c_str(), &status) == 0 && ::fchmod(file, status.st_mode & 07777) != 0)
+    code = errno;
+  if (code == 0) code = write_all(file, text);
+  // Some file systems report a full disk only here.
+  if (code == 0 && ::fsync(file) != 0) code = errno;
+  if (::close(file) != 0 && code == 0) code = errno;
+  if (code == 0 && ::rename(temporary.c_str(), target_.c_str()) != 0) code = errno;
+  if (code != 0) ::unlink(temporary.c_str());
+  return code;
+}
+
+void Console::print(std::string_view text) {
+  if (quiet_ || failure_ != 0) return;
+  if (to_stderr_)
+    (void)write_all(STDERR_FILENO, text);
+  else
+    failure_ = write_all(STDOUT_FILENO, text);
+}
+
+void report_error(const Error& error) {
+  (void)write_all(STDERR_FILENO, fmt::format("quadrille: {}\n", error.to_string()));
+}
+
+void report_write_failure(const std::string& path, int code) {
+  if (code != EPIPE) report_error(io_error(path == "-" ? "standard output" : path, code));
+}
+
+bool write_or_report(const OutputFile& file, std::string_view text) {
+  const int code = file.write(text);
+  if (code != 0) report_write_failure(file.path(), code);
+  return code == 0;
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "quadrille/core/result.hpp"
+
+namespace quadrille::cli {
+
+/// A file to be written once, after work that must not be in vain: `probe` finds out beforehand
+/// whether it can be written, without changing it. Regular files are replaced as a whole or left
+/// alone. "-" is standard output.
+class OutputFile {
+ public:
+  /// Errors (io): a folder that is missing or not writable, a file that is protected.
+  [[nodiscard]] static Result<OutputFile> probe(std::string path);
+
+  /// Writes the text and makes sure that it has arrived. Returns 0 or the errno of the failure.
+  [[nodiscard]] int write(std::string_view text) const;
+
+  [[nodiscard]] bool is_stdout() const noexcept { return path_ == "-"; }
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+ private:
+  OutputFile(std::string path, std::string target, bool replace);
+  [[nodiscard]] int replace(std::string_view text) const;
+
+  std::string path_;    // as the user gave it
+  std::string target_;  // where symbolic links lead
+  bool replace_;  // else written in place: a device, a pipe, or a folder that takes no new files
+};
+
+/// Human text: to stdout, or to stderr when stdout carries a file, or nowhere.
+class Console {
+ public:
+  Console(bool quiet, bool stdout_taken) : quiet_(quiet), to_stderr_(stdout_taken) {}
+  void print(std::string_view text);
+  /// The errno of the first failure to print to stdout, or 0. What stderr loses is lost.
+  [[nodiscard]] int failure() const noexcept { return failure_; }
+  [[nodiscard]] bool quiet() const noexcept { return quiet_; }
+
+ private:
+  bool quiet_, to_stderr_;
+  int failure_ = 0;
+};
+
+/// Prints "quadrille: <file>:<line>: <reason>" to stderr.
+void report_error(const Error& error);
+
+/// Says on stderr that `path` ("-": standard output) could not be written. Silent about a broken
+/// pipe: its reader has left on purpose.
+void report_write_failure(const std::string& path, int code);
+
+/// For commands with one output: writes and reports a failure. True if all is well.
+[[nodiscard]] bool write_or_report(const OutputFile& file, std::string_view text);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "quadrille/discrete/solver.hpp"
+
+namespace quadrille::cli {
+
+/// One line on a terminal's stderr that is rewritten in place and gone at the end.
+class ProgressLine {
+ public:
+  /// Silent unless `wanted` and stderr is a terminal.
+  explicit ProgressLine(bool wanted);
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  [[nodiscard]] bool active() const noexcept { return active_; }
+  void show(const discrete::Progress& progress);
+  void clear();
+
+ private:
+  bool active_;
+  std::size_t shown_ = 0;  // characters on the line
+};
+
+}  // namespace quadrille::cli

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "arguments.hpp"
+
+namespace quadrille::cli {
+
+[[nodiscard]] Subcommand add_solve(CLI::App& program);
+[[nodiscard]] Subcommand add_verify(CLI::App& program);
+[[nodiscard]] Subcommand add_info(CLI::App& program);
+[[nodiscard]] Subcommand add_generate(CLI::App& program);
+[[nodiscard]] Subcommand add_convert(CLI::App& program);
+
+}  // namespace quadrille::cli
