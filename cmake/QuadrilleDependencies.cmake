@@ -26,6 +26,10 @@ if(CaDiCaL_NEEDS_GLIBC_SHIM AND NOT TARGET quadrille_glibc_shim)
     INTERFACE_LINK_LIBRARIES quadrille_glibc_shim)
 endif()
 
+# For the readers and writers. Users of a static package link yaml-cpp: see quadrilleConfig.cmake.in.
+quadrille_find_package(nlohmann_json nlohmann-json3-dev 3.11)
+quadrille_find_package(yaml-cpp libyaml-cpp-dev 0.7)
+
 # For geometry/. Nothing is linked to them yet.
 if(QUADRILLE_FIND_GEOMETRY)
   quadrille_find_package(Eigen3 libeigen3-dev 3.3 NO_MODULE)
