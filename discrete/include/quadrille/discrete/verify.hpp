@@ -13,14 +13,14 @@ namespace quadrille::discrete {
 /// One broken rule of a plan.
 struct Violation {
   enum class Kind {
-    path_count,   ///< Not one path per agent.
-    empty_path,   ///< A path without vertices.
-    bad_vertex,   ///< A vertex that the graph does not have.
-    wrong_start,  ///< The path begins elsewhere.
-    wrong_goal,   ///< The path ends elsewhere.
-    not_adjacent, ///< A move between `timestep` and the next one that is no edge.
-    vertex,       ///< Two agents in one vertex at `timestep`, goal stays included.
-    swap,         ///< Two agents cross an edge in opposite directions from `timestep` on.
+    path_count,    ///< Not one path per agent.
+    empty_path,    ///< A path without vertices.
+    bad_vertex,    ///< A vertex that the graph does not have.
+    wrong_start,   ///< The path begins elsewhere.
+    wrong_goal,    ///< The path ends elsewhere.
+    not_adjacent,  ///< A move between `timestep` and the next one that is no edge.
+    vertex,        ///< Two agents in one vertex at `timestep`, goal stays included.
+    swap,          ///< Two agents cross an edge in opposite directions from `timestep` on.
   };
   Kind kind;
   AgentId agent;
@@ -35,14 +35,14 @@ struct VerifyReport {
   /// which its path does so; in a crowd, with one of the others instead of with each of them.
   /// Agents that already stay at the end of their paths are named only with agents that arrive.
   std::vector<Violation> violations;
-  Cost sum_of_costs = 0;              ///< Meaningful when there are no violations.
+  Cost sum_of_costs = 0;  ///< Meaningful when there are no violations.
   Cost makespan = 0;
   [[nodiscard]] bool valid() const noexcept { return violations.empty(); }
 };
 
 /// Replays a plan. Shares no code with any search: a plan that passes is a plan.
-/// Takes any plan, however broken. Expected time linear in the size of the plan and the graph; there
-/// are at most four violations per vertex of a path.
+/// Takes any plan, however broken. Expected time, and the number of violations, are linear in the
+/// size of the plan and the graph.
 [[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan);
 
 }  // namespace quadrille::discrete
