@@ -115,9 +115,24 @@ class YamlHandler final : public YAML::EventHandler {
   long key_line_ = 0;
 };
 
+/// Whether more brackets are open somewhere than any file of these formats has, quoted ones
+/// included. The parser looks ahead over all of them, with a few hundred bytes for each.
+bool has_too_many_open_brackets(std::string_view text) {
+  constexpr std::size_t kMaxOpen = 1000;
+  std::size_t open = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    if (open > kMaxOpen) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Result<Document> parse_yaml(const std::string& text, const std::string& file) {
+  if (has_too_many_open_brackets(text))
+    return Error{ErrorCode::out_of_range, "too many brackets are open at the same time", {file, 0}};
   YamlHandler handler(file);
   std::istringstream in(text);
   try {
