@@ -41,8 +41,8 @@ struct VerifyReport {
 };
 
 /// Replays a plan. Shares no code with any search: a plan that passes is a plan.
-/// Takes any plan, however broken. Expected time linear in the size of the plan and the graph;
-/// there are at most four violations per vertex of a path.
+/// Takes any plan, however broken. Expected time, and the number of violations, are linear in the
+/// size of the plan and the graph.
 [[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan);
 
 }  // namespace quadrille::discrete
