@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 namespace quadrille {
 
@@ -44,9 +45,19 @@ LimitMonitor::LimitMonitor(const Limits& limits)
 double LimitMonitor::elapsed_wall() const noexcept { return wall_seconds() - wall_start_; }
 double LimitMonitor::elapsed_cpu() const noexcept { return cpu_seconds() - cpu_start_; }
 
+void LimitMonitor::set_ticker(double interval_s, std::function<void()> listener) {
+  ticker_ = std::move(listener);
+  tick_interval_ = interval_s;
+  next_tick_ = elapsed_wall() + interval_s;
+}
+
 bool LimitMonitor::exhausted() {
   if (reason_ != StopReason::none) return true;
   ++calls_;
+  if (ticker_ && calls_ % 16 == 0 && elapsed_wall() >= next_tick_) {
+    ticker_();
+    next_tick_ = elapsed_wall() + tick_interval_;
+  }
   if (limits_.interrupt != nullptr && limits_.interrupt->load(std::memory_order_relaxed))
     reason_ = StopReason::interrupt;
   else if (limits_.conflicts && conflicts_ >= *limits_.conflicts)

@@ -71,8 +71,8 @@ Graph Graph::grid(std::int32_t width, std::int32_t height, const std::vector<boo
   for (const VertexId v : IdRange<VertexId>(layout.num_vertices())) {
     const Cell c = layout.cell_of(v);
     // In row-major order these are increasing vertex ids.
-    for (const Cell next : {Cell{c.x, c.y - 1}, Cell{c.x - 1, c.y}, Cell{c.x + 1, c.y},
-                            Cell{c.x, c.y + 1}})
+    for (const Cell next :
+         {Cell{c.x, c.y - 1}, Cell{c.x - 1, c.y}, Cell{c.x + 1, c.y}, Cell{c.x, c.y + 1}})
       if (const auto w = layout.vertex_at(next)) graph.neighbours_.push_back(*w);
     graph.offsets_.push_back(graph.neighbours_.size());
   }

@@ -8,13 +8,11 @@
 namespace quadrille::discrete {
 namespace {
 
-Error invalid(std::string message) {
-  return {ErrorCode::invalid_instance, std::move(message), {}};
-}
+Error invalid(std::string message) { return {ErrorCode::invalid_instance, std::move(message), {}}; }
 
 /// The first agent whose `end` of the task is taken already, as an error.
 std::optional<Error> find_shared(const Graph& graph, const std::vector<Task>& tasks,
-                                 VertexId Task::* end, const char* name) {
+                                 VertexId Task::*end, const char* name) {
   constexpr std::size_t kNobody = SIZE_MAX;
   std::vector<std::size_t> owner(graph.num_vertices(), kNobody);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -37,9 +35,9 @@ Result<Instance> Instance::make(std::shared_ptr<const Graph> graph, std::vector<
   for (std::size_t i = 0; i < tasks.size(); ++i)
     for (const VertexId v : {tasks[i].start, tasks[i].goal})
       if (v.index() >= graph->num_vertices())
-        return invalid("agent " + std::to_string(i) + " names vertex " +
-                       std::to_string(v.value()) + ", but there are only " +
-                       std::to_string(graph->num_vertices()) + " vertices");
+        return invalid("agent " + std::to_string(i) + " names vertex " + std::to_string(v.value()) +
+                       ", but there are only " + std::to_string(graph->num_vertices()) +
+                       " vertices");
   if (auto error = find_shared(*graph, tasks, &Task::start, "start")) return *error;
   if (auto error = find_shared(*graph, tasks, &Task::goal, "goal")) return *error;
   return Instance(std::move(graph), IdVector<AgentId, Task>(std::move(tasks)));

@@ -12,8 +12,7 @@ SearchReport search_upwards(Engine& engine, BoundedProblem& problem, LimitMonito
   while (true) {
     if (on_bound) on_bound(report.lower_bound);
     assumptions.clear();
-    if (limits.exhausted_now() ||
-        !problem.assume_at_most(report.lower_bound, limits, assumptions))
+    if (limits.exhausted_now() || !problem.assume_at_most(report.lower_bound, limits, assumptions))
       return report;
     Verdict verdict = engine.solve(assumptions, limits);
     while (verdict == Verdict::sat && !problem.accept_model())
@@ -29,7 +28,7 @@ SearchReport search_upwards(Engine& engine, BoundedProblem& problem, LimitMonito
       return report;
     }
     const Cost next = problem.next_bound(report.lower_bound, core);
-    QUADRILLE_REQUIRE(next > report.lower_bound, "a refuted bound is passed");
+    QUADRILLE_REQUIRE(next >= report.lower_bound, "bounds only grow");
     report.lower_bound = next;
   }
 }

@@ -5,10 +5,14 @@ namespace quadrille::sat {
 
 std::string_view to_string(LemmaKind kind) noexcept {
   switch (kind) {
-    case LemmaKind::path: return "path";
-    case LemmaKind::collision: return "collision";
-    case LemmaKind::order: return "order";
-    case LemmaKind::counting: return "counting";
+    case LemmaKind::path:
+      return "path";
+    case LemmaKind::collision:
+      return "collision";
+    case LemmaKind::order:
+      return "order";
+    case LemmaKind::counting:
+      return "counting";
   }
   return "?";
 }

@@ -64,7 +64,8 @@ void TheoryHost::notify_backtrack(std::size_t level) {
   theory_.on_retract(kept);
 }
 
-// ---- callbacks that ask ---------------------------------------------------------------------------
+// ---- callbacks that ask
+// ---------------------------------------------------------------------------
 
 bool TheoryHost::check_found_model() {
   ++models_checked_;
@@ -127,9 +128,9 @@ int TheoryHost::next_clause_literal() {
 
 std::vector<QueuedLemma> TheoryHost::take_queue() {
   QUADRILLE_REQUIRE(literal_head_ == 0, "no clause is half fetched");
-  std::vector<QueuedLemma> rest(std::make_move_iterator(queue_.begin() +
-                                                        static_cast<std::ptrdiff_t>(queue_head_)),
-                                std::make_move_iterator(queue_.end()));
+  std::vector<QueuedLemma> rest(
+      std::make_move_iterator(queue_.begin() + static_cast<std::ptrdiff_t>(queue_head_)),
+      std::make_move_iterator(queue_.end()));
   queue_.clear();
   queue_head_ = 0;
   return rest;

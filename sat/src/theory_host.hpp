@@ -17,17 +17,18 @@ struct QueuedLemma {
   bool forgettable = false;
 };
 
-/// Turns the raw callbacks of an external propagator (IPASIR-UP) into the orderly stack that a Theory
-/// sees. Knows the protocol, but no particular SAT solver, so that tests can play the solver.
+/// Turns the raw callbacks of an external propagator (IPASIR-UP) into the orderly stack that a
+/// Theory sees. Knows the protocol, but no particular SAT solver, so that tests can play the
+/// solver.
 ///
-/// What the protocol allows and a Theory is spared: empty batches, literals announced twice, literals
-/// at level 0 repeated at any time, backtracks to levels that were never announced, reasons asked
-/// after a backtrack or outside of a solve.
+/// What the protocol allows and a Theory is spared: empty batches, literals announced twice,
+/// literals at level 0 repeated at any time, backtracks to levels that were never announced,
+/// reasons asked after a backtrack or outside of a solve.
 class TheoryHost final : private TheoryContext {
  public:
   struct Hooks {
-    std::function<Lit()> new_lit;                    ///< Makes an observed variable.
-    std::function<void(const Lemma&)> count_lemma;   ///< Hears each lemma and each reason once.
+    std::function<Lit()> new_lit;                   ///< Makes an observed variable.
+    std::function<void(const Lemma&)> count_lemma;  ///< Hears each lemma and each reason once.
   };
   TheoryHost(Theory& theory, Hooks hooks);
 

@@ -8,7 +8,7 @@ namespace quadrille::detail {
 }  // namespace quadrille::detail
 
 /// States what the caller owes. Checked in every build type; for bad *input* use Result instead.
-#define QUADRILLE_REQUIRE(condition, explanation)                                           \
-  (static_cast<bool>(condition)                                                             \
-       ? static_cast<void>(0)                                                               \
+#define QUADRILLE_REQUIRE(condition, explanation) \
+  (static_cast<bool>(condition)                   \
+       ? static_cast<void>(0)                     \
        : ::quadrille::detail::contract_failed(#condition, __FILE__, __LINE__, explanation))

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "quadrille/core/outcome.hpp"
@@ -40,6 +41,9 @@ class LimitMonitor {
   /// As `exhausted`, but looks at everything now.
   [[nodiscard]] bool exhausted_now();
 
+  /// Calls `listener` from within `exhausted` about every `interval_s` seconds.
+  void set_ticker(double interval_s, std::function<void()> listener);
+
   void add_conflicts(std::int64_t count) noexcept { conflicts_ += count; }
   [[nodiscard]] std::int64_t conflicts() const noexcept { return conflicts_; }
   [[nodiscard]] StopReason reason() const noexcept { return reason_; }
@@ -53,6 +57,8 @@ class LimitMonitor {
   std::int64_t conflicts_ = 0;
   std::uint32_t calls_ = 0;
   StopReason reason_ = StopReason::none;
+  std::function<void()> ticker_;
+  double tick_interval_ = 0, next_tick_ = 0;
 };
 
 }  // namespace quadrille

@@ -20,8 +20,10 @@ enum class Status {
 /// Which limit ended a search. `none`: it ended by itself.
 enum class StopReason { none, wall_time, cpu_time, memory, conflicts, interrupt };
 
-[[nodiscard]] std::string_view to_string(Objective objective) noexcept;   ///< "sum-of-costs" | "makespan"
-[[nodiscard]] std::string_view to_string(Status status) noexcept;         ///< "optimal" | ...
-[[nodiscard]] std::string_view to_string(StopReason reason) noexcept;     ///< "none" | "wall-time" | ...
+[[nodiscard]] std::string_view to_string(
+    Objective objective) noexcept;                                 ///< "sum-of-costs" | "makespan"
+[[nodiscard]] std::string_view to_string(Status status) noexcept;  ///< "optimal" | ...
+[[nodiscard]] std::string_view to_string(
+    StopReason reason) noexcept;  ///< "none" | "wall-time" | ...
 
 }  // namespace quadrille

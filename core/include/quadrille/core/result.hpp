@@ -46,8 +46,9 @@ struct Error {
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::move(value)) {}      // NOLINT: implicit, so that `return value;` works
-  Result(Error error) : state_(std::move(error)) {}  // NOLINT: implicit, so that `return error;` works
+  Result(T value) : state_(std::move(value)) {}  // NOLINT: implicit, so that `return value;` works
+  Result(Error error)
+      : state_(std::move(error)) {}  // NOLINT: implicit, so that `return error;` works
 
   [[nodiscard]] bool has_value() const noexcept { return state_.index() == 0; }
   explicit operator bool() const noexcept { return has_value(); }

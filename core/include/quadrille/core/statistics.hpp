@@ -14,11 +14,12 @@ struct Statistics {
   std::int64_t conflicts = 0;  ///< Clauses learned by the SAT solver.
   std::int64_t decisions = 0;  ///< Decision levels opened by the SAT solver.
   std::int64_t variables = 0;
-  std::int64_t clauses = 0;            ///< All clauses given to the SAT solver, lemmas included.
-  std::int64_t collision_clauses = 0;  ///< Of these, clauses that rule out a conflict of two agents.
-  std::int64_t checks = 0;             ///< Times the consistency of an assignment was checked.
-  std::int64_t models_checked = 0;     ///< Of these, checks of complete assignments.
-  std::int64_t cores = 0;              ///< Unsatisfiable cores that raised the lower bound.
+  std::int64_t clauses = 0;  ///< All clauses given to the SAT solver, lemmas included.
+  std::int64_t collision_clauses =
+      0;                            ///< Of these, clauses that rule out a conflict of two agents.
+  std::int64_t checks = 0;          ///< Times the consistency of an assignment was checked.
+  std::int64_t models_checked = 0;  ///< Of these, checks of complete assignments.
+  std::int64_t cores = 0;           ///< Unsatisfiable cores that raised the lower bound.
 };
 
 }  // namespace quadrille

@@ -60,8 +60,8 @@ class Graph {
   [[nodiscard]] std::size_t num_edges() const noexcept { return neighbours_.size() / 2; }
   /// Neighbours in increasing order. Valid as long as the graph lives.
   [[nodiscard]] std::span<const VertexId> neighbours(VertexId vertex) const {
-    return std::span(neighbours_).subspan(offsets_[vertex.index()],
-                                          offsets_[vertex.index() + 1] - offsets_[vertex.index()]);
+    return std::span(neighbours_)
+        .subspan(offsets_[vertex.index()], offsets_[vertex.index() + 1] - offsets_[vertex.index()]);
   }
   [[nodiscard]] bool adjacent(VertexId a, VertexId b) const;  ///< O(log degree)
   [[nodiscard]] const std::optional<GridLayout>& layout() const noexcept { return layout_; }

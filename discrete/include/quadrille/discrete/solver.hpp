@@ -19,7 +19,7 @@ namespace quadrille::discrete {
 
 /// The solving systems; see docs/architecture.md.
 enum class System {
-  dpll,      ///< The default; at present the same as dpll_mdd with continuous watching.
+  dpll,      ///< The default; at present the same as dpll_mdd.
   dpll_mdd,  ///< MDD path model, collision clauses made inside the search as `check` says.
   smt_cbs,   ///< MDD path model, collision clauses made after each complete assignment.
   mdd_sat,   ///< MDD path model, all collision clauses made before solving.
@@ -47,6 +47,14 @@ struct CheckSchedule {
 [[nodiscard]] Result<CheckSchedule> parse_check_schedule(std::string_view text);
 [[nodiscard]] std::string to_string(const CheckSchedule& schedule);
 
+/// How far the MDDs reach at first for a given cost bound.
+enum class MddGrowth {
+  on_demand,  ///< As far as cores of the search asked for.
+  full,       ///< To all that the bound leaves to one agent, as published.
+};
+[[nodiscard]] std::string_view to_string(MddGrowth growth) noexcept;  ///< "on-demand" | "full"
+[[nodiscard]] std::optional<MddGrowth> parse_mdd_growth(std::string_view text) noexcept;
+
 /// A look at a running search.
 struct Progress {
   Cost lower_bound = 0;
@@ -57,9 +65,10 @@ struct Progress {
 struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
-  CheckSchedule check;  ///< Of dpll_mdd; the other systems have their own.
+  CheckSchedule check;  ///< Of dpll and dpll_mdd; the other systems have their own.
+  MddGrowth mdd_growth = MddGrowth::on_demand;
   Limits limits;
-  std::uint32_t seed = 0;
+  std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
   /// Called on the solving thread, at most a few times a second. May be empty.
   std::function<void(const Progress&)> on_progress;
 
@@ -77,7 +86,7 @@ struct SolveOutcome {
   std::optional<Cost> cost;  ///< Of `plan`.
   Cost lower_bound = 0;      ///< Proven, for every status but infeasible.
   StopReason stop = StopReason::none;
-  std::string explanation;   ///< For infeasible: why. For unknown: what stopped the search.
+  std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
   Statistics statistics;
   /// A check of the program's own work failed; status is unknown then.
   std::optional<Error> internal_error;

@@ -13,14 +13,14 @@ namespace quadrille::discrete {
 /// One broken rule of a plan.
 struct Violation {
   enum class Kind {
-    path_count,   ///< Not one path per agent.
-    empty_path,   ///< A path without vertices.
-    bad_vertex,   ///< A vertex that the graph does not have.
-    wrong_start,  ///< The path begins elsewhere.
-    wrong_goal,   ///< The path ends elsewhere.
-    not_adjacent, ///< A move between `timestep` and the next one that is no edge.
-    vertex,       ///< Two agents in one vertex at `timestep`, goal stays included.
-    swap,         ///< Two agents cross an edge in opposite directions from `timestep` on.
+    path_count,    ///< Not one path per agent.
+    empty_path,    ///< A path without vertices.
+    bad_vertex,    ///< A vertex that the graph does not have.
+    wrong_start,   ///< The path begins elsewhere.
+    wrong_goal,    ///< The path ends elsewhere.
+    not_adjacent,  ///< A move between `timestep` and the next one that is no edge.
+    vertex,        ///< Two agents in one vertex at `timestep`, goal stays included.
+    swap,          ///< Two agents cross an edge in opposite directions from `timestep` on.
   };
   Kind kind;
   AgentId agent;

@@ -17,15 +17,17 @@ class BoundedProblem {
   virtual ~BoundedProblem() = default;
   /// No plan is cheaper.
   [[nodiscard]] virtual Cost lower_bound() const = 0;
-  /// Appends assumptions that hold in exactly the plans that cost at most `bound`, after adding the
-  /// clauses that such plans need. Retracts nothing. False if `limits` ended that early.
+  /// Appends assumptions that hold only in plans that cost at most `bound`, after adding the
+  /// clauses that such plans need. They may be stronger than that at first: `next_bound` weakens
+  /// them. Retracts nothing. False if `limits` ended that early.
   [[nodiscard]] virtual bool assume_at_most(Cost bound, LimitMonitor& limits,
                                             std::vector<Lit>& assumptions) = 0;
   /// Looks at the engine's model. False: it is no plan, clauses that exclude it were added.
   [[nodiscard]] virtual bool accept_model() = 0;
-  /// `core` of the assumptions for `refuted` cannot hold: returns a larger bound that no plan is
-  /// below.
-  [[nodiscard]] virtual Cost next_bound(Cost refuted, std::span<const Lit> core) = 0;
+  /// The assumptions in `core`, some of those for `bound`, cannot hold together. Returns a larger
+  /// bound that no plan is below; or `bound` itself if the core only shows that the assumptions
+  /// were stronger than need be, and the next ones for `bound` will be weaker.
+  [[nodiscard]] virtual Cost next_bound(Cost bound, std::span<const Lit> core) = 0;
 };
 
 struct SearchReport {

@@ -47,18 +47,19 @@ class Engine {
   void set_phase(Lit lit);
   void clear_phase(Lit lit);
 
-  /// Searches for an assignment that satisfies all clauses, the assumptions and the theory. `unknown`
-  /// only when `limits` or `budget` ended the search.
+  /// Searches for an assignment that satisfies all clauses, the assumptions and the theory.
+  /// `unknown` only when `limits` or `budget` ended the search.
   [[nodiscard]] Verdict solve(std::span<const Lit> assumptions, LimitMonitor& limits,
                               const SolveBudget& budget = {});
-  /// Requires that the last verdict was sat and nothing was added since.
+  /// Requires that the last verdict was sat and a literal that is older than that verdict. Clauses
+  /// may have been added since.
   [[nodiscard]] bool model_value(Lit lit) const;
   /// Requires that the last verdict was unsat. Some of its assumptions that cannot hold together,
   /// in the order in which they were given; empty if the clauses alone are unsatisfiable.
   [[nodiscard]] std::vector<Lit> core() const;
 
-  /// Adds what this engine did to `statistics` (sat_calls, conflicts, decisions, variables, clauses,
-  /// collision_clauses, models_checked).
+  /// Adds what this engine did to `statistics` (sat_calls, conflicts, decisions, variables,
+  /// clauses, collision_clauses, models_checked).
   void add_statistics(Statistics& statistics) const;
 
  private:

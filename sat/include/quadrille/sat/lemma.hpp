@@ -10,8 +10,8 @@
 
 namespace quadrille::sat {
 
-/// That an agent uses a resource. What a resource number means is the domain's business: a vertex at
-/// a timestep, a timed move, the right to leave a goal late.
+/// That an agent uses a resource. What a resource number means is the domain's business: a vertex
+/// at a timestep, a timed move, the right to leave a goal late.
 struct Usage {
   AgentId agent;
   std::uint64_t resource = 0;

@@ -9,8 +9,8 @@
 
 namespace quadrille::sat {
 
-/// A literal of the propositional formula: a variable (1, 2, ...) or its negation. The default is no
-/// literal at all. Ordered by variable, then positive before negative.
+/// A literal of the propositional formula: a variable (1, 2, ...) or its negation. The default is
+/// no literal at all. Ordered by variable, then positive before negative.
 class Lit {
  public:
   constexpr Lit() = default;

@@ -9,14 +9,14 @@
 
 namespace quadrille::sat {
 
-/// Counts in unary: a balanced tree of adders over inputs that are unary numbers themselves, and that
-/// may grow after the tree was built (Bailleux and Boufkhad 2003, CP; grown on demand as by Martins
-/// et al. 2014, CP). Only the direction "inputs imply outputs" is encoded: enough to forbid large
-/// sums.
+/// Counts in unary: a balanced tree of adders over inputs that are unary numbers themselves, and
+/// that may grow after the tree was built (Bailleux and Boufkhad 2003, CP; grown on demand as by
+/// Martins et al. 2014, CP). Only the direction "inputs imply outputs" is encoded: enough to forbid
+/// large sums.
 class Totalizer {
  public:
-  /// The literal "input number `input` is at least `k`", k >= 1. Must be the same literal each time,
-  /// and true for k whenever it is true for k+1 (the engine must have those clauses).
+  /// The literal "input number `input` is at least `k`", k >= 1. Must be the same literal each
+  /// time, and true for k whenever it is true for k+1 (the engine must have those clauses).
   using Input = std::function<Lit(std::size_t input, int k)>;
 
   /// `engine` and what `input` refers to must outlive the totalizer. Adds no clause yet.

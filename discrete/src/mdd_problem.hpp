@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "collision_theory.hpp"
+#include "eager_collisions.hpp"
+#include "mdd_model.hpp"
+#include "quadrille/discrete/solver.hpp"
+#include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/totalizer.hpp"
+
+namespace quadrille::discrete {
+
+/// An MddModel whose plans are bounded by assumptions, for both objectives.
+///
+/// Each agent's guard limits its delay to its cap. With MddGrowth::full the cap is all that the
+/// bound leaves to one agent, as published. With MddGrowth::on_demand caps start at 0 and only grow
+/// when a core names them: a core in which every named cap is at what the bound allows refutes the
+/// bound, because the unnamed ones do not matter.
+class MddProblem final : public sat::BoundedProblem {
+ public:
+  /// All outlive the problem. `theory` and `eager` may be null.
+  MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* theory, EagerCollisions* eager,
+             MddGrowth growth);
+
+  [[nodiscard]] Cost lower_bound() const override { return lower_bound_; }
+  [[nodiscard]] bool assume_at_most(Cost bound, LimitMonitor& limits,
+                                    std::vector<sat::Lit>& assumptions) override;
+  [[nodiscard]] bool accept_model() override;
+  [[nodiscard]] Cost next_bound(Cost refuted, std::span<const sat::Lit> core) override;
+
+  /// The plan of the last accepted model.
+  [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
+  /// Models that were looked at from outside of the search.
+  [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
+
+ private:
+  /// The largest delay that a plan of cost `bound` leaves to an agent.
+  [[nodiscard]] Timestep allowed_delay(AgentId agent, Cost bound) const;
+
+  MddModel& model_;
+  sat::Engine& engine_;
+  CollisionTheory* theory_;
+  EagerCollisions* eager_;
+  MddGrowth growth_;
+  Cost lower_bound_ = 0;
+  sat::Totalizer total_;
+  IdVector<AgentId, Timestep> wanted_cap_;
+  Plan plan_;
+  std::int64_t num_checks_ = 0;
+};
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "quadrille/core/ids.hpp"
+#include "quadrille/sat/lemma.hpp"
+
+namespace quadrille::discrete {
+
+/// What the resource numbers of the discrete domain mean. Two usages of different agents collide
+/// when both are the same vertex at the same timestep, when both are moves over one edge in
+/// opposite directions at the same timestep, or when one is a vertex at t and the other a rest
+/// there from t or earlier on.
+enum class UsageKind : std::uint8_t {
+  path = 0,    ///< The agent's path as a whole (of path lemmas).
+  vertex = 1,  ///< Being in `vertex` at `timestep`.
+  move = 2,    ///< Leaving `vertex` for `to` at `timestep`.
+  rest = 3,    ///< Being in `vertex` from `timestep` on, for ever.
+};
+
+struct DecodedUsage {
+  UsageKind kind = UsageKind::path;
+  VertexId vertex, to;
+  Timestep timestep = 0;
+  friend bool operator==(const DecodedUsage&, const DecodedUsage&) = default;
+};
+
+// Packed as kind (2 bits), timestep (18), vertex (22), to (22). Instances beyond that are refused
+// by the solver (kMaxVertices, kMaxTimestep).
+inline constexpr std::size_t kMaxVertices = std::size_t{1} << 22;
+inline constexpr Timestep kMaxTimestep = (1 << 18) - 1;
+
+[[nodiscard]] constexpr std::uint64_t encode_usage(const DecodedUsage& u) {
+  return static_cast<std::uint64_t>(u.kind) << 62 | static_cast<std::uint64_t>(u.timestep) << 44 |
+         static_cast<std::uint64_t>(u.vertex.value()) << 22 |
+         static_cast<std::uint64_t>(u.to.value());
+}
+[[nodiscard]] constexpr DecodedUsage decode_usage(std::uint64_t resource) {
+  constexpr std::uint64_t kVertexMask = kMaxVertices - 1;
+  return {static_cast<UsageKind>(resource >> 62), VertexId(resource >> 22 & kVertexMask),
+          VertexId(resource & kVertexMask),
+          static_cast<Timestep>(resource >> 44 & static_cast<std::uint64_t>(kMaxTimestep))};
+}
+
+[[nodiscard]] constexpr sat::Usage path_usage(AgentId agent) { return {agent, 0}; }
+[[nodiscard]] constexpr sat::Usage vertex_usage(AgentId agent, VertexId v, Timestep t) {
+  return {agent, encode_usage({UsageKind::vertex, v, VertexId(), t})};
+}
+[[nodiscard]] constexpr sat::Usage move_usage(AgentId agent, VertexId from, VertexId to,
+                                              Timestep t) {
+  return {agent, encode_usage({UsageKind::move, from, to, t})};
+}
+[[nodiscard]] constexpr sat::Usage rest_usage(AgentId agent, VertexId v, Timestep t) {
+  return {agent, encode_usage({UsageKind::rest, v, VertexId(), t})};
+}
+
+}  // namespace quadrille::discrete
