@@ -33,9 +33,8 @@ Json options_json(const SolveRequest& request) {
   json["blocked"] = request.input.letters.blocked;
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
-  // The other systems have a schedule of their own.
-  json["check"] =
-      options.system == discrete::System::dpll_mdd ? Json(to_string(options.check)) : Json(nullptr);
+  json["check"] = has_schedule(options.system) ? Json(to_string(options.check)) : Json(nullptr);
+  json["mdd_growth"] = to_string(options.mdd_growth);
   json["seed"] = options.seed;
   json["time_limit"] = or_null(options.limits.wall_s);
   json["cpu_limit"] = or_null(options.limits.cpu_s);
@@ -87,6 +86,10 @@ std::string dump(const Json& json) {
 }
 
 }  // namespace
+
+bool has_schedule(discrete::System system) noexcept {
+  return system == discrete::System::dpll || system == discrete::System::dpll_mdd;
+}
 
 ExitCode exit_code(const SolveOutcome& outcome) {
   if (outcome.internal_error) return ExitCode::internal;
