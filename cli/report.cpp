@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -47,9 +48,11 @@ Json options_json(const SolveRequest& request) {
 
 Json statistics_json(const Statistics& statistics) {
   Json json;
-  json["cpu_s"] = statistics.cpu_s;
-  json["wall_s"] = statistics.wall_s;
-  json["peak_rss_mib"] = statistics.peak_rss_mib;
+  // Digits beyond a microsecond are noise.
+  const auto round = [](double value) { return std::round(value * 1e6) / 1e6; };
+  json["cpu_s"] = round(statistics.cpu_s);
+  json["wall_s"] = round(statistics.wall_s);
+  json["peak_rss_mib"] = round(statistics.peak_rss_mib);
   json["sat_calls"] = statistics.sat_calls;
   json["conflicts"] = statistics.conflicts;
   json["decisions"] = statistics.decisions;

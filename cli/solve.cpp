@@ -247,7 +247,7 @@ ExitCode SolveRun::deliver(const Input& input, SolveOutcome outcome) {
   if (outcome.internal_error) {
     report_error({ErrorCode::internal, "internal check failed: " + outcome.internal_error->message,
                   outcome.internal_error->where});
-    fmt::print(stderr, "{}", describe_violations(replay));
+    print_stderr(describe_violations(replay));
   }
   if (plan_file_ && outcome.plan) {
     auto text = plan_text(instance.graph(), *outcome.plan, *arguments_.plan_format);
@@ -272,7 +272,7 @@ ExitCode SolveRun::deliver(const Input& input, SolveOutcome outcome) {
     if (console_.failure() != EPIPE) unwritten_ = summary + unwritten_;
   }
   // A result that went nowhere would have to be computed again.
-  if (!delivered_) fmt::print(stderr, "{}", unwritten_);
+  if (!delivered_) print_stderr(unwritten_);
   const ExitCode code = exit_code(outcome);
   return output_failed_ && code != ExitCode::internal ? ExitCode::output : code;
 }
