@@ -36,7 +36,9 @@ class YamlHandler final : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     check(mark, "", anchor);
     if (!begin_value(mark, false)) return;
-    require(builder_.add_opaque(Document::Kind::null, line(mark)));
+    // The parser has gone on to what follows the missing value.
+    const long at = levels_.empty() || !levels_.back().is_map ? line(mark) : key_line_;
+    require(builder_.add_opaque(Document::Kind::null, at));
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     refuse("aliases are not accepted", mark);
@@ -47,6 +49,7 @@ class YamlHandler final : public YAML::EventHandler {
     if (!plain && tag != "!") refuse("the tag " + in_quotes(tag) + " is not accepted here", mark);
     check(mark, "", anchor);
     const bool key = !begin_value(mark, true);
+    if (key) key_line_ = line(mark);
     const bool negative = plain && value.starts_with('-');
     const Natural number =
         parse_natural(std::string_view(value).substr(negative ? 1 : 0), INT64_MAX);
@@ -109,11 +112,27 @@ class YamlHandler final : public YAML::EventHandler {
 
   DocumentBuilder builder_;
   std::vector<Level> levels_;
+  long key_line_ = 0;
 };
+
+/// Whether more brackets are open somewhere than any file of these formats has, quoted ones
+/// included. The parser looks ahead over all of them, with a few hundred bytes for each.
+bool has_too_many_open_brackets(std::string_view text) {
+  constexpr std::size_t kMaxOpen = 1000;
+  std::size_t open = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    if (open > kMaxOpen) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
 Result<Document> parse_yaml(const std::string& text, const std::string& file) {
+  if (has_too_many_open_brackets(text))
+    return Error{ErrorCode::out_of_range, "too many brackets are open at the same time", {file, 0}};
   YamlHandler handler(file);
   std::istringstream in(text);
   try {

@@ -151,13 +151,16 @@ class VisualizerReader final : LinePlanReader {
     for (; !scanner.at_end(); ++agent) {
       if (!scanner.pair(x, y, ",")) return malformed(scanner, "'(<x>,<y>),'");
       if (timestep == 0) paths.push_back({});
-      if (agent >= paths.size()) break;
+      if (agent == paths.size()) return wrong_count();
       if (auto error = append(agent, paths[AgentId(agent)], x, y)) return error;
     }
-    if (agent != paths.size() || !scanner.at_end())
-      return fail(ErrorCode::syntax, "there have to be " + std::to_string(paths.size()) +
-                                         " places, as many as at timestep 0");
+    if (agent != paths.size()) return wrong_count();
     return std::nullopt;
+  }
+
+  Error wrong_count() const {
+    return fail(ErrorCode::syntax, "there have to be " + std::to_string(result_.plan.paths.size()) +
+                                       " places, as many as at timestep 0");
   }
 };
 

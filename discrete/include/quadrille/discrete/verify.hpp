@@ -35,14 +35,14 @@ struct VerifyReport {
   /// which its path does so; in a crowd, with one of the others instead of with each of them.
   /// Agents that already stay at the end of their paths are named only with agents that arrive.
   std::vector<Violation> violations;
-  Cost sum_of_costs = 0;              ///< Meaningful when there are no violations.
+  Cost sum_of_costs = 0;  ///< Meaningful when there are no violations.
   Cost makespan = 0;
   [[nodiscard]] bool valid() const noexcept { return violations.empty(); }
 };
 
 /// Replays a plan. Shares no code with any search: a plan that passes is a plan.
-/// Takes any plan, however broken. Expected time linear in the size of the plan and the graph; there
-/// are at most four violations per vertex of a path.
+/// Takes any plan, however broken. Expected time, and the number of violations, are linear in the
+/// size of the plan and the graph.
 [[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan);
 
 }  // namespace quadrille::discrete
