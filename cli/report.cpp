@@ -116,6 +116,7 @@ std::string result_json(const discrete::Instance& instance, const SolveRequest& 
   const auto add = [&text](std::string_view key, const std::string& value) {
     text += fmt::format("{}\n  \"{}\": {}", text == "{" ? "" : ",", key, value);
   };
+  add("quadrille", dump("result"));
   add("status", dump(to_string(outcome.status)));
   add("objective", dump(to_string(request.options.objective)));
   add("cost", dump(or_null(outcome.cost)));
