@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+# Install rules and the package configuration for find_package(quadrille).
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(quadrille_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/quadrille")
+
+# A static libquadrille_sat.a needs CaDiCaL when a user links. Systems ship a CaDiCaL that is too
+# old, and a private prefix of this build may be gone by then; so the archive it was built and tested
+# with is installed beside the library, and a user needs nothing but the install prefix. A shared
+# CaDiCaL is looked for again on the user's machine.
+set(quadrille_bundled_cadical "")
+set(quadrille_link_glibc_shim OFF)
+set(quadrille_targets ${QUADRILLE_LIBRARIES} quadrille_umbrella)
+if(NOT BUILD_SHARED_LIBS)
+  cmake_path(GET CaDiCaL_LIBRARY EXTENSION LAST_ONLY extension)
+  if(extension STREQUAL CMAKE_STATIC_LIBRARY_SUFFIX)
+    cmake_path(GET CaDiCaL_LIBRARY FILENAME archive)
+    set(quadrille_bundled_cadical "${CMAKE_INSTALL_LIBDIR}/quadrille/${archive}")
+    install(FILES "${CaDiCaL_LIBRARY}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/quadrille")
+  else()
+    install(FILES cmake/FindCaDiCaL.cmake DESTINATION "${quadrille_package_dir}")
+  endif()
+  if(TARGET quadrille_glibc_shim)
+    set(quadrille_link_glibc_shim ON)
+    list(APPEND quadrille_targets quadrille_glibc_shim)
+  endif()
+endif()
+# CaDiCaL is inside what is installed, as an archive or linked into the library: its licence asks
+# that its notice goes along.
+find_file(QUADRILLE_CADICAL_NOTICE NAMES copyright LICENSE
+  HINTS "${CaDiCaL_INCLUDE_DIR}/../../share/doc/libcadical-dev" "${CaDiCaL_INCLUDE_DIR}/.."
+  NO_DEFAULT_PATH)
+mark_as_advanced(QUADRILLE_CADICAL_NOTICE)
+if(QUADRILLE_CADICAL_NOTICE)
+  install(FILES "${QUADRILLE_CADICAL_NOTICE}" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+    RENAME copyright-cadical)
+endif()
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+install(TARGETS ${quadrille_targets} EXPORT quadrilleTargets FILE_SET HEADERS)
+install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION "${quadrille_package_dir}")
+
+configure_package_config_file(cmake/quadrilleConfig.cmake.in quadrilleConfig.cmake
+  INSTALL_DESTINATION "${quadrille_package_dir}"
+  PATH_VARS quadrille_bundled_cadical)
+# Before 1.0 a minor version may break its users.
+write_basic_package_version_file(quadrilleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${CMAKE_CURRENT_BINARY_DIR}/quadrilleConfig.cmake"
+  "${CMAKE_CURRENT_BINARY_DIR}/quadrilleConfigVersion.cmake"
+  DESTINATION "${quadrille_package_dir}")

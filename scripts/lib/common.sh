@@ -1,0 +1,79 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: MIT
+# Sourced by the scripts beside this folder. Sets `root`, the source tree.
+#
+# Environment:
+#   QUADRILLE_SKIP_SETUP=1   install nothing; what is missing shows as an error of CMake
+#   QUADRILLE_CMAKE_ARGS     more arguments for the first configuration, split at spaces
+
+root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
+build_dir=$root/build/release
+
+# All messages go to stderr: stdout belongs to the program that is run in the end.
+say() { printf 'quadrille: %s\n' "$*" >&2; }
+die() {
+  printf 'quadrille: error: %s\n' "$1" >&2
+  shift
+  if (($#)); then printf '  %s\n' "$@" >&2; fi
+  exit 1
+}
+
+# Compilation takes up to 1 GiB per process.
+job_count() {
+  local cores memory
+  cores=$(nproc)
+  memory=$(awk '/^MemAvailable:/ { print int($2 / 1048576) }' /proc/meminfo 2>/dev/null)
+  if [[ -n $memory && $memory -lt $cores ]]; then cores=$((memory > 0 ? memory : 1)); fi
+  echo "$cores"
+}
+
+# run_quietly <what> <command...>: shows the output of the command only when it fails.
+run_quietly() {
+  local what=$1 log
+  shift
+  log=$(mktemp)
+  if ! "$@" >"$log" 2>&1; then
+    cat "$log" >&2
+    rm -f "$log"
+    die "$what failed; the output is above."
+  fi
+  rm -f "$log"
+}
+
+# Whether build_dir is configured, for this very tree: one that was moved or copied brings along a
+# cache that CMake refuses.
+is_configured() {
+  [[ -f $build_dir/.configured ]] &&
+    grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build_dir/CMakeCache.txt" 2>/dev/null
+}
+
+# configure <cmake arguments...>: configures build_dir unless it was configured with the same.
+# Ninja runs CMake again by itself when a CMake file changes.
+configure() {
+  local stamp=$build_dir/.configured args=("$@") more=()
+  read -ra more <<<"${QUADRILLE_CMAKE_ARGS:-}"
+  args+=("${more[@]}")
+  if is_configured; then
+    if [[ $(<"$stamp") == "${args[*]}" ]]; then return; fi
+  else
+    rm -rf "$build_dir"
+  fi
+  if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER:-} ]] && command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  fi
+  say "configuring"
+  # Presets are found in the current folder only.
+  (cd "$root" && run_quietly "configuring" cmake --preset release "${args[@]}") || exit 1
+  printf '%s\n' "${args[*]}" >"$stamp"
+}
+
+# Two runs at once must not build in the same folder at the same time.
+lock_build() {
+  mkdir -p "$build_dir" || die "cannot write to $root."
+  exec 9>"$root/build/.lock"
+  if ! flock -n 9; then
+    say "waiting for another build in this tree"
+    flock 9
+  fi
+}
+unlock_build() { exec 9>&-; }
