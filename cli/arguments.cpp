@@ -5,9 +5,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <system_error>
+
+#include "output.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -75,7 +76,7 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file,
 
 ExitCode usage_error(const CLI::App& app, const std::string& message) {
   const std::string parent = app.get_parent() == nullptr ? "" : app.get_parent()->get_name() + " ";
-  fmt::print(stderr, "quadrille: {}\nSee '{}{} --help'.\n", message, parent, app.get_name());
+  print_stderr(fmt::format("quadrille: {}\nSee '{}{} --help'.\n", message, parent, app.get_name()));
   return ExitCode::usage;
 }
 

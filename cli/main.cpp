@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "output.hpp"
@@ -30,6 +28,7 @@ ExitCode print_stdout(const std::string& text) {
 }
 
 ExitCode run(int argc, char** argv) {
+  reserve_standard_streams();
   ignore_broken_pipes();
   CLI::App program("Quadrille: exact multi-agent path finding", "quadrille");
   program.set_version_flag("--version", "quadrille " QUADRILLE_VERSION);
@@ -47,10 +46,12 @@ ExitCode run(int argc, char** argv) {
   } catch (const CLI::Success&) {  // --help, at either level
     for (const Subcommand& subcommand : subcommands)
       if (subcommand.app->parsed()) active = subcommand.app;
-    return print_stdout(active->help());
+    return print_stdout(active->help(active == &program ? "" : "quadrille"));
   } catch (const CLI::ParseError& error) {
     for (const Subcommand& subcommand : subcommands)
       if (subcommand.app->parsed()) active = subcommand.app;
+    if (active == &program && program.remaining_size() > 0)
+      return usage_error(program, "'" + program.remaining().front() + "' is no command");
     return usage_error(*active, error.what());
   }
   for (const Subcommand& subcommand : subcommands)
@@ -67,10 +68,10 @@ int main(int argc, char** argv) {
   try {
     code = quadrille::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    std::fputs("quadrille: the system has no more memory\n", stderr);
+    quadrille::cli::print_stderr("quadrille: the system has no more memory\n");
     code = ExitCode::unknown;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "quadrille: unexpected error: %s\n", error.what());
+    quadrille::cli::report_error({quadrille::ErrorCode::internal, error.what(), {}});
   }
   return static_cast<int>(code);
 }

@@ -97,13 +97,23 @@ int OutputFile::replace(std::string_view text) const {
 void Console::print(std::string_view text) {
   if (quiet_ || failure_ != 0) return;
   if (to_stderr_)
-    (void)write_all(STDERR_FILENO, text);
+    print_stderr(text);
   else
     failure_ = write_all(STDOUT_FILENO, text);
 }
 
+void reserve_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    // Takes the lowest free number, which is this one; in the direction that nobody uses.
+    if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+  }
+}
+
+void print_stderr(std::string_view text) noexcept { (void)write_all(STDERR_FILENO, text); }
+
 void report_error(const Error& error) {
-  (void)write_all(STDERR_FILENO, fmt::format("quadrille: {}\n", error.to_string()));
+  print_stderr(fmt::format("quadrille: {}\n", error.to_string()));
 }
 
 void report_write_failure(const std::string& path, int code) {

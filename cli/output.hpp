@@ -45,6 +45,13 @@ class Console {
   int failure_ = 0;
 };
 
+/// Keeps the numbers of standard streams that are closed from being given to files, which would
+/// then receive the messages. Writing to such a stream fails. Call it first.
+void reserve_standard_streams();
+
+/// Prints to stderr as far as that takes it.
+void print_stderr(std::string_view text) noexcept;
+
 /// Prints "quadrille: <file>:<line>: <reason>" to stderr.
 void report_error(const Error& error);
 

@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <string>
+
+#include "output.hpp"
 
 namespace quadrille::cli {
 
@@ -16,15 +17,13 @@ void ProgressLine::show(const discrete::Progress& progress) {
   const std::string text = fmt::format("cost >= {}, {:.1f} s, {} conflicts", progress.lower_bound,
                                        progress.elapsed_s, progress.conflicts);
   // Blanks instead of escape sequences: every terminal knows them.
-  std::fprintf(stderr, "\r%-*s", static_cast<int>(shown_), text.c_str());
-  std::fflush(stderr);
+  print_stderr(fmt::format("\r{:<{}}", text, shown_));
   shown_ = text.size();
 }
 
 void ProgressLine::clear() {
   if (shown_ == 0) return;
-  std::fprintf(stderr, "\r%*s\r", static_cast<int>(shown_), "");
-  std::fflush(stderr);
+  print_stderr(fmt::format("\r{:{}}\r", "", shown_));
   shown_ = 0;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -33,9 +34,8 @@ Json options_json(const SolveRequest& request) {
   json["blocked"] = request.input.letters.blocked;
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
-  // The other systems have a schedule of their own.
-  json["check"] =
-      options.system == discrete::System::dpll_mdd ? Json(to_string(options.check)) : Json(nullptr);
+  json["check"] = has_schedule(options.system) ? Json(to_string(options.check)) : Json(nullptr);
+  json["mdd_growth"] = to_string(options.mdd_growth);
   json["seed"] = options.seed;
   json["time_limit"] = or_null(options.limits.wall_s);
   json["cpu_limit"] = or_null(options.limits.cpu_s);
@@ -48,9 +48,11 @@ Json options_json(const SolveRequest& request) {
 
 Json statistics_json(const Statistics& statistics) {
   Json json;
-  json["cpu_s"] = statistics.cpu_s;
-  json["wall_s"] = statistics.wall_s;
-  json["peak_rss_mib"] = statistics.peak_rss_mib;
+  // Digits beyond a microsecond are noise.
+  const auto round = [](double value) { return std::round(value * 1e6) / 1e6; };
+  json["cpu_s"] = round(statistics.cpu_s);
+  json["wall_s"] = round(statistics.wall_s);
+  json["peak_rss_mib"] = round(statistics.peak_rss_mib);
   json["sat_calls"] = statistics.sat_calls;
   json["conflicts"] = statistics.conflicts;
   json["decisions"] = statistics.decisions;
@@ -88,6 +90,10 @@ std::string dump(const Json& json) {
 
 }  // namespace
 
+bool has_schedule(discrete::System system) noexcept {
+  return system == discrete::System::dpll || system == discrete::System::dpll_mdd;
+}
+
 ExitCode exit_code(const SolveOutcome& outcome) {
   if (outcome.internal_error) return ExitCode::internal;
   switch (outcome.status) {
@@ -110,6 +116,7 @@ std::string result_json(const discrete::Instance& instance, const SolveRequest& 
   const auto add = [&text](std::string_view key, const std::string& value) {
     text += fmt::format("{}\n  \"{}\": {}", text == "{" ? "" : ",", key, value);
   };
+  add("quadrille", dump("result"));
   add("status", dump(to_string(outcome.status)));
   add("objective", dump(to_string(request.options.objective)));
   add("cost", dump(or_null(outcome.cost)));

@@ -17,6 +17,9 @@ struct SolveRequest {
   std::string known_plan;  ///< File name; empty without one.
 };
 
+/// Whether `--check` means something to a system; the others have a schedule of their own.
+[[nodiscard]] bool has_schedule(discrete::System system) noexcept;
+
 /// The exit code that says what the outcome says.
 [[nodiscard]] ExitCode exit_code(const discrete::SolveOutcome& outcome);
 

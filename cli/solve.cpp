@@ -25,6 +25,8 @@ using discrete::PlanFormat;
 using discrete::SolveOutcome;
 using discrete::System;
 
+constexpr std::int64_t kMaxSeed = 2'000'000'000;
+
 constexpr const char* kFooter =
     "Example:\n"
     "  quadrille solve --map empty-8-8.map --scen empty-8-8-random-1.scen --agents 10\n"
@@ -71,11 +73,15 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   };
   app.add_option_function<std::string>(
          "--check", read_check,
-         "When dpll-mdd checks unfinished assignments: watch (default), propagate, or at\n"
+         "When dpll and dpll-mdd check unfinished assignments: watch (default), propagate, or at\n"
          "shares of the assigned literals, such as 1/2,3/4")
       ->type_name("SCHEDULE")
       ->group(group);
-  add_integer(app, "--seed", arguments.seed, 0, UINT32_MAX, "Seed of all random choices; default 0")
+  add_choice<discrete::MddGrowth>(app, "--mdd-growth", options.mdd_growth, "on-demand or full",
+                                  discrete::parse_mdd_growth,
+                                  "How far the MDDs reach at first: on-demand (default) or full")
+      ->group(group);
+  add_integer(app, "--seed", arguments.seed, 0, kMaxSeed, "Seed of all random choices; default 0")
       ->group(group);
 }
 
@@ -141,9 +147,7 @@ std::string settle(SolveArguments& arguments) {
   discrete::SolveOptions& options = arguments.request.options;
   options.system = arguments.system.value_or(System::dpll);
   if (arguments.check) {
-    // A schedule is one of the MDD path model's; so far the default system has the same model.
-    if (options.system == System::dpll) options.system = System::dpll_mdd;
-    if (options.system != System::dpll_mdd) return "--check belongs to --system dpll-mdd";
+    if (!has_schedule(options.system)) return "--check belongs to --system dpll and dpll-mdd";
     options.check = *arguments.check;
   }
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
@@ -243,7 +247,7 @@ ExitCode SolveRun::deliver(const Input& input, SolveOutcome outcome) {
   if (outcome.internal_error) {
     report_error({ErrorCode::internal, "internal check failed: " + outcome.internal_error->message,
                   outcome.internal_error->where});
-    fmt::print(stderr, "{}", describe_violations(replay));
+    print_stderr(describe_violations(replay));
   }
   if (plan_file_ && outcome.plan) {
     auto text = plan_text(instance.graph(), *outcome.plan, *arguments_.plan_format);
@@ -268,7 +272,7 @@ ExitCode SolveRun::deliver(const Input& input, SolveOutcome outcome) {
     if (console_.failure() != EPIPE) unwritten_ = summary + unwritten_;
   }
   // A result that went nowhere would have to be computed again.
-  if (!delivered_) fmt::print(stderr, "{}", unwritten_);
+  if (!delivered_) print_stderr(unwritten_);
   const ExitCode code = exit_code(outcome);
   return output_failed_ && code != ExitCode::internal ? ExitCode::output : code;
 }
@@ -299,10 +303,10 @@ ExitCode SolveRun::run() {
 
   const discrete::SolveOptions& options = request.options;
   console_.print(describe_input(*input));
-  console_.print(fmt::format(
-      "system     {}{}, objective {}, seed {}\n", to_string(options.system),
-      options.system == System::dpll_mdd ? " with check " + to_string(options.check) : "",
-      to_string(options.objective), options.seed));
+  console_.print(
+      fmt::format("system     {}{}, objective {}, seed {}\n", to_string(options.system),
+                  has_schedule(options.system) ? " with check " + to_string(options.check) : "",
+                  to_string(options.objective), options.seed));
   return deliver(*input, search(input->instance));
 }
 

@@ -60,7 +60,8 @@ ExitCode run(const VerifyArguments& arguments) {
     console.print(fmt::format("verified   {} agents, makespan {}, sum of costs {}, no violations\n",
                               file->plan.paths.size(), replay.makespan, replay.sum_of_costs));
   else if (replay.valid())
-    console.print("invalid    the plan is, but its stated cost is wrong\n" + false_costs);
+    console.print("invalid    the plan breaks no rule, but its file states a wrong cost\n" +
+                  false_costs);
   else
     console.print(fmt::format("invalid    {} violation{}\n", replay.violations.size(),
                               replay.violations.size() == 1 ? "" : "s") +

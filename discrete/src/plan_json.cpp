@@ -20,7 +20,7 @@ class JsonPlanReader {
 
   Result<PlanFile> run() {
     std::optional<Node> kind, version, objective, cost, plan, agents, status;
-    std::optional<Node> bound, statistics, seed, options, stop,
+    std::optional<Node> bound, statistics, seed, options, stop, internal_error,
         explanation;  // Of a result; unread.
     if (!check_.members(Document::kRoot, {{"quadrille", &kind, false},
                                           {"version", &version, false},
@@ -33,7 +33,8 @@ class JsonPlanReader {
                                           {"statistics", &statistics, false},
                                           {"seed", &seed, false},
                                           {"options", &options, false},
-                                          {"stop", &stop, false},
+                                          {"stop_reason", &stop, false},
+                                          {"internal_error", &internal_error, false},
                                           {"explanation", &explanation, false}}) ||
         !read_kind(kind, version, status) || !read_cost(objective, cost))
       return check_.error();
