@@ -14,9 +14,6 @@ macro(quadrille_find_package package debian)
 endmacro()
 
 find_package(CaDiCaL 2.1 REQUIRED)
-quadrille_find_package(nlohmann_json nlohmann-json3-dev 3.11)
-quadrille_find_package(yaml-cpp libyaml-cpp-dev 0.7)
-
 if(CaDiCaL_NEEDS_GLIBC_SHIM AND NOT TARGET quadrille_glibc_shim)
   add_library(quadrille_glibc_shim STATIC cmake/glibc_shim.cpp)
   set_target_properties(quadrille_glibc_shim PROPERTIES
@@ -25,6 +22,10 @@ if(CaDiCaL_NEEDS_GLIBC_SHIM AND NOT TARGET quadrille_glibc_shim)
   set_property(TARGET CaDiCaL::CaDiCaL APPEND PROPERTY
     INTERFACE_LINK_LIBRARIES quadrille_glibc_shim)
 endif()
+
+# For the readers and writers. Users of a static package link yaml-cpp: see quadrilleConfig.cmake.in.
+quadrille_find_package(nlohmann_json nlohmann-json3-dev 3.11)
+quadrille_find_package(yaml-cpp libyaml-cpp-dev 0.7)
 
 # For geometry/. Nothing is linked to them yet.
 if(QUADRILLE_FIND_GEOMETRY)

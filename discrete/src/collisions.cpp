@@ -23,6 +23,7 @@ std::vector<PathCollision> find_collisions(const Graph& graph, const Plan& plan)
   for (Timestep t = 0; t < static_cast<Timestep>(end); ++t) {
     std::swap(now, before);
     for (const AgentId i : agents) {
+      if (plan.paths[i].empty()) continue;
       const VertexId v = position(plan.paths[i], t);
       if (now[v].timestep == t)
         found.push_back({PathCollision::Kind::vertex, now[v].agent, i, v, v, t});
@@ -31,6 +32,7 @@ std::vector<PathCollision> find_collisions(const Graph& graph, const Plan& plan)
     }
     if (t == 0) continue;
     for (const AgentId i : agents) {
+      if (plan.paths[i].empty()) continue;
       const VertexId from = position(plan.paths[i], t - 1), to = position(plan.paths[i], t);
       if (from == to || before[to].timestep != t - 1) continue;
       const AgentId j = before[to].agent;

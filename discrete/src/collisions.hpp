@@ -20,7 +20,8 @@ struct PathCollision {
   friend bool operator==(const PathCollision&, const PathCollision&) = default;
 };
 
-/// All collisions of the plan, rests at the last vertices included, by timestep and agents. Each
+/// All collisions of the plan, rests at the last vertices included, by timestep and agents. An empty
+/// path collides with nothing. Each
 /// vertex and timestep is reported once per agent beyond the first one there.
 /// O(agents * makespan) expected time.
 [[nodiscard]] std::vector<PathCollision> find_collisions(const Graph& graph, const Plan& plan);

@@ -69,7 +69,12 @@ class MddModel {
   /// The agent whose goal is `v`.
   [[nodiscard]] std::optional<AgentId> resident(VertexId v) const;
 
-  /// The path in an assignment that satisfies the model's clauses and the agent's guard.
+  /// False if the assignment lets the agent be later than its cap: then it promises no path.
+  template <class IsTrue>
+  [[nodiscard]] bool has_path(AgentId agent, const IsTrue& is_true) const {
+    return !is_true(agents_[agent].delays.at(cap(agent) + 1));
+  }
+  /// The path in a complete assignment that satisfies the model's clauses. Requires `has_path`.
   /// `is_true(Lit)` tells the assignment.
   template <class IsTrue>
   [[nodiscard]] Path extract_path(AgentId agent, const IsTrue& is_true) const {

@@ -64,6 +64,17 @@ bool MddProblem::accept_model() {
   return collisions.empty();
 }
 
+std::optional<Lit> MddProblem::cost_above(AgentId agent, Cost cost, LimitMonitor& limits) {
+  const auto delay = static_cast<Timestep>(cost - model_.mdd(agent).distance());
+  if (!model_.extend(agent, delay, limits)) return std::nullopt;
+  if (eager_ != nullptr && !eager_->extend(engine_, limits)) return std::nullopt;
+  return model_.delay_at_least(agent, delay + 1);
+}
+
+void MddProblem::on_solve(bool) {
+  if (theory_ != nullptr) theory_->on_extended();
+}
+
 Cost MddProblem::next_bound(Cost refuted, std::span<const Lit> core) {
   bool grown = false;
   for (const Lit lit : core) {

@@ -7,6 +7,7 @@
 #include "eager_collisions.hpp"
 #include "mdd_model.hpp"
 #include "quadrille/discrete/solver.hpp"
+#include "quadrille/sat/core_guided_search.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
@@ -17,8 +18,8 @@ namespace quadrille::discrete {
 /// Each agent's guard limits its delay to its cap. With MddGrowth::full the cap is all that the
 /// bound leaves to one agent, as published. With MddGrowth::on_demand caps start at 0 and only grow
 /// when a core names them: a core in which every named cap is at what the bound allows refutes the
-/// bound, because the unnamed ones do not matter.
-class MddProblem final : public sat::BoundedProblem {
+/// bound, because the unnamed ones do not matter. The core-guided search has caps of its own.
+class MddProblem final : public sat::BoundedProblem, public sat::AgentCostProblem {
  public:
   /// All outlive the problem. `theory` and `eager` may be null.
   MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* theory, EagerCollisions* eager,
@@ -29,6 +30,14 @@ class MddProblem final : public sat::BoundedProblem {
                                     std::vector<sat::Lit>& assumptions) override;
   [[nodiscard]] bool accept_model() override;
   [[nodiscard]] Cost next_bound(Cost refuted, std::span<const sat::Lit> core) override;
+
+  [[nodiscard]] std::size_t num_agents() const override { return model_.instance().num_agents(); }
+  [[nodiscard]] Cost free_cost(AgentId agent) const override {
+    return model_.mdd(agent).distance();
+  }
+  [[nodiscard]] std::optional<sat::Lit> cost_above(AgentId agent, Cost cost,
+                                                   LimitMonitor& limits) override;
+  void on_solve(bool all_present) override;
 
   /// The plan of the last accepted model.
   [[nodiscard]] const Plan& plan() const noexcept { return plan_; }

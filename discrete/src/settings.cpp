@@ -17,6 +17,8 @@ constexpr Names<System, 4> kSystems{{{System::dpll, "dpll"},
                                      {System::dpll_mdd, "dpll-mdd"},
                                      {System::smt_cbs, "smt-cbs"},
                                      {System::mdd_sat, "mdd-sat"}}};
+constexpr Names<CostSearch, 2> kSearches{
+    {{CostSearch::iterative, "iterative"}, {CostSearch::core_guided, "core-guided"}}};
 constexpr Names<MddGrowth, 2> kGrowths{
     {{MddGrowth::on_demand, "on-demand"}, {MddGrowth::full, "full"}}};
 
@@ -62,6 +64,11 @@ Result<CheckSchedule::Fraction> parse_fraction(std::string_view text) {
 std::string_view to_string(System system) noexcept { return name_of(kSystems, system); }
 std::optional<System> parse_system(std::string_view text) noexcept {
   return value_of(kSystems, text);
+}
+
+std::string_view to_string(CostSearch search) noexcept { return name_of(kSearches, search); }
+std::optional<CostSearch> parse_cost_search(std::string_view text) noexcept {
+  return value_of(kSearches, text);
 }
 
 std::string_view to_string(MddGrowth growth) noexcept { return name_of(kGrowths, growth); }

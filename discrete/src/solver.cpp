@@ -13,6 +13,7 @@
 #include "mdd_problem.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/sat/core_guided_search.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "usages.hpp"
 
@@ -41,8 +42,7 @@ class MddRun {
   void run(LimitMonitor& limits, SolveOutcome& outcome) {
     outcome.lower_bound = problem_->lower_bound();
     limits.set_ticker(0.25, [&] { report_progress(outcome, limits); });
-    const auto report = sat::search_upwards(*engine_, *problem_, limits,
-                                            [&](Cost bound) { outcome.lower_bound = bound; });
+    const auto report = search(limits, outcome);
     outcome.lower_bound = report.lower_bound;
     engine_->add_statistics(outcome.statistics);
     outcome.statistics.checks = problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);
@@ -58,6 +58,16 @@ class MddRun {
   }
 
  private:
+  sat::SearchReport search(LimitMonitor& limits, SolveOutcome& outcome) {
+    const auto on_bound = [&](Cost bound) { outcome.lower_bound = bound; };
+    const CostSearch by_default =
+        options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
+    if (options_.objective == Objective::sum_of_costs &&
+        options_.cost_search.value_or(by_default) == CostSearch::core_guided)
+      return sat::search_by_cores(*engine_, *problem_, {}, limits, outcome.statistics, on_bound);
+    return sat::search_upwards(*engine_, *problem_, limits, on_bound);
+  }
+
   void report_progress(const SolveOutcome& outcome, const LimitMonitor& limits) const {
     if (!options_.on_progress) return;
     options_.on_progress({outcome.lower_bound, limits.elapsed_wall(), limits.conflicts()});

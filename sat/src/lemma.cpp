@@ -13,6 +13,8 @@ std::string_view to_string(LemmaKind kind) noexcept {
       return "order";
     case LemmaKind::counting:
       return "counting";
+    case LemmaKind::core:
+      return "core";
   }
   return "?";
 }

@@ -35,16 +35,20 @@ void Totalizer::add(std::vector<Lit>& clause) {
 // a + b > k need no clause for "at least k": some pair below them, which is implied, has sum k.
 void Totalizer::grow(std::size_t item, int k) {
   Adder& adder = adders_[item - num_inputs_];
-  const Lit sum = engine_.new_lit();
+  Lit sum;
   std::vector<Lit> clause;
   for (int a = 0; a <= k; ++a) {
+    const Lit left = a > 0 ? output(adder.left, a) : Lit();
+    const Lit right = a < k ? output(adder.right, k - a) : Lit();
+    if ((a > 0 && !left.valid()) || (a < k && !right.valid())) continue;  // never that large
+    if (!sum.valid()) sum = engine_.new_lit();
     clause.clear();
-    if (a > 0) clause.push_back(~output(adder.left, a));
-    if (a < k) clause.push_back(~output(adder.right, k - a));
+    if (a > 0) clause.push_back(~left);
+    if (a < k) clause.push_back(~right);
     clause.push_back(sum);
     add(clause);
   }
-  if (k > 1) {
+  if (sum.valid() && k > 1) {
     clause = {~sum, adder.sums.back()};
     add(clause);
   }

@@ -87,7 +87,9 @@ TEST_F(BadInputTest, Instances) {
 }
 
 TEST_F(BadInputTest, Plans) {
-  expect_refused(small("verify", {write("p", "{}")}), "there is no plan");
+  expect_refused(small("verify", {write("p", R"({"status": "unknown", "plan": null})")}),
+                 "there is no plan");
+  expect_refused(small("verify", {write("p", "{}")}), "p:1");
   expect_refused(small("verify", {write("p", "Agent 0: (0,0)->(1,1)->\n")}), "p:1");
   expect_refused(small("verify", {"--plan-format", "visualizer", write("p", "{}")}), "p:1");
   // A known plan has to be one.

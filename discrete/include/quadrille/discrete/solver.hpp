@@ -47,6 +47,14 @@ struct CheckSchedule {
 [[nodiscard]] Result<CheckSchedule> parse_check_schedule(std::string_view text);
 [[nodiscard]] std::string to_string(const CheckSchedule& schedule);
 
+/// How the least sum of costs is searched for.
+enum class CostSearch {
+  iterative,    ///< Bounds xi, xi+1, ... on the sum, as published.
+  core_guided,  ///< Bounds on agents, relaxed where unsatisfiable cores name them.
+};
+[[nodiscard]] std::string_view to_string(CostSearch search) noexcept;  ///< "iterative" | ...
+[[nodiscard]] std::optional<CostSearch> parse_cost_search(std::string_view text) noexcept;
+
 /// How far the MDDs reach at first for a given cost bound.
 enum class MddGrowth {
   on_demand,  ///< As far as cores of the search asked for.
@@ -66,6 +74,10 @@ struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
   CheckSchedule check;  ///< Of dpll and dpll_mdd; the other systems have their own.
+  /// For the sum of costs; the makespan is always searched upwards. Absent: core-guided for dpll,
+  /// iterative for the published systems.
+  std::optional<CostSearch> cost_search;
+  /// Of the iterative search.
   MddGrowth mdd_growth = MddGrowth::on_demand;
   Limits limits;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000

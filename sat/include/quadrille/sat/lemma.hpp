@@ -24,6 +24,7 @@ enum class LemmaKind : std::uint8_t {
   collision,  ///< Two usages of different agents that may not both happen.
   order,      ///< "cost >= k+1" implies "cost >= k".
   counting,   ///< Defines a counter over other literals (see Totalizer).
+  core,       ///< Follows from all clauses so far: a core of assumptions, negated.
 };
 [[nodiscard]] std::string_view to_string(LemmaKind kind) noexcept;
 

@@ -22,9 +22,10 @@ class Totalizer {
   /// `engine` and what `input` refers to must outlive the totalizer. Adds no clause yet.
   Totalizer(Engine& engine, std::size_t num_inputs, Input input);
 
+  [[nodiscard]] std::size_t num_inputs() const noexcept { return num_inputs_; }
   /// A literal that is implied when the inputs' sum is at least `k`, k >= 1; assuming its negation
-  /// bounds the sum. Invalid if there are no inputs. Adds the clauses for all sums up to `k` that
-  /// are missing: O(num_inputs * k^2) in all. Not during solve.
+  /// bounds the sum. Invalid if the sum is never that large. Adds the clauses for all sums up to
+  /// `k` that are missing: O(num_inputs * k^2) in all. Not during solve.
   [[nodiscard]] Lit at_least(int k);
 
  private:

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// The optimal costs that published solvers found on the MovingAI benchmark. Needs QUADRILLE_DATA.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "quadrille/discrete/movingai.hpp"
+#include "support/environment.hpp"
+#include "support/solver_cases.hpp"
+
+namespace quadrille::discrete::support {
+namespace {
+
+using quadrille::support::data_folder;
+using quadrille::support::scaled;
+
+struct Row {
+  std::string map, scenario;
+  std::size_t agents = 0;
+  Cost optimum = 0;
+};
+
+std::vector<Row> read_rows(const std::string& file) {
+  std::vector<Row> rows;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);  // the heading
+  while (std::getline(in, line)) {
+    std::istringstream fields(line);
+    Row row;
+    std::string agents, optimum;
+    if (std::getline(fields, row.map, ',') && std::getline(fields, row.scenario, ',') &&
+        std::getline(fields, agents, ',') && std::getline(fields, optimum, ',')) {
+      if (optimum.empty()) continue;  // nobody solved it
+      row.agents = std::stoul(agents);
+      row.optimum = std::stoll(optimum);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+Instance read_instance(const std::string& folder, const Row& row) {
+  const std::filesystem::path data = folder + "/movingai";
+  const auto map = read_map(data / "maps" / (row.map + ".map"));
+  const auto scenario =
+      read_scenario(data / "scens" / (row.map + "-random-" + row.scenario + ".scen"));
+  const auto graph = std::make_shared<const Graph>(map.value().graph());
+  return make_instance(graph, scenario.value(), row.agents).value();
+}
+
+/// Solves the reference rows of a map with one system, from few agents to many, each for at most
+/// `seconds` of CPU time, until a row is not finished. Returns the number of finished rows.
+int compare_rows(const std::vector<Row>& rows, const std::string& folder, SolveOptions options,
+                 double seconds) {
+  int finished = 0;
+  options.limits = {};
+  options.limits.cpu_s = seconds;
+  for (const Row& row : rows) {
+    const Instance instance = read_instance(folder, row);
+    const SolveOutcome outcome = solve(instance, options);
+    const std::string name = row.map + " scenario " + row.scenario + ", " +
+                             std::to_string(row.agents) + " agents, " +
+                             std::string(to_string(options.system));
+    EXPECT_EQ(find_inconsistency(instance, options.objective, outcome), "") << name;
+    EXPECT_NE(outcome.status, Status::infeasible) << name;
+    EXPECT_LE(outcome.lower_bound, row.optimum) << name;
+    if (outcome.plan) {
+      EXPECT_GE(*outcome.cost, row.optimum) << name;
+    }
+    if (outcome.status != Status::optimal) {
+      std::cout << name << ": " << to_string(outcome.stop) << " limit, lower bound "
+                << outcome.lower_bound << " of " << row.optimum << "\n";
+      break;
+    }
+    EXPECT_EQ(*outcome.cost, row.optimum) << name;
+    ++finished;
+  }
+  return finished;
+}
+
+struct Entry {
+  const char* name;
+  std::size_t system;  // index in all_systems
+  double seconds;      // of CPU time per row
+  int least;           // rows that have to be finished at scale 1
+};
+
+std::ostream& operator<<(std::ostream& out, const Entry& entry) { return out << entry.name; }
+
+class SolverBenchmark : public testing::TestWithParam<Entry> {};
+
+TEST_P(SolverBenchmark, FindsTheReferenceCosts) {
+  const auto folder = data_folder();
+  if (!folder) GTEST_SKIP() << "QUADRILLE_DATA is not set";
+  const auto rows = read_rows(*folder + "/reference/discrete_sum_of_costs.csv");
+  ASSERT_FALSE(rows.empty()) << "no reference rows in " << *folder;
+  std::map<std::string, std::vector<Row>> by_map;
+  for (const Row& row : rows) by_map[row.map].push_back(row);
+  int finished = 0;
+  for (const auto& [map, of_map] : by_map)
+    finished +=
+        compare_rows(of_map, *folder, all_systems(Objective::sum_of_costs)[GetParam().system],
+                     GetParam().seconds);
+  std::cout << GetParam().name << ": " << finished << " of " << rows.size()
+            << " reference rows finished\n";
+  EXPECT_GE(finished, GetParam().least);
+}
+
+INSTANTIATE_TEST_SUITE_P(System, SolverBenchmark,
+                         testing::Values(Entry{"dpll", 0, 2, 0}, Entry{"propagate", 2, 2, 0},
+                                         Entry{"fractions", 4, 1, 0}, Entry{"smt_cbs", 6, 1, 0},
+                                         Entry{"mdd_sat", 7, 1, 0}),
+                         [](const auto& entry) { return entry.param.name; });
+
+}  // namespace
+}  // namespace quadrille::discrete::support

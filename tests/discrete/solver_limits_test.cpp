@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Limits and interrupts: a search stops soon, says why, and never claims what it has not proved.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "support/case_text.hpp"
+#include "support/environment.hpp"
+#include "support/solver_cases.hpp"
+
+namespace quadrille::discrete::support {
+namespace {
+
+using quadrille::support::scaled;
+using namespace std::chrono_literals;
+
+/// Within this time a search has to return after its limit was met.
+constexpr double kSoon = 2.0;
+
+/// Every agent on a walk across a room: much too hard to finish within the limits below.
+Instance hard_instance() {
+  Random random(2);
+  return random_grid(random, {20, 20, 0, 120, 120});
+}
+
+SolveOptions with_limits(SolveOptions options, const Limits& limits) {
+  options.limits = limits;
+  return options;
+}
+
+std::vector<SolveOptions> systems_for_both_objectives() {
+  std::vector<SolveOptions> systems = all_systems(Objective::sum_of_costs);
+  const std::vector<SolveOptions> more = all_systems(Objective::makespan);
+  systems.insert(systems.end(), more.begin(), more.end());
+  return systems;
+}
+
+struct Stopped {
+  SolveOutcome outcome;
+  double seconds = 0;
+};
+
+Stopped run(const Instance& instance, const SolveOptions& options) {
+  const double begin = wall_seconds();
+  SolveOutcome outcome = solve(instance, options);
+  EXPECT_EQ(find_inconsistency(instance, options.objective, outcome), "")
+      << instance_text(instance) << options_text(options);
+  return {std::move(outcome), wall_seconds() - begin};
+}
+
+bool is_proof(Status status) { return status == Status::optimal || status == Status::infeasible; }
+
+/// On an instance that is too hard, every limit that binds is met and named.
+void expect_stopped_by(StopReason reason, const Limits& limits) {
+  const Instance instance = hard_instance();
+  for (const SolveOptions& options : systems_for_both_objectives()) {
+    SCOPED_TRACE(options_text(options));
+    const auto [outcome, seconds] = run(instance, with_limits(options, limits));
+    EXPECT_LT(seconds, kSoon + limits.wall_s.value_or(0) + limits.cpu_s.value_or(0));
+    EXPECT_FALSE(is_proof(outcome.status)) << to_string(outcome.status);
+    EXPECT_EQ(outcome.stop, reason) << to_string(outcome.stop);
+  }
+}
+
+TEST(SolverLimits, WallTimeZero) {
+  Limits limits;
+  limits.wall_s = 0;
+  expect_stopped_by(StopReason::wall_time, limits);
+}
+
+TEST(SolverLimits, WallTimeOneMillisecond) {
+  Limits limits;
+  limits.wall_s = 0.001;
+  expect_stopped_by(StopReason::wall_time, limits);
+}
+
+TEST(SolverLimits, CpuTime) {
+  Limits limits;
+  for (const double seconds : {0.0, 0.001, 0.05}) {
+    limits.cpu_s = seconds;
+    expect_stopped_by(StopReason::cpu_time, limits);
+  }
+}
+
+TEST(SolverLimits, Conflicts) {
+  Limits limits;
+  for (const std::int64_t conflicts : {0, 1, 10}) {
+    limits.conflicts = conflicts;
+    const Instance instance = hard_instance();
+    limits.wall_s = 20;  // building the formula may end first where it is large
+    for (const SolveOptions& options : systems_for_both_objectives()) {
+      SCOPED_TRACE(options_text(options) + std::to_string(conflicts));
+      const auto [outcome, seconds] = run(instance, with_limits(options, limits));
+      if (!is_proof(outcome.status)) {
+        EXPECT_EQ(outcome.stop, StopReason::conflicts);
+      }
+      EXPECT_LE(outcome.statistics.conflicts, conflicts + 100);  // looked at now and then
+    }
+  }
+}
+
+TEST(SolverLimits, Memory) {
+  Limits limits;
+  limits.memory_mib = 1;
+  expect_stopped_by(StopReason::memory, limits);
+}
+
+TEST(SolverLimits, InterruptBeforeTheSearch) {
+  const std::atomic<bool> interrupt = true;
+  Limits limits;
+  limits.interrupt = &interrupt;
+  expect_stopped_by(StopReason::interrupt, limits);
+}
+
+TEST(SolverLimits, InterruptAtRandomMoments) {
+  const Instance instance = hard_instance();
+  Random random(3);
+  const auto systems = systems_for_both_objectives();
+  for (std::size_t round = 0; round < scaled(2 * systems.size()); ++round) {
+    SolveOptions options = systems[round % systems.size()];
+    SCOPED_TRACE(options_text(options));
+    std::atomic<bool> interrupt = false;
+    options.limits.interrupt = &interrupt;
+    const double delay = static_cast<double>(random.below(400)) / 1000;
+    std::atomic<double> set_at = 0;
+    std::thread killer([&] {
+      std::this_thread::sleep_for(std::chrono::duration<double>(delay));
+      set_at = wall_seconds();
+      interrupt = true;
+    });
+    const SolveOutcome outcome = solve(instance, options);
+    const double returned = wall_seconds();
+    killer.join();
+    EXPECT_EQ(find_inconsistency(instance, options.objective, outcome), "");
+    EXPECT_FALSE(is_proof(outcome.status)) << to_string(outcome.status);
+    EXPECT_EQ(outcome.stop, StopReason::interrupt);
+    EXPECT_LT(returned - set_at, kSoon);
+  }
+}
+
+/// Limits that may end a search anywhere.
+Limits random_limits(Random& random) {
+  Limits limits;
+  if (random.percent(30)) limits.wall_s = static_cast<double>(random.below(20)) / 10'000;
+  if (random.percent(20)) limits.cpu_s = static_cast<double>(random.below(20)) / 10'000;
+  if (random.percent(60)) limits.conflicts = static_cast<std::int64_t>(random.below(30));
+  if (random.percent(5)) limits.memory_mib = 1;
+  return limits;
+}
+
+// Whatever ends the search: a bound above the optimum, a plan that is none, or a false claim of
+// infeasibility would show here.
+TEST(SolverLimits, NeverClaimsWhatIsNotTrue) {
+  int stopped = 0, finished = 0;
+  for (std::uint64_t seed = 0; seed < scaled(400); ++seed) {
+    Random random(500'000 + seed);
+    const Instance instance = random_grid(random, {2, 5, 40, 2, 3});
+    const Objective objective = random.percent(50) ? Objective::sum_of_costs : Objective::makespan;
+    const JointAnswer truth = joint_search(instance, objective);
+    for (SolveOptions options : random_systems(random, objective)) {
+      options.known_plan.reset();
+      options.limits = random_limits(random);
+      SCOPED_TRACE("seed " + std::to_string(500'000 + seed) + "\n" + instance_text(instance) +
+                   options_text(options));
+      const SolveOutcome outcome = run(instance, options).outcome;
+      (outcome.stop == StopReason::none ? finished : stopped)++;
+      if (outcome.status == Status::infeasible) {
+        ASSERT_EQ(truth.status, Status::infeasible);
+      }
+      if (outcome.plan) {
+        ASSERT_EQ(truth.status, Status::optimal);
+      }
+      if (outcome.status == Status::optimal) {
+        ASSERT_EQ(outcome.cost, truth.cost);
+      }
+      if (outcome.plan) {
+        ASSERT_GE(*outcome.cost, truth.cost);
+      }
+      if (truth.status == Status::optimal) {
+        ASSERT_LE(outcome.lower_bound, truth.cost);
+      }
+      if (outcome.stop == StopReason::none) {
+        ASSERT_EQ(outcome.status, truth.status);
+      }
+    }
+  }
+  EXPECT_GT(stopped, 0);
+  EXPECT_GT(finished, 0);
+}
+
+TEST(SolverLimits, GenerousLimitsChangeNothing) {
+  Limits limits;
+  limits.wall_s = limits.cpu_s = 1000;
+  limits.memory_mib = 100'000;
+  limits.conflicts = 1'000'000'000;
+  const std::atomic<bool> interrupt = false;
+  limits.interrupt = &interrupt;
+  Random random(4);
+  const Instance instance = random_grid(random, {4, 5, 10, 3, 3});
+  for (const SolveOptions& options : systems_for_both_objectives()) {
+    const JointAnswer expected = joint_search(instance, options.objective);
+    const auto outcome = run(instance, with_limits(options, limits)).outcome;
+    EXPECT_EQ(find_fault(instance, options.objective, outcome, expected), "");
+  }
+}
+
+// The same instance, options and seed give the same plan and the same counters.
+TEST(SolverLimits, SearchesRepeatThemselves) {
+  for (std::uint64_t seed = 0; seed < scaled(20); ++seed) {
+    Random random(600'000 + seed);
+    const Instance instance = random_grid(random, {4, 7, 25, 4, 7});
+    for (const SolveOptions& options : random_systems(random, Objective::sum_of_costs)) {
+      SolveOptions same = options;
+      same.known_plan.reset();
+      const SolveOutcome first = solve(instance, same), second = solve(instance, same);
+      ASSERT_EQ(first.plan, second.plan) << instance_text(instance) << options_text(same);
+      EXPECT_EQ(first.statistics.conflicts, second.statistics.conflicts);
+      EXPECT_EQ(first.statistics.decisions, second.statistics.decisions);
+      EXPECT_EQ(first.statistics.clauses, second.statistics.clauses);
+      EXPECT_EQ(first.statistics.checks, second.statistics.checks);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quadrille::discrete::support
