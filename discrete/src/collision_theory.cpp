@@ -78,7 +78,10 @@ void CollisionTheory::enter_all(sat::TheoryContext& context) {
   while (entered_.size() < stack_.size()) {
     const Lit lit = stack_[entered_.size()];
     entered_.push_back({lit, Lit()});
-    if (lit.positive()) enter(lit, context);
+    if (lit.positive())
+      enter(lit, context);
+    else
+      enter_early_rest(lit, context);
   }
 }
 
@@ -97,6 +100,20 @@ void CollisionTheory::enter(Lit x, sat::TheoryContext& context) {
       clauses_.rest(x, *resident, late, sink);
   }
   if (schedule_.kind == CheckSchedule::Kind::propagate) deny_others(x, var, context);
+}
+
+// "Not late" comes after the X literal of a visitor at the goal when both came in one batch with a
+// true "late" that was undone since.
+void CollisionTheory::enter_early_rest(Lit not_late, sat::TheoryContext& context) {
+  const auto var = model_.variable(not_late);
+  if (var.kind != VariableKind::delay) return;
+  const Mdd& mdd = model_.mdd(var.agent);
+  const Timestep t = mdd.distance() + var.number - 1;
+  const Lit visitor = occupant_(mdd.task().goal, t);
+  if (!visitor.valid() || model_.variable(visitor).agent == var.agent) return;
+  if (model_.arrival_after(var.agent, t) != ~not_late) return;
+  clauses_.rest(visitor, var.agent, ~not_late,
+                [&](const sat::Lemma& lemma) { context.add_lemma(lemma); });
 }
 
 // The moves that x begins or ends, against moves that entered literals make.

@@ -44,6 +44,7 @@ class CollisionTheory final : public sat::Theory {
   [[nodiscard]] std::size_t stage(std::size_t assigned, std::size_t variables) const;
   void enter_all(sat::TheoryContext& context);
   void enter(sat::Lit x, sat::TheoryContext& context);
+  void enter_early_rest(sat::Lit not_late, sat::TheoryContext& context);
   void find_swaps(sat::Lit x, const MddModel::Variable& var, const CollisionClauses::Sink& sink);
   void deny_others(sat::Lit x, const MddModel::Variable& var, sat::TheoryContext& context);
   void check_paths(sat::TheoryContext& context);

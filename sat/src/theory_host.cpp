@@ -70,15 +70,19 @@ void TheoryHost::notify_backtrack(std::size_t level) {
 bool TheoryHost::check_found_model() {
   ++models_checked_;
   made_variable_ = false;
+  consulted_ = stack_.size();
   theory_.check(Effort::full, *this);
   return queue_head_ == queue_.size() && !made_variable_;
 }
 
+void TheoryHost::consult() {
+  if (consulted_ == stack_.size() || queue_head_ < queue_.size()) return;
+  consulted_ = stack_.size();
+  theory_.check(Effort::partial, *this);
+}
+
 int TheoryHost::propagate() {
-  if (consulted_ < stack_.size() && queue_head_ == queue_.size()) {
-    consulted_ = stack_.size();
-    theory_.check(Effort::partial, *this);
-  }
+  consult();
   if (queue_head_ < queue_.size()) return 0;  // clauses first
   while (propagation_head_ < propagations_.size()) {
     const Lit lit = propagations_[propagation_head_++].lit;
@@ -109,6 +113,7 @@ int TheoryHost::next_reason_literal(int propagated) {
 }
 
 bool TheoryHost::has_clause(bool& forgettable) {
+  consult();  // what was assigned while older clauses were being fetched
   if (queue_head_ == queue_.size()) return false;
   forgettable = queue_[queue_head_].forgettable;
   return true;

@@ -77,6 +77,8 @@ class TheoryHost final : private TheoryContext {
   void propagate(Lit implied) override;
   [[nodiscard]] Lit new_lit() override;
 
+  /// Asks the theory about literals that it was not asked about yet, unless clauses are waiting.
+  void consult();
   [[nodiscard]] VariableState& state(Lit lit);
   [[nodiscard]] const VariableState& state(Lit lit) const;
 

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/sat/engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "quadrille/sat/cost_search.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::sat {
+namespace {
+
+using Clause = std::vector<Lit>;
+
+void add(Engine& engine, const Clause& clause) {
+  engine.add_clause({LemmaKind::path, clause, {}, false});
+}
+
+Verdict solve(Engine& engine, const std::vector<Lit>& assumptions = {}) {
+  LimitMonitor limits{Limits{}};
+  return engine.solve(assumptions, limits);
+}
+
+/// Demands that exactly `sum` of the variables are true, and says so only about assignments that it
+/// sees: with eager conflicts, with propagations and reasons, or at complete assignments only.
+class ExactlySum final : public Theory {
+ public:
+  enum class Style { complete, eager, propagating };
+  ExactlySum(std::size_t sum, Style style) : sum_(sum), style_(style) {}
+
+  void watch(Lit lit) { lits_.push_back(lit); }
+  void on_assign(std::span<const Lit> newly_true) override {
+    stack_.insert(stack_.end(), newly_true.begin(), newly_true.end());
+  }
+  void on_retract(std::size_t kept) override { stack_.resize(kept); }
+
+  void check(Effort effort, TheoryContext& context) override {
+    if (effort == Effort::partial && style_ == Style::complete) return;
+    std::vector<Lit> yes, no;
+    for (const Lit lit : lits_) {
+      if (context.value(lit) == Truth::is_true) yes.push_back(lit);
+      if (context.value(lit) == Truth::is_false) no.push_back(lit);
+    }
+    if (yes.size() > sum_) {
+      Clause clause;
+      for (std::size_t i = 0; i <= sum_; ++i) clause.push_back(~yes[i]);
+      context.add_lemma({LemmaKind::path, clause, {}, false});
+    } else if (no.size() > lits_.size() - sum_) {
+      Clause clause(no.begin(), no.begin() + static_cast<std::ptrdiff_t>(lits_.size() - sum_ + 1));
+      context.add_lemma({LemmaKind::path, clause, {}, false});
+    } else if (style_ == Style::propagating && yes.size() == sum_) {
+      for (const Lit lit : lits_) {
+        if (context.value(lit) != Truth::unassigned) continue;
+        because_.resize(std::max(because_.size(), static_cast<std::size_t>(lit.variable()) + 1));
+        because_[static_cast<std::size_t>(lit.variable())] = yes;
+        context.propagate(~lit);
+      }
+    }
+  }
+  Lemma explain(Lit implied, Clause& clause) override {
+    clause.push_back(implied);
+    for (const Lit lit : because_[static_cast<std::size_t>(implied.variable())])
+      clause.push_back(~lit);
+    return {LemmaKind::path, {}, {}, true};
+  }
+
+ private:
+  std::size_t sum_;
+  Style style_;
+  std::vector<Lit> lits_, stack_;
+  std::vector<Clause> because_;
+};
+
+/// Whether some assignment of `n` variables satisfies the clauses and has `sum` of them true.
+bool exists(int n, const std::vector<Clause>& clauses, std::size_t sum,
+            const std::vector<Lit>& assumptions) {
+  for (unsigned bits = 0; bits < (1u << n); ++bits) {
+    if (static_cast<std::size_t>(__builtin_popcount(bits)) != sum) continue;
+    const auto is_true = [&](Lit lit, int first) {
+      return ((bits >> (lit.variable() - first)) & 1u) == (lit.positive() ? 1u : 0u);
+    };
+    const int first = 2;  // variable 1 is the engine's own
+    bool good = std::all_of(assumptions.begin(), assumptions.end(),
+                            [&](Lit l) { return is_true(l, first); });
+    for (const Clause& clause : clauses)
+      good = good &&
+             std::any_of(clause.begin(), clause.end(), [&](Lit l) { return is_true(l, first); });
+    if (good) return true;
+  }
+  return false;
+}
+
+TEST(Engine, AgreesWithEnumerationForEveryStyleOfTheory) {
+  const std::size_t cases = support::scaled(600);
+  std::size_t num_sat = 0, num_unsat = 0;
+  for (std::size_t seed = 0; seed < cases; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const int n = 8;
+    const std::size_t sum = 2 + random() % 4;
+    ExactlySum theory(sum, static_cast<ExactlySum::Style>(seed % 3));
+    EngineOptions options;
+    options.seed = static_cast<std::uint32_t>(seed);
+    options.inprocessing = seed % 2 == 0;
+    Engine engine(&theory, options);
+    std::vector<Lit> lits;
+    for (int i = 0; i < n; ++i) {
+      lits.push_back(engine.new_lit());
+      theory.watch(lits.back());
+    }
+    const auto random_lit = [&] {
+      const Lit lit = lits[random() % lits.size()];
+      return random() % 2 == 0 ? lit : ~lit;
+    };
+    std::vector<Clause> clauses;
+    for (int round = 0; round < 6; ++round) {  // incremental
+      for (int c = 0; c < 5; ++c) {
+        clauses.push_back({random_lit(), random_lit(), random_lit()});
+        add(engine, clauses.back());
+      }
+      std::vector<Lit> assumptions;
+      for (int a = 0; a < 2; ++a) {
+        const Lit lit = random_lit();
+        if (std::find(assumptions.begin(), assumptions.end(), ~lit) == assumptions.end())
+          assumptions.push_back(lit);
+      }
+      const Verdict verdict = solve(engine, assumptions);
+      ASSERT_EQ(verdict, exists(n, clauses, sum, assumptions) ? Verdict::sat : Verdict::unsat);
+      if (verdict == Verdict::sat) {
+        ++num_sat;
+        std::size_t trues = 0;
+        for (const Lit lit : lits) trues += engine.model_value(lit) ? 1u : 0u;
+        ASSERT_EQ(trues, sum);
+        for (const Lit lit : assumptions) ASSERT_TRUE(engine.model_value(lit));
+      } else {
+        ++num_unsat;
+        const std::vector<Lit> core = engine.core();
+        for (const Lit lit : core)
+          ASSERT_NE(std::find(assumptions.begin(), assumptions.end(), lit), assumptions.end());
+        ASSERT_FALSE(exists(n, clauses, sum, core));
+      }
+    }
+  }
+  EXPECT_GT(num_sat, cases / 10);
+  EXPECT_GT(num_unsat, cases / 10);
+}
+
+/// n+1 pigeons in n holes: many conflicts.
+void add_pigeons(Engine& engine, int holes) {
+  std::vector<Clause> in(static_cast<std::size_t>(holes) + 1);
+  for (auto& pigeon : in)
+    for (int h = 0; h < holes; ++h) pigeon.push_back(engine.new_lit());
+  for (std::size_t p = 0; p < in.size(); ++p) {
+    add(engine, in[p]);
+    for (std::size_t q = 0; q < p; ++q)
+      for (std::size_t h = 0; h < in[p].size(); ++h) add(engine, {~in[p][h], ~in[q][h]});
+  }
+}
+
+TEST(Engine, StopsAtEachLimitAndNamesIt) {
+  Engine engine(nullptr);
+  add_pigeons(engine, 12);
+  Limits by_conflicts, by_time, by_memory, by_interrupt;
+  by_conflicts.conflicts = 100;
+  by_time.cpu_s = 0.05;
+  by_memory.memory_mib = 1;
+  const std::atomic<bool> interrupted = true;
+  by_interrupt.interrupt = &interrupted;
+  const std::pair<Limits, StopReason> cases[] = {{by_conflicts, StopReason::conflicts},
+                                                 {by_time, StopReason::cpu_time},
+                                                 {by_memory, StopReason::memory},
+                                                 {by_interrupt, StopReason::interrupt}};
+  for (const auto& [limits, reason] : cases) {
+    LimitMonitor monitor(limits);
+    EXPECT_EQ(engine.solve({}, monitor), Verdict::unknown);
+    EXPECT_EQ(monitor.reason(), reason);
+  }
+  LimitMonitor unlimited{Limits{}};
+  EXPECT_EQ(engine.solve({}, unlimited, {50, {}}), Verdict::unknown);
+}
+
+TEST(Engine, TellsTheObserverEachClauseAndEachConsequence) {
+  struct Recorder final : ClauseObserver {
+    void on_lemma(const Lemma&) override { ++lemmas; }
+    void on_learned(std::span<const Lit> clause) override {
+      ++learned;
+      if (clause.empty()) refuted = true;
+    }
+    int lemmas = 0, learned = 0;
+    bool refuted = false;
+  } recorder;
+  EngineOptions options;
+  options.observer = &recorder;
+  Engine engine(nullptr, options);
+  add_pigeons(engine, 4);
+  EXPECT_EQ(recorder.lemmas, 5 + 4 * 10);
+  EXPECT_EQ(solve(engine), Verdict::unsat);
+  EXPECT_GT(recorder.learned, 0);
+  EXPECT_TRUE(recorder.refuted);
+  EXPECT_TRUE(engine.core().empty());
+}
+
+TEST(Engine, IsDeterministicForASeed) {
+  Statistics first;
+  for (int run = 0; run < 2; ++run) {
+    Engine engine(nullptr);
+    add_pigeons(engine, 7);
+    EXPECT_EQ(solve(engine), Verdict::unsat);
+    Statistics statistics;
+    engine.add_statistics(statistics);
+    EXPECT_GT(statistics.conflicts, 0);
+    EXPECT_EQ(statistics.sat_calls, 1);
+    if (run == 0) first = statistics;
+    EXPECT_EQ(statistics.conflicts, first.conflicts);
+    EXPECT_EQ(statistics.decisions, first.decisions);
+  }
+}
+
+}  // namespace
+}  // namespace quadrille::sat
