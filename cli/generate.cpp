@@ -119,7 +119,7 @@ Result<std::vector<std::string>> make_texts(const GenerateArguments& arguments) 
   return texts;
 }
 
-ExitCode run(const GenerateArguments& arguments) {
+ExitCode run(const CLI::App& app, const GenerateArguments& arguments) {
   std::vector<OutputFile> outputs;
   for (const std::string* path : {&arguments.map_output, &arguments.scen_output}) {
     if (path->empty()) continue;
@@ -132,9 +132,10 @@ ExitCode run(const GenerateArguments& arguments) {
   }
   const auto texts = make_texts(arguments);
   if (!texts) {
-    report_error(texts.error());
     // A map that was read can be wrong; a map that was asked for can be impossible.
-    return arguments.kind ? ExitCode::usage : ExitCode::bad_input;
+    if (arguments.kind) return usage_error(app, texts.error().message);
+    report_error(texts.error());
+    return ExitCode::bad_input;
   }
   bool all = true;
   for (std::size_t i = 0; i < outputs.size(); ++i)
@@ -232,7 +233,7 @@ Subcommand add_generate(CLI::App& program) {
   app->footer(std::string(kFooter) + kExitCodesHelp);
   return {app, [app, arguments] {
             const std::string wrong = settle(*app, *arguments);
-            return wrong.empty() ? run(*arguments) : usage_error(*app, wrong);
+            return wrong.empty() ? run(*app, *arguments) : usage_error(*app, wrong);
           }};
 }
 

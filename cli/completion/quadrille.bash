@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+# Completion of the program quadrille for bash.
+
+_quadrille() {
+  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
+  local command=${COMP_WORDS[1]}
+  COMPREPLY=()
+  if ((COMP_CWORD == 1)); then
+    mapfile -t COMPREPLY < <(compgen -W "solve verify info generate convert --help --version" -- "$word")
+    return
+  fi
+
+  local values=
+  case $previous in
+    --objective) values="sum-of-costs makespan" ;;
+    --system) values="dpll dpll-mdd smt-cbs mdd-sat" ;;
+    --check) values="watch propagate 1/2 2/3 1/3,2/3 1/2,3/4" ;;
+    --mdd-growth) values="on-demand full" ;;
+    --plan-format | --from | --to) values="json cbsh2 visualizer yaml" ;;
+    --kind) values="empty random maze room warehouse" ;;
+    --map | --scen | --instance | --plan | --json | --known-plan | --output | --map-output | --scen-output)
+      mapfile -t COMPREPLY < <(compgen -f -- "$word")
+      return
+      ;;
+    --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
+      --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width)
+      return
+      ;;
+  esac
+  if [[ -n $values ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
+    return
+  fi
+
+  local instance="--map --scen --agents --instance --passable --blocked"
+  local options=
+  case $command in
+    solve)
+      options="$instance --objective --system --check --mdd-growth --seed --time-limit --cpu-limit
+        --memory-limit --conflict-limit --plan --plan-format --json --quiet --audit --known-plan"
+      ;;
+    verify) options="$instance --plan-format --quiet" ;;
+    info) options="$instance" ;;
+    generate)
+      options="--kind --map --map-output --scen-output --agents --any-goal --seed --width --height
+        --obstacles --corridor-width --room-size --doors --shelf-columns --shelf-rows --shelf-length
+        --shelf-width --aisle-width --side-width"
+      ;;
+    convert) options="$instance --to --from --output" ;;
+  esac
+  if [[ $word == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options --help" -- "$word")
+  else
+    mapfile -t COMPREPLY < <(compgen -f -- "$word")
+  fi
+}
+
+complete -o filenames -F _quadrille quadrille

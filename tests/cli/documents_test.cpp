@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "cli/process.hpp"
+
+namespace quadrille::cli::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kCommands[] = {"solve", "verify", "info", "generate", "convert"};
+
+class DocumentsTest : public CliTest {
+ protected:
+  std::set<std::string> options_of(const std::string& command) {
+    const std::string help = run({command, "--help"}).out;
+    // Up to the footer, whose examples belong to no list of options.
+    const std::string list = help.substr(0, help.find("\nExample"));
+    std::set<std::string> options;
+    const std::regex option("(^|\n)  (-h,)?(--[a-z-]+)");
+    for (std::sregex_iterator at(list.begin(), list.end(), option), end; at != end; ++at)
+      options.insert((*at)[3]);
+    return options;
+  }
+  static std::string source(const std::string& name) {
+    std::ifstream in(std::string(QUADRILLE_SOURCE_DIR "/") + name);
+    std::ostringstream text;
+    text << in.rdbuf();
+    EXPECT_FALSE(text.str().empty()) << name;
+    return text.str();
+  }
+  /// From the line `begin` to the line `end`.
+  static std::string section(const std::string& text, const std::string& begin,
+                             const std::string& end) {
+    const auto from = text.find(begin);
+    EXPECT_NE(from, std::string::npos) << begin;
+    if (from == std::string::npos) return "";
+    return text.substr(from, text.find(end, from + begin.size()) - from);
+  }
+};
+
+TEST_F(DocumentsTest, TheManPageNamesEveryOptionOfEveryCommand) {
+  std::string man = source("cli/man/quadrille.1");
+  man = std::regex_replace(man, std::regex(R"(\\-)"), "-");
+  for (const std::string command : kCommands) {
+    const std::string part = section(man, ".SS \"quadrille " + command, "\n.S");
+    const std::string shared = section(man, ".SS \"Options that name an instance", "\n.S");
+    for (const std::string& option : options_of(command)) {
+      const std::string where = command == "generate" ? part : part + shared;
+      EXPECT_THAT(where, testing::AnyOf(HasSubstr(option + "\n"), HasSubstr(option + " ")))
+          << command;
+    }
+  }
+  EXPECT_THAT(man, HasSubstr(".TH QUADRILLE 1"));
+  for (const char* code : {"0", "1", "10", "20", "30", "64", "65", "70", "74"})
+    EXPECT_THAT(man, HasSubstr(std::string("\n.B ") + code + "\n"));
+}
+
+TEST_F(DocumentsTest, TheManualNamesEveryOptionAndExitCode) {
+  const std::string manual = source("docs/cli.md");
+  for (const std::string command : kCommands)
+    for (const std::string& option : options_of(command))
+      EXPECT_THAT(manual, HasSubstr("`" + option)) << command;
+  for (const char* code : {"0", "1", "10", "20", "30", "64", "65", "70", "74"})
+    EXPECT_THAT(manual, HasSubstr(std::string("\n| ") + code + " |"));
+}
+
+TEST_F(DocumentsTest, TheCompletionOffersEveryOptionOfEveryCommand) {
+  for (const std::string command : kCommands) {
+    const std::set<std::string> options = options_of(command);
+    ASSERT_GE(options.size(), 7u) << command;
+    const std::string script =
+        ". '" QUADRILLE_SOURCE_DIR "/cli/completion/quadrille.bash'; COMP_WORDS=(quadrille " +
+        command + " --); COMP_CWORD=2; _quadrille; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    std::FILE* shell = ::popen(
+        ("bash -c \"" + std::regex_replace(script, std::regex("[\"$]"), "\\$&") + "\"").c_str(),
+        "r");
+    ASSERT_NE(shell, nullptr);
+    std::set<std::string> offered;
+    char line[256];
+    while (std::fgets(line, sizeof line, shell) != nullptr)
+      offered.insert(std::string(line).substr(0, std::string(line).find('\n')));
+    EXPECT_EQ(::pclose(shell), 0);
+    EXPECT_EQ(offered, options) << command;
+  }
+}
+
+TEST_F(DocumentsTest, TheExampleOfTheManualIsReal) {
+  // docs/cli.md shows this run; the seconds of a search differ.
+  std::filesystem::current_path(QUADRILLE_SOURCE_DIR);
+  const std::string manual = source("docs/cli.md");
+  const std::string command =
+      "quadrille solve --map examples/maps/roundabout.map --scen "
+      "examples/maps/roundabout.scen --agents 4";
+  ASSERT_THAT(manual, HasSubstr("$ " + command + "\n"));
+  const Finished finished = run({"solve", "--map", "examples/maps/roundabout.map", "--scen",
+                                 "examples/maps/roundabout.scen", "--agents", "4"});
+  const std::regex measured("search     .*\n");
+  EXPECT_THAT(std::regex_replace(manual, measured, ""),
+              HasSubstr(std::regex_replace(finished.out, measured, "")));
+}
+
+}  // namespace
+}  // namespace quadrille::cli::test

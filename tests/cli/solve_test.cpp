@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+
+#include "cli/process.hpp"
+
+namespace quadrille::cli::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+using SolveTest = CliTest;
+
+constexpr const char* kSystems[] = {"dpll", "dpll-mdd", "smt-cbs", "mdd-sat"};
+
+TEST_F(SolveTest, OptimalIs0WithEverySystemAndObjective) {
+  for (const char* system : kSystems)
+    for (const auto& [objective, cost] : {std::pair{"sum-of-costs", 8}, {"makespan", 3}}) {
+      SCOPED_TRACE(std::string(system) + " " + objective);
+      const Finished finished = run(
+          small("solve", {"--system", system, "--objective", objective, "--quiet", "--json", "-"}));
+      ASSERT_EQ(finished.code, 0) << finished.err;
+      EXPECT_EQ(finished.err, "");
+      const json result = json::parse(finished.out);
+      EXPECT_EQ(result["status"], "optimal");
+      EXPECT_EQ(result["objective"], objective);
+      EXPECT_EQ(result["cost"], cost);
+      EXPECT_EQ(result["lower_bound"], cost);
+      EXPECT_EQ(result["stop_reason"], "none");
+      EXPECT_EQ(result["options"]["system"], system);
+    }
+}
+
+TEST_F(SolveTest, CheckSchedules) {
+  for (const char* check : {"watch", "propagate", "1/2", "1/3,2/3", "1/2,3/4"}) {
+    SCOPED_TRACE(check);
+    const Finished finished =
+        run(small("solve", {"--system", "dpll-mdd", "--check", check, "--json", "-"}));
+    ASSERT_EQ(finished.code, 0) << finished.err;
+    EXPECT_EQ(json::parse(finished.out)["options"]["check"], check);
+  }
+}
+
+TEST_F(SolveTest, InfeasibleIs20AndSaysWhy) {
+  const Finished finished = run(corridor("solve", {"--json", "-"}));
+  ASSERT_EQ(finished.code, 20) << finished.err;
+  const json result = json::parse(finished.out);
+  EXPECT_EQ(result["status"], "infeasible");
+  EXPECT_TRUE(result["cost"].is_null());
+  EXPECT_TRUE(result["lower_bound"].is_null());
+  EXPECT_TRUE(result["plan"].is_null());
+  EXPECT_NE(result["explanation"], "");
+  EXPECT_THAT(finished.err, HasSubstr("infeasible"));
+}
+
+TEST_F(SolveTest, LimitsGive30OrAPlan) {
+  const std::vector<std::string> limits[] = {{"--time-limit", "0"},     {"--time-limit", "0.001"},
+                                             {"--cpu-limit", "0"},      {"--cpu-limit", "0.001"},
+                                             {"--memory-limit", "1"},   {"--conflict-limit", "0"},
+                                             {"--conflict-limit", "1"}, {"--time-limit", "1e-300"}};
+  for (const auto& limit : limits)
+    for (const char* system : kSystems) {
+      SCOPED_TRACE(testing::PrintToString(limit) + system);
+      Process process(folder_, hard("solve", limit + std::vector<std::string>{"--system", system,
+                                                                              "--json", "-"}));
+      const Finished finished = process.wait(20);
+      EXPECT_THAT(finished.code, testing::AnyOf(10, 30)) << finished.err;
+      const json result = json::parse(finished.out);
+      EXPECT_EQ(result["status"], finished.code == 10 ? "feasible" : "unknown");
+      EXPECT_NE(result["stop_reason"], "none");
+      EXPECT_TRUE(result["lower_bound"].is_number_integer());
+      EXPECT_EQ(result["plan"].is_null(), finished.code == 30);
+    }
+}
+
+TEST_F(SolveTest, ALimitOfZeroOnAnEasyInstanceIsNeverAWrongAnswer) {
+  for (const char* seconds : {"0", "0.001"}) {
+    const Finished finished = run(small("solve", {"--time-limit", seconds, "--json", "-"}));
+    const json result = json::parse(finished.out);
+    EXPECT_THAT(finished.code, testing::AnyOf(0, 10, 30)) << finished.err;
+    if (finished.code == 0) {
+      EXPECT_EQ(result["cost"], 8);
+    }
+    EXPECT_LE(result["lower_bound"], 8);
+  }
+}
+
+TEST_F(SolveTest, TheSameSeedGivesTheSameAnswer) {
+  const Finished made = run({"generate", "--kind", "random", "--width", "10", "--height", "10",
+                             "--obstacles", "0.15", "--seed", "7", "--agents", "12", "--map-output",
+                             path("r.map"), "--scen-output", path("r.scen")});
+  ASSERT_EQ(made.code, 0) << made.err;
+  for (const char* system : kSystems) {
+    json results[2];
+    for (json& result : results) {
+      const Finished finished =
+          run({"solve", "--map", path("r.map"), "--scen", path("r.scen"), "--agents", "12",
+               "--system", system, "--seed", "5", "--quiet", "--json", "-"});
+      ASSERT_EQ(finished.code, 0) << finished.err;
+      result = json::parse(finished.out);
+      for (const char* measured : {"cpu_s", "wall_s", "peak_rss_mib"})
+        ASSERT_EQ(result["statistics"].erase(measured), 1u);
+    }
+    EXPECT_EQ(results[0], results[1]) << system;
+  }
+}
+
+TEST_F(SolveTest, NoAgentsAtAll) {
+  const Finished finished = run({"solve", "--map", path("small.map"), "--scen", path("small.scen"),
+                                 "--agents", "0", "--json", "-"});
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const json result = json::parse(finished.out);
+  EXPECT_EQ(result["cost"], 0);
+  EXPECT_EQ(result["plan"], json::array());
+}
+
+TEST_F(SolveTest, AuditAndKnownPlanPassOnAGoodPlan) {
+  ASSERT_EQ(run(small("solve", {"--quiet", "--plan", path("p.json")})).code, 0);
+  const Finished finished =
+      run(small("solve", {"--audit", "--known-plan", path("p.json"), "--json", "-"}));
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  const json options = json::parse(finished.out)["options"];
+  EXPECT_EQ(options["audit"], true);
+  EXPECT_EQ(options["known_plan"], path("p.json"));
+}
+
+TEST_F(SolveTest, LettersAreReadAsTold) {
+  write("s.map", "type octile\nheight 1\nwidth 3\nmap\n.S.\n");
+  write("s.scen", "version 1\n0\ts\t3\t1\t0\t0\t2\t0\t2\n");
+  const auto solve = [&](const std::vector<std::string>& more) {
+    return run(std::vector<std::string>{"solve", "--map", path("s.map"), "--scen", path("s.scen"),
+                                        "--agents", "1"} +
+               more);
+  };
+  EXPECT_EQ(solve({}).code, 65);
+  const Finished open = solve({"--passable", "S"});
+  EXPECT_EQ(open.code, 0);
+  EXPECT_THAT(open.out, HasSubstr("1 cells 'S' read as passable"));
+  EXPECT_EQ(solve({"--blocked", "S"}).code, 20);
+  EXPECT_EQ(solve({"--blocked", "S", "--passable", "S"}).code, 65);
+}
+
+TEST_F(SolveTest, QuietIsQuiet) {
+  const Finished finished = run(small("solve", {"--quiet"}));
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_EQ(finished.out + finished.err, "");
+}
+
+TEST_F(SolveTest, NothingButTheFileGoesToStdoutWithADash) {
+  const Finished result = run(small("solve", {"--json", "-"}));
+  EXPECT_TRUE(json::accept(result.out));
+  EXPECT_THAT(result.err, HasSubstr("verified"));
+  EXPECT_THAT(result.err, Not(HasSubstr("\r")));  // no progress line in a file
+  const Finished plan = run(small("solve", {"--plan", "-", "--plan-format", "cbsh2"}));
+  EXPECT_THAT(plan.out, testing::StartsWith("Agent 0: "));
+  EXPECT_THAT(plan.out, Not(HasSubstr("verified")));
+}
+
+}  // namespace
+}  // namespace quadrille::cli::test
