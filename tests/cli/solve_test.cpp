@@ -86,6 +86,18 @@ TEST_F(SolveTest, ALimitOfZeroOnAnEasyInstanceIsNeverAWrongAnswer) {
   }
 }
 
+TEST_F(SolveTest, TheFreeCostsBoundTheCostEvenWithoutTime) {
+  const std::string info = run(hard("info")).out;
+  const auto at = info.find("distances  sum ");
+  ASSERT_NE(at, std::string::npos) << info;
+  const int sum = std::stoi(info.substr(at + 15));
+  for (const char* system : kSystems) {
+    const Finished finished =
+        run(hard("solve", {"--time-limit", "0", "--system", system, "--quiet", "--json", "-"}));
+    EXPECT_GE(json::parse(finished.out)["lower_bound"], sum) << system;
+  }
+}
+
 TEST_F(SolveTest, TheSameSeedGivesTheSameAnswer) {
   const Finished made = run({"generate", "--kind", "random", "--width", "10", "--height", "10",
                              "--obstacles", "0.15", "--seed", "7", "--agents", "12", "--map-output",
