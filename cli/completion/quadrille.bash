@@ -15,6 +15,7 @@ _quadrille() {
     --objective) values="sum-of-costs makespan" ;;
     --system) values="dpll dpll-mdd smt-cbs mdd-sat" ;;
     --check) values="watch propagate 1/2 2/3 1/3,2/3 1/2,3/4" ;;
+    --cost-search) values="iterative core-guided" ;;
     --mdd-growth) values="on-demand full" ;;
     --plan-format | --from | --to) values="json cbsh2 visualizer yaml" ;;
     --kind) values="empty random maze room warehouse" ;;
@@ -36,7 +37,7 @@ _quadrille() {
   local options=
   case $command in
     solve)
-      options="$instance --objective --system --check --mdd-growth --seed --time-limit --cpu-limit
+      options="$instance --objective --system --check --cost-search --mdd-growth --seed --time-limit --cpu-limit
         --memory-limit --conflict-limit --plan --plan-format --json --quiet --audit --known-plan"
       ;;
     verify) options="$instance --plan-format --quiet" ;;

@@ -42,6 +42,18 @@ TEST_F(SolveTest, CheckSchedules) {
   }
 }
 
+TEST_F(SolveTest, CostSearches) {
+  for (const char* search : {"iterative", "core-guided"})
+    for (const char* system : kSystems) {
+      SCOPED_TRACE(std::string(search) + " " + system);
+      const Finished finished =
+          run(small("solve", {"--system", system, "--cost-search", search, "--json", "-"}));
+      ASSERT_EQ(finished.code, 0) << finished.err;
+      EXPECT_EQ(json::parse(finished.out)["cost"], 8);
+      EXPECT_EQ(json::parse(finished.out)["options"]["cost_search"], search);
+    }
+}
+
 TEST_F(SolveTest, InfeasibleIs20AndSaysWhy) {
   const Finished finished = run(corridor("solve", {"--json", "-"}));
   ASSERT_EQ(finished.code, 20) << finished.err;
