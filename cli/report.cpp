@@ -35,8 +35,7 @@ Json options_json(const SolveRequest& request) {
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
   json["check"] = has_schedule(options.system) ? Json(to_string(options.check)) : Json(nullptr);
-  json["cost_search"] =
-      options.cost_search ? Json(to_string(*options.cost_search)) : Json(nullptr);
+  json["cost_search"] = options.cost_search ? Json(to_string(*options.cost_search)) : Json(nullptr);
   json["mdd_growth"] = to_string(options.mdd_growth);
   json["seed"] = options.seed;
   json["time_limit"] = or_null(options.limits.wall_s);

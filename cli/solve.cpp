@@ -21,6 +21,7 @@
 namespace quadrille::cli {
 namespace {
 
+using discrete::CostSearch;
 using discrete::PlanFormat;
 using discrete::SolveOutcome;
 using discrete::System;
@@ -56,7 +57,7 @@ std::optional<std::optional<System>> choose_system(std::string_view text) {
   return std::optional(system);
 }
 
-std::optional<std::optional<discrete::CostSearch>> choose_cost_search(std::string_view text) {
+std::optional<std::optional<CostSearch>> choose_cost_search(std::string_view text) {
   const auto search = discrete::parse_cost_search(text);
   if (!search) return std::nullopt;
   return std::optional(search);
@@ -83,9 +84,10 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
          "shares of the assigned literals, such as 1/2,3/4")
       ->type_name("SCHEDULE")
       ->group(group);
-  add_choice<std::optional<discrete::CostSearch>>(
+  add_choice<std::optional<CostSearch>>(
       app, "--cost-search", options.cost_search, "iterative or core-guided", choose_cost_search,
-      "How the least sum of costs is approached: core-guided (default of dpll) or iterative")
+      "How the least sum of costs is searched for: core-guided (default of dpll) or\n"
+      "iterative (default of the others)")
       ->group(group);
   add_choice<discrete::MddGrowth>(app, "--mdd-growth", options.mdd_growth, "on-demand or full",
                                   discrete::parse_mdd_growth,

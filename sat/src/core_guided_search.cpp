@@ -25,10 +25,11 @@ class CoreGuidedSearch {
       : engine_(engine), problem_(problem), options_(options), limits_(limits) {}
 
   SearchReport run(Statistics& statistics, const BoundListener& on_bound) {
-    for (const AgentId i : IdRange<AgentId>(problem_.num_agents())) {
-      report_.lower_bound += problem_.free_cost(i);
+    const IdRange<AgentId> agents(problem_.num_agents());
+    // First, because a limit may end the search while the softs are made.
+    for (const AgentId i : agents) report_.lower_bound += problem_.free_cost(i);
+    for (const AgentId i : agents)
       if (!add_agent_soft(i, problem_.free_cost(i))) return report_;
-    }
     while (true) {
       if (on_bound) on_bound(report_.lower_bound);
       if (limits_.exhausted_now()) return report_;

@@ -42,6 +42,18 @@ TEST_F(SolveTest, CheckSchedules) {
   }
 }
 
+TEST_F(SolveTest, CostSearches) {
+  for (const char* search : {"iterative", "core-guided"})
+    for (const char* system : kSystems) {
+      SCOPED_TRACE(std::string(search) + " " + system);
+      const Finished finished =
+          run(small("solve", {"--system", system, "--cost-search", search, "--json", "-"}));
+      ASSERT_EQ(finished.code, 0) << finished.err;
+      EXPECT_EQ(json::parse(finished.out)["cost"], 8);
+      EXPECT_EQ(json::parse(finished.out)["options"]["cost_search"], search);
+    }
+}
+
 TEST_F(SolveTest, InfeasibleIs20AndSaysWhy) {
   const Finished finished = run(corridor("solve", {"--json", "-"}));
   ASSERT_EQ(finished.code, 20) << finished.err;
@@ -83,6 +95,18 @@ TEST_F(SolveTest, ALimitOfZeroOnAnEasyInstanceIsNeverAWrongAnswer) {
       EXPECT_EQ(result["cost"], 8);
     }
     EXPECT_LE(result["lower_bound"], 8);
+  }
+}
+
+TEST_F(SolveTest, TheFreeCostsBoundTheCostEvenWithoutTime) {
+  const std::string info = run(hard("info")).out;
+  const auto at = info.find("distances  sum ");
+  ASSERT_NE(at, std::string::npos) << info;
+  const int sum = std::stoi(info.substr(at + 15));
+  for (const char* system : kSystems) {
+    const Finished finished =
+        run(hard("solve", {"--time-limit", "0", "--system", system, "--quiet", "--json", "-"}));
+    EXPECT_GE(json::parse(finished.out)["lower_bound"], sum) << system;
   }
 }
 
