@@ -2,6 +2,7 @@
 // The optimal costs that published solvers found on the MovingAI benchmark. Needs QUADRILLE_DATA.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -110,13 +111,16 @@ TEST_P(SolverBenchmark, FindsTheReferenceCosts) {
                      GetParam().seconds);
   std::cout << GetParam().name << ": " << finished << " of " << rows.size()
             << " reference rows finished\n";
-  EXPECT_GE(finished, GetParam().least);
+  // Slow builds (scale below 1) finish fewer rows.
+  EXPECT_GE(finished,
+            std::min(GetParam().least, static_cast<int>(scaled(30)) * GetParam().least / 30));
 }
 
 INSTANTIATE_TEST_SUITE_P(System, SolverBenchmark,
-                         testing::Values(Entry{"dpll", 0, 2, 0}, Entry{"propagate", 2, 2, 0},
-                                         Entry{"fractions", 4, 1, 0}, Entry{"smt_cbs", 6, 1, 0},
-                                         Entry{"mdd_sat", 7, 1, 0}),
+                         testing::Values(Entry{"dpll", 0, 1, 50}, Entry{"propagate", 2, 0.5, 30},
+                                         Entry{"fractions", 4, 0.5, 25},
+                                         Entry{"smt_cbs", 6, 0.5, 25},
+                                         Entry{"mdd_sat", 7, 0.5, 25}),
                          [](const auto& entry) { return entry.param.name; });
 
 }  // namespace

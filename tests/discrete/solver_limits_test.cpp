@@ -191,6 +191,21 @@ TEST(SolverLimits, NeverClaimsWhatIsNotTrue) {
   EXPECT_GT(finished, 0);
 }
 
+// Reading the graph for every agent alone takes far longer than the limit allows.
+TEST(SolverLimits, HoldWhileTheFormulaIsBuilt) {
+  Random random(5);
+  const Instance instance = random_grid(random, {400, 400, 0, 400, 400});
+  Limits limits;
+  for (const double seconds : {0.0, 0.1}) {
+    limits.wall_s = seconds;
+    for (const SolveOptions& options : systems_for_both_objectives()) {
+      const auto [outcome, taken] = run(instance, with_limits(options, limits));
+      ASSERT_LT(taken, kSoon + seconds) << options_text(options);
+      EXPECT_EQ(outcome.stop, StopReason::wall_time) << options_text(options);
+    }
+  }
+}
+
 TEST(SolverLimits, GenerousLimitsChangeNothing) {
   Limits limits;
   limits.wall_s = limits.cpu_s = 1000;

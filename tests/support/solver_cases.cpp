@@ -186,8 +186,11 @@ std::string solve_and_compare(const Instance& instance, const SolveOptions& opti
     return !fault.empty();
   };
   if (!fails(instance)) return "";
+  // A search that does not end would be repeated for each smaller candidate.
+  const bool endless = outcome.stop != StopReason::none;
   const std::size_t num_vertices = instance.graph().num_vertices();
   const Instance smallest = shrink(instance, [&](const Instance& candidate) {
+    if (endless) return false;
     answer = joint_search(candidate, options.objective);
     return fails(candidate);
   });
