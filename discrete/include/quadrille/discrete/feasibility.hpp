@@ -10,10 +10,16 @@ namespace quadrille::discrete {
 /// Whether any plan exists, of whatever cost.
 struct Feasibility {
   bool feasible = true;
-  std::string reason;  ///< When infeasible: one sentence that names agents and places.
+  /// Empty when feasible, else one sentence (no full stop) that names agents and places, such as
+  /// "agents 0 and 1 cannot pass each other: the component of (0, 0) is a corridor without
+  /// junctions". Of several reasons one is given, the same one every time.
+  std::string reason;
 };
 
-/// Decides exactly, in polynomial time, whether an instance has a plan.
+/// Decides whether an instance has a plan. Exact in both directions; docs/feasibility.md has the
+/// proof. The rules are those of `verify`: one agent per vertex, no swaps over an edge; agents may
+/// follow each other and rotate along cycles. Deterministic; thread-safe; recursion-free.
+/// O(V + E) time and memory.
 [[nodiscard]] Feasibility check_feasibility(const Instance& instance);
 
 }  // namespace quadrille::discrete
