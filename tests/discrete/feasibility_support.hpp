@@ -44,8 +44,16 @@ class ConfigurationSpace {
   }
   [[nodiscard]] const std::vector<Configuration>& all() const { return all_; }
   [[nodiscard]] std::size_t class_of(std::size_t index) const { return class_of_[index]; }
-  [[nodiscard]] std::size_t index_of(const Configuration& c) const {
-    return static_cast<std::size_t>(std::lower_bound(all_.begin(), all_.end(), c) - all_.begin());
+  /// The rank of a configuration in lexicographic order.
+  [[nodiscard]] std::size_t index_of(const Configuration& configuration) const {
+    std::size_t index = 0, choices = graph_.num_vertices();
+    std::uint64_t used = 0;
+    for (const std::uint16_t v : configuration) {
+      const std::uint64_t bit = std::uint64_t{1} << v;
+      index = index * choices-- + v - static_cast<std::size_t>(std::popcount(used & (bit - 1)));
+      used |= bit;
+    }
+    return index;
   }
   /// One configuration of each class.
   [[nodiscard]] const std::vector<std::size_t>& representatives() const { return representatives_; }

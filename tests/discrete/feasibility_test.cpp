@@ -119,10 +119,10 @@ TEST(Feasibility, AgreesOnAllGraphsWithSevenVertices) {
   compare_all_graphs(7);
 }
 
-TEST(Feasibility, AgreesOnAllSparseGraphsWithEightVertices) {
+TEST(Feasibility, AgreesOnTreesAndUnicyclicGraphsWithEightVertices) {
   if (scale() < 100) GTEST_SKIP() << "takes long; QUADRILLE_TEST_SCALE >= 100 runs it";
   Random random(4);
-  for (const Edges& edges : connected_graphs(8, 9)) {
+  for (const Edges& edges : connected_graphs(8, 8)) {
     const auto graph = make_graph(8, edges);
     for (std::size_t agents = 2; agents <= 8; ++agents) {
       compare_some_pairs(graph, agents, random);
