@@ -14,6 +14,7 @@ macro(quadrille_find_package package debian)
 endmacro()
 
 find_package(CaDiCaL 2.1 REQUIRED)
+
 if(CaDiCaL_NEEDS_GLIBC_SHIM AND NOT TARGET quadrille_glibc_shim)
   add_library(quadrille_glibc_shim STATIC cmake/glibc_shim.cpp)
   set_target_properties(quadrille_glibc_shim PROPERTIES

@@ -153,7 +153,10 @@ sat::Lemma CollisionTheory::explain(Lit implied, std::vector<Lit>& clause) {
   QUADRILLE_REQUIRE(x.valid() && !implied.positive(), "explains what was propagated");
   clause.push_back(implied);
   clause.push_back(~x);
-  return {sat::LemmaKind::collision, {}, {}, true};
+  const auto var = model_.variable(x);
+  reason_usages_ = {vertex_usage(model_.variable(implied).agent, var.vertex, var.number),
+                    vertex_usage(var.agent, var.vertex, var.number)};
+  return {sat::LemmaKind::collision, {}, reason_usages_, true};
 }
 
 void CollisionTheory::check_paths(sat::TheoryContext& context) {

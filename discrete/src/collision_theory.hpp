@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -58,6 +59,7 @@ class CollisionTheory final : public sat::Theory {
   CellTable<std::vector<sat::Lit>> rivals_;  // propagate: all X literals of each cell
   int rivals_end_ = 0;                       // variables below are in rivals_
   std::vector<sat::Lit> reason_;             // propagate: by variable, the X that denies it
+  std::array<sat::Usage, 2> reason_usages_;  // of the last explanation
   std::size_t stages_done_ = 0;
   std::size_t num_variables_ = 1;
   std::int64_t num_checks_ = 0;

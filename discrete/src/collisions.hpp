@@ -20,10 +20,9 @@ struct PathCollision {
   friend bool operator==(const PathCollision&, const PathCollision&) = default;
 };
 
-/// All collisions of the plan, rests at the last vertices included, by timestep and agents. An empty
-/// path collides with nothing. Each
-/// vertex and timestep is reported once per agent beyond the first one there.
-/// O(agents * makespan) expected time.
+/// All collisions of the plan, rests at the last vertices included, by timestep and agents. An
+/// empty path collides with nothing. Each vertex and timestep is reported once per agent beyond the
+/// first one there. O(agents * makespan) expected time.
 [[nodiscard]] std::vector<PathCollision> find_collisions(const Graph& graph, const Plan& plan);
 
 /// Writes the clauses that forbid collisions of usages, with their justification, to a sink.

@@ -27,6 +27,11 @@ job_count() {
   echo "$cores"
 }
 
+# network_failed <log of apt>
+network_failed() {
+  grep -qE 'Temporary failure|Could not (resolve|connect)|unreachable|timed out' "$1"
+}
+
 # run_quietly <what> <command...>: shows the output of the command only when it fails.
 run_quietly() {
   local what=$1 log
@@ -65,6 +70,15 @@ configure() {
   # Presets are found in the current folder only.
   (cd "$root" && run_quietly "configuring" cmake --preset release "${args[@]}") || exit 1
   printf '%s\n' "${args[*]}" >"$stamp"
+}
+
+# build [cmake arguments...]: with ninja's progress on a terminal, quietly otherwise.
+build() {
+  if [[ -t 2 ]]; then
+    cmake --build "$build_dir" -j "$(job_count)" "$@" >&2 || die "the build failed."
+  else
+    run_quietly "the build" cmake --build "$build_dir" -j "$(job_count)" "$@"
+  fi
 }
 
 # Two runs at once must not build in the same folder at the same time.

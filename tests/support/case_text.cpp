@@ -140,6 +140,8 @@ class CaseReader {
       options_->check = *parse_check_schedule(value);
     } else if (key == "search" && parse_cost_search(value)) {
       options_->cost_search = parse_cost_search(value);
+    } else if (key == "search" && parse_cost_search(value)) {
+      options_->cost_search = *parse_cost_search(value);
     } else if (key == "growth" && parse_mdd_growth(value)) {
       options_->mdd_growth = *parse_mdd_growth(value);
     } else if (key == "seed" && !value.empty() &&
@@ -233,6 +235,8 @@ std::string options_text(const SolveOptions& options) {
   if (options.system == System::dpll || options.system == System::dpll_mdd)
     text += " check=" + to_string(options.check);
   if (options.cost_search) text += " search=" + std::string(to_string(*options.cost_search));
+  if (options.cost_search)
+    text += " search=" + std::string(to_string(*options.cost_search));
   if (options.mdd_growth != SolveOptions().mdd_growth)
     text += " growth=" + std::string(to_string(options.mdd_growth));
   text += " seed=" + std::to_string(options.seed);

@@ -125,6 +125,8 @@ std::vector<SolveOptions> random_systems(Random& random, Objective objective) {
       make_options(objective, System::mdd_sat)};
   for (SolveOptions& options : systems) {
     options.seed = random.percent(50) ? 0 : static_cast<std::uint32_t>(random.below(2'000'000'001));
+    if (random.percent(50))
+      options.cost_search = random.percent(50) ? CostSearch::core_guided : CostSearch::iterative;
     options.mdd_growth = random.percent(50) ? MddGrowth::on_demand : MddGrowth::full;
     if (random.percent(50))
       options.cost_search = random.percent(50) ? CostSearch::iterative : CostSearch::core_guided;

@@ -58,7 +58,8 @@ class Theory {
   virtual void check(Effort effort, TheoryContext& context) = 0;
   /// Appends a clause that holds in the theory, contains `implied` and whose other literals were
   /// false when `propagate(implied)` was called. May be asked late: after retractions, and outside
-  /// of solve.
+  /// of solve. Returns kind, usages (valid until the next call) and forgettability; the clause in
+  /// the result is not looked at.
   virtual Lemma explain(Lit implied, std::vector<Lit>& clause) = 0;
 };
 
