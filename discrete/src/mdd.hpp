@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -15,10 +15,11 @@ namespace quadrille::discrete {
 /// With d the agent's distance and h(v) the distance from v to its goal, the *slack* of (v, t) is
 /// t + h(v) - d: a path through (v, t) arrives at d + slack or later. The MDD for delay K has the
 /// pairs that are reachable from the start and have a slack of at most K. Layer K is what it has
-/// more than the MDD for K-1: at most one timestep per vertex. Immutable; O(V) memory.
+/// more than the MDD for K-1: at most one timestep per vertex. Vertices are found as layers are
+/// asked for. 8 bytes per vertex of the graph, and more for those found.
 class Mdd {
  public:
-  /// Requires a reachable goal. O(V + E + V log V).
+  /// Requires a reachable goal. O(V + E).
   Mdd(const Graph& graph, const Task& task);
 
   [[nodiscard]] const Task& task() const noexcept { return task_; }
@@ -26,12 +27,16 @@ class Mdd {
   [[nodiscard]] Timestep distance() const noexcept { return to_goal_[task_.start]; }
   /// h(v); kUnreachable if there is none.
   [[nodiscard]] Timestep to_goal(VertexId v) const { return to_goal_[v]; }
-  /// Number of vertices in layer `slack`, which are those of rank 0 .. size-1: every vertex has the
-  /// same rank in all layers that it is in.
-  [[nodiscard]] std::size_t layer_size(Timestep slack) const;
-  [[nodiscard]] VertexId vertex(std::size_t rank) const { return by_detour_[rank]; }
-  /// Rank of a vertex; SIZE_MAX if it is in no layer.
-  [[nodiscard]] std::size_t rank(VertexId v) const { return rank_[v]; }
+
+  /// Finds the vertices of all layers up to `slack` and returns how many layer `slack` has: those
+  /// of rank 0 .. size-1. A vertex has the same rank in all layers that it is in. Linear in what is
+  /// new.
+  std::size_t reach(const Graph& graph, Timestep slack);
+  [[nodiscard]] VertexId vertex(std::size_t rank) const { return found_[rank]; }
+  /// Rank of a vertex; kNoRank if it is in no layer that was asked for.
+  [[nodiscard]] std::uint32_t rank(VertexId v) const { return rank_[v]; }
+  static constexpr std::uint32_t kNoRank = UINT32_MAX;
+
   /// Timestep of a vertex in layer `slack`.
   [[nodiscard]] Timestep timestep(VertexId v, Timestep slack) const {
     return distance() + slack - to_goal_[v];
@@ -44,9 +49,11 @@ class Mdd {
  private:
   Task task_;
   IdVector<VertexId, Timestep> to_goal_;
-  std::vector<VertexId> by_detour_;  // by smallest slack, then by id
-  std::vector<Timestep> detours_;    // of by_detour_, increasing
-  IdVector<VertexId, std::size_t> rank_;
+  IdVector<VertexId, std::uint32_t> rank_;
+  std::vector<VertexId> found_;  // by smallest slack
+  // Vertices to look at, by smallest slack known so far, with their distance from the start.
+  std::vector<std::vector<std::pair<VertexId, Timestep>>> frontier_;
+  Timestep reached_ = -1;
 };
 
 }  // namespace quadrille::discrete

@@ -12,12 +12,17 @@ using sat::Lit;
 
 MddModel::MddModel(const Instance& instance, Objective objective)
     : instance_(instance), objective_(objective), resident_(instance.graph().num_vertices(), 0) {
-  agents_.reserve(instance.num_agents());
-  for (const AgentId i : instance.agents()) {
-    const Task& task = instance.tasks()[i];
-    agents_.push_back({Mdd(instance.graph(), task), {}, {}});
-    resident_[task.goal] = i.value() + 1;
+  for (const AgentId i : instance.agents()) resident_[instance.tasks()[i].goal] = i.value() + 1;
+}
+
+bool MddModel::attach(sat::Engine& engine, LimitMonitor& limits) {
+  engine_ = &engine;
+  agents_.reserve(instance_.num_agents());
+  for (const AgentId i : instance_.agents()) {
+    if (limits.exhausted_now()) return false;
+    agents_.push_back({Mdd(instance_.graph(), instance_.tasks()[i]), {}, {}});
   }
+  return true;
 }
 
 std::optional<AgentId> MddModel::resident(VertexId v) const {
@@ -44,7 +49,7 @@ Lit MddModel::at(AgentId agent, VertexId v, Timestep t) const {
   const Timestep slack = a.mdd.slack(v, t);
   if (slack < 0 || slack > cap(agent)) return {};
   const auto& layer = a.layers[static_cast<std::size_t>(slack)];
-  const std::size_t rank = a.mdd.rank(v);
+  const std::uint32_t rank = a.mdd.rank(v);
   return rank < layer.size() ? layer[rank] : Lit();
 }
 
@@ -82,7 +87,7 @@ void MddModel::add_path_clause(AgentId agent, const std::vector<Lit>& clause) {
 void MddModel::make_layer(AgentId agent, Timestep slack) {
   Agent& a = agents_[agent];
   auto& layer = a.layers.emplace_back();
-  const std::size_t size = a.mdd.layer_size(slack);
+  const std::size_t size = a.mdd.reach(instance_.graph(), slack);
   layer.reserve(size);
   for (std::size_t rank = 0; rank < size; ++rank) {
     const VertexId v = a.mdd.vertex(rank);
@@ -160,6 +165,7 @@ bool MddModel::extend(AgentId agent, Timestep new_cap, LimitMonitor& limits) {
   const Timestep old_cap = cap(agent);
   if (new_cap <= old_cap) return true;
   Agent& a = agents_[agent];
+  if (a.mdd.distance() + new_cap >= kMaxTimestep) return false;
   for (Timestep slack = old_cap + 1; slack <= new_cap; ++slack) {
     if (limits.exhausted_now()) return false;
     make_layer(agent, slack);

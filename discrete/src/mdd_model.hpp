@@ -35,14 +35,16 @@ class MddModel {
     Timestep number = 0;  ///< Timestep or delay.
   };
 
-  /// Requires that every agent can reach its goal. O(agents * V log V).
   MddModel(const Instance& instance, Objective objective);
-  /// Sends all clauses to `engine` from now on; to be called once, before anything below.
-  void attach(sat::Engine& engine) { engine_ = &engine; }
+  /// Computes the agents' distances and sends all clauses to `engine` from now on; to be called
+  /// once, before anything below. Requires that every agent can reach its goal. False if `limits`
+  /// ended that early; the model is of no use then. O(agents * (V + E)).
+  [[nodiscard]] bool attach(sat::Engine& engine, LimitMonitor& limits);
 
   /// Lets the agent's paths have a delay of up to `cap`: its variables, clauses and the guard
   /// C(i, cap + 1) whose negation restricts it to them. No effect if it is there. False if `limits`
-  /// ended that early; the model is of no further use then.
+  /// ended that early, or paths would be longer than kMaxTimestep; the model is of no further use
+  /// then.
   [[nodiscard]] bool extend(AgentId agent, Timestep cap, LimitMonitor& limits);
   /// Largest delay that the agent's paths can have; -1 before the first `extend`.
   [[nodiscard]] Timestep cap(AgentId agent) const {

@@ -61,6 +61,7 @@ bool MddProblem::accept_model() {
   std::vector<PathCollision> collisions = find_collisions(model_.instance().graph(), plan_);
   const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { engine_.add_clause(lemma); };
   for (const PathCollision& c : collisions) clauses.exclude(c, is_true, sink);
+  if (!collisions.empty()) ++num_rejected_;
   return collisions.empty();
 }
 

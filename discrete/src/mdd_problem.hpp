@@ -21,7 +21,7 @@ namespace quadrille::discrete {
 /// bound, because the unnamed ones do not matter. The core-guided search has caps of its own.
 class MddProblem final : public sat::BoundedProblem, public sat::AgentCostProblem {
  public:
-  /// All outlive the problem. `theory` and `eager` may be null.
+  /// All outlive the problem; the model is attached to `engine`. `theory` and `eager` may be null.
   MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* theory, EagerCollisions* eager,
              MddGrowth growth);
 
@@ -41,8 +41,9 @@ class MddProblem final : public sat::BoundedProblem, public sat::AgentCostProble
 
   /// The plan of the last accepted model.
   [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
-  /// Models that were looked at from outside of the search.
+  /// Models that were looked at from outside of the search, and how many of them had collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
+  [[nodiscard]] std::int64_t num_rejected() const noexcept { return num_rejected_; }
 
  private:
   /// The largest delay that a plan of cost `bound` leaves to an agent.
@@ -57,7 +58,7 @@ class MddProblem final : public sat::BoundedProblem, public sat::AgentCostProble
   sat::Totalizer total_;
   IdVector<AgentId, Timestep> wanted_cap_;
   Plan plan_;
-  std::int64_t num_checks_ = 0;
+  std::int64_t num_checks_ = 0, num_rejected_ = 0;
 };
 
 }  // namespace quadrille::discrete

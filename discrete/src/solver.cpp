@@ -34,18 +34,19 @@ class MddRun {
     engine_options.seed = options.seed;
     engine_options.observer = auditor_.get();
     engine_ = std::make_unique<sat::Engine>(theory_.get(), engine_options);
-    model_.attach(*engine_);
-    problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(),
-                                            options.mdd_growth);
   }
 
   void run(LimitMonitor& limits, SolveOutcome& outcome) {
+    if (!model_.attach(*engine_, limits)) return;
+    problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(),
+                                            options_.mdd_growth);
     outcome.lower_bound = problem_->lower_bound();
     limits.set_ticker(0.25, [&] { report_progress(outcome, limits); });
     const auto report = search(limits, outcome);
     outcome.lower_bound = report.lower_bound;
     engine_->add_statistics(outcome.statistics);
     outcome.statistics.checks = problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);
+    outcome.statistics.rejected_models = problem_->num_rejected();
     if (auditor_ && auditor_->complaint()) {
       outcome.internal_error = Error{ErrorCode::internal, *auditor_->complaint(), {}};
     } else if (report.end == sat::SearchReport::End::exhausted) {
@@ -109,6 +110,17 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   if (instance.graph().num_vertices() > kMaxVertices)
     return refuse(ErrorCode::out_of_range,
                   "the solver supports up to " + std::to_string(kMaxVertices) + " vertices");
+  const auto reaches = [](CheckSchedule::Fraction a, CheckSchedule::Fraction b) {
+    return static_cast<std::int64_t>(a.numerator) * b.denominator >=
+           static_cast<std::int64_t>(b.numerator) * a.denominator;
+  };
+  CheckSchedule::Fraction last{0, 1};
+  for (const CheckSchedule::Fraction& f : options.check.fractions) {
+    if (f.denominator <= 0 || reaches(last, f) || reaches(f, {1, 1}))
+      return refuse(ErrorCode::out_of_range,
+                    "the fractions of a check schedule increase between 0 and 1");
+    last = f;
+  }
   if (options.seed > 2'000'000'000)
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
   if (options.known_plan && !verify(instance, *options.known_plan).valid())
@@ -147,7 +159,9 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
   if (outcome.plan) check_plan(instance, options, outcome);
   if (outcome.status == Status::unknown) {
     outcome.stop = limits.reason();
-    outcome.explanation = "stopped by the limit: " + std::string(to_string(outcome.stop));
+    outcome.explanation = outcome.stop == StopReason::none
+                              ? "a path needs more timesteps than the solver supports"
+                              : "stopped by the limit: " + std::string(to_string(outcome.stop));
   }
   return finish();
 }

@@ -24,21 +24,21 @@ struct DecodedUsage {
   friend bool operator==(const DecodedUsage&, const DecodedUsage&) = default;
 };
 
-// Packed as kind (2 bits), timestep (18), vertex (22), to (22). Instances beyond that are refused
-// by the solver (kMaxVertices, kMaxTimestep).
-inline constexpr std::size_t kMaxVertices = std::size_t{1} << 22;
-inline constexpr Timestep kMaxTimestep = (1 << 18) - 1;
+// Packed as kind (2 bits), timestep (20), vertex (21), to (21). Instances beyond that are refused
+// by the solver.
+inline constexpr std::size_t kMaxVertices = std::size_t{1} << 21;
+inline constexpr Timestep kMaxTimestep = (1 << 20) - 1;
 
 [[nodiscard]] constexpr std::uint64_t encode_usage(const DecodedUsage& u) {
-  return static_cast<std::uint64_t>(u.kind) << 62 | static_cast<std::uint64_t>(u.timestep) << 44 |
-         static_cast<std::uint64_t>(u.vertex.value()) << 22 |
+  return static_cast<std::uint64_t>(u.kind) << 62 | static_cast<std::uint64_t>(u.timestep) << 42 |
+         static_cast<std::uint64_t>(u.vertex.value()) << 21 |
          static_cast<std::uint64_t>(u.to.value());
 }
 [[nodiscard]] constexpr DecodedUsage decode_usage(std::uint64_t resource) {
   constexpr std::uint64_t kVertexMask = kMaxVertices - 1;
-  return {static_cast<UsageKind>(resource >> 62), VertexId(resource >> 22 & kVertexMask),
+  return {static_cast<UsageKind>(resource >> 62), VertexId(resource >> 21 & kVertexMask),
           VertexId(resource & kVertexMask),
-          static_cast<Timestep>(resource >> 44 & static_cast<std::uint64_t>(kMaxTimestep))};
+          static_cast<Timestep>(resource >> 42 & static_cast<std::uint64_t>(kMaxTimestep))};
 }
 
 [[nodiscard]] constexpr sat::Usage path_usage(AgentId agent) { return {agent, 0}; }

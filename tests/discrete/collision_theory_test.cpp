@@ -40,8 +40,8 @@ struct Fixture {
     const auto objective = draw(2) == 0 ? Objective::sum_of_costs : Objective::makespan;
     model = std::make_unique<MddModel>(Instance::make(std::move(graph), tasks).value(), objective);
     engine = std::make_unique<sat::Engine>(nullptr);
-    model->attach(*engine);
     LimitMonitor limits{Limits{}};
+    EXPECT_TRUE(model->attach(*engine, limits));
     Timestep longest = 0;
     for (const AgentId i : model->instance().agents())
       longest = std::max(longest, model->mdd(i).distance());

@@ -19,6 +19,8 @@ struct Statistics {
       0;                            ///< Of these, clauses that rule out a conflict of two agents.
   std::int64_t checks = 0;          ///< Times the consistency of an assignment was checked.
   std::int64_t models_checked = 0;  ///< Of these, checks of complete assignments.
+  /// Complete assignments with collisions that the SAT solver had called satisfying.
+  std::int64_t rejected_models = 0;
   std::int64_t cores = 0;           ///< Unsatisfiable cores that raised the lower bound.
 };
 
