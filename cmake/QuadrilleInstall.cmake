@@ -39,6 +39,13 @@ if(QUADRILLE_CADICAL_NOTICE)
 endif()
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
+# The installed program finds shared libraries wherever the prefix is.
+if(TARGET quadrille)
+  cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_LIBDIR BASE_DIRECTORY "${CMAKE_INSTALL_FULL_BINDIR}"
+    OUTPUT_VARIABLE libraries)
+  set_target_properties(quadrille PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+endif()
+
 install(TARGETS ${quadrille_targets} EXPORT quadrilleTargets FILE_SET HEADERS)
 install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION "${quadrille_package_dir}")
 
