@@ -69,7 +69,7 @@ int compare_rows(const std::vector<Row>& rows, const std::string& folder, SolveO
     const std::string name = row.map + " scenario " + row.scenario + ", " +
                              std::to_string(row.agents) + " agents, " +
                              std::string(to_string(options.system));
-    EXPECT_EQ(find_inconsistency(instance, options.objective, outcome), "") << name;
+    EXPECT_EQ(find_inconsistency(instance, options, outcome), "") << name;
     EXPECT_NE(outcome.status, Status::infeasible) << name;
     EXPECT_LE(outcome.lower_bound, row.optimum) << name;
     if (outcome.plan) {

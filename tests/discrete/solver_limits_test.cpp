@@ -46,7 +46,7 @@ struct Stopped {
 Stopped run(const Instance& instance, const SolveOptions& options) {
   const double begin = wall_seconds();
   SolveOutcome outcome = solve(instance, options);
-  EXPECT_EQ(find_inconsistency(instance, options.objective, outcome), "")
+  EXPECT_EQ(find_inconsistency(instance, options, outcome), "")
       << instance_text(instance) << options_text(options);
   return {std::move(outcome), wall_seconds() - begin};
 }
@@ -134,7 +134,7 @@ TEST(SolverLimits, InterruptAtRandomMoments) {
     const SolveOutcome outcome = solve(instance, options);
     const double returned = wall_seconds();
     killer.join();
-    EXPECT_EQ(find_inconsistency(instance, options.objective, outcome), "");
+    EXPECT_EQ(find_inconsistency(instance, options, outcome), "");
     EXPECT_FALSE(is_proof(outcome.status)) << to_string(outcome.status);
     EXPECT_EQ(outcome.stop, StopReason::interrupt);
     EXPECT_LT(returned - set_at, kSoon);
@@ -218,7 +218,7 @@ TEST(SolverLimits, GenerousLimitsChangeNothing) {
   for (const SolveOptions& options : systems_for_both_objectives()) {
     const JointAnswer expected = joint_search(instance, options.objective);
     const auto outcome = run(instance, with_limits(options, limits)).outcome;
-    EXPECT_EQ(find_fault(instance, options.objective, outcome, expected), "");
+    EXPECT_EQ(find_fault(instance, options, outcome, expected), "");
   }
 }
 

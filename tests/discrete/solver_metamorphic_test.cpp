@@ -23,7 +23,7 @@ Cost solve_checked(const Instance& instance, const SolveOptions& options) {
   const SolveOutcome outcome = solve(instance, options);
   EXPECT_NE(outcome.status, Status::unknown) << outcome.explanation << "\n"
                                              << instance_text(instance) << options_text(options);
-  EXPECT_EQ(find_inconsistency(instance, options.objective, outcome), "")
+  EXPECT_EQ(find_inconsistency(instance, options, outcome), "")
       << instance_text(instance) << options_text(options);
   return outcome.cost.value_or(-1);
 }

@@ -19,12 +19,12 @@ namespace quadrille::discrete::support {
 
 /// What is wrong with a completed search: empty if its answer is `expected` and consistent in
 /// itself.
-[[nodiscard]] std::string find_fault(const Instance& instance, Objective objective,
+[[nodiscard]] std::string find_fault(const Instance& instance, const SolveOptions& options,
                                      const SolveOutcome& outcome, const JointAnswer& expected);
 
 /// The rules that every outcome obeys, whatever ended the search: bounds, plan, costs, no internal
 /// error. Empty if it does.
-[[nodiscard]] std::string find_inconsistency(const Instance& instance, Objective objective,
+[[nodiscard]] std::string find_inconsistency(const Instance& instance, const SolveOptions& options,
                                              const SolveOutcome& outcome);
 
 /// Solves and compares. On a difference the instance is shrunk while it still differs from the
