@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <set>
+#include <span>
+#include <vector>
+
+#include "lazy_model.hpp"
+#include "path_index.hpp"
+
+namespace quadrille::discrete {
+
+/// Turns collisions of current paths into clauses over usage literals, the widest that are known to
+/// hold: rests forbid a goal for ever, crossings a whole rectangle.
+class EncounterClauses {
+ public:
+  /// Both outlive the object.
+  EncounterClauses(LazyModel& model, const PathIndex& paths) : model_(model), paths_(paths) {}
+
+  /// Writes what excludes the encounter, unless that was written before. Clauses are false while
+  /// both paths are possible. `cap` is what the first agent may cost at most, kForever if anything.
+  void exclude(const Encounter& encounter, Timestep cap, FormulaWriter& writer);
+
+ private:
+  bool exclude_rectangle(const Encounter& encounter, FormulaWriter& writer);
+  void write(std::span<const ObstacleId> usages, FormulaWriter& writer);
+
+  LazyModel& model_;
+  const PathIndex& paths_;
+  std::set<std::vector<ObstacleId>> written_;
+};
+
+}  // namespace quadrille::discrete
