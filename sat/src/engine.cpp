@@ -64,6 +64,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     set("exteagerreasons", 0);
     set("exteagerrecalc", 0);
     set("chrono", 1);
+    set("chronolevelim", 20);
     are_reasons_forgettable = true;
     solver_.connect_terminator(this);
     solver_.connect_learner(this);

@@ -2,6 +2,7 @@
 #include "encounter_clauses.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "rectangle.hpp"
 
@@ -12,6 +13,7 @@ void EncounterClauses::exclude(const Encounter& e, Timestep cap, FormulaWriter& 
     model_.keep_off_goal(e.second, e.first, e.timestep, writer);
     return;
   }
+  if (e.kind != Encounter::Kind::rest && exclude_corridor(e, writer)) return;
   if (e.kind == Encounter::Kind::swap) {
     static_cast<void>(model_.edge(e.first, e.vertex, e.to, e.timestep, writer));
     static_cast<void>(model_.edge(e.second, e.vertex, e.to, e.timestep, writer));
@@ -20,6 +22,17 @@ void EncounterClauses::exclude(const Encounter& e, Timestep cap, FormulaWriter& 
   if (e.kind == Encounter::Kind::vertex && exclude_rectangle(e, writer)) return;
   static_cast<void>(model_.point(e.first, {e.vertex, e.timestep}, writer));
   static_cast<void>(model_.point(e.second, {e.vertex, e.timestep}, writer));
+}
+
+bool EncounterClauses::exclude_corridor(const Encounter& e, FormulaWriter& writer) {
+  const auto exits =
+      corridors_.find(model_.distances(e.first), model_.distances(e.second), paths_, e);
+  if (!exits) return false;
+  const auto usage = [&](const Corridors::Exit& exit) {
+    return model_.range(exit.agent, exit.vertex, exit.first, exit.last, writer);
+  };
+  write(std::array{usage(exits->first), usage(exits->second)}, writer);
+  return true;
 }
 
 bool EncounterClauses::exclude_rectangle(const Encounter& e, FormulaWriter& writer) {

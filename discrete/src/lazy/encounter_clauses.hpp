@@ -5,28 +5,32 @@
 #include <span>
 #include <vector>
 
+#include "corridors.hpp"
 #include "lazy_model.hpp"
 #include "path_index.hpp"
 
 namespace quadrille::discrete {
 
 /// Turns collisions of current paths into clauses over usage literals, the widest that are known to
-/// hold: rests forbid a goal for ever, crossings a whole rectangle.
+/// hold: rests forbid a goal for ever, crossings a whole
+/// rectangle, meetings in a corridor either passage.
 class EncounterClauses {
  public:
   /// Both outlive the object.
-  EncounterClauses(LazyModel& model, const PathIndex& paths) : model_(model), paths_(paths) {}
+  EncounterClauses(LazyModel& model, const PathIndex& paths) : model_(model), paths_(paths), corridors_(model.instance().graph()) {}
 
   /// Writes what excludes the encounter, unless that was written before. Clauses are false while
   /// both paths are possible. `cap` is what the first agent may cost at most, kForever if anything.
   void exclude(const Encounter& encounter, Timestep cap, FormulaWriter& writer);
 
  private:
+  bool exclude_corridor(const Encounter& encounter, FormulaWriter& writer);
   bool exclude_rectangle(const Encounter& encounter, FormulaWriter& writer);
   void write(std::span<const ObstacleId> usages, FormulaWriter& writer);
 
   LazyModel& model_;
   const PathIndex& paths_;
+  Corridors corridors_;
   std::set<std::vector<ObstacleId>> written_;
 };
 
