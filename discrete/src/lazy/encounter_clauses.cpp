@@ -2,54 +2,53 @@
 #include "encounter_clauses.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "rectangle.hpp"
 
 namespace quadrille::discrete {
 
-void EncounterClauses::exclude(const Encounter& e, Timestep cap, FormulaWriter& writer) {
-  if (e.kind == Encounter::Kind::rest && cap <= e.timestep) {
-    model_.keep_off_goal(e.second, e.first, e.timestep, writer);
-    return;
-  }
-  if (e.kind != Encounter::Kind::rest && exclude_corridor(e, writer)) return;
-  if (e.kind == Encounter::Kind::swap) {
-    static_cast<void>(model_.edge(e.first, e.vertex, e.to, e.timestep, writer));
-    static_cast<void>(model_.edge(e.second, e.vertex, e.to, e.timestep, writer));
-    return;
-  }
-  if (e.kind == Encounter::Kind::vertex && exclude_rectangle(e, writer)) return;
-  static_cast<void>(model_.point(e.first, {e.vertex, e.timestep}, writer));
-  static_cast<void>(model_.point(e.second, {e.vertex, e.timestep}, writer));
+std::vector<ObstacleId> EncounterClauses::exclude(const Encounter& e, Timestep cap,
+                                                  FormulaWriter& writer) {
+  if (e.kind == Encounter::Kind::rest && cap <= e.timestep)
+    return {model_.keep_off_goal(e.second, e.first, e.timestep, writer)};
+  if (e.kind != Encounter::Kind::rest)
+    if (auto usages = exclude_corridor(e, writer); !usages.empty()) return usages;
+  if (e.kind == Encounter::Kind::swap)
+    return {model_.edge(e.first, e.vertex, e.to, e.timestep, writer),
+            model_.edge(e.second, e.vertex, e.to, e.timestep, writer)};
+  if (e.kind == Encounter::Kind::vertex)
+    if (auto usages = exclude_rectangle(e, writer); !usages.empty()) return usages;
+  return {model_.point(e.first, {e.vertex, e.timestep}, writer),
+          model_.point(e.second, {e.vertex, e.timestep}, writer)};
 }
 
-bool EncounterClauses::exclude_corridor(const Encounter& e, FormulaWriter& writer) {
+std::vector<ObstacleId> EncounterClauses::exclude_corridor(const Encounter& e,
+                                                           FormulaWriter& writer) {
   const auto exits =
       corridors_.find(model_.distances(e.first), model_.distances(e.second), paths_, e);
-  if (!exits) return false;
-  const auto usage = [&](const Corridors::Exit& exit) {
-    return model_.range(exit.agent, exit.vertex, exit.first, exit.last, writer);
-  };
-  write(std::array{usage(exits->first), usage(exits->second)}, writer);
-  return true;
+  if (!exits) return {};
+  std::vector<ObstacleId> usages;
+  for (const Corridors::Exit& exit : {exits->first, exits->second})
+    usages.push_back(model_.range(exit.agent, exit.vertex, exit.first, exit.last, writer));
+  write(usages, writer);
+  return usages;
 }
 
-bool EncounterClauses::exclude_rectangle(const Encounter& e, FormulaWriter& writer) {
+std::vector<ObstacleId> EncounterClauses::exclude_rectangle(const Encounter& e,
+                                                            FormulaWriter& writer) {
   const auto& layout = model_.instance().graph().layout();
-  if (!layout) return false;
-  const auto rectangle = find_rectangle(*layout, model_.distances(e.first),
-                                        model_.distances(e.second), paths_, e);
-  if (!rectangle) return false;
+  if (!layout) return {};
+  const auto rectangle =
+      find_rectangle(*layout, model_.distances(e.first), model_.distances(e.second), paths_, e);
+  if (!rectangle) return {};
   std::vector<ObstacleId> usages;
   for (const Rectangle::Side& side : rectangle->sides)
     if (!side.inevitable) usages.push_back(model_.barrier(side.agent, side.visits, writer));
   write(usages, writer);
-  return true;
+  return usages;
 }
 
-void EncounterClauses::write(std::span<const ObstacleId> obstacles, FormulaWriter& writer) {
-  std::vector<ObstacleId> ids(obstacles.begin(), obstacles.end());
+void EncounterClauses::write(std::vector<ObstacleId>& ids, FormulaWriter& writer) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   if (!written_.insert(ids).second) return;

@@ -19,14 +19,15 @@ class EncounterClauses {
   /// Both outlive the object.
   EncounterClauses(LazyModel& model, const PathIndex& paths) : model_(model), paths_(paths), corridors_(model.instance().graph()) {}
 
-  /// Writes what excludes the encounter, unless that was written before. Clauses are false while
-  /// both paths are possible. `cap` is what the first agent may cost at most, kForever if anything.
-  void exclude(const Encounter& encounter, Timestep cap, FormulaWriter& writer);
+  /// Writes what excludes the encounter, unless that was written before: not all of the usages that
+  /// are returned are allowed. `cap` is what the first agent may cost at most, kForever if anything.
+  std::vector<ObstacleId> exclude(const Encounter& encounter, Timestep cap, FormulaWriter& writer);
 
  private:
-  bool exclude_corridor(const Encounter& encounter, FormulaWriter& writer);
-  bool exclude_rectangle(const Encounter& encounter, FormulaWriter& writer);
-  void write(std::span<const ObstacleId> usages, FormulaWriter& writer);
+  /// Each returns nothing if it does not apply.
+  std::vector<ObstacleId> exclude_corridor(const Encounter& encounter, FormulaWriter& writer);
+  std::vector<ObstacleId> exclude_rectangle(const Encounter& encounter, FormulaWriter& writer);
+  void write(std::vector<ObstacleId>& usages, FormulaWriter& writer);
 
   LazyModel& model_;
   const PathIndex& paths_;

@@ -104,12 +104,13 @@ ObstacleId LazyModel::barrier(AgentId agent, std::span<const Visit> visits,
   return barriers_[key] = obstacles_.add_barrier(agent, allowed, visits);
 }
 
-void LazyModel::keep_off_goal(AgentId agent, AgentId resident, Timestep t, FormulaWriter& writer) {
+ObstacleId LazyModel::keep_off_goal(AgentId agent, AgentId resident, Timestep t,
+                                    FormulaWriter& writer) {
   const auto key = std::make_tuple(agent, resident, t);
-  if (targets_.contains(key)) return;
+  if (const auto known = targets_.find(key); known != targets_.end()) return known->second;
   const Lit above = cost_above(resident, t, writer);
   const VertexId goal = distances(resident).goal();
-  targets_[key] = obstacles_.add_range(agent, above, goal, t, kForever);
+  return targets_[key] = obstacles_.add_range(agent, above, goal, t, kForever);
 }
 
 }  // namespace quadrille::discrete

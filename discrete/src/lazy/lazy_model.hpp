@@ -67,7 +67,7 @@ class LazyModel {
   [[nodiscard]] ObstacleId barrier(AgentId agent, std::span<const Visit> visits,
                                    FormulaWriter& writer);
   /// Keeps `agent` away from the goal of `resident` from `t` on while that costs at most `t`.
-  void keep_off_goal(AgentId agent, AgentId resident, Timestep t, FormulaWriter& writer);
+  ObstacleId keep_off_goal(AgentId agent, AgentId resident, Timestep t, FormulaWriter& writer);
 
   enum class VariableKind { auxiliary, usage, cost };
   struct Variable {

@@ -51,6 +51,6 @@ std::optional<Lit> LazyProblem::cost_above(AgentId agent, Cost cost, LimitMonito
   return model_.cost_above(agent, static_cast<Timestep>(cost), writer_);
 }
 
-void LazyProblem::on_solve(bool) {}
+void LazyProblem::on_solve(bool all_present) { theory_.on_solve(all_present); }
 
 }  // namespace quadrille::discrete

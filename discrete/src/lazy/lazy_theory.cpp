@@ -262,6 +262,28 @@ void LazyTheory::accept() {
   for (const AgentId i : model_.instance().agents()) accepted_->paths.push_back(paths_.path(i));
 }
 
+Lit LazyTheory::decide(sat::TheoryContext& context) {
+  if (!is_part_) return {};
+  for (const Agent& agent : agents_)  // after a lemma that the solver has not seen yet
+    if (agent.is_violated && agent.cap != kForever) return {};
+  list_present_collisions();
+  if (!collisions_.empty() && bypass()) list_present_collisions();
+  if (collisions_.empty()) {
+    context.stop();
+    return {};
+  }
+  ContextWriter writer(context);
+  for (const Encounter& e : std::vector<Encounter>(collisions_)) {
+    const auto usages = clauses_.exclude(e, agents_[e.first].cap, writer);
+    notice_new_obstacles();
+    for (const ObstacleId id : usages) {
+      const Lit allowed = model_.obstacles()[id].allowed;
+      if (value(allowed) == Truth::unassigned) return ~allowed;
+    }
+  }
+  return {};
+}
+
 bool LazyTheory::bypass() {
   list_present_collisions();
   std::vector<AgentId> colliding;

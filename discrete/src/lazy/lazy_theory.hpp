@@ -31,9 +31,14 @@ class LazyTheory final : public sat::Theory {
   /// Times that the paths of a complete assignment were checked for collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
+  /// Called before each solve. Unless all agents will have a cap, only conflicts among those that
+  /// have matter: the theory decides for them and ends the solve when they do not collide.
+  void on_solve(bool all_present) { is_part_ = !all_present; }
+
   void on_assign(std::span<const sat::Lit> newly_true) override;
   void on_retract(std::size_t kept) override;
   void check(sat::Effort effort, sat::TheoryContext& context) override;
+  [[nodiscard]] sat::Lit decide(sat::TheoryContext& context) override;
   sat::Lemma explain(sat::Lit implied, std::vector<sat::Lit>& clause) override;
 
  private:
@@ -87,6 +92,7 @@ class LazyTheory final : public sat::Theory {
   std::vector<Path> replaced_paths_;  // of the path changes
   std::vector<sat::Truth> values_;    // by variable
   std::vector<std::vector<ObstacleId>> watchers_;  // by variable: obstacles that it controls
+  bool is_part_ = false;
   std::size_t num_noticed_ = 0;                    // obstacles that are in watchers_
 
   std::vector<Encounter> collisions_;  // scratch, as the next two
