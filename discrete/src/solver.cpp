@@ -52,8 +52,7 @@ class MddRun final : public Run {
     if (options.system == System::mdd_sat) eager_ = std::make_unique<EagerCollisions>(model_);
     if (options.audit || options.known_plan)
       auditor_ = std::make_unique<LemmaAuditor>(model_, options.audit, options.known_plan);
-    engine_ =
-        std::make_unique<sat::Engine>(theory_.get(), engine_options(options, auditor_.get()));
+    engine_ = std::make_unique<sat::Engine>(theory_.get(), engine_options(options, auditor_.get()));
     model_.attach(*engine_);
     problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(),
                                             options.mdd_growth);
@@ -123,8 +122,7 @@ sat::SearchReport search(Run& run, const SolveOptions& options, LimitMonitor& li
   return sat::search_upwards(run.engine(), run.bounded_problem(), limits, on_bound);
 }
 
-void find_plan(Run& run, const SolveOptions& options, LimitMonitor& limits,
-               SolveOutcome& outcome) {
+void find_plan(Run& run, const SolveOptions& options, LimitMonitor& limits, SolveOutcome& outcome) {
   outcome.lower_bound = run.bounded_problem().lower_bound();
   limits.set_ticker(0.25, [&] {
     if (options.on_progress)

@@ -70,10 +70,10 @@ Timestep Corridors::detour(AgentId agent, const AgentDistances& distances, std::
 }
 
 // Let i leave the corridor of length k (steps from end to end) by its exit at the earliest at t_i,
-// and reach it without the corridor at the earliest at t_i'. If i is at its exit by t_i' - 1, it has
-// passed the whole corridor by then; if j is at its own exit, where i came in, by t_j' - 1, so has
-// it. They went in opposite directions, so one after the other: if i was first, j entered after t_i
-// and is at its exit after t_i + k.
+// and reach it without the corridor at the earliest at t_i'. If i is at its exit by t_i' - 1, it
+// has passed the whole corridor by then; if j is at its own exit, where i came in, by t_j' - 1, so
+// has it. They went in opposite directions, so one after the other: if i was first, j entered after
+// t_i and is at its exit after t_i + k.
 std::optional<std::pair<Corridors::Exit, Corridors::Exit>> Corridors::find(
     const AgentDistances& first, const AgentDistances& second, const PathIndex& paths,
     const Encounter& conflict) {

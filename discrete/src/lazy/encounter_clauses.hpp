@@ -17,10 +17,12 @@ namespace quadrille::discrete {
 class EncounterClauses {
  public:
   /// Both outlive the object.
-  EncounterClauses(LazyModel& model, const PathIndex& paths) : model_(model), paths_(paths), corridors_(model.instance().graph()) {}
+  EncounterClauses(LazyModel& model, const PathIndex& paths)
+      : model_(model), paths_(paths), corridors_(model.instance().graph()) {}
 
   /// Writes what excludes the encounter, unless that was written before: not all of the usages that
-  /// are returned are allowed. `cap` is what the first agent may cost at most, kForever if anything.
+  /// are returned are allowed. `cap` is what the first agent may cost at most, kForever if
+  /// anything.
   std::vector<ObstacleId> exclude(const Encounter& encounter, Timestep cap, FormulaWriter& writer);
 
  private:

@@ -44,8 +44,7 @@ void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
     for (const VertexId w : frontier_) {
       const auto step_back = [&](VertexId v) {
         if (d.from_start(v) > t || seen_[v] == stamp_) return;
-        if (v != w &&
-            collect([&](const auto& tell) { obstacles.for_each_on(v, w, t, tell); }))
+        if (v != w && collect([&](const auto& tell) { obstacles.for_each_on(v, w, t, tell); }))
           return;
         seen_[v] = stamp_;
         if (!collect([&](const auto& tell) { obstacles.for_each_at(v, t, tell); }))

@@ -17,8 +17,8 @@ class Explainer {
 
   /// Appends slots of `obstacles` such that every path of cost at most `bound` meets one of them.
   /// Requires that there is no such path around the loaded obstacles, that `bound` is at least the
-  /// free cost, and `first_hits` of a PathFinder::find_cheapest that failed with a limit of at least
-  /// `bound` or found a path that costs more than `bound`. Prefers low slots.
+  /// free cost, and `first_hits` of a PathFinder::find_cheapest that failed with a limit of at
+  /// least `bound` or found a path that costs more than `bound`. Prefers low slots.
   void explain(const AgentDistances& distances, const ObstacleMap& obstacles,
                std::span<const Timestep> first_hits, Timestep bound,
                std::vector<std::size_t>& slots);

@@ -90,8 +90,7 @@ std::string LazyAuditor::audit_path(const sat::Lemma& lemma) const {
   return has_path(agent, usages, cost.cost) ? "some path does not satisfy a path lemma" : "";
 }
 
-bool LazyAuditor::has_path(AgentId agent, std::span<const Obstacle> usages,
-                           Timestep bound) const {
+bool LazyAuditor::has_path(AgentId agent, std::span<const Obstacle> usages, Timestep bound) const {
   const Graph& graph = model_.instance().graph();
   const Task& task = model_.instance().tasks()[agent];
   const auto visit_allowed = [&](VertexId v, Timestep t) {

@@ -9,7 +9,8 @@ namespace quadrille::discrete {
 
 using sat::Lit;
 
-LazyModel::LazyModel(const Instance& instance) : instance_(instance), costs_(instance.num_agents()) {
+LazyModel::LazyModel(const Instance& instance)
+    : instance_(instance), costs_(instance.num_agents()) {
   distances_.reserve(instance.num_agents());
   for (const Task& task : instance.tasks()) distances_.emplace_back(instance.graph(), task);
 }
@@ -57,9 +58,7 @@ std::optional<ObstacleId> LazyModel::find_user(const Users& users, AgentId agent
 }
 
 void LazyModel::join(Users& users, ObstacleId newcomer, FormulaWriter& writer) {
-  const auto usage_of = [&](ObstacleId id) {
-    return sat::Usage{obstacles_[id].agent, id.value()};
-  };
+  const auto usage_of = [&](ObstacleId id) { return sat::Usage{obstacles_[id].agent, id.value()}; };
   for (const ObstacleId other : users) {
     const Lit clause[] = {~obstacles_[other].allowed, ~obstacles_[newcomer].allowed};
     const sat::Usage usages[] = {usage_of(other), usage_of(newcomer)};
@@ -95,8 +94,7 @@ ObstacleId LazyModel::range(AgentId agent, VertexId v, Timestep first, Timestep 
   return ranges_[key] = obstacles_.add_range(agent, allowed, v, first, last);
 }
 
-ObstacleId LazyModel::barrier(AgentId agent, std::span<const Visit> visits,
-                              FormulaWriter& writer) {
+ObstacleId LazyModel::barrier(AgentId agent, std::span<const Visit> visits, FormulaWriter& writer) {
   if (visits.size() == 1) return point(agent, visits[0], writer);
   const auto key = std::make_tuple(agent, visits.front(), visits.back());
   if (const auto known = barriers_.find(key); known != barriers_.end()) return known->second;

@@ -40,8 +40,8 @@ LazyTheory::LazyTheory(LazyModel& model)
   for (const AgentId i : model.instance().agents()) {
     const AgentDistances& distances = model_.distances(i);
     obstacle_map_.load(model_.obstacles(), {}, distances.goal());
-    const bool found = finder_.find_cheapest(
-        {i, distances, obstacle_map_, distances.free_cost(), &paths_}, path_);
+    const bool found =
+        finder_.find_cheapest({i, distances, obstacle_map_, distances.free_cost(), &paths_}, path_);
     QUADRILLE_REQUIRE(found, "nothing hinders an agent that is alone");
     paths_.replace(i, path_);
     agents_[i].cap = distances.free_cost();
@@ -149,9 +149,8 @@ void LazyTheory::lower_cap(AgentId i, Timestep cap) {
 bool LazyTheory::is_path_bad(AgentId i) const {
   const Agent& agent = agents_[i];
   if (paths_.cost(i) > agent.cap) return true;
-  return std::any_of(agent.active.begin(), agent.active.end(), [&](ObstacleId id) {
-    return model_.obstacles().hits(id, paths_.path(i));
-  });
+  return std::any_of(agent.active.begin(), agent.active.end(),
+                     [&](ObstacleId id) { return model_.obstacles().hits(id, paths_.path(i)); });
 }
 
 void LazyTheory::set_path(AgentId i, const Path& path) {
@@ -204,8 +203,7 @@ void LazyTheory::explain_bound(AgentId i, Timestep cost, FormulaWriter& writer) 
     const ObstacleId id = agent.active[slot];
     const Lit allowed = model_.obstacles()[id].allowed;
     usages.push_back({i, id.value()});
-    if (std::find(clause.begin(), clause.end(), allowed) == clause.end())
-      clause.push_back(allowed);
+    if (std::find(clause.begin(), clause.end(), allowed) == clause.end()) clause.push_back(allowed);
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
 }

@@ -68,8 +68,8 @@ class LazyTheory final : public sat::Theory {
   /// Replaces violated paths of present agents. False if a lemma says that one has none.
   bool replan_all(FormulaWriter& writer);
   bool replan(AgentId i, FormulaWriter& writer);
-  /// Adds "i costs more than `cost`, or one of these usages is allowed". The searches' state is that
-  /// of the last find_cheapest for i.
+  /// Adds "i costs more than `cost`, or one of these usages is allowed". The searches' state is
+  /// that of the last find_cheapest for i.
   void explain_bound(AgentId i, Timestep cost, FormulaWriter& writer);
   void set_path(AgentId i, const Path& path);
   void check_paths(ContextWriter& writer);
@@ -89,11 +89,11 @@ class LazyTheory final : public sat::Theory {
   std::vector<sat::Lit> stack_;
   std::vector<std::size_t> changes_before_;  // by stack place: size of changes_ when it was pushed
   std::vector<Change> changes_;
-  std::vector<Path> replaced_paths_;  // of the path changes
-  std::vector<sat::Truth> values_;    // by variable
+  std::vector<Path> replaced_paths_;               // of the path changes
+  std::vector<sat::Truth> values_;                 // by variable
   std::vector<std::vector<ObstacleId>> watchers_;  // by variable: obstacles that it controls
   bool is_part_ = false;
-  std::size_t num_noticed_ = 0;                    // obstacles that are in watchers_
+  std::size_t num_noticed_ = 0;  // obstacles that are in watchers_
 
   std::vector<Encounter> collisions_;  // scratch, as the next two
   std::vector<std::size_t> slots_;

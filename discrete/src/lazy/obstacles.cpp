@@ -35,8 +35,15 @@ ObstacleId ObstacleTable::add_barrier(AgentId agent, sat::Lit allowed,
   const auto begin = static_cast<std::uint32_t>(visits_.size());
   visits_.insert(visits_.end(), visits.begin(), visits.end());
   const auto end = static_cast<std::uint32_t>(visits_.size());
-  return add({Kind::barrier, agent, allowed, visits[0].vertex, {}, visits.front().timestep,
-              visits.back().timestep, begin, end});
+  return add({Kind::barrier,
+              agent,
+              allowed,
+              visits[0].vertex,
+              {},
+              visits.front().timestep,
+              visits.back().timestep,
+              begin,
+              end});
 }
 
 bool ObstacleTable::hits(ObstacleId id, const Path& path) const {

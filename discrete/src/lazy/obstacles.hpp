@@ -49,9 +49,7 @@ class ObstacleTable {
   /// Requires at least one visit.
   ObstacleId add_barrier(AgentId agent, sat::Lit allowed, std::span<const Visit> visits);
 
-  [[nodiscard]] const Obstacle& operator[](ObstacleId id) const {
-    return obstacles_[id.index()];
-  }
+  [[nodiscard]] const Obstacle& operator[](ObstacleId id) const { return obstacles_[id.index()]; }
   [[nodiscard]] std::size_t size() const noexcept { return obstacles_.size(); }
   /// Of a barrier. Valid until the next barrier is added.
   [[nodiscard]] std::span<const Visit> visits(const Obstacle& barrier) const {

@@ -14,7 +14,7 @@ struct Encounter {
   enum class Kind {
     vertex,  ///< Both are in `vertex` at `timestep`.
     swap,    ///< `first` moves from `vertex` to `to` at `timestep`, `second` moves back.
-    rest,    ///< `first` rests in `vertex`, its goal, since `timestep` or before; `second` is there.
+    rest,  ///< `first` rests in `vertex`, its goal, since `timestep` or before; `second` is there.
   };
   Kind kind = Kind::vertex;
   AgentId first, second;

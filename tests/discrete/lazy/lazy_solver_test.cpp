@@ -3,6 +3,8 @@
 // audited.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <random>
 
 #include "quadrille/discrete/solver.hpp"
@@ -28,9 +30,8 @@ std::optional<Instance> random_instance(unsigned seed) {
     for (std::size_t v = 1; v < n; ++v) edges.emplace_back(VertexId(below(v)), VertexId(v));
     for (std::size_t u = 0; u < n; ++u)
       for (std::size_t v = u + 1; v < n; ++v)
-        if (below(n) == 0 &&
-            std::find(edges.begin(), edges.end(), Graph::Edge(VertexId(u), VertexId(v))) ==
-                edges.end())
+        if (below(n) == 0 && std::find(edges.begin(), edges.end(),
+                                       Graph::Edge(VertexId(u), VertexId(v))) == edges.end())
           edges.emplace_back(VertexId(u), VertexId(v));
     graph = Graph::make(n, edges).value();
   }
@@ -80,8 +81,8 @@ TEST_P(LazySolver, AgreesWithTheMddModelAndPassesItsAudit) {
 
 INSTANTIATE_TEST_SUITE_P(Objectives, LazySolver,
                          testing::Values(Objective::sum_of_costs, Objective::makespan),
-                         [](const auto& info) {
-                           return info.param == Objective::makespan ? "Makespan" : "SumOfCosts";
+                         [](const auto& trial) {
+                           return trial.param == Objective::makespan ? "Makespan" : "SumOfCosts";
                          });
 
 }  // namespace
