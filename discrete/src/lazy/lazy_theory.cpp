@@ -265,7 +265,9 @@ Lit LazyTheory::decide(sat::TheoryContext& context) {
   for (const Agent& agent : agents_)  // after a lemma that the solver has not seen yet
     if (agent.is_violated && agent.cap != kForever) return {};
   list_present_collisions();
-  if (!collisions_.empty() && bypass()) list_present_collisions();
+  while (!collisions_.empty() &&
+         (bypass(collisions_.front().first) || bypass(collisions_.front().second)))
+    list_present_collisions();
   if (collisions_.empty()) {
     context.stop();
     return {};
@@ -292,17 +294,19 @@ bool LazyTheory::bypass() {
   std::sort(colliding.begin(), colliding.end());
   colliding.erase(std::unique(colliding.begin(), colliding.end()), colliding.end());
   bool any = false;
-  for (const AgentId i : colliding) {
-    const int now = paths_.num_collisions(i);
-    if (now == 0) continue;
-    const AgentDistances& distances = model_.distances(i);
-    obstacle_map_.load(model_.obstacles(), agents_[i].active, distances.goal());
-    if (!finder_.find_quietest({i, distances, obstacle_map_, agents_[i].cap, &paths_}, now, path_))
-      continue;
-    set_path(i, path_);
-    any = true;
-  }
+  for (const AgentId i : colliding) any = bypass(i) || any;
   return any;
+}
+
+bool LazyTheory::bypass(AgentId i) {
+  const int now = paths_.num_collisions(i);
+  if (now == 0) return false;
+  const AgentDistances& distances = model_.distances(i);
+  obstacle_map_.load(model_.obstacles(), agents_[i].active, distances.goal());
+  if (!finder_.find_quietest({i, distances, obstacle_map_, agents_[i].cap, &paths_}, now, path_))
+    return false;
+  set_path(i, path_);
+  return true;
 }
 
 sat::Lemma LazyTheory::explain(Lit, std::vector<Lit>&) {

@@ -75,6 +75,7 @@ class LazyTheory final : public sat::Theory {
   void check_paths(ContextWriter& writer);
   /// Replaces paths by others within the caps that have fewer collisions; false if none was found.
   bool bypass();
+  bool bypass(AgentId i);
   void list_present_collisions();
   void accept();
 

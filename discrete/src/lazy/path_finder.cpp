@@ -16,11 +16,9 @@ void PathFinder::start_search() {
     for (auto& bucket : buckets) bucket.clear();
 }
 
-PathFinder::Closed& PathFinder::closed(VertexId v, Timestep slack) {
-  const auto layer = static_cast<std::size_t>(slack);
-  if (layers_.size() <= layer) layers_.resize(layer + 1);
-  if (layers_[layer].empty()) layers_[layer].resize(num_vertices_);
-  return layers_[layer][v.index()];
+void PathFinder::make_layers(Timestep slack) {
+  const auto last = static_cast<std::size_t>(slack);
+  while (layers_.size() <= last) layers_.emplace_back(num_vertices_);
 }
 
 void PathFinder::push(Buckets& buckets, Timestep at, State state) {
@@ -34,34 +32,34 @@ void PathFinder::trace(const Query& query, Timestep arrival, Path& path) {
   VertexId v = query.distances.goal();
   for (Timestep t = arrival; t > 0; --t) {
     path[static_cast<std::size_t>(t)] = v;
-    v = closed(v, query.distances.slack(v, t)).parent;
+    const auto slack = static_cast<std::size_t>(query.distances.slack(v, t));
+    v = layers_[slack][v.index()].parent;
   }
   path[0] = v;
   QUADRILLE_REQUIRE(v == query.distances.start(), "a path begins at the start");
 }
 
-void PathFinder::expand_cheapest(const Query& query, VertexId v, Timestep slack,
-                                 Timestep collisions) {
+template <class Hit, class Push>
+void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hit& hit,
+                        const Push& push) {
   const AgentDistances& d = query.distances;
   const Timestep max_slack = query.max_cost - d.free_cost();
-  const Timestep t = d.free_cost() + slack - d.to_goal(v);
-  const auto step = [&](VertexId w) {
-    const Timestep slack_then = d.slack(w, t + 1);
-    if (slack_then > max_slack || closed(w, slack_then).stamp == stamp_) return;
+  const Timestep h = d.to_goal(v), t = d.free_cost() + slack - h;
+  const auto step = [&](VertexId w, Timestep slack_then) {
+    if (slack_then > max_slack) return;
+    if (layers_[static_cast<std::size_t>(slack_then)][w.index()].stamp == stamp_) return;
     bool blocked = false;
-    const auto hit = [&](std::uint32_t slot) {
+    const auto note = [&](std::uint32_t slot) {
       blocked = true;
-      first_hits_[slot] = std::min(first_hits_[slot], slack_then);
+      hit(slot, slack_then);
     };
-    query.obstacles.for_each_at(w, t + 1, hit);
-    if (!blocked && w != v) query.obstacles.for_each_on(v, w, t, hit);
-    if (blocked) return;
-    const int more =
-        query.others == nullptr ? 0 : query.others->collisions_of_step(query.agent, v, w, t + 1);
-    push(open_[static_cast<std::size_t>(slack_then % 3)], collisions + more, {w, v});
+    query.obstacles.for_each_at(w, t + 1, note);
+    if (!blocked && w != v) query.obstacles.for_each_on(v, w, t, note);
+    if (!blocked) push(w, slack_then, t + 1);
   };
-  step(v);
-  for (const VertexId w : d.graph().neighbours(v)) step(w);
+  make_layers(std::min(slack + 2, max_slack));
+  step(v, slack + 1);
+  for (const VertexId w : d.graph().neighbours(v)) step(w, slack + 1 + d.to_goal(w) - h);
 }
 
 bool PathFinder::find_cheapest(const Query& query, Path& path) {
@@ -71,6 +69,7 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
   first_hits_.assign(query.obstacles.num_slots(), kNoHit);
   const Timestep max_slack = query.max_cost - d.free_cost();
   if (max_slack < 0 || query.obstacles.earliest_rest() > query.max_cost) return false;
+  make_layers(0);
   push(open_[0], 0, {d.start(), d.start()});
   for (Timestep slack = 0; slack <= max_slack; ++slack) {
     Buckets& buckets = open_[static_cast<std::size_t>(slack % 3)];
@@ -78,7 +77,7 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
       while (!buckets[c].empty()) {
         const State state = buckets[c].back();
         buckets[c].pop_back();
-        Closed& mark = closed(state.vertex, slack);
+        Closed& mark = layers_[static_cast<std::size_t>(slack)][state.vertex.index()];
         if (mark.stamp == stamp_) continue;
         mark = {stamp_, state.parent};
         if (state.vertex == d.goal()) {
@@ -88,31 +87,22 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
             return true;
           }
         }
-        expand_cheapest(query, state.vertex, slack, static_cast<Timestep>(c));
+        expand(
+            query, state.vertex, slack,
+            [&](std::uint32_t slot, Timestep then) {
+              first_hits_[slot] = std::min(first_hits_[slot], then);
+            },
+            [&](VertexId w, Timestep then, Timestep arrival) {
+              const int more = query.others == nullptr ? 0
+                                                       : query.others->collisions_of_step(
+                                                             query.agent, state.vertex, w, arrival);
+              push(open_[static_cast<std::size_t>(then % 3)], static_cast<Timestep>(c) + more,
+                   {w, state.vertex});
+            });
       }
     }
   }
   return false;
-}
-
-void PathFinder::expand_quietest(const Query& query, VertexId v, Timestep slack, int collisions,
-                                 int below) {
-  const AgentDistances& d = query.distances;
-  const Timestep max_slack = query.max_cost - d.free_cost();
-  const Timestep t = d.free_cost() + slack - d.to_goal(v);
-  const auto step = [&](VertexId w) {
-    const Timestep slack_then = d.slack(w, t + 1);
-    if (slack_then > max_slack || closed(w, slack_then).stamp == stamp_) return;
-    bool blocked = false;
-    const auto hit = [&](std::uint32_t) { blocked = true; };
-    query.obstacles.for_each_at(w, t + 1, hit);
-    if (!blocked && w != v) query.obstacles.for_each_on(v, w, t, hit);
-    if (blocked) return;
-    const int then = collisions + query.others->collisions_of_step(query.agent, v, w, t + 1);
-    if (then < below) push(open_[static_cast<std::size_t>(then)], slack_then, {w, v});
-  };
-  step(v);
-  for (const VertexId w : d.graph().neighbours(v)) step(w);
 }
 
 bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
@@ -123,6 +113,7 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
   if (static_cast<int>(open_.size()) < below) open_.resize(static_cast<std::size_t>(below));
   start_search();
   if (below <= 0) return false;
+  make_layers(0);
   push(open_[0], 0, {d.start(), d.start()});
   for (int c = 0; c < below; ++c) {
     Buckets& buckets = open_[static_cast<std::size_t>(c)];
@@ -131,7 +122,7 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
         const State state = buckets[s].back();
         buckets[s].pop_back();
         const auto slack = static_cast<Timestep>(s);
-        Closed& mark = closed(state.vertex, slack);
+        Closed& mark = layers_[static_cast<std::size_t>(slack)][state.vertex.index()];
         if (mark.stamp == stamp_) continue;
         mark = {stamp_, state.parent};
         const Timestep arrival = d.free_cost() + slack;
@@ -140,7 +131,13 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
           trace(query, arrival, path);
           return true;
         }
-        expand_quietest(query, state.vertex, slack, c, below);
+        expand(
+            query, state.vertex, slack, [](std::uint32_t, Timestep) {},
+            [&](VertexId w, Timestep then, Timestep at) {
+              const int sum =
+                  c + query.others->collisions_of_step(query.agent, state.vertex, w, at);
+              if (sum < below) push(open_[static_cast<std::size_t>(sum)], then, {w, state.vertex});
+            });
       }
     }
   }

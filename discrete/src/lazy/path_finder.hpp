@@ -48,10 +48,13 @@ class PathFinder {
   using Buckets = std::vector<std::vector<State>>;
 
   void start_search();
-  [[nodiscard]] Closed& closed(VertexId v, Timestep slack);
-  void push(Buckets& buckets, Timestep at, State state);
-  void expand_cheapest(const Query& query, VertexId v, Timestep slack, Timestep collisions);
-  void expand_quietest(const Query& query, VertexId v, Timestep slack, int collisions, int below);
+  /// Makes the layers up to a slack.
+  void make_layers(Timestep slack);
+  static void push(Buckets& buckets, Timestep at, State state);
+  /// Calls `push(vertex, slack, arrival)` for each step that is new and `hit(slot, slack)` for each
+  /// obstacle that blocks one. Requires the layer of `slack`.
+  template <class Hit, class Push>
+  void expand(const Query& query, VertexId v, Timestep slack, const Hit& hit, const Push& push);
   /// The path that ends at the goal at `arrival`, from the parents in the closed states.
   void trace(const Query& query, Timestep arrival, Path& path);
 
