@@ -206,6 +206,7 @@ void LazyTheory::explain_bound(AgentId i, Timestep cost, FormulaWriter& writer) 
     if (std::find(clause.begin(), clause.end(), allowed) == clause.end()) clause.push_back(allowed);
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
+  bump(clause);
 }
 
 // ---- checks -------------------------------------------------------------------------------------
@@ -276,12 +277,29 @@ Lit LazyTheory::decide(sat::TheoryContext& context) {
   for (const Encounter& e : std::vector<Encounter>(collisions_)) {
     const auto usages = clauses_.exclude(e, agents_[e.first].cap, writer);
     notice_new_obstacles();
+    Lit choice;
     for (const ObstacleId id : usages) {
       const Lit allowed = model_.obstacles()[id].allowed;
-      if (value(allowed) == Truth::unassigned) return ~allowed;
+      if (value(allowed) == Truth::unassigned &&
+          (!choice.valid() || activity(allowed) > activity(choice)))
+        choice = allowed;
     }
+    if (choice.valid()) return ~choice;
   }
   return {};
+}
+
+void LazyTheory::bump(std::span<const Lit> clause) {
+  constexpr double kGrowth = 1.05, kLimit = 1e100;
+  for (const Lit lit : clause) {
+    const auto index = static_cast<std::size_t>(lit.variable());
+    if (activity_.size() <= index) activity_.resize(index + 1, 0.0);
+    activity_[index] += bump_;
+  }
+  bump_ *= kGrowth;
+  if (bump_ < kLimit) return;
+  for (double& value : activity_) value /= kLimit;
+  bump_ /= kLimit;
 }
 
 bool LazyTheory::bypass() {

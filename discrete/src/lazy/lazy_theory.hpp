@@ -74,6 +74,12 @@ class LazyTheory final : public sat::Theory {
   void set_path(AgentId i, const Path& path);
   void check_paths(ContextWriter& writer);
   /// Replaces paths by others within the caps that have fewer collisions; false if none was found.
+  /// What recent path lemmas mention is active, as in VSIDS.
+  void bump(std::span<const sat::Lit> clause);
+  [[nodiscard]] double activity(sat::Lit lit) const {
+    const auto index = static_cast<std::size_t>(lit.variable());
+    return index < activity_.size() ? activity_[index] : 0;
+  }
   bool bypass();
   bool bypass(AgentId i);
   void list_present_collisions();
@@ -94,6 +100,8 @@ class LazyTheory final : public sat::Theory {
   std::vector<sat::Truth> values_;                 // by variable
   std::vector<std::vector<ObstacleId>> watchers_;  // by variable: obstacles that it controls
   bool is_part_ = false;
+  std::vector<double> activity_;  // by variable
+  double bump_ = 1;
   std::size_t num_noticed_ = 0;  // obstacles that are in watchers_
 
   std::vector<Encounter> collisions_;  // scratch, as the next two
