@@ -8,6 +8,10 @@
 
 #include "collision_theory.hpp"
 #include "eager_collisions.hpp"
+#include "lazy/lazy_auditor.hpp"
+#include "lazy/lazy_model.hpp"
+#include "lazy/lazy_problem.hpp"
+#include "lazy/lazy_theory.hpp"
 #include "lemma_auditor.hpp"
 #include "mdd_model.hpp"
 #include "mdd_problem.hpp"
@@ -20,61 +24,61 @@
 namespace quadrille::discrete {
 namespace {
 
-/// Everything that one run with the MDD path model needs, wired up as the system asks.
-class MddRun {
+/// Everything that one run needs, wired up as the system asks.
+class Run {
+ public:
+  virtual ~Run() = default;
+  /// Computes the agents' distances and what else the rest needs; to be called once, first. False
+  /// if `limits` ended that early.
+  [[nodiscard]] virtual bool prepare(LimitMonitor& limits) = 0;
+  [[nodiscard]] virtual sat::Engine& engine() = 0;
+  [[nodiscard]] virtual sat::BoundedProblem& bounded_problem() = 0;
+  [[nodiscard]] virtual sat::AgentCostProblem& agent_cost_problem() = 0;
+  [[nodiscard]] virtual const Plan& plan() const = 0;
+  [[nodiscard]] virtual std::int64_t num_checks() const = 0;
+  [[nodiscard]] virtual std::int64_t num_rejected() const = 0;
+  [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
+};
+
+sat::EngineOptions engine_options(const SolveOptions& options, sat::ClauseObserver* observer) {
+  sat::EngineOptions engine_options;
+  engine_options.seed = options.seed;
+  engine_options.observer = observer;
+  return engine_options;
+}
+
+class MddRun final : public Run {
  public:
   MddRun(const Instance& instance, const SolveOptions& options)
-      : options_(options), model_(instance, options.objective) {
-    if (options.system == System::dpll || options.system == System::dpll_mdd)
+      : growth_(options.mdd_growth), model_(instance, options.objective) {
+    if (options.system == System::dpll_mdd)
       theory_ = std::make_unique<CollisionTheory>(model_, options.check);
     if (options.system == System::mdd_sat) eager_ = std::make_unique<EagerCollisions>(model_);
     if (options.audit || options.known_plan)
       auditor_ = std::make_unique<LemmaAuditor>(model_, options.audit, options.known_plan);
-    sat::EngineOptions engine_options;
-    engine_options.seed = options.seed;
-    engine_options.observer = auditor_.get();
-    engine_ = std::make_unique<sat::Engine>(theory_.get(), engine_options);
+    engine_ = std::make_unique<sat::Engine>(theory_.get(), engine_options(options, auditor_.get()));
   }
 
-  void run(LimitMonitor& limits, SolveOutcome& outcome) {
-    if (!model_.attach(*engine_, limits)) return;
-    problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(),
-                                            options_.mdd_growth);
-    outcome.lower_bound = problem_->lower_bound();
-    limits.set_ticker(0.25, [&] { report_progress(outcome, limits); });
-    const auto report = search(limits, outcome);
-    outcome.lower_bound = report.lower_bound;
-    engine_->add_statistics(outcome.statistics);
-    outcome.statistics.checks = problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);
-    outcome.statistics.rejected_models = problem_->num_rejected();
-    if (auditor_ && auditor_->complaint()) {
-      outcome.internal_error = Error{ErrorCode::internal, *auditor_->complaint(), {}};
-    } else if (report.end == sat::SearchReport::End::exhausted) {
-      outcome.internal_error =
-          Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
-    } else if (report.end == sat::SearchReport::End::found) {
-      outcome.plan = problem_->plan();
-      outcome.status = Status::optimal;
-    }
+  bool prepare(LimitMonitor& limits) override {
+    if (!model_.attach(*engine_, limits)) return false;
+    problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(), growth_);
+    return true;
+  }
+
+  sat::Engine& engine() override { return *engine_; }
+  sat::BoundedProblem& bounded_problem() override { return *problem_; }
+  sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
+  const Plan& plan() const override { return problem_->plan(); }
+  std::int64_t num_checks() const override {
+    return problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);
+  }
+  std::int64_t num_rejected() const override { return problem_->num_rejected(); }
+  std::optional<std::string> complaint() const override {
+    return auditor_ ? auditor_->complaint() : std::nullopt;
   }
 
  private:
-  sat::SearchReport search(LimitMonitor& limits, SolveOutcome& outcome) {
-    const auto on_bound = [&](Cost bound) { outcome.lower_bound = bound; };
-    const CostSearch by_default =
-        options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
-    if (options_.objective == Objective::sum_of_costs &&
-        options_.cost_search.value_or(by_default) == CostSearch::core_guided)
-      return sat::search_by_cores(*engine_, *problem_, {}, limits, outcome.statistics, on_bound);
-    return sat::search_upwards(*engine_, *problem_, limits, on_bound);
-  }
-
-  void report_progress(const SolveOutcome& outcome, const LimitMonitor& limits) const {
-    if (!options_.on_progress) return;
-    options_.on_progress({outcome.lower_bound, limits.elapsed_wall(), limits.conflicts()});
-  }
-
-  const SolveOptions& options_;
+  MddGrowth growth_;
   MddModel model_;
   std::unique_ptr<CollisionTheory> theory_;
   std::unique_ptr<EagerCollisions> eager_;
@@ -82,6 +86,83 @@ class MddRun {
   std::unique_ptr<sat::Engine> engine_;
   std::unique_ptr<MddProblem> problem_;
 };
+
+class LazyRun final : public Run {
+ public:
+  LazyRun(const Instance& instance, const SolveOptions& options)
+      : instance_(instance), options_(options) {}
+
+  bool prepare(LimitMonitor& limits) override {
+    model_ = std::make_unique<LazyModel>(instance_, limits);
+    if (!model_->is_complete()) return false;
+    theory_ = std::make_unique<LazyTheory>(*model_);
+    if (options_.audit || options_.known_plan)
+      auditor_ = std::make_unique<LazyAuditor>(*model_, options_.audit, options_.known_plan);
+    engine_ =
+        std::make_unique<sat::Engine>(theory_.get(), engine_options(options_, auditor_.get()));
+    problem_ = std::make_unique<LazyProblem>(*model_, *engine_, *theory_, options_.objective);
+    return true;
+  }
+
+  sat::Engine& engine() override { return *engine_; }
+  sat::BoundedProblem& bounded_problem() override { return *problem_; }
+  sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
+  const Plan& plan() const override { return problem_->plan(); }
+  std::int64_t num_checks() const override { return theory_->num_checks(); }
+  std::int64_t num_rejected() const override { return 0; }
+  std::optional<std::string> complaint() const override {
+    return auditor_ ? auditor_->complaint() : std::nullopt;
+  }
+
+ private:
+  const Instance& instance_;
+  const SolveOptions& options_;
+  std::unique_ptr<LazyModel> model_;
+  std::unique_ptr<LazyTheory> theory_;
+  std::unique_ptr<LazyAuditor> auditor_;
+  std::unique_ptr<sat::Engine> engine_;
+  std::unique_ptr<LazyProblem> problem_;
+};
+
+std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options) {
+  if (options.system == System::dpll) return std::make_unique<LazyRun>(instance, options);
+  return std::make_unique<MddRun>(instance, options);
+}
+
+sat::SearchReport search(Run& run, const SolveOptions& options, LimitMonitor& limits,
+                         SolveOutcome& outcome) {
+  const auto on_bound = [&](Cost bound) { outcome.lower_bound = bound; };
+  const CostSearch by_default =
+      options.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
+  if (options.objective == Objective::sum_of_costs &&
+      options.cost_search.value_or(by_default) == CostSearch::core_guided)
+    return sat::search_by_cores(run.engine(), run.agent_cost_problem(), {}, limits,
+                                outcome.statistics, on_bound);
+  return sat::search_upwards(run.engine(), run.bounded_problem(), limits, on_bound);
+}
+
+void find_plan(Run& run, const SolveOptions& options, LimitMonitor& limits, SolveOutcome& outcome) {
+  if (!run.prepare(limits)) return;
+  outcome.lower_bound = run.bounded_problem().lower_bound();
+  limits.set_ticker(0.25, [&] {
+    if (options.on_progress)
+      options.on_progress({outcome.lower_bound, limits.elapsed_wall(), limits.conflicts()});
+  });
+  const auto report = search(run, options, limits, outcome);
+  outcome.lower_bound = report.lower_bound;
+  run.engine().add_statistics(outcome.statistics);
+  outcome.statistics.checks = run.num_checks();
+  outcome.statistics.rejected_models = run.num_rejected();
+  if (const auto complaint = run.complaint()) {
+    outcome.internal_error = Error{ErrorCode::internal, *complaint, {}};
+  } else if (report.end == sat::SearchReport::End::exhausted) {
+    outcome.internal_error =
+        Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
+  } else if (report.end == sat::SearchReport::End::found) {
+    outcome.plan = run.plan();
+    outcome.status = Status::optimal;
+  }
+}
 
 /// The plan has to pass `verify` and to cost what was proved.
 void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
@@ -155,7 +236,7 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
     outcome.explanation = feasibility.reason;
     return finish();
   }
-  MddRun(instance, options).run(limits, outcome);
+  find_plan(*make_run(instance, options), options, limits, outcome);
   if (outcome.plan) check_plan(instance, options, outcome);
   if (outcome.status == Status::unknown) {
     outcome.stop = limits.reason();

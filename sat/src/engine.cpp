@@ -64,6 +64,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     set("exteagerreasons", 0);
     set("exteagerrecalc", 0);
     set("chrono", 1);
+    set("chronolevelim", 20);
     are_reasons_forgettable = true;
     solver_.connect_terminator(this);
     solver_.connect_learner(this);
@@ -107,6 +108,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   Verdict solve(std::span<const Lit> assumptions, LimitMonitor& limits, const SolveBudget& budget) {
     ++num_solves_;
     limits_ = &limits;
+    host_.begin_solve();
     assumptions_.assign(assumptions.begin(), assumptions.end());
     for (const Lit lit : assumptions_) solver_.assume(lit.dimacs());
     if (budget.conflicts) solver_.limit("conflicts", *budget.conflicts);
@@ -172,6 +174,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   void notify_backtrack(std::size_t level) override { host_.notify_backtrack(level); }
   bool cb_check_found_model(const std::vector<int>&) override { return host_.check_found_model(); }
   int cb_propagate() override { return host_.propagate(); }
+  int cb_decide() override { return host_.decide(); }
   int cb_add_reason_clause_lit(int propagated) override {
     return host_.next_reason_literal(propagated);
   }
@@ -179,7 +182,9 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   int cb_add_external_clause_lit() override { return host_.next_clause_literal(); }
 
   // CaDiCaL::Terminator
-  bool terminate() override { return limits_ != nullptr && limits_->exhausted(); }
+  bool terminate() override {
+    return host_.wants_stop() || (limits_ != nullptr && limits_->exhausted());
+  }
 
   // CaDiCaL::Learner
   bool learning(int) override {

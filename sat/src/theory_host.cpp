@@ -95,6 +95,11 @@ int TheoryHost::propagate() {
   return 0;
 }
 
+int TheoryHost::decide() {
+  const Lit lit = theory_.decide(*this);
+  return lit.valid() ? lit.dimacs() : 0;
+}
+
 int TheoryHost::next_reason_literal(int propagated) {
   if (!streaming_reason_) {
     reason_.clear();

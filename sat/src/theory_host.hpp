@@ -43,6 +43,12 @@ class TheoryHost final : private TheoryContext {
   [[nodiscard]] bool check_found_model();
   /// A literal to propagate, or 0. Consults the theory when literals were assigned since last time.
   [[nodiscard]] int propagate();
+  /// The theory's choice of a decision, or 0.
+  [[nodiscard]] int decide();
+  /// To be called before each solve.
+  void begin_solve() { wants_stop_ = false; }
+  /// True if the theory asked to end the running solve.
+  [[nodiscard]] bool wants_stop() const noexcept { return wants_stop_; }
   /// The literals of the reason of `propagated` one by one, then 0.
   [[nodiscard]] int next_reason_literal(int propagated);
   [[nodiscard]] bool has_clause(bool& forgettable);
@@ -76,6 +82,7 @@ class TheoryHost final : private TheoryContext {
   void add_lemma(const Lemma& lemma) override;
   void propagate(Lit implied) override;
   [[nodiscard]] Lit new_lit() override;
+  void stop() override { wants_stop_ = true; }
 
   /// Asks the theory about literals that it was not asked about yet, unless clauses are waiting.
   void consult();
@@ -99,6 +106,7 @@ class TheoryHost final : private TheoryContext {
   std::size_t reason_head_ = 0;
   bool streaming_reason_ = false;
   bool made_variable_ = false;
+  bool wants_stop_ = false;
   std::int64_t levels_opened_ = 0, models_checked_ = 0;
 };
 

@@ -35,6 +35,8 @@ class TheoryContext {
   /// A new literal, observed. During search this can undo assignments, so prefer making literals
   /// before solving.
   [[nodiscard]] virtual Lit new_lit() = 0;
+  /// Asks to end the running solve soon, with the verdict `unknown`.
+  virtual void stop() = 0;
 
  protected:
   ~TheoryContext() = default;
@@ -56,6 +58,9 @@ class Theory {
   /// Looks for violations of the theory under the literals on the stack. With Effort::full, at
   /// least one lemma that is false, or no complaint about this assignment at all.
   virtual void check(Effort effort, TheoryContext& context) = 0;
+  /// The literal to assume next, unassigned; no literal: the solver chooses. May add lemmas and
+  /// literals; lemmas reach the solver after the decision.
+  [[nodiscard]] virtual Lit decide(TheoryContext& /*context*/) { return {}; }
   /// Appends a clause that holds in the theory, contains `implied` and whose other literals were
   /// false when `propagate(implied)` was called. May be asked late: after retractions, and outside
   /// of solve. Returns kind, usages (valid until the next call) and forgettability; the clause in

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "agent_distances.hpp"
+
+namespace quadrille::discrete {
+
+AgentDistances::AgentDistances(const Graph& graph, const Task& task)
+    : graph_(&graph), task_(task), to_goal_(distances_from(graph, task.goal)) {
+  QUADRILLE_REQUIRE(free_cost() != kUnreachable, "the goal is reachable");
+}
+
+Timestep AgentDistances::from_start(VertexId v) const {
+  if (!from_start_) from_start_ = distances_from(*graph_, task_.start);
+  return (*from_start_)[v];
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "encounter_clauses.hpp"
+
+#include <algorithm>
+
+#include "rectangle.hpp"
+
+namespace quadrille::discrete {
+
+std::vector<ObstacleId> EncounterClauses::exclude(const Encounter& e, Timestep cap,
+                                                  FormulaWriter& writer) {
+  if (e.kind == Encounter::Kind::rest && cap <= e.timestep)
+    return {model_.keep_off_goal(e.second, e.first, e.timestep, writer)};
+  if (e.kind != Encounter::Kind::rest)
+    if (auto usages = exclude_corridor(e, writer); !usages.empty()) return usages;
+  if (e.kind == Encounter::Kind::swap)
+    return {model_.edge(e.first, e.vertex, e.to, e.timestep, writer),
+            model_.edge(e.second, e.vertex, e.to, e.timestep, writer)};
+  if (e.kind == Encounter::Kind::vertex)
+    if (auto usages = exclude_rectangle(e, writer); !usages.empty()) return usages;
+  return {model_.point(e.first, {e.vertex, e.timestep}, writer),
+          model_.point(e.second, {e.vertex, e.timestep}, writer)};
+}
+
+std::vector<ObstacleId> EncounterClauses::exclude_corridor(const Encounter& e,
+                                                           FormulaWriter& writer) {
+  const auto exits =
+      corridors_.find(model_.distances(e.first), model_.distances(e.second), paths_, e);
+  if (!exits) return {};
+  std::vector<ObstacleId> usages;
+  for (const Corridors::Exit& exit : {exits->first, exits->second})
+    usages.push_back(model_.range(exit.agent, exit.vertex, exit.first, exit.last, writer));
+  write(usages, writer);
+  return usages;
+}
+
+std::vector<ObstacleId> EncounterClauses::exclude_rectangle(const Encounter& e,
+                                                            FormulaWriter& writer) {
+  const auto& layout = model_.instance().graph().layout();
+  if (!layout) return {};
+  const auto rectangle =
+      find_rectangle(*layout, model_.distances(e.first), model_.distances(e.second), paths_, e);
+  if (!rectangle) return {};
+  std::vector<ObstacleId> usages;
+  for (const Rectangle::Side& side : rectangle->sides)
+    if (!side.inevitable) usages.push_back(model_.barrier(side.agent, side.visits, writer));
+  write(usages, writer);
+  return usages;
+}
+
+void EncounterClauses::write(std::vector<ObstacleId>& ids, FormulaWriter& writer) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  if (!written_.insert(ids).second) return;
+  std::vector<sat::Lit> clause;
+  std::vector<sat::Usage> usages;
+  for (const ObstacleId id : ids) {
+    clause.push_back(~model_.obstacles()[id].allowed);
+    usages.push_back({model_.obstacles()[id].agent, id.value()});
+  }
+  writer.add({sat::LemmaKind::collision, clause, usages, false});
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "explanation.hpp"
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::discrete {
+
+// A walk of cost at most K is one that is at the goal at K and meets nothing there from then on.
+// Let H be the slots that blocked a step out of a state that the start can reach within the slack.
+// On any walk to (goal, K) the part after the last step that H blocks is found by searching back
+// from (goal, K) around H, so that step's slot is collected. This search cannot come to a state
+// that the start reaches: from there, the walk to the goal would have met a slot of H.
+void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
+                        std::span<const Timestep> first_hits, Timestep bound,
+                        std::vector<std::size_t>& slots) {
+  for (std::size_t slot = 0; slot < obstacles.num_slots(); ++slot)
+    if (obstacles.last_at_goal(slot) >= bound) {
+      slots.push_back(slot);
+      return;
+    }
+  const Timestep max_slack = bound - d.free_cost();
+  taken_.assign(obstacles.num_slots(), 0);
+  // Collects a slot of H from those that `for_each` tells, unless one of them is collected already.
+  // False if it tells none.
+  const auto collect = [&](const auto& for_each) {
+    std::size_t lowest = SIZE_MAX;
+    bool covered = false;
+    for_each([&](std::uint32_t slot) {
+      if (first_hits[slot] > max_slack) return;
+      covered = covered || taken_[slot] != 0;
+      lowest = std::min<std::size_t>(lowest, slot);
+    });
+    if (lowest == SIZE_MAX) return false;
+    if (!covered) {
+      taken_[lowest] = 1;
+      slots.push_back(lowest);
+    }
+    return true;
+  };
+  frontier_.assign(1, d.goal());
+  for (Timestep t = bound - 1; t >= 0 && !frontier_.empty(); --t) {
+    ++stamp_;
+    next_.clear();
+    for (const VertexId w : frontier_) {
+      const auto step_back = [&](VertexId v) {
+        if (d.from_start(v) > t || seen_[v] == stamp_) return;
+        if (v != w && collect([&](const auto& tell) { obstacles.for_each_on(v, w, t, tell); }))
+          return;
+        seen_[v] = stamp_;
+        if (!collect([&](const auto& tell) { obstacles.for_each_at(v, t, tell); }))
+          next_.push_back(v);
+      };
+      step_back(w);
+      for (const VertexId v : d.graph().neighbours(w)) step_back(v);
+    }
+    frontier_.swap(next_);
+  }
+  QUADRILLE_REQUIRE(frontier_.empty(), "an explanation cuts the start off");
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agent_distances.hpp"
+#include "obstacle_map.hpp"
+
+namespace quadrille::discrete {
+
+/// Says why an agent has no cheap path: a cut of the time-expanded graph between its start and a
+/// rest at its goal from the bound on.
+class Explainer {
+ public:
+  explicit Explainer(std::size_t num_vertices) : seen_(num_vertices, 0) {}
+
+  /// Appends slots of `obstacles` such that every path of cost at most `bound` meets one of them.
+  /// Requires that there is no such path around the loaded obstacles, that `bound` is at least the
+  /// free cost, and `first_hits` of a PathFinder::find_cheapest that failed with a limit of at
+  /// least `bound` or found a path that costs more than `bound`. Prefers low slots.
+  void explain(const AgentDistances& distances, const ObstacleMap& obstacles,
+               std::span<const Timestep> first_hits, Timestep bound,
+               std::vector<std::size_t>& slots);
+
+ private:
+  std::vector<VertexId> frontier_, next_;
+  IdVector<VertexId, std::uint64_t> seen_;
+  std::uint64_t stamp_ = 0;
+  std::vector<char> taken_;
+};
+
+}  // namespace quadrille::discrete

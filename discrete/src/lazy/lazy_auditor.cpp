@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "lazy_auditor.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille::discrete {
+
+using sat::Lit;
+using VariableKind = LazyModel::VariableKind;
+using Kind = Obstacle::Kind;
+
+LazyAuditor::LazyAuditor(const LazyModel& model, bool derive, std::optional<Plan> known_plan)
+    : model_(model), derive_(derive), known_plan_(std::move(known_plan)) {}
+
+void LazyAuditor::on_lemma(const sat::Lemma& lemma) {
+  if (complaint_) return;
+  std::string wrong;
+  if (derive_) {
+    if (lemma.kind == sat::LemmaKind::path) wrong = audit_path(lemma);
+    if (lemma.kind == sat::LemmaKind::collision) wrong = audit_collision(lemma);
+    if (lemma.kind == sat::LemmaKind::order) wrong = audit_order(lemma.clause);
+  }
+  if (wrong.empty() && known_plan_) wrong = audit_against_plan(&lemma, lemma.clause);
+  if (!wrong.empty()) complain(wrong, lemma.clause);
+}
+
+void LazyAuditor::on_learned(Clause clause) {
+  if (complaint_ || !known_plan_) return;
+  const std::string wrong = audit_against_plan(nullptr, clause);
+  if (!wrong.empty()) complain(wrong, clause);
+}
+
+bool LazyAuditor::forbids_visit(const Obstacle& o, VertexId v, Timestep t) const {
+  switch (o.kind) {
+    case Kind::point:
+      return o.vertex == v && o.first == t;
+    case Kind::range:
+      return o.vertex == v && o.first <= t && t <= o.last;
+    case Kind::barrier: {
+      const auto visits = model_.obstacles().visits(o);
+      return std::find(visits.begin(), visits.end(), Visit{v, t}) != visits.end();
+    }
+    case Kind::edge:
+      return false;
+  }
+  return false;
+}
+
+bool LazyAuditor::forbids_move(const Obstacle& o, VertexId v, VertexId w, Timestep t) const {
+  return o.kind == Kind::edge && o.first == t &&
+         ((o.vertex == v && o.to == w) || (o.vertex == w && o.to == v));
+}
+
+// The literals have to say what the usages say.
+std::string LazyAuditor::audit_usages(const sat::Lemma& lemma) const {
+  for (const sat::Usage& usage : lemma.usages) {
+    if (usage.resource >= model_.obstacles().size()) return "a lemma names an unknown usage";
+    const ObstacleId id(static_cast<std::size_t>(usage.resource));
+    const Obstacle& o = model_.obstacles()[id];
+    if (o.agent != usage.agent) return "a lemma mistakes the agent of a usage";
+    const auto var = model_.variable(o.allowed);
+    if (var.kind == VariableKind::cost) {
+      const bool holds = o.kind == Kind::range && o.last == kForever && var.agent != o.agent &&
+                         model_.instance().tasks()[var.agent].goal == o.vertex &&
+                         var.cost <= o.first && !o.allowed.positive();
+      if (!holds) return "nobody rests where a target usage says so";
+    } else if (var.kind != VariableKind::usage || var.obstacle != id) {
+      return "a usage has a foreign literal";
+    }
+  }
+  return "";
+}
+
+std::string LazyAuditor::audit_path(const sat::Lemma& lemma) const {
+  if (lemma.usages.empty() || lemma.clause.empty()) return "a path lemma has an agent";
+  if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
+  const AgentId agent = lemma.usages[0].agent;
+  const auto cost = model_.variable(lemma.clause[0]);
+  if (cost.kind != VariableKind::cost || cost.agent != agent || lemma.clause[0].positive())
+    return "a path lemma begins with a cost";
+  std::vector<Obstacle> usages;
+  for (const sat::Usage& usage : lemma.usages) {
+    usages.push_back(model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))]);
+    if (usage.agent != agent) return "a path lemma is about one agent";
+    if (std::find(lemma.clause.begin() + 1, lemma.clause.end(), usages.back().allowed) ==
+        lemma.clause.end())
+      return "a path lemma lacks the literal of a usage";
+  }
+  return has_path(agent, usages, cost.cost) ? "some path does not satisfy a path lemma" : "";
+}
+
+bool LazyAuditor::has_path(AgentId agent, std::span<const Obstacle> usages, Timestep bound) const {
+  const Graph& graph = model_.instance().graph();
+  const Task& task = model_.instance().tasks()[agent];
+  const auto visit_allowed = [&](VertexId v, Timestep t) {
+    return std::none_of(usages.begin(), usages.end(),
+                        [&](const Obstacle& o) { return forbids_visit(o, v, t); });
+  };
+  const auto move_allowed = [&](VertexId v, VertexId w, Timestep t) {
+    return std::none_of(usages.begin(), usages.end(),
+                        [&](const Obstacle& o) { return forbids_move(o, v, w, t); });
+  };
+  IdVector<VertexId, bool> here(graph.num_vertices(), false);
+  here[task.start] = visit_allowed(task.start, 0);
+  for (Timestep t = 0; t < bound; ++t) {
+    IdVector<VertexId, bool> next(graph.num_vertices(), false);
+    for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
+      if (!here[v]) continue;
+      if (visit_allowed(v, t + 1)) next[v] = true;
+      for (const VertexId w : graph.neighbours(v))
+        if (visit_allowed(w, t + 1) && move_allowed(v, w, t)) next[w] = true;
+    }
+    here = std::move(next);
+  }
+  const bool can_rest = std::none_of(usages.begin(), usages.end(), [&](const Obstacle& o) {
+    return model_.obstacles().last_block(o, task.goal) >= bound;
+  });
+  return here[task.goal] && can_rest;
+}
+
+std::string LazyAuditor::audit_collision(const sat::Lemma& lemma) const {
+  if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
+  std::vector<Obstacle> usages;
+  std::vector<Lit> expected;
+  std::vector<AgentId> agents;
+  for (const sat::Usage& usage : lemma.usages) {
+    usages.push_back(model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))]);
+    expected.push_back(~usages.back().allowed);
+    agents.push_back(usage.agent);
+  }
+  std::sort(agents.begin(), agents.end());
+  agents.erase(std::unique(agents.begin(), agents.end()), agents.end());
+  if (agents.size() != 2 || usages.size() > 4) return "a collision needs two agents";
+  if (!std::equal(expected.begin(), expected.end(), lemma.clause.begin(), lemma.clause.end()))
+    return "a collision lemma does not say what its usages say";
+  if (usages.size() == 2 && usages[0].kind == usages[1].kind && usages[0].kind != Kind::barrier &&
+      usages[0].vertex == usages[1].vertex && usages[0].first == usages[1].first &&
+      usages[0].last == usages[1].last && usages[0].to == usages[1].to &&
+      usages[0].kind != Kind::range)
+    return "";  // the same place and time
+  return can_use_all(agents[0], agents[1], usages) ? "some plan makes all usages of a collision"
+                                                   : "";
+}
+
+bool LazyAuditor::can_use_all(AgentId a, AgentId b, std::span<const Obstacle> usages) const {
+  const Graph& graph = model_.instance().graph();
+  const std::size_t n = graph.num_vertices();
+  Timestep horizon = 0;
+  for (const Obstacle& o : usages) horizon = std::max(horizon, o.last + 1);
+  const auto used = [&](AgentId agent, VertexId from, VertexId to, Timestep arrival) {
+    unsigned mask = 0;
+    for (std::size_t k = 0; k < usages.size(); ++k)
+      if (usages[k].agent == agent &&
+          (forbids_visit(usages[k], to, arrival) ||
+           (arrival > 0 && forbids_move(usages[k], from, to, arrival - 1))))
+        mask |= 1U << k;
+    return mask;
+  };
+  const unsigned all = (1U << usages.size()) - 1;
+  // By pair of vertices: the sets of usages made so far, as a set of masks.
+  std::vector<std::uint16_t> here(n * n, 0), next;
+  const Task &task_a = model_.instance().tasks()[a], &task_b = model_.instance().tasks()[b];
+  const unsigned at_start =
+      used(a, task_a.start, task_a.start, 0) | used(b, task_b.start, task_b.start, 0);
+  here[task_a.start.index() * n + task_b.start.index()] =
+      static_cast<std::uint16_t>(1U << at_start);
+  const auto with_wait = [&](VertexId v) {
+    std::vector<VertexId> steps(graph.neighbours(v).begin(), graph.neighbours(v).end());
+    steps.push_back(v);
+    return steps;
+  };
+  for (Timestep t = 1; t <= horizon; ++t) {
+    next.assign(n * n, 0);
+    for (std::size_t pair = 0; pair < n * n; ++pair) {
+      if (here[pair] == 0) continue;
+      const VertexId u(pair / n), v(pair % n);
+      for (const VertexId x : with_wait(u))
+        for (const VertexId y : with_wait(v)) {
+          if (x == y || (x == v && y == u)) continue;
+          const unsigned now = used(a, u, x, t) | used(b, v, y, t);
+          for (unsigned mask = 0; mask <= all; ++mask)
+            if ((here[pair] >> mask & 1U) != 0)
+              next[x.index() * n + y.index()] |= static_cast<std::uint16_t>(1U << (mask | now));
+        }
+    }
+    here.swap(next);
+    for (const std::uint16_t masks : here)
+      if ((masks >> all & 1U) != 0) return true;
+  }
+  return false;
+}
+
+std::string LazyAuditor::audit_order(Clause clause) const {
+  if (clause.size() != 2) return "an order lemma has two literals";
+  const auto stronger = model_.variable(clause[0]), weaker = model_.variable(clause[1]);
+  const bool holds = stronger.kind == VariableKind::cost && weaker.kind == VariableKind::cost &&
+                     stronger.agent == weaker.agent && clause[0].positive() &&
+                     !clause[1].positive() && stronger.cost > weaker.cost;
+  return holds ? "" : "an order lemma does not hold";
+}
+
+bool LazyAuditor::is_true_in_plan(Lit lit) const {
+  const auto var = model_.variable(lit);
+  if (var.kind == VariableKind::usage)  // the negated variable: the agent does it
+    return model_.obstacles().hits(var.obstacle, known_plan_->paths[var.agent]) != lit.positive();
+  if (var.kind == VariableKind::cost)  // the negated variable: the agent costs more
+    return (arrival(known_plan_->paths[var.agent]) > var.cost) != lit.positive();
+  const auto index = static_cast<std::size_t>(lit.variable());
+  return (index < counter_is_true_.size() && counter_is_true_[index]) == lit.positive();
+}
+
+// Counters are one-sided definitions "inputs -> output": the least values that satisfy them belong
+// to the plan. Definitions come before clauses that use them.
+std::string LazyAuditor::audit_against_plan(const sat::Lemma* lemma, Clause clause) {
+  if (std::any_of(clause.begin(), clause.end(), [&](Lit l) { return is_true_in_plan(l); }))
+    return "";
+  if (lemma != nullptr && lemma->kind == sat::LemmaKind::counting)
+    for (const Lit lit : clause)
+      if (lit.positive() && model_.variable(lit).kind == VariableKind::auxiliary) {
+        const auto index = static_cast<std::size_t>(lit.variable());
+        if (counter_is_true_.size() <= index) counter_is_true_.resize(index + 1, false);
+        counter_is_true_[index] = true;
+        return "";
+      }
+  return lemma != nullptr ? "a lemma excludes the known plan"
+                          : "a learned clause excludes the known plan";
+}
+
+std::string LazyAuditor::describe(Clause clause) const {
+  std::string text;
+  for (const Lit lit : clause) {
+    const auto var = model_.variable(lit);
+    const std::string agent = std::to_string(var.agent.value());
+    text += var.kind == VariableKind::auxiliary ? (lit.positive() ? " +" : " -")
+                                                : (lit.positive() ? " -" : " +");
+    if (var.kind == VariableKind::auxiliary) {
+      text += "v" + std::to_string(lit.variable());
+    } else if (var.kind == VariableKind::cost) {
+      text += "cost(" + agent + ")>" + std::to_string(var.cost);
+    } else {
+      const Obstacle& o = model_.obstacles()[var.obstacle];
+      text += "use(" + agent + ",kind " + std::to_string(static_cast<int>(o.kind)) + "," +
+              vertex_name(model_.instance().graph(), o.vertex) + "," + std::to_string(o.first) +
+              ".." + std::to_string(o.last) + ")";
+    }
+  }
+  return text;
+}
+
+void LazyAuditor::complain(const std::string& what, Clause clause) {
+  complaint_ = what + ":" + describe(clause);
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "lazy_problem.hpp"
+
+#include <algorithm>
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::discrete {
+
+using sat::Lit;
+
+LazyProblem::LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theory,
+                         Objective objective)
+    : model_(model),
+      theory_(theory),
+      objective_(objective),
+      writer_(engine),
+      total_delay_(engine, model.instance().num_agents(), [this](std::size_t input, int k) {
+        const AgentId agent(input);
+        return model_.cost_above(agent, model_.distances(agent).free_cost() + k - 1, writer_);
+      }) {
+  for (const AgentId i : model.instance().agents())
+    lower_bound_ = objective == Objective::sum_of_costs ? lower_bound_ + free_cost(i)
+                                                        : std::max(lower_bound_, free_cost(i));
+}
+
+// Every agent gets a cap: what the bound leaves to it alone.
+bool LazyProblem::assume_at_most(Cost bound, LimitMonitor&, std::vector<Lit>& assumptions) {
+  const bool is_sum = objective_ == Objective::sum_of_costs;
+  const Cost delay = bound - lower_bound_;
+  for (const AgentId i : model_.instance().agents()) {
+    const Cost cap = is_sum ? free_cost(i) + delay : bound;
+    assumptions.push_back(~model_.cost_above(i, static_cast<Timestep>(cap), writer_));
+  }
+  if (is_sum) {
+    const Lit too_much = total_delay_.at_least(static_cast<int>(delay) + 1);
+    if (too_much.valid()) assumptions.push_back(~too_much);
+  }
+  return true;
+}
+
+bool LazyProblem::accept_model() {
+  QUADRILLE_REQUIRE(theory_.accepted().has_value(), "every agent had a bound");
+  plan_ = *theory_.accepted();
+  return true;
+}
+
+Cost LazyProblem::next_bound(Cost refuted, std::span<const Lit>) { return refuted + 1; }
+
+std::optional<Lit> LazyProblem::cost_above(AgentId agent, Cost cost, LimitMonitor&) {
+  return model_.cost_above(agent, static_cast<Timestep>(cost), writer_);
+}
+
+void LazyProblem::on_solve(bool all_present) { theory_.on_solve(all_present); }
+
+}  // namespace quadrille::discrete

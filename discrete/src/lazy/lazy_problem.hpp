@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "lazy_model.hpp"
+#include "lazy_theory.hpp"
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/sat/core_guided_search.hpp"
+#include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/totalizer.hpp"
+
+namespace quadrille::discrete {
+
+/// The lazy path model as the cost searches see it. The theory has accepted every model that is
+/// found: there is nothing left to exclude.
+class LazyProblem final : public sat::BoundedProblem, public sat::AgentCostProblem {
+ public:
+  /// All outlive the problem. `engine` consults `theory`.
+  LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theory, Objective objective);
+
+  [[nodiscard]] Cost lower_bound() const override { return lower_bound_; }
+  [[nodiscard]] bool assume_at_most(Cost bound, LimitMonitor& limits,
+                                    std::vector<sat::Lit>& assumptions) override;
+  [[nodiscard]] bool accept_model() override;
+  [[nodiscard]] Cost next_bound(Cost refuted, std::span<const sat::Lit> core) override;
+
+  [[nodiscard]] std::size_t num_agents() const override { return model_.instance().num_agents(); }
+  [[nodiscard]] Cost free_cost(AgentId agent) const override {
+    return model_.distances(agent).free_cost();
+  }
+  [[nodiscard]] std::optional<sat::Lit> cost_above(AgentId agent, Cost cost,
+                                                   LimitMonitor& limits) override;
+  void on_solve(bool all_present) override;
+
+  /// The plan of the last accepted model.
+  [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
+
+ private:
+  class EngineWriter final : public FormulaWriter {
+   public:
+    explicit EngineWriter(sat::Engine& engine) : engine_(engine) {}
+    [[nodiscard]] sat::Lit new_lit() override { return engine_.new_lit(); }
+    void add(const sat::Lemma& lemma) override { engine_.add_clause(lemma); }
+
+   private:
+    sat::Engine& engine_;
+  };
+
+  LazyModel& model_;
+  LazyTheory& theory_;
+  const Objective objective_;
+  EngineWriter writer_;
+  Cost lower_bound_ = 0;
+  sat::Totalizer total_delay_;
+  Plan plan_;
+};
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "obstacles.hpp"
+
+namespace quadrille::discrete {
+
+/// The active obstacles of one agent, laid out by place for searches. Obstacles are known by their
+/// *slot*: their index in the list that was loaded. Loading costs time in the obstacles, not in the
+/// map.
+class ObstacleMap {
+ public:
+  explicit ObstacleMap(std::size_t num_vertices) : heads_(num_vertices) {}
+
+  /// Forgets what was loaded. `goal` is where the agent has to rest.
+  void load(const ObstacleTable& table, std::span<const ObstacleId> active, VertexId goal);
+
+  [[nodiscard]] std::size_t num_slots() const noexcept { return last_at_goal_.size(); }
+  /// The last timestep at which a slot forbids the goal; -1: it never does.
+  [[nodiscard]] Timestep last_at_goal(std::size_t slot) const { return last_at_goal_[slot]; }
+  /// From when on the goal stays allowed; kForever: never.
+  [[nodiscard]] Timestep earliest_rest() const noexcept { return earliest_rest_; }
+
+  /// Calls `tell(slot)` for each slot that forbids being in `v` at `t`.
+  template <class Tell>
+  void for_each_at(VertexId v, Timestep t, const Tell& tell) const {
+    const Head& head = heads_[v];
+    if (head.stamp != stamp_) return;
+    for (int e = head.visits; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
+      const Entry& entry = entries_[static_cast<std::size_t>(e)];
+      if (entry.first <= t && t <= entry.last) tell(entry.slot);
+    }
+  }
+  /// Calls `tell(slot)` for each slot that forbids moving from `v` to `w` at `t`.
+  template <class Tell>
+  void for_each_on(VertexId v, VertexId w, Timestep t, const Tell& tell) const {
+    const Head& head = heads_[v];
+    if (head.stamp != stamp_) return;
+    for (int e = head.moves; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
+      const Entry& entry = entries_[static_cast<std::size_t>(e)];
+      if (entry.first == t && entry.to == w) tell(entry.slot);
+    }
+  }
+
+ private:
+  struct Head {
+    std::uint32_t stamp = 0;
+    int visits = -1, moves = -1;  // first entries
+  };
+  struct Entry {
+    Timestep first, last;
+    VertexId to;  // of moves
+    std::uint32_t slot;
+    int next;
+  };
+  Head& head(VertexId v);
+  void add_visit(VertexId v, Timestep first, Timestep last, std::uint32_t slot);
+  void add_move(VertexId v, VertexId w, Timestep t, std::uint32_t slot);
+
+  std::uint32_t stamp_ = 0;
+  IdVector<VertexId, Head> heads_;
+  std::vector<Entry> entries_;
+  std::vector<Timestep> last_at_goal_;
+  Timestep earliest_rest_ = 0;
+};
+
+}  // namespace quadrille::discrete

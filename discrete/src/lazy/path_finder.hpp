@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agent_distances.hpp"
+#include "obstacle_map.hpp"
+#include "path_index.hpp"
+
+namespace quadrille::discrete {
+
+/// Searches for paths of one agent around its obstacles, over states (vertex, slack): a wait adds
+/// 1 to the slack, a move 0, 1 or 2. Tables are stamped and exist only for slacks that were needed.
+class PathFinder {
+ public:
+  explicit PathFinder(std::size_t num_vertices) : num_vertices_(num_vertices) {}
+
+  struct Query {
+    AgentId agent;
+    const AgentDistances& distances;
+    const ObstacleMap& obstacles;  ///< Loaded for the agent.
+    Timestep max_cost = 0;
+    const PathIndex* others = nullptr;  ///< Whose collisions to avoid; null: nobody's.
+  };
+
+  /// Finds a cheapest path of at most `max_cost`, among these one with few collisions. False if
+  /// there is none. Afterwards `first_hits` tells which obstacles were in the way.
+  [[nodiscard]] bool find_cheapest(const Query& query, Path& path);
+  /// By slot: the smallest slack at which an obstacle blocked a step of the last `find_cheapest`,
+  /// kNoHit if it did not. Complete for all slacks below that of the path found, or up to the limit
+  /// if none was.
+  [[nodiscard]] std::span<const Timestep> first_hits() const noexcept { return first_hits_; }
+  static constexpr Timestep kNoHit = INT32_MAX;
+
+  /// Finds a path of at most `max_cost` with the fewest collisions, if they are less than `below`.
+  /// Requires `others`.
+  [[nodiscard]] bool find_quietest(const Query& query, int below, Path& path);
+
+ private:
+  struct State {
+    VertexId vertex, parent;
+  };
+  struct Closed {
+    std::uint32_t stamp = 0;
+    VertexId parent;
+  };
+  using Buckets = std::vector<std::vector<State>>;
+
+  void start_search();
+  /// Makes the layers up to a slack.
+  void make_layers(Timestep slack);
+  static void push(Buckets& buckets, Timestep at, State state);
+  /// Calls `push(vertex, slack, arrival)` for each step that is new and `hit(slot, slack)` for each
+  /// obstacle that blocks one. Requires the layer of `slack`.
+  template <class Hit, class Push>
+  void expand(const Query& query, VertexId v, Timestep slack, const Hit& hit, const Push& push);
+  /// The path that ends at the goal at `arrival`, from the parents in the closed states.
+  void trace(const Query& query, Timestep arrival, Path& path);
+
+  std::size_t num_vertices_;
+  std::uint32_t stamp_ = 0;
+  std::vector<std::vector<Closed>> layers_;  // by slack, then vertex
+  std::vector<Buckets> open_;                // cheapest: by slack % 3; quietest: by collisions
+  std::vector<Timestep> first_hits_;
+};
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "obstacles.hpp"
+#include "quadrille/discrete/instance.hpp"
+
+namespace quadrille::discrete {
+
+/// Where two current paths collide.
+struct Encounter {
+  enum class Kind {
+    vertex,  ///< Both are in `vertex` at `timestep`.
+    swap,    ///< `first` moves from `vertex` to `to` at `timestep`, `second` moves back.
+    rest,  ///< `first` rests in `vertex`, its goal, since `timestep` or before; `second` is there.
+  };
+  Kind kind = Kind::vertex;
+  AgentId first, second;
+  VertexId vertex, to;
+  Timestep timestep = 0;
+  friend bool operator==(const Encounter&, const Encounter&) = default;
+};
+
+/// One current path per agent, indexed by place. Replacing a path costs time in the path's length
+/// (and in the crowd at its vertices), and so does counting its collisions.
+class PathIndex {
+ public:
+  /// `instance` outlives the index. All paths are empty at first; an agent without a path is
+  /// nowhere.
+  explicit PathIndex(const Instance& instance);
+
+  /// `path` begins at the agent's start and ends with its arrival at its goal.
+  void replace(AgentId agent, const Path& path);
+  [[nodiscard]] const Path& path(AgentId agent) const { return paths_[agent]; }
+  /// Requires a path.
+  [[nodiscard]] Timestep cost(AgentId agent) const {
+    return static_cast<Timestep>(paths_[agent].size()) - 1;
+  }
+
+  /// With how many other agents `agent` would collide by moving (or waiting) from `from` to `to`
+  /// so that it arrives at `t`.
+  [[nodiscard]] int collisions_of_step(AgentId agent, VertexId from, VertexId to,
+                                       Timestep t) const {
+    int count = 0;
+    const std::int32_t resident = resident_[to];
+    if (resident >= 0 && AgentId(static_cast<std::size_t>(resident)) != agent &&
+        rests_since(AgentId(static_cast<std::size_t>(resident))) < t)
+      ++count;
+    for (const Presence& p : present_[to]) {
+      if (p.agent == agent) continue;
+      if (p.timestep == t) {
+        ++count;
+      } else if (p.timestep == t - 1 && from != to) {
+        const Path& other = paths_[p.agent];
+        if (static_cast<Timestep>(other.size()) > t && other[static_cast<std::size_t>(t)] == from)
+          ++count;
+      }
+    }
+    return count;
+  }
+  /// How many times others pass the agent's goal after `arrival`.
+  [[nodiscard]] int collisions_of_rest(AgentId agent, Timestep arrival) const;
+  /// How many collisions the agent's path has.
+  [[nodiscard]] int num_collisions(AgentId agent) const;
+  /// All collisions among current paths; each pair's are in the order of time.
+  [[nodiscard]] const std::vector<Encounter>& collisions();
+
+ private:
+  struct Presence {
+    Timestep timestep;
+    AgentId agent;
+  };
+  [[nodiscard]] Timestep rests_since(AgentId agent) const {
+    return paths_[agent].empty() ? kForever : cost(agent);
+  }
+  void collect(AgentId agent, std::vector<Encounter>& out) const;
+  void collect_rest(AgentId agent, std::vector<Encounter>& out) const;
+
+  const Instance& instance_;
+  IdVector<AgentId, Path> paths_;
+  IdVector<VertexId, std::vector<Presence>> present_;
+  IdVector<VertexId, std::int32_t> resident_;  // whose goal it is, -1: nobody's
+  std::vector<Encounter> collisions_;
+  std::vector<AgentId> changed_;  // paths replaced since collisions_ was right
+  IdVector<AgentId, char> is_changed_;
+  mutable std::vector<Encounter> scratch_;
+};
+
+}  // namespace quadrille::discrete
