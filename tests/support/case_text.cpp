@@ -235,8 +235,7 @@ std::string options_text(const SolveOptions& options) {
   if (options.system == System::dpll || options.system == System::dpll_mdd)
     text += " check=" + to_string(options.check);
   if (options.cost_search) text += " search=" + std::string(to_string(*options.cost_search));
-  if (options.cost_search)
-    text += " search=" + std::string(to_string(*options.cost_search));
+  if (options.cost_search) text += " search=" + std::string(to_string(*options.cost_search));
   if (options.mdd_growth != SolveOptions().mdd_growth)
     text += " growth=" + std::string(to_string(options.mdd_growth));
   text += " seed=" + std::to_string(options.seed);

@@ -21,7 +21,7 @@ struct Statistics {
   std::int64_t models_checked = 0;  ///< Of these, checks of complete assignments.
   /// Complete assignments with collisions that the SAT solver had called satisfying.
   std::int64_t rejected_models = 0;
-  std::int64_t cores = 0;           ///< Unsatisfiable cores that raised the lower bound.
+  std::int64_t cores = 0;  ///< Unsatisfiable cores that raised the lower bound.
 };
 
 }  // namespace quadrille
