@@ -12,7 +12,8 @@ PathPlanner::PathPlanner(const Instance& instance, const GoalDistances& distance
       heads_(instance.graph().num_vertices()) {}
 
 std::optional<Path> PathPlanner::find(AgentId agent, const Reservations& reservations,
-                                      Timestep latest, LimitMonitor& limits) {
+                                      Timestep latest, std::int64_t effort, LimitMonitor& limits) {
+  const std::int64_t enough = effort_ + effort;
   if (!begin(agent, reservations, latest)) return std::nullopt;
   for (std::size_t at = 0; at < num_buckets_;) {
     auto& bucket = buckets_[at];
@@ -25,7 +26,7 @@ std::optional<Path> PathPlanner::find(AgentId agent, const Reservations& reserva
     bucket.pop_back();
     if (labels_[label].outdated) continue;
     if (is_goal(labels_[label])) return path_to(label);
-    if ((++effort_ & 63) == 0 && limits.exhausted()) return std::nullopt;
+    if (effort_ >= enough || ((++effort_ & 63) == 0 && limits.exhausted())) return std::nullopt;
     expand(label);
   }
   return std::nullopt;

@@ -22,10 +22,10 @@ class PathPlanner {
   PathPlanner(const Instance& instance, const GoalDistances& distances, Random& random);
 
   /// A path of least arrival that collides with no reserved path, now or after its end, and arrives
-  /// by `latest`; a random one among several. nullopt if there is none, or if a limit was met.
-  /// Requires that the start is free at timestep 0.
+  /// by `latest`; a random one among several. nullopt if there is none, if it would take more than
+  /// `effort`, or if a limit was met. Requires that the start is free at timestep 0.
   std::optional<Path> find(AgentId agent, const Reservations& reservations, Timestep latest,
-                           LimitMonitor& limits);
+                           std::int64_t effort, LimitMonitor& limits);
   /// States expanded by all calls.
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 

@@ -7,6 +7,14 @@
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
+namespace {
+
+// A neighbourhood is given up when its new paths take more effort than so much per timestep of the
+// old ones (measured; free paths take about one), plus something for short paths.
+constexpr std::int64_t kEffortPerTimestep = 10;
+constexpr std::int64_t kLeastEffort = 1000;
+
+}  // namespace
 
 PlanImprover::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
                          Objective objective, const Plan& plan, std::uint32_t seed)
@@ -53,19 +61,26 @@ bool PlanImprover::Impl::improve(std::int64_t effort, LimitMonitor& limits, Cost
 
 bool PlanImprover::Impl::step(LimitMonitor& limits) {
   if (is_ideal() || limits.exhausted()) return false;
-  const Cost sum_before = sum_, makespan_before = makespan_;
+  if (!was_rebuilt_) {
+    // Where there is room this gains at once what would take many small neighbourhoods.
+    was_rebuilt_ = true;
+    return replace_paths(neighbourhoods_.choose(Rule::any, instance_.num_agents(), AgentId()),
+                         limits) > 0;
+  }
   const std::int64_t effort_before = effort_;
   Choice& choice = draw_choice();
-  const auto agents = neighbourhoods_.choose(choice.rule, choice.size, draw_seed());
-  const bool replanned = replan(agents, limits);
-  if (replanned) count_costs();
-  const bool is_first_better =
-      cost() < (objective_ == Objective::sum_of_costs ? sum_before : makespan_before);
-  const bool improved = is_first_better || sum_ < sum_before;
-  const Cost gain = improved ? std::max<Cost>(1, sum_before - sum_) : 0;
-  const std::int64_t spent = effort_ - effort_before;
-  choice.score += ((gain << 32) / spent - choice.score) / 16;
-  return improved;
+  const AgentId seed = draw_seed();
+  const Cost gain = replace_paths(neighbourhoods_.choose(choice.rule, choice.size, seed), limits);
+  choice.score += ((gain << 32) / (effort_ - effort_before) - choice.score) / 16;
+  return gain > 0;
+}
+
+/// Replans and counts: positive if the plan got better, the more the cheaper it is.
+Cost PlanImprover::Impl::replace_paths(const std::vector<AgentId>& agents, LimitMonitor& limits) {
+  const Cost cost_before = cost(), sum_before = sum_;
+  if (!replan(agents, limits)) return 0;
+  count_costs();
+  return cost() < cost_before ? std::max<Cost>(1, sum_before - sum_) : sum_before - sum_;
 }
 
 /// In one of four cases any choice, so that each gets its chance; otherwise in proportion to the
@@ -141,10 +156,12 @@ bool PlanImprover::Impl::replan(const std::vector<AgentId>& agents, LimitMonitor
     old_paths_.push_back(plan_.paths[agent]);
     budget.sum -= distance(agent);  // From here on: what the delays may add up to.
   }
+  const std::int64_t allowed = kEffortPerTimestep * handled + kLeastEffort;
   std::size_t num_new = 0;
   for (const AgentId agent : agents) {
     const Cost latest = std::min<Cost>(budget.latest, distance(agent) + budget.sum);
-    auto path = planner_.find(agent, reservations_, static_cast<Timestep>(latest), limits);
+    const std::int64_t rest = allowed - (planner_.effort() - planner_before);
+    auto path = planner_.find(agent, reservations_, static_cast<Timestep>(latest), rest, limits);
     if (!path) break;
     reservations_.add(agent, *path);
     plan_.paths[agent] = std::move(*path);

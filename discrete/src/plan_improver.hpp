@@ -50,6 +50,7 @@ class PlanImprover::Impl {
   Choice& draw_choice();
   AgentId draw_seed();
   [[nodiscard]] Budget budget_of(const std::vector<AgentId>& agents) const;
+  Cost replace_paths(const std::vector<AgentId>& agents, LimitMonitor& limits);
   bool replan(const std::vector<AgentId>& agents, LimitMonitor& limits);
   void put_back(const std::vector<AgentId>& agents, std::size_t num_new);
   void count_costs();
@@ -73,6 +74,7 @@ class PlanImprover::Impl {
   std::vector<char> was_seed_;   // By agent: since all delayed agents had been seeds.
   std::vector<Path> old_paths_;  // Of the neighbourhood.
   std::int64_t effort_ = 0;
+  bool was_rebuilt_ = false;  // Was the neighbourhood of all agents tried?
 };
 
 }  // namespace quadrille::discrete
