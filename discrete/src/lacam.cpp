@@ -163,6 +163,9 @@ PrimalSearch::State PrimalSearch::advance(std::int64_t effort, LimitMonitor& lim
 }
 PrimalSearch::State PrimalSearch::state() const noexcept { return impl_->state(); }
 std::int64_t PrimalSearch::effort() const noexcept { return impl_->effort(); }
+std::size_t PrimalSearch::num_configurations() const noexcept {
+  return impl_->num_configurations();
+}
 Plan PrimalSearch::plan() const { return impl_->plan(); }
 
 std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits, std::uint32_t seed) {

@@ -25,6 +25,7 @@ class PrimalSearch::Impl {
   State advance(std::int64_t effort, LimitMonitor& limits);
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+  [[nodiscard]] std::size_t num_configurations() const noexcept { return nodes_.size(); }
   [[nodiscard]] Plan plan() const;
 
  private:

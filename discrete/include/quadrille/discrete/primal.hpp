@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -42,6 +43,8 @@ class PrimalSearch {
   State advance(std::int64_t effort, LimitMonitor& limits);
   [[nodiscard]] State state() const noexcept;
   [[nodiscard]] std::int64_t effort() const noexcept;  ///< Spent so far.
+  /// Different configurations visited so far; in the end, without a plan, all that can be reached.
+  [[nodiscard]] std::size_t num_configurations() const noexcept;
   /// Trimmed. Requires State::found. O(size of the plan).
   [[nodiscard]] Plan plan() const;
 
