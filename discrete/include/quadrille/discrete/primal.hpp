@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
+#include "quadrille/discrete/instance.hpp"
+#include "quadrille/discrete/plan.hpp"
+
+// Upper bounds. PrimalSearch finds some plan soon, PlanImprover makes a plan cheaper; neither
+// proves anything about costs. Both can be run in slices of a given *effort*, a count of elementary
+// steps (a fraction of a microsecond each): what they do depends on instance, options, seed and the
+// efforts asked for, never on clocks; limits only cut them short.
+
+namespace quadrille::discrete {
+
+/// Looks for a plan of any cost: LaCAM with PIBT as generator of configurations (Okumura, "LaCAM:
+/// search-based algorithm for quick multi-agent pathfinding", AAAI 2023; Okumura et al., "Priority
+/// inheritance with backtracking", AIJ 2022). Complete: with enough time and memory it finds a plan
+/// if there is one. Memory grows by about 12 bytes per agent and configuration visited.
+/// One thread.
+class PrimalSearch {
+ public:
+  enum class State {
+    searching,  ///< `advance` can go on.
+    found,      ///< There is a plan.
+    exhausted,  ///< Every reachable configuration was visited: there is no plan.
+  };
+
+  /// `distances` are those of `instance`.
+  PrimalSearch(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+               std::uint32_t seed);
+  ~PrimalSearch();
+  PrimalSearch(PrimalSearch&&) noexcept;
+  PrimalSearch& operator=(PrimalSearch&&) noexcept;
+
+  /// Searches on until `effort` more is spent, a limit is met or the search is over.
+  State advance(std::int64_t effort, LimitMonitor& limits);
+  [[nodiscard]] State state() const noexcept;
+  [[nodiscard]] std::int64_t effort() const noexcept;  ///< Spent so far.
+  /// Different configurations visited so far; in the end, without a plan, all that can be reached.
+  [[nodiscard]] std::size_t num_configurations() const noexcept;
+  /// Trimmed. Requires State::found. O(size of the plan).
+  [[nodiscard]] Plan plan() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Some plan; nullopt when a limit was met or when there is none.
+[[nodiscard]] std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits,
+                                            std::uint32_t seed);
+
+/// Makes a plan cheaper by large-neighbourhood search (Li et al., "Anytime multi-agent path finding
+/// via large neighborhood search", IJCAI 2021): takes a few agents out of the plan, gives them new
+/// paths one after the other, and keeps the result unless it is dearer. Which agents are taken out
+/// together, and how many, is learned from what paid. One thread.
+///
+/// The objective decides first. For the makespan the sum of costs breaks ties.
+class PlanImprover {
+ public:
+  /// Requires that `plan` is a valid plan of `instance`, and `distances` its distances.
+  PlanImprover(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+               Objective objective, const Plan& plan, std::uint32_t seed);
+  ~PlanImprover();
+  PlanImprover(PlanImprover&&) noexcept;
+  PlanImprover& operator=(PlanImprover&&) noexcept;
+
+  /// One neighbourhood. True if the plan is cheaper now (or as dear, with a smaller sum of costs).
+  /// When a limit is met on the way the plan stays as it was.
+  bool step(LimitMonitor& limits);
+  /// Steps until `effort` more is spent, a limit is met, or the plan costs `target` or less. True
+  /// if the plan is cheaper than before.
+  bool improve(std::int64_t effort, LimitMonitor& limits, Cost target = 0);
+
+  /// Goes on from another plan, a cheaper one that was found elsewhere for instance. Requires a
+  /// valid plan of the same instance. What was learned is kept.
+  void restart_from(const Plan& plan);
+
+  [[nodiscard]] const Plan& plan() const noexcept;     ///< Trimmed, always valid.
+  [[nodiscard]] Cost cost() const noexcept;            ///< Of the objective.
+  [[nodiscard]] std::int64_t effort() const noexcept;  ///< Spent so far.
+  /// Every agent takes a shortest path: no plan is better, and steps do nothing.
+  [[nodiscard]] bool is_ideal() const noexcept;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace quadrille::discrete

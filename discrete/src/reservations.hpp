@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "quadrille/core/ids.hpp"
+#include "quadrille/discrete/plan.hpp"
+
+namespace quadrille::discrete {
+
+/// End of what never ends.
+inline constexpr Timestep kForever = INT32_MAX;
+
+/// An agent in one vertex from `begin` to `end`, both included, without a break.
+struct Stay {
+  Timestep begin = 0, end = 0;
+  VertexId next;  ///< Where it goes at end + 1. Without meaning when it stays for ever.
+  AgentId agent;
+};
+
+/// Who is where when: the stays of a set of collision-free paths, by vertex. Memory follows the
+/// number of vertices and of stays, not the horizon.
+class Reservations {
+ public:
+  explicit Reservations(std::size_t num_vertices) : stays_(num_vertices) {}
+
+  /// Requires a trimmed path that collides with no path added before.
+  void add(AgentId agent, const Path& path);
+  /// Requires a path that was added.
+  void remove(const Path& path);
+
+  /// In order of time, disjoint. Valid until the next change.
+  [[nodiscard]] std::span<const Stay> stays(VertexId v) const { return stays_[v]; }
+  /// The first stay that ends at `t` or later, as an index into stays(v).
+  [[nodiscard]] std::size_t first_ending_from(VertexId v, Timestep t) const;
+  /// The stay at a timestep; null if the vertex is free then.
+  [[nodiscard]] const Stay* stay_at(VertexId v, Timestep t) const;
+
+ private:
+  IdVector<VertexId, std::vector<Stay>> stays_;
+};
+
+}  // namespace quadrille::discrete
