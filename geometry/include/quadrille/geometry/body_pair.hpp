@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "quadrille/geometry/body.hpp"
 #include "quadrille/geometry/motion.hpp"
@@ -37,8 +38,9 @@ struct ContactWindow {
 };
 
 /// The free space between two bodies in length units, as a certified pair of bounds:
-/// at_least <= exact value <= at_most. Both are 0 when the interiors meet; at_least is 0 when they
-/// touch. The bounds are within 10^-12 of the largest length involved.
+/// at_least <= exact value <= at_most. Both are 0 when the bodies touch or collide, which `collide`
+/// tells apart, and only at_most > 0 otherwise; they differ by at most 10^-13 of the largest length
+/// involved.
 struct Gap {
   double at_least = 0;
   double at_most = 0;
@@ -81,9 +83,9 @@ class BodyPair {
   /// a; none if there is no such moment.
   [[nodiscard]] std::optional<Gap> gap(const Motion& a, const Motion& b, Ticks offset) const;
 
-  /// False only if the motions collide at no offset, real ones included. May be true although they
-  /// do not, but for discs only when they come within 10^-12 of the largest length of touching.
-  [[nodiscard]] bool may_meet(const Motion& a, const Motion& b) const;
+  /// Whether the motions collide at some offset, real ones included: whether the areas that the two
+  /// bodies sweep have a common interior point.
+  [[nodiscard]] bool can_meet(const Motion& a, const Motion& b) const;
 
   /// The same pair, b first.
   [[nodiscard]] BodyPair swapped() const;
@@ -91,7 +93,13 @@ class BodyPair {
  private:
   class Shape;  // Null for two discs.
 
-  BodyPair(Length reach, std::shared_ptr<const Shape> shape);
+  // Without checking the motions.
+  [[nodiscard]] bool collide_unchecked(const Motion& a, const Motion& b, Ticks offset) const;
+  // Some unsafe offset, slowly.
+  [[nodiscard]] std::optional<Ticks> find_unsafe(const Motion& a, const Motion& b) const;
+  // What b's position relative to a's must keep `reach_` away from: a convex polygon or a point.
+  [[nodiscard]] std::span<const Point> corners() const;
+  [[nodiscard]] Length size() const;
 
   Length reach_ = 0;  // The sum of the radii; 0 for two polygons.
   std::shared_ptr<const Shape> shape_;

@@ -26,8 +26,8 @@ class SweptVolumes {
 
   [[nodiscard]] const std::vector<Motion>& motions() const noexcept;
 
-  /// The indices, ascending, of all motions for which BodyPair(visitor, body).may_meet(motion, ...)
-  /// holds: none that collides with `visitor` on `motion` at some offset is missing.
+  /// The indices, ascending, of exactly those motions with which `visitor` on `motion` can collide:
+  /// BodyPair(visitor, body).can_meet(motion, motions()[index]).
   [[nodiscard]] std::vector<std::size_t> near(const Body& visitor, const Motion& motion) const;
 
   /// near(visitor, motions()[index]). The index itself is always among them: two agents may be on
