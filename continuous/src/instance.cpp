@@ -11,9 +11,11 @@
 namespace quadrille::continuous {
 namespace {
 
-__int128 square(__int128 x) { return x * x; }  // of at most 2^42: differences of coordinates, radii
+__extension__ using Wide = __int128;
 
-__int128 squared_distance(const Point& a, const Point& b) {
+Wide square(Wide x) { return x * x; }  // of at most 2^42: differences of coordinates, sums of radii
+
+Wide squared_distance(const Point& a, const Point& b) {
   return square(a.x - b.x) + square(a.y - b.y);
 }
 

@@ -30,8 +30,9 @@ struct Edge {
 class Roadmap {
  public:
   /// Errors: out_of_range for coordinates beyond geometry::kMaxLength or durations outside
-  /// [1, geometry::kMaxDuration]; invalid_instance for an edge with an end that does not exist or
-  /// of length zero. Vertices and edges are named by their index. Parallel edges are allowed.
+  /// [1, geometry::kMaxDuration]; invalid_instance for an edge with an end that does not exist,
+  /// from a vertex to itself, or of length zero without a duration. Vertices and edges are named by
+  /// their index. Parallel edges are allowed, and several vertices in the same place.
   [[nodiscard]] static Result<Roadmap> make(std::vector<Point> vertices, std::vector<Edge> edges);
 
   [[nodiscard]] std::size_t num_vertices() const noexcept { return positions_.size(); }
