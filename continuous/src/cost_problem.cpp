@@ -22,7 +22,7 @@ Verdict CostProblem::solve_assuming(const std::vector<Level>& below, LimitMonito
                                     const sat::SolveBudget& budget) {
   std::vector<Lit> assumptions;
   for (const Level& level : below)
-    assumptions.push_back(~model_.at_least(level.agent, level.cost, writer_));
+    assumptions.push_back(~model_.above(level.agent, level.cost - 1, writer_));
   const Verdict verdict = engine_.solve(assumptions, limits, budget);
   core_.clear();
   if (verdict == Verdict::unsat) {
@@ -64,9 +64,9 @@ Verdict CostProblem::refute(const std::vector<Level>& below, LimitMonitor& limit
 
 std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const {
   const auto& known = model_.thresholds(agent);
-  const auto at =
-      std::upper_bound(known.begin(), known.end(), cost,
-                       [](Cost c, const Model::Threshold& t) { return c < t.cost; });
+  const auto at = std::find_if(known.begin(), known.end(), [&](const Model::Threshold& t) {
+    return t.cost > cost && t.is_natural;
+  });
   if (at == known.end()) return std::nullopt;
   return at->cost;
 }
@@ -74,7 +74,7 @@ std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const 
 void CostProblem::add_core(const std::vector<Level>& core) {
   std::vector<Lit> clause;
   for (const Level& level : core)
-    clause.push_back(model_.at_least(level.agent, level.cost, writer_));
+    clause.push_back(model_.above(level.agent, level.cost - 1, writer_));
   engine_.add_clause({sat::LemmaKind::core, clause, {}, false});
 }
 

@@ -50,7 +50,7 @@ class CostProblem {
   [[nodiscard]] sat::Verdict refute(const std::vector<Level>& below, LimitMonitor& limits,
                                     const sat::SolveBudget& budget = {});
 
-  /// The smallest known threshold above `cost`.
+  /// The smallest natural threshold (see Model) above `cost`.
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;
   /// Tells the engine that one of the levels is reached in every plan.
   void add_core(const std::vector<Level>& core);

@@ -32,22 +32,32 @@ Model::Variable Model::variable(Lit lit) const {
 }
 
 Lit Model::at_least(AgentId agent, Cost cost, FormulaWriter& writer) {
+  Threshold& known = threshold(agent, cost, writer);
+  known.is_natural = true;
+  return known.at_least;
+}
+
+Lit Model::above(AgentId agent, Cost cap, FormulaWriter& writer) {
+  return threshold(agent, cap + 1, writer).at_least;
+}
+
+Model::Threshold& Model::threshold(AgentId agent, Cost cost, FormulaWriter& writer) {
   QUADRILLE_REQUIRE(cost > free_cost(agent), "nobody costs less than its free cost");
   auto& known = thresholds_[agent];
   const auto at = std::lower_bound(known.begin(), known.end(), cost,
                                    [](const Threshold& t, Cost c) { return t.cost < c; });
-  if (at != known.end() && at->cost == cost) return at->at_least;
+  if (at != known.end() && at->cost == cost) return *at;
   const Lit made = writer.new_lit();
   remember(made, {VariableKind::cost, agent, cost, ObstacleId()});
   const auto index = static_cast<std::size_t>(at - known.begin());
-  known.insert(at, {cost, made});
+  known.insert(at, {cost, made, false});
   const auto order = [&](Lit stronger, Lit weaker) {
     const Lit clause[] = {~stronger, weaker};
     writer.add({sat::LemmaKind::order, clause, {}, false});
   };
   if (index > 0) order(made, known[index - 1].at_least);
   if (index + 1 < known.size()) order(known[index + 1].at_least, made);
-  return made;
+  return known[index];
 }
 
 ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, FormulaWriter& writer,

@@ -61,9 +61,14 @@ class Model {
 
   /// The literal "the agent costs `cost` or more". Requires cost > free_cost.
   [[nodiscard]] sat::Lit at_least(AgentId agent, Cost cost, FormulaWriter& writer);
+  /// The same, for a search that caps the agent's cost at `cap`: at_least(agent, cap + 1).
+  [[nodiscard]] sat::Lit above(AgentId agent, Cost cap, FormulaWriter& writer);
   struct Threshold {
     Cost cost;
     sat::Lit at_least;
+    /// A lemma speaks of it. No lemma speaks of thresholds that were made for caps: so what is
+    /// refuted for one of those is refuted for the next natural one.
+    bool is_natural;
   };
   /// All that were made, by increasing cost.
   [[nodiscard]] const std::vector<Threshold>& thresholds(AgentId agent) const {
@@ -90,6 +95,7 @@ class Model {
   [[nodiscard]] const std::vector<sat::Lit>& literals() const noexcept { return literals_; }
 
  private:
+  [[nodiscard]] Threshold& threshold(AgentId agent, Cost cost, FormulaWriter& writer);
   void remember(sat::Lit lit, const Variable& variable);
 
   const Instance& instance_;

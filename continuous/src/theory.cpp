@@ -217,10 +217,11 @@ bool ContinuousTheory::replan(AgentId i, FormulaWriter& writer) {
     replaced_paths_.push_back(agent.path);
   }
   set_path(i, std::move(path));
-  Cost refuted = 0;  // the largest open threshold that this search refutes
+  Cost refuted = 0;  // the largest open natural threshold that this search refutes
   for (const auto& threshold : model_.thresholds(i)) {
     if (threshold.cost > *arrival) break;
-    if (value(threshold.at_least) == Truth::unassigned) refuted = threshold.cost;
+    if (threshold.is_natural && value(threshold.at_least) == Truth::unassigned)
+      refuted = threshold.cost;
   }
   if (refuted > 0) explain_bound(i, refuted, writer);
   return true;
