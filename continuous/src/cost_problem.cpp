@@ -18,11 +18,12 @@ CostProblem::CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& th
       theory_in_search_(theory_in_search),
       writer_(engine) {}
 
-Verdict CostProblem::solve_assuming(const std::vector<Level>& below, LimitMonitor& limits,
-                                    const sat::SolveBudget& budget) {
+Verdict CostProblem::solve_assuming(const std::vector<Level>& below, Lit also,
+                                    LimitMonitor& limits, const sat::SolveBudget& budget) {
   std::vector<Lit> assumptions;
   for (const Level& level : below)
     assumptions.push_back(~model_.above(level.agent, level.cost - 1, writer_));
+  if (also.valid()) assumptions.push_back(also);
   const Verdict verdict = engine_.solve(assumptions, limits, budget);
   core_.clear();
   if (verdict == Verdict::unsat) {
@@ -37,11 +38,34 @@ Verdict CostProblem::solve_assuming(const std::vector<Level>& below, LimitMonito
 Verdict CostProblem::solve(const IdVector<AgentId, Cost>& caps, LimitMonitor& limits) {
   std::vector<Level> below;
   for (const AgentId i : model_.instance().agent_ids()) below.push_back({i, caps[i] + 1});
+  theory_.set_budget(kForever, Lit());
+  return solve_with_theory(below, Lit(), limits, {});
+}
+
+Verdict CostProblem::solve_within(std::optional<Cost> total, LimitMonitor& limits,
+                                  const sat::SolveBudget& budget) {
+  theory_.set_budget(kForever, Lit());
+  if (!total) return solve_with_theory({}, Lit(), limits, budget);
+  // What the others cost at least is not there to be spent.
+  Cost rest = *total;
+  std::vector<Level> below;
+  for (const AgentId i : model_.instance().agent_ids()) rest -= model_.free_cost(i);
+  if (rest < 0) return Verdict::unsat;
+  for (const AgentId i : model_.instance().agent_ids())
+    below.push_back({i, model_.free_cost(i) + rest + 1});
+  const Lit above = model_.total_above(*total, writer_);
+  theory_.set_budget(*total, above);
+  return solve_with_theory(below, ~above, limits, budget);
+}
+
+Verdict CostProblem::solve_with_theory(const std::vector<Level>& below, Lit also,
+                                       LimitMonitor& limits, const sat::SolveBudget& budget) {
   theory_.set_mode(theory_in_search_ ? ContinuousTheory::Mode::always
                                      : ContinuousTheory::Mode::never);
   theory_.forget_accepted();
-  Verdict verdict = solve_assuming(below, limits, {});
-  while (verdict == Verdict::sat && !accept_model()) verdict = solve_assuming(below, limits, {});
+  Verdict verdict = solve_assuming(below, also, limits, budget);
+  while (verdict == Verdict::sat && !accept_model())
+    verdict = solve_assuming(below, also, limits, budget);
   return verdict;
 }
 
@@ -59,7 +83,7 @@ bool CostProblem::accept_model() {
 Verdict CostProblem::refute(const std::vector<Level>& below, LimitMonitor& limits,
                             const sat::SolveBudget& budget) {
   theory_.set_mode(ContinuousTheory::Mode::never);
-  return solve_assuming(below, limits, budget);
+  return solve_assuming(below, Lit(), limits, budget);
 }
 
 std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const {

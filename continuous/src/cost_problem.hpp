@@ -33,6 +33,9 @@ class CostProblem {
   /// Looks for a plan in which each agent costs at most `caps[agent]`. Requires caps of at least
   /// the free costs.
   [[nodiscard]] sat::Verdict solve(const IdVector<AgentId, Cost>& caps, LimitMonitor& limits);
+  /// Looks for any plan, or one whose costs sum up to at most `total`.
+  [[nodiscard]] sat::Verdict solve_within(std::optional<Cost> total, LimitMonitor& limits,
+                                          const sat::SolveBudget& budget);
   /// The plan that the last solve with verdict sat found.
   [[nodiscard]] const Plan& plan() const { return *theory_.accepted(); }
 
@@ -58,8 +61,11 @@ class CostProblem {
   [[nodiscard]] Model& model() noexcept { return model_; }
 
  private:
-  [[nodiscard]] sat::Verdict solve_assuming(const std::vector<Level>& below, LimitMonitor& limits,
-                                            const sat::SolveBudget& budget);
+  [[nodiscard]] sat::Verdict solve_assuming(const std::vector<Level>& below, sat::Lit also,
+                                            LimitMonitor& limits, const sat::SolveBudget& budget);
+  [[nodiscard]] sat::Verdict solve_with_theory(const std::vector<Level>& below, sat::Lit also,
+                                               LimitMonitor& limits,
+                                               const sat::SolveBudget& budget);
   [[nodiscard]] bool accept_model();
 
   Model& model_;

@@ -9,7 +9,7 @@
 namespace quadrille::continuous {
 namespace {
 
-using sat::SearchReport;
+using End = sat::SearchReport::End;
 using sat::Verdict;
 using Core = std::vector<CostProblem::Level>;
 
@@ -94,26 +94,63 @@ class CoverSearch {
         cover_(free_costs()),
         shrinker_(problem, limits) {}
 
-  SearchReport run(const sat::BoundListener& on_bound) {
+  CostReport run(const sat::BoundListener& on_bound) {
     while (true) {
-      report_.lower_bound = cover_.total();
+      report_.lower_bound = std::max(report_.lower_bound, cover_.total());
       if (on_bound) on_bound(report_.lower_bound);
-      if (limits_.exhausted_now()) return report_;
+      if (is_closed() || limits_.exhausted_now()) return report_;
       const Verdict verdict = problem_.solve(cover_.costs(), limits_);
       if (verdict == Verdict::unknown) return report_;
       if (verdict == Verdict::sat) {
-        report_.end = SearchReport::End::found;
+        report_.plan = problem_.plan();
+        report_.end = End::found;
         return report_;
       }
       if (!learn_cores()) {
-        report_.end = SearchReport::End::exhausted;
+        report_.end = End::exhausted;
         return report_;
       }
       if (!cover_.solve(limits_)) return report_;
+      if (statistics_.cores >= next_turn_ && take_turn_with_sums()) return report_;
     }
   }
 
  private:
+  bool is_closed() {
+    if (!report_.plan || cost(*report_.plan, Objective::sum_of_costs) > report_.lower_bound)
+      return false;
+    report_.end = End::found;
+    return true;
+  }
+
+  /// Closes in on the least cost from both sides by bounds on the sum of costs, as far as a number
+  /// of conflicts goes that grows from turn to turn. True if that ended the search.
+  bool take_turn_with_sums() {
+    next_turn_ = statistics_.cores + std::max<std::int64_t>(statistics_.cores / 4, 1);
+    const std::int64_t last_conflict = limits_.conflicts() + turn_conflicts_;
+    turn_conflicts_ *= 2;
+    if (step_ == 0) step_ = std::max<Cost>(report_.lower_bound / 64, 1);
+    while (!limits_.exhausted() && !is_closed()) {
+      const std::int64_t left = last_conflict - limits_.conflicts();
+      if (left <= 0) return false;
+      Cost total = report_.lower_bound + step_;
+      if (report_.plan) total = std::min(total, cost(*report_.plan, Objective::sum_of_costs) - 1);
+      const Verdict verdict =
+          problem_.solve_within(total, limits_, {static_cast<int>(left), std::nullopt});
+      if (verdict == Verdict::unknown) {
+        step_ = std::max<Cost>(step_ / 4, 1);
+        return false;
+      }
+      if (verdict == Verdict::sat) {
+        report_.plan = problem_.plan();
+      } else {
+        report_.lower_bound = total + 1;
+        step_ *= 2;
+      }
+    }
+    return true;
+  }
+
   [[nodiscard]] IdVector<AgentId, Cost> free_costs() const {
     IdVector<AgentId, Cost> costs;
     for (const AgentId i : problem_.model().instance().agent_ids())
@@ -157,19 +194,21 @@ class CoverSearch {
   Statistics& statistics_;
   LevelCover cover_;
   CoreShrinker shrinker_;
-  SearchReport report_;
+  CostReport report_;
+  std::int64_t next_turn_ = 30, turn_conflicts_ = 1000;
+  Cost step_ = 0;  // between the proven bound and the next sum to be tried
 };
 
 }  // namespace
 
-SearchReport search_by_covers(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
+CostReport search_by_covers(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
                               const sat::BoundListener& on_bound) {
   return CoverSearch(problem, limits, statistics).run(on_bound);
 }
 
-SearchReport search_makespan(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
-                             const sat::BoundListener& on_bound) {
-  SearchReport report;
+CostReport search_makespan(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
+                           const sat::BoundListener& on_bound) {
+  CostReport report;
   const Model& model = problem.model();
   for (const AgentId i : model.instance().agent_ids())
     report.lower_bound = std::max(report.lower_bound, model.free_cost(i));
@@ -180,7 +219,8 @@ SearchReport search_makespan(CostProblem& problem, LimitMonitor& limits, Statist
     Verdict verdict = problem.solve(caps, limits);
     if (verdict == Verdict::unknown) return report;
     if (verdict == Verdict::sat) {
-      report.end = SearchReport::End::found;
+      report.plan = problem.plan();
+      report.end = End::found;
       return report;
     }
     // All levels of a core are the same; as long as the next known thresholds of its agents make a
@@ -189,7 +229,7 @@ SearchReport search_makespan(CostProblem& problem, LimitMonitor& limits, Statist
     Core core = problem.core();
     while (verdict == Verdict::unsat) {
       if (core.empty()) {
-        report.end = SearchReport::End::exhausted;
+        report.end = End::exhausted;
         return report;
       }
       Cost least = core.front().cost;

@@ -75,6 +75,9 @@ class Model {
     return thresholds_[agent];
   }
 
+  /// The literal "the sum of all costs is more than `total`".
+  [[nodiscard]] sat::Lit total_above(Cost total, FormulaWriter& writer);
+
   /// The obstacle with these bans, made at the first call. `is_new` tells.
   [[nodiscard]] ObstacleId usage(AgentId agent, std::vector<Ban> bans, FormulaWriter& writer,
                                  bool& is_new);
@@ -103,6 +106,7 @@ class Model {
   Contacts contacts_;
   IdVector<ObstacleId, Obstacle> obstacles_;
   IdVector<AgentId, std::vector<Threshold>> thresholds_;
+  std::map<Cost, sat::Lit> totals_;
   std::map<std::pair<AgentId, std::vector<Ban>>, ObstacleId> usages_;
   std::map<std::tuple<AgentId, AgentId, Ticks>, ObstacleId> goals_;
   std::vector<Variable> variables_;  // by variable

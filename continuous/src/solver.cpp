@@ -52,9 +52,10 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   } else if (report.end == sat::SearchReport::End::exhausted) {
     outcome.status = Status::infeasible;
     outcome.explanation = "every combination of paths collides";
-  } else if (report.end == sat::SearchReport::End::found) {
-    outcome.plan = problem.plan();
-    outcome.status = Status::optimal;
+  } else if (report.plan) {
+    outcome.plan = report.plan;
+    outcome.status =
+        report.end == sat::SearchReport::End::found ? Status::optimal : Status::feasible;
   }
 }
 
@@ -102,7 +103,7 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
     outcome.plan.reset();
     outcome.cost.reset();
     outcome.explanation = outcome.internal_error->message;
-  } else if (outcome.status == Status::unknown) {
+  } else if (outcome.status == Status::unknown || outcome.status == Status::feasible) {
     outcome.stop = limits.reason();
     outcome.explanation = "stopped by a limit: " + std::string(to_string(outcome.stop));
   }

@@ -244,6 +244,53 @@ void ContinuousTheory::explain_bound(AgentId i, Cost bound, FormulaWriter& write
   writer.add({sat::LemmaKind::path, clause, usages, false});
 }
 
+// The costs of some agents alone are too much: so they are in every plan that costs them as much.
+bool ContinuousTheory::check_budget(FormulaWriter& writer) {
+  if (budget_ >= kForever) return true;
+  const auto delay = [&](AgentId i) {
+    return std::max(agents_[i].path.arrival, agents_[i].floor) - model_.free_cost(i);
+  };
+  Cost slack = -budget_ - 1;
+  std::vector<AgentId> delayed;
+  for (const AgentId i : model_.instance().agent_ids()) {
+    slack += model_.free_cost(i) + delay(i);
+    if (delay(i) > 0) delayed.push_back(i);
+  }
+  if (slack < 0) return true;
+  // Small delays need no mention where the others' are enough.
+  std::stable_sort(delayed.begin(), delayed.end(),
+                   [&](AgentId a, AgentId b) { return delay(a) < delay(b); });
+  std::vector<Lit> clause{above_budget_};
+  for (const AgentId i : delayed) {
+    if (delay(i) <= slack) {
+      slack -= delay(i);
+      continue;
+    }
+    const Lit claim = claim_cost(i, writer);
+    if (!claim.valid()) return check_budget(writer);  // the sum was wrong
+    clause.push_back(~claim);
+  }
+  writer.add({sat::LemmaKind::counting, clause, {}, false});
+  return false;
+}
+
+Lit ContinuousTheory::claim_cost(AgentId i, FormulaWriter& writer) {
+  const AgentState& agent = agents_[i];
+  const Cost cost = std::max(agent.path.arrival, agent.floor);
+  const Lit claim = model_.at_least(i, cost, writer);
+  // No path is cheaper as long as paths are changed only when they have to be; but what is not so
+  // must not be claimed.
+  if (value(claim) == Truth::is_true) return claim;
+  load_bans(i);
+  TimedPath cheaper;
+  if (finder_.find(model_.task(i), bans_, cost, &cheaper)) {
+    set_path(i, std::move(cheaper));
+    return {};
+  }
+  explain_bound(i, cost, writer);
+  return claim;
+}
+
 // ---- checks -------------------------------------------------------------------------------------
 
 void ContinuousTheory::check(sat::Effort effort, sat::TheoryContext& context) {
@@ -252,7 +299,7 @@ void ContinuousTheory::check(sat::Effort effort, sat::TheoryContext& context) {
   CountingWriter writer(target);
   notice_new_obstacles();
   if (effort == sat::Effort::partial)
-    static_cast<void>(replan_all(writer));
+    static_cast<void>(replan_all(writer) && check_budget(writer));
   else
     check_paths(writer);
 }
@@ -286,7 +333,7 @@ std::vector<Encounter> ContinuousTheory::encounters() {
 // this has to look again, because an unchanged formula would count as consent.
 void ContinuousTheory::check_paths(CountingWriter& writer) {
   while (true) {
-    if (!replan_all(writer) || writer.has_written()) return;
+    if (!replan_all(writer) || writer.has_written() || !check_budget(writer)) return;
     ++num_checks_;
     const std::vector<Encounter> found = encounters();
     if (found.empty()) {

@@ -33,6 +33,13 @@ class ContinuousTheory final : public sat::Theory {
   enum class Mode { always, complete, never };
   void set_mode(Mode mode) { mode_ = mode; }
 
+  /// From now on, assignments in which the costs of all paths sum up to more than `total` are
+  /// refuted by lemmas that contain `above`, the literal that allows it. kForever: none are.
+  void set_budget(Cost total, sat::Lit above) {
+    budget_ = total;
+    above_budget_ = above;
+  }
+
   /// Looks at an assignment that was found without this theory. True: it is accepted. False:
   /// clauses that exclude it were written.
   [[nodiscard]] bool check_complete(std::span<const sat::Lit> assignment, FormulaWriter& writer);
@@ -78,6 +85,11 @@ class ContinuousTheory final : public sat::Theory {
   /// Adds "i costs `bound` or more, or one of these usages is allowed"; i's bans are loaded.
   void explain_bound(AgentId i, Cost bound, FormulaWriter& writer);
   void set_path(AgentId i, TimedPath path);
+  /// False if the paths cost more than the budget; lemmas say so then.
+  bool check_budget(FormulaWriter& writer);
+  /// The literal that i costs as much as its path, after explaining why. No literal if the path was
+  /// not a cheapest one; then it is now.
+  [[nodiscard]] sat::Lit claim_cost(AgentId i, FormulaWriter& writer);
   void check_paths(CountingWriter& writer);
   [[nodiscard]] std::vector<Encounter> encounters();
 
@@ -87,6 +99,8 @@ class ContinuousTheory final : public sat::Theory {
   Explainer explainer_;
   EncounterClauses clauses_;
   Mode mode_ = Mode::always;
+  Cost budget_ = kForever;
+  sat::Lit above_budget_;
 
   IdVector<AgentId, AgentState> agents_;
   std::vector<sat::Lit> stack_;
