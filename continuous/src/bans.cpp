@@ -58,8 +58,7 @@ void BanTable::add(std::span<const Ban> bans) {
   enabled_.push_back(1);
   ++version_;
   for (const Ban& ban : bans) {
-    const std::size_t resource =
-        ban.kind == Ban::Kind::start ? ban.place : num_edges_ + ban.place;
+    const std::size_t resource = ban.kind == Ban::Kind::start ? ban.place : num_edges_ + ban.place;
     if (index_[resource] == kFree) {
       index_[resource] = static_cast<std::uint32_t>(num_used_);
       if (places_.size() == num_used_) places_.emplace_back();

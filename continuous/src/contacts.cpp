@@ -27,8 +27,7 @@ Contacts::Contacts(const Instance& instance) : instance_(instance) {
 Contacts::Offsets Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
   Pair& p = pair(a, b);
   const auto [at, is_new] = p.offsets.try_emplace(key(e.value(), f.value()));
-  if (is_new)
-    at->second = p.bodies.unsafe_offsets(instance_.motion(a, e), instance_.motion(b, f));
+  if (is_new) at->second = p.bodies.unsafe_offsets(instance_.motion(a, e), instance_.motion(b, f));
   return at->second;
 }
 
@@ -36,8 +35,7 @@ Contacts::Window Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
   Pair& p = pair(a, b);
   const auto [at, is_new] = p.windows.try_emplace(key(e.value(), v.value()));
   if (is_new)
-    at->second =
-        p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().position(v));
+    at->second = p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().position(v));
   return at->second;
 }
 

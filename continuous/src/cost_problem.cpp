@@ -18,8 +18,8 @@ CostProblem::CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& th
       theory_in_search_(theory_in_search),
       writer_(engine) {}
 
-Verdict CostProblem::solve_assuming(const std::vector<Level>& below, Lit also,
-                                    LimitMonitor& limits, const sat::SolveBudget& budget) {
+Verdict CostProblem::solve_assuming(const std::vector<Level>& below, Lit also, LimitMonitor& limits,
+                                    const sat::SolveBudget& budget) {
   std::vector<Lit> assumptions;
   for (const Level& level : below)
     assumptions.push_back(~model_.above(level.agent, level.cost - 1, writer_));

@@ -13,7 +13,7 @@ using End = sat::SearchReport::End;
 using sat::Verdict;
 using Core = std::vector<CostProblem::Level>;
 
-constexpr sat::SolveBudget kTryBudget{200, {}};
+constexpr sat::SolveBudget kTryBudget{200, 400};
 constexpr sat::SolveBudget kNextBudget{1000, {}};
 /// Covers by greed between two exact ones.
 constexpr int kMaxQuickRounds = 50;
@@ -123,12 +123,20 @@ class CoverSearch {
     return true;
   }
 
-  /// Closes in on the least cost from both sides by bounds on the sum of costs, as far as a number
-  /// of conflicts goes that grows from turn to turn. True if that ended the search.
+  /// Closes in on the least cost from both sides by bounds on the sum of costs, as far as some
+  /// conflicts go. True if that ended the search.
   bool take_turn_with_sums() {
     next_turn_ = statistics_.cores + std::max<std::int64_t>(statistics_.cores / 4, 1);
-    const std::int64_t last_conflict = limits_.conflicts() + turn_conflicts_;
-    turn_conflicts_ *= 2;
+    // Half as many conflicts as the search with covers has had, and some to begin with.
+    const std::int64_t before = limits_.conflicts();
+    const std::int64_t last_conflict =
+        before + (before - turn_conflicts_) / 2 + 300 - turn_conflicts_;
+    const bool has_ended = close_in(last_conflict);
+    turn_conflicts_ += limits_.conflicts() - before;
+    return has_ended;
+  }
+
+  bool close_in(std::int64_t last_conflict) {
     if (step_ == 0) step_ = std::max<Cost>(report_.lower_bound / 64, 1);
     while (!limits_.exhausted() && !is_closed()) {
       const std::int64_t left = last_conflict - limits_.conflicts();
@@ -195,14 +203,14 @@ class CoverSearch {
   LevelCover cover_;
   CoreShrinker shrinker_;
   CostReport report_;
-  std::int64_t next_turn_ = 30, turn_conflicts_ = 1000;
+  std::int64_t next_turn_ = 30, turn_conflicts_ = 0;
   Cost step_ = 0;  // between the proven bound and the next sum to be tried
 };
 
 }  // namespace
 
 CostReport search_by_covers(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
-                              const sat::BoundListener& on_bound) {
+                            const sat::BoundListener& on_bound) {
   return CoverSearch(problem, limits, statistics).run(on_bound);
 }
 

@@ -132,9 +132,9 @@ void EncounterClauses::lift(Party a, std::span<const Ban> bans_of_a, Party b, Ti
   }
 }
 
-// A stay [arrive, depart] that breaks the ban (x, y) has arrive <= y - 1 and depart >= x + 1. A move
-// that starts at s with contact window (first, last) meets it if arrive < s + last and
-// depart > s + first; s >= y - last and s <= x - first are enough.
+// A stay [arrive, depart] that breaks the ban (x, y) has arrive <= y - 1 and depart >= x + 1. A
+// move that starts at s with contact window (first, last) meets it if arrive < s + last and depart
+// > s + first; s >= y - last and s <= x - first are enough.
 void EncounterClauses::lift_over_stay(Party a, Party b, const Ban& stay, Ticks min_length,
                                       std::vector<Ban>& bans_of_a) {
   const VertexId v(stay.place);
@@ -157,13 +157,13 @@ void EncounterClauses::exclude_stay(Party mover, const Step& move, Party stander
   if (stay.end == kForever && final_from < until) {
     // Whoever stays for good before `until` is in the way of this move; see keep_off_goal.
     bool is_new = false;
-    const ObstacleId id =
-        model_.keep_off_goal(mover.agent, stander.agent, until, writer, is_new);
+    const ObstacleId id = model_.keep_off_goal(mover.agent, stander.agent, until, writer, is_new);
     if (is_new) add_price(id, writer);
     return;
   }
-  // Any `from` in [s + first, depart) gives a sound pair: starts in [s, from - first] are in contact
-  // during all of (from, until), see lift_over_stay. It is chosen half-way through the contact.
+  // Any `from` in [s + first, depart) gives a sound pair: starts in [s, from - first] are in
+  // contact during all of (from, until), see lift_over_stay. It is chosen half-way through the
+  // contact.
   const Ticks middle = s + window->first + (window->last - window->first) / 2;
   const Ticks depart = stay.end == kForever ? until : stay.end;
   const Ticks from = std::min({depart - 1, until - 1, std::max(stay.begin, middle)});

@@ -48,8 +48,8 @@ class EncounterClauses {
     ClassId c;
   };
   void exclude_moves(Party i, const Step& a, Party j, const Step& b, FormulaWriter& writer);
-  void exclude_stay(Party mover, const Step& move, Party stander, const Step& stay, Ticks final_from,
-                    FormulaWriter& writer);
+  void exclude_stay(Party mover, const Step& move, Party stander, const Step& stay,
+                    Ticks final_from, FormulaWriter& writer);
   /// Adds what b can do along edges that collides with all of `bans_of_a` (starts).
   void lift(Party a, std::span<const Ban> bans_of_a, Party b, Ticks min_length,
             std::vector<Ban>& bans_of_b);

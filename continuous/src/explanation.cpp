@@ -22,9 +22,8 @@ void Explainer::explain(const PathTask& task, BanTable& bans, Ticks bound,
     bans.enable(slot, relevant_[slot] != 0);
     if (relevant_[slot] != 0) candidates_.push_back(slot);
   }
-  std::stable_sort(candidates_.begin(), candidates_.end(), [&](std::size_t a, std::size_t b) {
-    return priority[a] < priority[b];
-  });
+  std::stable_sort(candidates_.begin(), candidates_.end(),
+                   [&](std::size_t a, std::size_t b) { return priority[a] < priority[b]; });
   for (std::size_t chunk = std::max<std::size_t>(candidates_.size() / 2, 1); !candidates_.empty();
        chunk /= 2) {
     for (std::size_t at = 0; at < candidates_.size();) {

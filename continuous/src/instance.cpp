@@ -34,10 +34,10 @@ std::optional<Error> check(const Roadmap& roadmap, const Agent& agent, std::size
                      " length units, not 1 .. " + std::to_string(geometry::kMaxLength),
                  {}};
   if (agent.speed < 1 || agent.speed > kMaxSpeed)
-    return Error{ErrorCode::out_of_range,
-                 name(index) + " has a speed outside (0, " +
-                     std::to_string(kMaxSpeed / kUnitSpeed) + "]",
-                 {}};
+    return Error{
+        ErrorCode::out_of_range,
+        name(index) + " has a speed outside (0, " + std::to_string(kMaxSpeed / kUnitSpeed) + "]",
+        {}};
   return std::nullopt;
 }
 
@@ -46,8 +46,7 @@ std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent
                                  VertexId Agent::*place, const std::string& what) {
   for (std::size_t j = 0; j < agents.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
-      if (squared_distance(roadmap.position(agents[i].*place),
-                           roadmap.position(agents[j].*place)) <
+      if (squared_distance(roadmap.position(agents[i].*place), roadmap.position(agents[j].*place)) <
           square(agents[i].radius + agents[j].radius))
         return invalid("the " + what + " of agents " + std::to_string(i) + " and " +
                        std::to_string(j) + " overlap");

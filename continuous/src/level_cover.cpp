@@ -34,7 +34,8 @@ class LevelCover::LeafProgram {
   LeafProgram(const LevelCover& cover, const Group& group, const Leaf& leaf)
       : cover_(cover), group_(group), leaf_(leaf) {}
 
-  [[nodiscard]] Relaxation solve() {
+  /// `wants_costs`: a solution of the group is made in any case, not only where it comes for free.
+  [[nodiscard]] Relaxation solve(bool wants_costs) {
     Relaxation result;
     for (const AgentId i : group_.agents) base_ += low(i) - cover_.free_costs_[i];
     if (!collect()) {
@@ -44,10 +45,13 @@ class LevelCover::LeafProgram {
     make_program();
     const PackingSolution solution = solve_packing(program_);
     result.bound = base_ + certified_bound(solution.primal);
-    result.costs = cover_.free_costs_;
-    for (const AgentId i : group_.agents) result.costs[i] = low(i);
-    round(solution.dual, result);
-    cover_.complete(group_.cores, result.costs);
+    IdVector<AgentId, Cost> costs = cover_.free_costs_;
+    for (const AgentId i : group_.agents) costs[i] = low(i);
+    round(solution.dual, result, costs);
+    if (wants_costs || !result.branch) {
+      cover_.complete(group_.cores, costs);
+      result.costs = std::move(costs);
+    }
     if (!result.branch && !active_.empty()) result.branch = active_.front().front();
     return result;
   }
@@ -122,7 +126,8 @@ class LevelCover::LeafProgram {
   }
 
   /// Costs near the fractional cover, and the most undecided level.
-  void round(const std::vector<double>& dual, Relaxation& result) const {
+  void round(const std::vector<double>& dual, Relaxation& result,
+             IdVector<AgentId, Cost>& costs) const {
     double best = 0;
     for (std::size_t r = rows_.size(); r-- > 0;) {
       const bool is_top = r + 1 == rows_.size() || rows_[r + 1].agent != rows_[r].agent;
@@ -134,7 +139,7 @@ class LevelCover::LeafProgram {
         result.branch = rows_[r];
       }
       if (share_ >= 0.5) {
-        Cost& cost = result.costs[rows_[r].agent];
+        Cost& cost = costs[rows_[r].agent];
         cost = std::max(cost, rows_[r].cost);
       }
     }
@@ -182,8 +187,7 @@ std::vector<LevelCover::Group> LevelCover::make_groups() const {
   std::map<AgentId, Group> by_root;
   for (const LevelCore& core : cores_) by_root[root(core.front().agent)].cores.push_back(&core);
   for (const AgentId i : IdRange<AgentId>(free_costs_.size()))
-    if (const auto at = by_root.find(root(i)); at != by_root.end())
-      at->second.agents.push_back(i);
+    if (const auto at = by_root.find(root(i)); at != by_root.end()) at->second.agents.push_back(i);
   std::vector<Group> groups;
   for (auto& [id, group] : by_root) groups.push_back(std::move(group));
   return groups;
@@ -233,12 +237,15 @@ bool LevelCover::solve(Group& group, LimitMonitor& limits) {
     std::pop_heap(group.open.begin(), group.open.end(), is_later);
     Leaf leaf = std::move(group.open.back());
     group.open.pop_back();
-    const Relaxation relaxation = LeafProgram(*this, group, leaf).solve();
-    ++num_programs_;
+    constexpr std::int64_t kProgramsPerCompletion = 16;
+    const bool wants_costs = num_programs_++ % kProgramsPerCompletion == 0;
+    const Relaxation relaxation = LeafProgram(*this, group, leaf).solve(wants_costs);
     if (relaxation.is_empty) continue;
-    if (const Cost cost = price(relaxation.costs); cost < group.cost) {
-      group.cost = cost;
-      group.best = relaxation.costs;
+    if (relaxation.costs) {
+      if (const Cost cost = price(*relaxation.costs); cost < group.cost) {
+        group.cost = cost;
+        group.best = *relaxation.costs;
+      }
     }
     leaf.bound = std::max(leaf.bound, relaxation.bound);
     if (leaf.bound >= group.cost || !relaxation.branch ||

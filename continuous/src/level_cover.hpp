@@ -64,8 +64,8 @@ class LevelCover {
   struct Relaxation {
     bool is_empty = false;  // the leaf contains no solution
     Cost bound = 0;
-    std::optional<Level> branch;  // to split the leaf at
-    IdVector<AgentId, Cost> costs;  // hit all cores of the group
+    std::optional<Level> branch;                   // to split the leaf at
+    std::optional<IdVector<AgentId, Cost>> costs;  // hit all cores of the group
   };
   class LeafProgram;
   using Cores = std::vector<const LevelCore*>;

@@ -75,8 +75,7 @@ Lit Model::total_above(Cost total, FormulaWriter& writer) {
   return made;
 }
 
-ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, FormulaWriter& writer,
-                        bool& is_new) {
+ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, FormulaWriter& writer, bool& is_new) {
   std::sort(bans.begin(), bans.end());
   const auto [at, inserted] = usages_.try_emplace({agent, bans}, obstacles_.next_id());
   is_new = inserted;

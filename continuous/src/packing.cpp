@@ -41,8 +41,8 @@ class Tableau {
     const std::size_t max_pivots = 50 * (rows_ + columns_) + 1000;
     for (std::size_t k = 0; k < max_pivots; ++k) {
       const double* const objective = &at(rows_, 0);
-      const auto entering = static_cast<std::size_t>(
-          std::min_element(objective, objective + columns_) - objective);
+      const auto entering =
+          static_cast<std::size_t>(std::min_element(objective, objective + columns_) - objective);
       if (columns_ == 0 || objective[entering] > -kTiny) return;
       const std::size_t leaving = leaving_row(entering);
       if (leaving == rows_) return;

@@ -141,8 +141,7 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
       return span.end < node.arrive + duration;
     });
     for (; stay != stays.end(); ++stay) {
-      const Ticks start =
-          allowed_start(forbidden, std::max(node.arrive, stay->begin - duration));
+      const Ticks start = allowed_start(forbidden, std::max(node.arrive, stay->begin - duration));
       const Ticks arrive = start + duration;
       if (start > node.leave_by || arrive + rest >= bound) break;
       if (arrive > stay->end) continue;
@@ -169,8 +168,7 @@ void PathFinder::mark(const PathTask& task, const BanTable& bans, const Node& no
   };
   // What ends this stay, unless it is too late to go on then. At the goal an agent could stay.
   const bool is_goal = node.vertex == instance_.agent(task.agent).goal;
-  if (node.leave_by < kForever &&
-      (is_goal || node.leave_by + task.distances[node.vertex] < bound))
+  if (node.leave_by < kForever && (is_goal || node.leave_by + task.distances[node.vertex] < bound))
     mark_entries(bans.stays_of(node.vertex), node.leave_by,
                  is_goal ? kForever : bound - task.distances[node.vertex]);
   const ClassId c = instance_.class_of(task.agent);

@@ -8,8 +8,7 @@ namespace quadrille::continuous {
 Cost cost(const Plan& plan, Objective objective) {
   Cost total = 0;
   for (const Path& path : plan.paths)
-    total =
-        objective == Objective::sum_of_costs ? total + cost(path) : std::max(total, cost(path));
+    total = objective == Objective::sum_of_costs ? total + cost(path) : std::max(total, cost(path));
   return total;
 }
 

@@ -16,7 +16,8 @@ std::optional<Error> check(const std::vector<Point>& positions, const Edge& edge
                    name + " ends at vertex " + std::to_string(end.index()) + ", but there are " +
                        std::to_string(positions.size()) + " vertices",
                    {}};
-  if (edge.from == edge.to || (positions[edge.from.index()] == positions[edge.to.index()] && !edge.duration))
+  if (edge.from == edge.to ||
+      (positions[edge.from.index()] == positions[edge.to.index()] && !edge.duration))
     return Error{ErrorCode::invalid_instance,
                  name + " from vertex " + std::to_string(edge.from.index()) + " to vertex " +
                      std::to_string(edge.to.index()) + " has length zero",

@@ -14,8 +14,7 @@ constexpr std::int64_t kMaxVertices = std::int64_t{1} << 26;
 constexpr std::int64_t kMaxSide = std::int64_t{1} << 16;
 
 std::optional<std::int64_t> parse_node_id(std::string_view text) {
-  if (text.size() < 2 || text.front() != 'n' || text[1] < '0' || text[1] > '9')
-    return std::nullopt;
+  if (text.size() < 2 || text.front() != 'n' || text[1] < '0' || text[1] > '9') return std::nullopt;
   return parse_integer(text.substr(1), 0, kMaxVertices);
 }
 
@@ -58,8 +57,8 @@ class GraphmlReader {
     const std::string_view text = data.child_value();
     const auto comma = text.find(',');
     const auto x = parse_number(text.substr(0, comma));
-    const auto y = comma == std::string_view::npos ? std::nullopt
-                                                   : parse_number(text.substr(comma + 1));
+    const auto y =
+        comma == std::string_view::npos ? std::nullopt : parse_number(text.substr(comma + 1));
     if (!x || !y)
       return xml_.error(node, "node " + expected + " has the coordinates " + quoted(text) +
                                   ", not two finite numbers");
@@ -79,9 +78,9 @@ class GraphmlReader {
       const std::string_view text = edge.attribute(name).value();
       const auto id = parse_node_id(text);
       if (!id || *id >= static_cast<std::int64_t>(positions_.size()))
-        return xml_.error(edge, std::string("the ") + name + " " + quoted(text) +
-                                    " of an edge is no node",
-                          ErrorCode::invalid_instance);
+        return xml_.error(
+            edge, std::string("the ") + name + " " + quoted(text) + " of an edge is no node",
+            ErrorCode::invalid_instance);
       ends[end] = VertexId(static_cast<std::size_t>(*id));
     }
     if (ends[0] == ends[1])
@@ -137,8 +136,8 @@ Result<MapXml> read_grid(const XmlFile& xml) {
     ++rows;
   }
   if (rows != grid.height)
-    return xml.error(map, std::to_string(rows) + " rows where the height is " +
-                              std::to_string(grid.height));
+    return xml.error(
+        map, std::to_string(rows) + " rows where the height is " + std::to_string(grid.height));
   return MapXml{std::move(grid), 0};
 }
 
@@ -157,15 +156,14 @@ std::optional<Error> read_agent(const XmlFile& xml, const pugi::xml_node& agent,
     if (!attribute) continue;
     const auto number = parse_integer(attribute.value(), 0, kMaxVertices);
     if (!number)
-      return xml.error(agent, std::string(name) + " is " + quoted(attribute.value()) +
-                                  ", not a natural number");
+      return xml.error(
+          agent, std::string(name) + " is " + quoted(attribute.value()) + ", not a natural number");
     numbers[name] = *number;
   }
   TaskRow row{xml.line(agent), {}};
   if (numbers.size() == 2 && numbers.contains("start_id") && numbers.contains("goal_id")) {
     row.places = std::pair{numbers["start_id"], numbers["goal_id"]};
-  } else if (numbers.size() == 4 && !numbers.contains("start_id") &&
-             !numbers.contains("goal_id")) {
+  } else if (numbers.size() == 4 && !numbers.contains("start_id") && !numbers.contains("goal_id")) {
     const auto cell = [&](const char* i, const char* j) {
       return Cell{static_cast<std::int32_t>(numbers[i]), static_cast<std::int32_t>(numbers[j])};
     };
@@ -204,7 +202,9 @@ Result<std::vector<Agent>> make_agents(const TaskXml& task, std::size_t num_agen
   for (std::size_t i = 0; i < num_agents; ++i) {
     const TaskRow& row = task.rows[i];
     const auto [start, goal] = std::visit(
-        [&](const auto& places) { return std::pair{find(places.first), find(places.second)}; },
+        [&](const auto& places) {
+          return std::pair{find(places.first), find(places.second)};
+        },
         row.places);
     if (!start || !goal)
       return Error{ErrorCode::invalid_instance,

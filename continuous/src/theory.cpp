@@ -172,9 +172,8 @@ void ContinuousTheory::set_floor(AgentId i, Cost floor) {
 bool ContinuousTheory::is_path_bad(AgentId i) const {
   const AgentState& agent = agents_[i];
   if (agent.path.arrival > agent.cap) return true;
-  return std::any_of(agent.active.begin(), agent.active.end(), [&](ObstacleId id) {
-    return agent.uses.breaks(model_.obstacles()[id].bans);
-  });
+  return std::any_of(agent.active.begin(), agent.active.end(),
+                     [&](ObstacleId id) { return agent.uses.breaks(model_.obstacles()[id].bans); });
 }
 
 void ContinuousTheory::set_path(AgentId i, TimedPath path) {
@@ -207,7 +206,13 @@ bool ContinuousTheory::replan(AgentId i, FormulaWriter& writer) {
   TimedPath path;
   const auto arrival = finder_.find(model_.task(i), bans_, kForever, &path);
   if (!arrival || *arrival > agent.cap) {
-    explain_bound(i, arrival.value_or(kForever), writer);
+    Cost bound = arrival.value_or(kForever);
+    for (const auto& threshold : model_.thresholds(i))
+      if (threshold.is_natural && threshold.cost > agent.cap && threshold.cost < bound) {
+        bound = threshold.cost;
+        break;
+      }
+    explain_bound(i, bound, writer);
     return false;
   }
   agent.is_violated = false;
@@ -319,8 +324,7 @@ std::vector<Encounter> ContinuousTheory::encounters() {
       auto& apart = apart_[i.index() * agents_.size() + j.index()];
       const std::pair versions{agents_[i].version, agents_[j].version};
       if (apart == versions) continue;
-      if (auto encounter =
-              first_encounter(model_, i, agents_[i].steps, j, agents_[j].steps))
+      if (auto encounter = first_encounter(model_, i, agents_[i].steps, j, agents_[j].steps))
         found.push_back(*encounter);
       else
         apart = versions;

@@ -60,12 +60,9 @@ Result<XmlFile> XmlFile::read(const std::filesystem::path& path) {
   return read(in, path.string());
 }
 
-long XmlFile::line(const pugi::xml_node& node) const {
-  return line_at(text_, node.offset_debug());
-}
+long XmlFile::line(const pugi::xml_node& node) const { return line_at(text_, node.offset_debug()); }
 
-Error XmlFile::error(const pugi::xml_node& node, const std::string& message,
-                     ErrorCode code) const {
+Error XmlFile::error(const pugi::xml_node& node, const std::string& message, ErrorCode code) const {
   return {code, message, {file_, line(node)}};
 }
 

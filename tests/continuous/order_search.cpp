@@ -95,9 +95,8 @@ class RouteOrders {
         if (const auto unsafe =
                 pair(i, j).unsafe_offsets(instance_.motion(class_of(i), routes_[i][k]),
                                           instance_.motion(class_of(j), routes_[j][l])))
-          choices_.push_back(
-              {Constraint{first_[i] + k, first_[j] + l, unsafe->hi + 1},
-               Constraint{first_[j] + l, first_[i] + k, -(unsafe->lo - 1)}});
+          choices_.push_back({Constraint{first_[i] + k, first_[j] + l, unsafe->hi + 1},
+                              Constraint{first_[j] + l, first_[i] + k, -(unsafe->lo - 1)}});
   }
 
   // Stay number l of agent j is before its move number l.
@@ -106,17 +105,15 @@ class RouteOrders {
       for (std::size_t l = 0; l <= routes_[j].size(); ++l) {
         const VertexId at = l == 0 ? instance_.agent(AgentId(j)).start
                                    : instance_.roadmap().edge(routes_[j][l - 1]).to;
-        const auto window =
-            pair(i, j).contact_window(instance_.motion(class_of(i), routes_[i][k]),
-                                      instance_.roadmap().position(at));
+        const auto window = pair(i, j).contact_window(instance_.motion(class_of(i), routes_[i][k]),
+                                                      instance_.roadmap().position(at));
         if (!window) continue;
         const std::size_t move = first_[i] + k;
         // It arrives late enough, or leaves early enough.
         const std::size_t arrival = l == 0 ? 0 : first_[j] + l - 1;
         const Ticks travel = l == 0 ? 0 : duration(j, l - 1);
         Choice choice{{move, arrival, window->last - travel}, std::nullopt};
-        if (l < routes_[j].size())
-          choice.second = Constraint{first_[j] + l, move, -window->first};
+        if (l < routes_[j].size()) choice.second = Constraint{first_[j] + l, move, -window->first};
         choices_.push_back(choice);
       }
   }
@@ -126,7 +123,9 @@ class RouteOrders {
     if (!time) return;
     const Cost cost = cost_of(*time);
     if (result_.best && cost >= *result_.best && result_.some_plans.size() >= 10) return;
-    const auto holds = [&](const Constraint& c) { return (*time)[c.to] >= (*time)[c.from] + c.gap; };
+    const auto holds = [&](const Constraint& c) {
+      return (*time)[c.to] >= (*time)[c.from] + c.gap;
+    };
     for (const Choice& choice : choices_) {
       if (holds(choice.first) || (choice.second && holds(*choice.second))) continue;
       all.push_back(choice.first);

@@ -9,9 +9,9 @@
 
 namespace quadrille::continuous::test {
 
-/// The oracle: for every combination of routes of at most `max_moves` moves each, and every order in
-/// which moves and stays that are in each other's way can happen, the earliest times are the longest
-/// paths of a system of difference constraints.
+/// The oracle: for every combination of routes of at most `max_moves` moves each, and every order
+/// in which moves and stays that are in each other's way can happen, the earliest times are the
+/// longest paths of a system of difference constraints.
 struct OrderSearch {
   std::optional<Cost> best;  ///< Least cost; nullopt: no plan with such routes.
   Plan best_plan;

@@ -40,9 +40,9 @@ class GridRoadmap {
  public:
   static constexpr int kMinNeighbourhood = 2, kMaxNeighbourhood = 5;
 
-  /// Edges to the 2^k neighbours, k = `neighbourhood` in 2 .. 5: (1,0) for 2, (1,1) from 3 on, (1,2)
-  /// from 4 on, (1,3) and (2,3) for 5, with all symmetries. A move is allowed when the swept disc
-  /// meets the interior of no impassable cell; what is outside of the grid is free. Errors:
+  /// Edges to the 2^k neighbours, k = `neighbourhood` in 2 .. 5: (1,0) for 2, (1,1) from 3 on,
+  /// (1,2) from 4 on, (1,3) and (2,3) for 5, with all symmetries. A move is allowed when the swept
+  /// disc meets the interior of no impassable cell; what is outside of the grid is free. Errors:
   /// out_of_range for a neighbourhood, a radius or a resolution that is not supported.
   [[nodiscard]] static Result<GridRoadmap> make(const OccupancyGrid& grid, int neighbourhood,
                                                 Length radius, double resolution);
