@@ -149,7 +149,7 @@ ConvexPolygon random_polygon(Random& random, Length size) {
   while (true) {
     // Points on a circle, rounded: convex unless rounding spoils it.
     std::vector<double> angles;
-    for (std::size_t n = random.between(3, 7); n > 0; --n)
+    for (std::size_t n = random.percent(10) ? 40 : random.between(3, 7); n > 0; --n)
       angles.push_back(static_cast<double>(random.below(3600)) / 3600 * 6.283185307179586);
     std::sort(angles.begin(), angles.end());
     std::vector<Point> corners;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "exact.hpp"
 #include "geometry/cases.hpp"
 #include "geometry/oracle.hpp"
+#include "grown_shape.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::geometry {
@@ -50,6 +52,14 @@ TEST(UnsafeOffsets, SquaresSideBySideOnAGrid) {
   const Motion lower{{0, 0}, {10, 0}, 10};
   EXPECT_EQ(unsafe_offsets(unit, lower, unit, {{0, 10}, {10, 10}, 10}), std::nullopt);
   EXPECT_EQ(unsafe_offsets(unit, lower, unit, {{10, 10}, {0, 10}, 3}), std::nullopt);
+  EXPECT_FALSE(BodyPair(unit, unit).can_meet(lower, {{0, 10}, {10, 10}, 10}));
+  EXPECT_TRUE(BodyPair(unit, unit).can_meet(lower, {{0, 9}, {10, 9}, 10}));
+  // Side by side along a slope, where no box tells them apart.
+  const auto tile = ConvexPolygon::make({{0, 0}, {4, 3}, {1, 7}, {-3, 4}}).value();
+  const Motion slope{{0, 0}, {40, 30}, 10};
+  EXPECT_FALSE(BodyPair(tile, tile).can_meet(slope, {{-3, 4}, {37, 34}, 10}));
+  EXPECT_TRUE(BodyPair(tile, tile).can_meet(slope, {{-3, 4}, {37, 33}, 10}));
+  EXPECT_EQ(unsafe_offsets(tile, slope, tile, {{-3, 4}, {37, 34}, 10}), std::nullopt);
   EXPECT_EQ(unsafe_offsets(unit, lower, unit, {{0, 9}, {10, 9}, 10}), Offsets({-9, 9}));
 }
 
@@ -181,6 +191,27 @@ TEST(UnsafeOffsets, HardBodiesAgreeWithTheOracle) {
     }
     expect_symmetric(c, pair, offsets);
     if (HasFailure()) return;
+  }
+}
+
+// The search that the closed form makes unnecessary nearly always.
+TEST(UnsafeOffsets, ExactSearchFindsAnOffsetIfThereIsOne) {
+  for (int seed = 0; seed < 2000; ++seed) {
+    support::Random random(static_cast<std::uint64_t>(seed));
+    const Case c = seed % 2 == 0 ? hard_discs(random) : hard_bodies(random);
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << c);
+    const auto radius = [](const Body& body) {
+      return std::holds_alternative<Disc>(body) ? std::get<Disc>(body).radius : 0;
+    };
+    const Length reach = radius(c.body_a) + radius(c.body_b);
+    const std::optional<Ticks> found =
+        exact::find_meeting(c.a, c.b, grown_corners(c.body_a, c.body_b), reach);
+    const Offsets offsets = unsafe_offsets(c.body_a, c.a, c.body_b, c.b);
+    ASSERT_EQ(found.has_value(), offsets.has_value());
+    if (found) {
+      ASSERT_LE(offsets->lo, *found);
+      ASSERT_GE(offsets->hi, *found);
+    }
   }
 }
 
