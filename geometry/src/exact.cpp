@@ -178,9 +178,12 @@ Fraction apart(const ScaledPath& path, std::span<const Point> shape, Length reac
 bool meet(const Motion& a, const Motion& b, Ticks offset, Window window,
           std::span<const Point> shape, Length reach) {
   const ScaledPath path = scaled_path(a, b, offset, window);
+  if (shape.size() == 1) {
+    const Fraction square = squared_distance(scaled(shape[0], path.scale), path.begin, path.end);
+    return square.numerator < squared(reach, path.scale) * square.denominator;
+  }
   const std::vector<Vector> corners = scaled(shape, path.scale);
-  if (shape.size() > 1 && smallest_outside(outside(path, corners, shape)).numerator < 0)
-    return true;
+  if (smallest_outside(outside(path, corners, shape)).numerator < 0) return true;
   if (reach == 0) return false;
   const Vector ends[] = {path.begin, path.end};
   return within(corners, ends, squared(reach, path.scale));
