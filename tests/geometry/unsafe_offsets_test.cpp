@@ -58,7 +58,14 @@ TEST(UnsafeOffsets, SquaresSideBySideOnAGrid) {
   const auto tile = ConvexPolygon::make({{0, 0}, {4, 3}, {1, 7}, {-3, 4}}).value();
   const Motion slope{{0, 0}, {40, 30}, 10};
   EXPECT_FALSE(BodyPair(tile, tile).can_meet(slope, {{-3, 4}, {37, 34}, 10}));
+  EXPECT_FALSE(BodyPair(tile, tile).can_meet(slope, {{3, -4}, {43, 26}, 10}));
+  EXPECT_TRUE(BodyPair(tile, tile).can_meet(slope, {{3, -4}, {43, 27}, 10}));
   EXPECT_TRUE(BodyPair(tile, tile).can_meet(slope, {{-3, 4}, {37, 33}, 10}));
+  // A corner on a slope that has no parallel: a single direction tells them apart.
+  const auto wedge = ConvexPolygon::make({{0, 0}, {8, 0}, {0, 6}}).value();
+  EXPECT_FALSE(BodyPair(wedge, unit).can_meet(rest({0, 0}, 1), rest({4, 3}, 1)));
+  EXPECT_FALSE(BodyPair(unit, wedge).can_meet(rest({4, 3}, 1), rest({0, 0}, 1)));
+  EXPECT_TRUE(BodyPair(wedge, unit).can_meet(rest({0, 0}, 1), rest({4, 2}, 1)));
   EXPECT_EQ(unsafe_offsets(tile, slope, tile, {{-3, 4}, {37, 34}, 10}), std::nullopt);
   EXPECT_EQ(unsafe_offsets(unit, lower, unit, {{0, 9}, {10, 9}, 10}), Offsets({-9, 9}));
 }
