@@ -138,26 +138,6 @@ bool BodyPair::can_meet(const Motion& a, const Motion& b) const {
   return exact::sides_within(places, corners(), reach_);
 }
 
-// By bisection: the distance is a convex function of the offset, so two neighbouring offsets tell
-// on which side it is less.
-std::optional<Ticks> BodyPair::find_unsafe(const Motion& a, const Motion& b) const {
-  Ticks low = -b.duration;
-  Ticks high = a.duration;
-  while (low < high) {
-    const Ticks middle = low + (high - low) / 2;
-    if (collide_unchecked(a, b, middle)) return middle;
-    if (collide_unchecked(a, b, middle + 1)) return middle + 1;
-    const int order = exact::compare_next(a, b, middle, corners(), reach_);
-    if (order == 0) return std::nullopt;
-    if (order < 0)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  if (collide_unchecked(a, b, low)) return low;
-  return std::nullopt;
-}
-
 std::optional<OffsetInterval> BodyPair::unsafe_offsets(const Motion& a, const Motion& b) const {
   require_valid(a, b);
   if (boxes_apart(relative_places(a, b), corners(), reach_)) return std::nullopt;
@@ -189,7 +169,7 @@ std::optional<OffsetInterval> BodyPair::unsafe_offsets(const Motion& a, const Mo
   if (!seed) {
     // The closed form found nothing, or a run so short that rounding hides it.
     if (!can_meet(a, b)) return std::nullopt;
-    seed = find_unsafe(a, b);
+    seed = exact::find_meeting(a, b, corners(), reach_);
     if (!seed) return std::nullopt;
     low = high = *seed;
   }

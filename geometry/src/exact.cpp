@@ -178,9 +178,12 @@ Fraction apart(const ScaledPath& path, std::span<const Point> shape, Length reac
 bool meet(const Motion& a, const Motion& b, Ticks offset, Window window,
           std::span<const Point> shape, Length reach) {
   const ScaledPath path = scaled_path(a, b, offset, window);
+  if (shape.size() == 1) {
+    const Fraction square = squared_distance(scaled(shape[0], path.scale), path.begin, path.end);
+    return square.numerator < squared(reach, path.scale) * square.denominator;
+  }
   const std::vector<Vector> corners = scaled(shape, path.scale);
-  if (shape.size() > 1 && smallest_outside(outside(path, corners, shape)).numerator < 0)
-    return true;
+  if (smallest_outside(outside(path, corners, shape)).numerator < 0) return true;
   if (reach == 0) return false;
   const Vector ends[] = {path.begin, path.end};
   return within(corners, ends, squared(reach, path.scale));
@@ -193,12 +196,33 @@ bool touch(const Motion& a, const Motion& b, Ticks offset, Window window,
   return measure.numerator == squared(reach, path.scale) * measure.denominator;
 }
 
-int compare_next(const Motion& a, const Motion& b, Ticks offset, std::span<const Point> shape,
-                 Length reach) {
-  const auto measure = [&](Ticks at) {
+// By bisection. The distance is a convex function of the offset: it is the least value, over the
+// moments, of a convex function of moment and offset. So where the bodies meet at neither of two
+// neighbouring offsets, they can only meet on the side on which the distance is less, and nowhere
+// if it is the same.
+std::optional<Ticks> find_meeting(const Motion& a, const Motion& b, std::span<const Point> shape,
+                                  Length reach) {
+  const auto meets = [&](Ticks at) {
+    return meet(a, b, at, *common_window(a, b, at), shape, reach);
+  };
+  const auto distance = [&](Ticks at) {
     return apart(scaled_path(a, b, at, *common_window(a, b, at)), shape, reach);
   };
-  return compare(measure(offset), measure(offset + 1));
+  Ticks low = -b.duration;
+  Ticks high = a.duration;
+  while (low < high) {
+    const Ticks middle = low + (high - low) / 2;
+    if (meets(middle)) return middle;
+    if (meets(middle + 1)) return middle + 1;
+    const int order = compare(distance(middle), distance(middle + 1));
+    if (order == 0) return std::nullopt;
+    if (order < 0)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  if (meets(low)) return low;
+  return std::nullopt;
 }
 
 bool sides_within(const Parallelogram& places, std::span<const Point> shape, Length reach) {

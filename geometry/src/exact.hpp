@@ -20,11 +20,10 @@ bool meet(const Motion& a, const Motion& b, Ticks offset, Window window,
 bool touch(const Motion& a, const Motion& b, Ticks offset, Window window,
            std::span<const Point> shape, Length reach);
 
-/// Requires that the bodies meet at neither of two offsets, `offset` and `offset` + 1, at both of
-/// which the motions have time in common. Returns the sign of (how far apart they are at the first)
-/// - (at the second), in a measure that is a convex function of the offset.
-int compare_next(const Motion& a, const Motion& b, Ticks offset, std::span<const Point> shape,
-                 Length reach);
+/// Some offset at which the bodies meet; none if there is no such integer. Slow: as many calls of
+/// `meet` as the durations have bits.
+std::optional<Ticks> find_meeting(const Motion& a, const Motion& b, std::span<const Point> shape,
+                                  Length reach);
 
 /// Whether some point of the sides of `places` is less than `reach` away from a side of `shape`.
 bool sides_within(const Parallelogram& places, std::span<const Point> shape, Length reach);

@@ -26,23 +26,4 @@ std::shared_ptr<fcl::CollisionGeometryd> make_prism(std::span<const Point> corne
   return std::make_shared<fcl::Convexd>(vertices, n + 2, faces);
 }
 
-std::vector<Point> convex_hull(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Point& p, const Point& q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Point> hull;
-  const auto add = [&](const Point& point, std::size_t kept) {
-    while (hull.size() > kept &&
-           cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
-      hull.pop_back();
-    hull.push_back(point);
-  };
-  for (const Point& point : points) add(point, 1);
-  const std::size_t lower = hull.size();
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
-  hull.pop_back();
-  return hull;
-}
-
 }  // namespace quadrille::geometry

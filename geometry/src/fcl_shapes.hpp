@@ -15,7 +15,4 @@ namespace quadrille::geometry {
 std::shared_ptr<fcl::CollisionGeometryd> make_prism(std::span<const Point> corners, double scale,
                                                     double height);
 
-/// Corners of the convex hull, counter-clockwise, without those on a side.
-std::vector<Point> convex_hull(std::vector<Point> points);
-
 }  // namespace quadrille::geometry

@@ -1,24 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "pair_shape.hpp"
 
-#include "fcl_shapes.hpp"
+#include "grown_shape.hpp"
 
 namespace quadrille::geometry {
 namespace {
-
-std::vector<Point> corners_of(const Body& body) {
-  if (const auto* polygon = std::get_if<ConvexPolygon>(&body)) return polygon->vertices();
-  return {Point{}};
-}
-
-// The bodies overlap when u in a and w in b are at the same place: position_a + u = position_b + w,
-// so b's position relative to a's is u - w. These differences form a convex polygon.
-std::vector<Point> differences(const Body& a, const Body& b) {
-  std::vector<Point> points;
-  for (const Point& u : corners_of(a))
-    for (const Point& w : corners_of(b)) points.push_back(u - w);
-  return convex_hull(std::move(points));
-}
 
 Length size_of(const std::vector<Point>& corners, Length reach) {
   Length size = 0;
@@ -32,7 +18,7 @@ BodyPair::Shape::Shape(const Body& a, const Body& b, Length reach)
     : a_(a),
       b_(b),
       reach_(reach),
-      corners_(differences(a, b)),
+      corners_(grown_corners(a, b)),
       size_(size_of(corners_, reach)),
       advancement_(a, b, corners_, reach) {
   for (const Point& corner : corners_) vecs_.push_back(to_vec(corner));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct Disc {
   friend bool operator==(const Disc&, const Disc&) = default;
 };
 
-/// A convex polygon that moves with the agent and never turns. Immutable; cheap enough to copy.
+/// A convex polygon that moves with the agent and never turns. Immutable; copies share the
+/// corners.
 class ConvexPolygon {
  public:
   /// Most corners that a polygon may have.
@@ -30,14 +32,17 @@ class ConvexPolygon {
   [[nodiscard]] static Result<ConvexPolygon> make(std::vector<Point> vertices);
 
   /// Counter-clockwise, strictly convex.
-  [[nodiscard]] const std::vector<Point>& vertices() const noexcept { return vertices_; }
+  [[nodiscard]] const std::vector<Point>& vertices() const noexcept { return *vertices_; }
 
-  friend bool operator==(const ConvexPolygon&, const ConvexPolygon&) = default;
+  friend bool operator==(const ConvexPolygon& p, const ConvexPolygon& q) {
+    return p.vertices() == q.vertices();
+  }
 
  private:
-  explicit ConvexPolygon(std::vector<Point> vertices) : vertices_(std::move(vertices)) {}
+  explicit ConvexPolygon(std::vector<Point> vertices)
+      : vertices_(std::make_shared<const std::vector<Point>>(std::move(vertices))) {}
 
-  std::vector<Point> vertices_;
+  std::shared_ptr<const std::vector<Point>> vertices_;  // Shared by the copies.
 };
 
 /// The shape of an agent. Its boundary does not count: bodies collide when their *interiors* meet.

@@ -95,8 +95,6 @@ class BodyPair {
 
   // Without checking the motions.
   [[nodiscard]] bool collide_unchecked(const Motion& a, const Motion& b, Ticks offset) const;
-  // Some unsafe offset, slowly.
-  [[nodiscard]] std::optional<Ticks> find_unsafe(const Motion& a, const Motion& b) const;
   // What b's position relative to a's must keep `reach_` away from: a convex polygon or a point.
   [[nodiscard]] std::span<const Point> corners() const;
   [[nodiscard]] Length size() const;
