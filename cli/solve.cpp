@@ -16,6 +16,7 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "signals.hpp"
+#include "solve_roadmap.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {
@@ -32,11 +33,15 @@ constexpr const char* kFooter =
     "Example:\n"
     "  quadrille solve --map empty-8-8.map --scen empty-8-8-random-1.scen --agents 10\n"
     "\n"
+    "In continuous time:\n"
+    "  quadrille solve --roadmap map.xml --task task.xml --agents 10 --radius 0.35\n"
+    "\n"
     "SIGINT and SIGTERM end the search with what is known so far; a second one ends the program.\n"
     "\n";
 
 struct SolveArguments {
   SolveRequest request;
+  RoadmapOptions roadmap;
   std::optional<System> system;
   std::optional<discrete::CheckSchedule> check;
   std::optional<std::int64_t> seed, memory_mib;
@@ -322,20 +327,64 @@ ExitCode SolveRun::run() {
   return deliver(*input, search(input->instance));
 }
 
+/// What is wrong with the options of a solve in continuous time; empty if nothing is.
+std::string settle_roadmap(const SolveArguments& arguments, RoadmapSolveRequest& request) {
+  const InputOptions& other = arguments.request.input;
+  if (!other.map.empty() || !other.scen.empty() || !other.instance.empty())
+    return "--roadmap goes with --task, not with --map, --scen or --instance";
+  if (arguments.check || arguments.plan_format || arguments.request.options.cost_search ||
+      !arguments.request.known_plan.empty() || arguments.request.options.audit)
+    return "--check, --cost-search, --plan-format, --known-plan and --audit are not for --roadmap";
+  if (same_file(arguments.plan, arguments.json)) return "--plan and --json name the same output";
+  for (const std::string* output : {&arguments.plan, &arguments.json})
+    for (const std::string* in : {&arguments.roadmap.roadmap, &arguments.roadmap.task})
+      if (*output != "-" && same_file(*output, *in)) return *output + " is an input of this run";
+  const System system = arguments.system.value_or(System::dpll);
+  const auto known = continuous::parse_system(to_string(system));
+  if (!known) return "--roadmap needs --system dpll or smt-cbs";
+  request.input = arguments.roadmap;
+  request.agents = other.agents;
+  const discrete::SolveOptions& options = arguments.request.options;
+  request.options.objective = options.objective;
+  request.options.system = *known;
+  request.options.limits = options.limits;
+  if (arguments.memory_mib)
+    request.options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
+  if (arguments.seed) request.options.seed = static_cast<std::uint32_t>(*arguments.seed);
+  request.plan = arguments.plan;
+  request.json = arguments.json;
+  request.quiet = arguments.quiet;
+  return check_roadmap_options(request.input, request.agents);
+}
+
+ExitCode run(const CLI::App& app, SolveArguments& arguments) {
+  if (!arguments.roadmap.roadmap.empty()) {
+    RoadmapSolveRequest request;
+    const std::string wrong = settle_roadmap(arguments, request);
+    return wrong.empty() ? solve_roadmap(std::move(request)) : usage_error(app, wrong);
+  }
+  const RoadmapOptions& unused = arguments.roadmap;
+  if (!unused.task.empty() || unused.radius || unused.speed || unused.resolution ||
+      unused.neighbourhood)
+    return usage_error(app,
+                       "--task, --radius, --speed, --neighbourhood and --resolution belong to "
+                       "--roadmap");
+  const std::string wrong = settle(arguments);
+  return wrong.empty() ? SolveRun(arguments).run() : usage_error(app, wrong);
+}
+
 }  // namespace
 
 Subcommand add_solve(CLI::App& program) {
   CLI::App* app = program.add_subcommand("solve", "Find a plan of least cost");
   const auto arguments = std::make_shared<SolveArguments>();
   add_input_options(*app, arguments->request.input);
+  add_roadmap_options(*app, arguments->roadmap);
   add_search_options(*app, *arguments);
   add_limit_options(*app, *arguments);
   add_output_options(*app, *arguments);
   app->footer(std::string(kFooter) + kExitCodesHelp);
-  return {app, [app, arguments] {
-            const std::string wrong = settle(*arguments);
-            return wrong.empty() ? SolveRun(*arguments).run() : usage_error(*app, wrong);
-          }};
+  return {app, [app, arguments] { return run(*app, *arguments); }};
 }
 
 }  // namespace quadrille::cli
