@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -23,7 +22,7 @@ std::uint32_t number_from_environment(const char* name, std::uint32_t by_default
 }
 
 struct Tally {
-  int optimal = 0, infeasible = 0, unknown = 0, dearer_than_free = 0;
+  int optimal = 0, infeasible = 0, unknown = 0;
 };
 
 bool has_long_path(const Plan& plan, std::size_t max_moves) {
@@ -57,17 +56,19 @@ void check(const Instance& instance, const OrderSearch& oracle, std::size_t max_
       ++tally.unknown;
       break;
     case Status::feasible:
-      FAIL() << "a limit was met with a plan at hand, but plans are found last";
+      ++tally.unknown;
+      ASSERT_TRUE(verify(instance, *outcome.plan).valid());
+      ASSERT_GT(cost(*outcome.plan, options.objective), outcome.lower_bound);
+      break;
   }
 }
 
 class SolverRandom : public testing::TestWithParam<std::tuple<Objective, System>> {};
 
 TEST_P(SolverRandom, AgreesWithTheOracle) {
-  constexpr std::size_t kMaxMoves = 4;
   const auto [objective, system] = GetParam();
   const std::uint32_t first = number_from_environment("QUADRILLE_RANDOM_SEED", 0);
-  const std::uint32_t count = number_from_environment("QUADRILLE_RANDOM_COUNT", 300);
+  const std::uint32_t count = number_from_environment("QUADRILLE_RANDOM_COUNT", 250);
   Tally tally;
   for (std::uint32_t seed = first; seed < first + count; ++seed) {
     RandomOptions random;
@@ -75,25 +76,25 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     random.num_vertices = 4 + seed / 2 % 4;
     random.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
     const Instance instance = random_instance(seed, random);
+    const std::size_t max_moves = random.num_agents == 2 ? 4 : 3;
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
-    const OrderSearch oracle = search_orders(instance, objective, kMaxMoves);
+    const OrderSearch oracle = search_orders(instance, objective, max_moves);
     if (oracle.best) {
       ASSERT_TRUE(verify(instance, oracle.best_plan).valid());
     }
     SolveOptions options;
     options.objective = objective;
     options.system = system;
-    options.limits.wall_s = 0.5;
+    options.limits.conflicts = 3000;
+    options.limits.cpu_s = 0.3;  // for infeasible ones without conflicts
     if (!oracle.some_plans.empty())
       options.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
-    check(instance, oracle, kMaxMoves, options, tally);
+    check(instance, oracle, max_moves, options, tally);
     if (HasFatalFailure()) return;
   }
   RecordProperty("optimal", tally.optimal);
   RecordProperty("infeasible", tally.infeasible);
   RecordProperty("unknown", tally.unknown);
-  std::printf("optimal %d, infeasible %d, unknown %d\n", tally.optimal, tally.infeasible,
-              tally.unknown);
   EXPECT_GT(tally.optimal, static_cast<int>(count) / 2);
 }
 
