@@ -91,9 +91,7 @@ std::string dump(const Json& json) {
 
 }  // namespace
 
-bool has_schedule(discrete::System system) noexcept {
-  return system == discrete::System::dpll || system == discrete::System::dpll_mdd;
-}
+bool has_schedule(discrete::System system) noexcept { return system == discrete::System::dpll_mdd; }
 
 ExitCode exit_code(const SolveOutcome& outcome) {
   if (outcome.internal_error) return ExitCode::internal;

@@ -80,8 +80,9 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   };
   app.add_option_function<std::string>(
          "--check", read_check,
-         "When dpll and dpll-mdd check unfinished assignments: watch (default), propagate, or at\n"
-         "shares of the assigned literals, such as 1/2,3/4")
+         "When dpll-mdd checks unfinished assignments: watch (default), propagate, or at shares "
+         "of\n"
+         "the assigned literals, such as 1/2,3/4. Without --system it means --system dpll-mdd")
       ->type_name("SCHEDULE")
       ->group(group);
   add_choice<std::optional<CostSearch>>(
@@ -157,9 +158,9 @@ std::string settle(SolveArguments& arguments) {
   if (arguments.plan_format && arguments.plan.empty()) return "--plan-format needs --plan";
 
   discrete::SolveOptions& options = arguments.request.options;
-  options.system = arguments.system.value_or(System::dpll);
+  options.system = arguments.system.value_or(arguments.check ? System::dpll_mdd : System::dpll);
   if (arguments.check) {
-    if (!has_schedule(options.system)) return "--check belongs to --system dpll and dpll-mdd";
+    if (!has_schedule(options.system)) return "--check belongs to --system dpll-mdd";
     options.check = *arguments.check;
   }
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);

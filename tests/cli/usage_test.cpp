@@ -109,6 +109,7 @@ TEST_F(UsageTest, SolveOptionsThatContradictEachOther) {
       {{"--check", "1/2,1/3"}, "--check"},
       {{"--check", "often"}, "--check"},
       {{"--check", "1/2", "--system", "smt-cbs"}, "--check"},
+      {{"--check", "1/2", "--system", "dpll"}, "--check"},
       {{"--cost-search", "binary"}, "--cost-search"},
       {{"--mdd-growth", "fast"}, "--mdd-growth"},
       {{"--plan-format", "yaml"}, "--plan-format"},

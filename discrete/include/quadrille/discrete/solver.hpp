@@ -19,7 +19,7 @@ namespace quadrille::discrete {
 
 /// The solving systems; see docs/architecture.md.
 enum class System {
-  dpll,      ///< The default; at present the same as dpll_mdd.
+  dpll,      ///< The default. Lazy path model: paths live in the theory.
   dpll_mdd,  ///< MDD path model, collision clauses made inside the search as `check` says.
   smt_cbs,   ///< MDD path model, collision clauses made after each complete assignment.
   mdd_sat,   ///< MDD path model, all collision clauses made before solving.
@@ -73,7 +73,7 @@ struct Progress {
 struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
-  CheckSchedule check;  ///< Of dpll and dpll_mdd; the other systems have their own.
+  CheckSchedule check;  ///< Of dpll_mdd; the other systems check when they have to.
   /// For the sum of costs; the makespan is always searched upwards. Absent: core-guided for dpll,
   /// iterative for the published systems.
   std::optional<CostSearch> cost_search;
