@@ -100,6 +100,9 @@ class MockSolver {
     trail_.insert(trail_.end(), survivors.begin(), survivors.end());
   }
 
+  /// A clause that the solver has from the beginning.
+  void add_clause(std::vector<sat::Lit> clause) { clauses_.push_back(std::move(clause)); }
+
   /// A backtrack that nothing was announced for.
   void backtrack_unannounced_levels() { host_.notify_backtrack(level_ + draw(3)); }
 
