@@ -39,6 +39,8 @@ Json options_json(const SolveRequest& request) {
   json["mdd_growth"] = to_string(options.mdd_growth);
   json["first_plan"] = options.first_plan;
   json["gap"] = or_null(options.gap_percent);
+  json["threads"] = options.threads;
+  json["race"] = options.race;
   json["seed"] = options.seed;
   json["time_limit"] = or_null(options.limits.wall_s);
   json["cpu_limit"] = or_null(options.limits.cpu_s);
@@ -93,9 +95,7 @@ std::string dump(const Json& json) {
 
 }  // namespace
 
-bool has_schedule(discrete::System system) noexcept {
-  return system == discrete::System::dpll || system == discrete::System::dpll_mdd;
-}
+bool has_schedule(discrete::System system) noexcept { return system == discrete::System::dpll_mdd; }
 
 ExitCode exit_code(const SolveOutcome& outcome) {
   if (outcome.internal_error) return ExitCode::internal;

@@ -73,6 +73,8 @@ bool LimitMonitor::exhausted() {
   }
   if (limits_.interrupt != nullptr && limits_.interrupt->load(std::memory_order_relaxed))
     reason_ = StopReason::interrupt;
+  else if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed))
+    reason_ = StopReason::interrupt;
   else if (limits_.conflicts && conflicts_ >= *limits_.conflicts)
     reason_ = StopReason::conflicts;
   else if (calls_ % 16 == 0 && limits_.wall_s && elapsed_wall() >= *limits_.wall_s)

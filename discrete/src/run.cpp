@@ -45,7 +45,7 @@ class MddRun final : public Run {
   sat::BoundedProblem& bounded_problem() override { return *problem_; }
   sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
   const Plan& plan() const override { return problem_->plan(); }
-  std::int64_t effort() const override { return 0; }
+  std::int64_t effort() const override { return theory_ ? 2 * theory_->effort() : 0; }
   std::int64_t num_checks() const override {
     return problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "portfolio.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
@@ -20,8 +21,12 @@ namespace {
 class Search {
  public:
   Search(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-         SolveOutcome& outcome)
-      : instance_(instance), options_(options), limits_(limits), outcome_(outcome) {}
+         SolveOutcome& outcome, Companion* companion)
+      : instance_(instance),
+        options_(options),
+        limits_(limits),
+        outcome_(outcome),
+        companion_(companion) {}
 
   void run() {
     const auto distances = GoalDistances::make(instance_, limits_);
@@ -76,9 +81,10 @@ class Search {
 
   void improve() {
     constexpr std::int64_t kEffortOfConflict = 300;
-    if (!upper_ || run_ == nullptr) return;
+    if (run_ == nullptr) return;
     const std::int64_t effort = limits_.conflicts() * kEffortOfConflict + run_->effort();
-    if (upper_->advance(effort, limits_)) consider_stop();
+    if (companion_ != nullptr) companion_->on_effort(effort);
+    if (upper_ && upper_->advance(effort, limits_)) consider_stop();
   }
 
   /// Ends the search when the bounds meet, or are as close as was asked for.
@@ -126,6 +132,7 @@ class Search {
   const SolveOptions& options_;
   LimitMonitor& limits_;
   SolveOutcome& outcome_;
+  Companion* const companion_;
   std::optional<UpperBound> upper_;
   const Run* run_ = nullptr;  // when it is prepared
 };
@@ -170,6 +177,8 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   }
   if (options.gap_percent && !(*options.gap_percent >= 0))
     return refuse(ErrorCode::out_of_range, "the gap is not a number of at least 0");
+  if (options.threads < 1 || options.threads > 64)
+    return refuse(ErrorCode::out_of_range, "the number of threads is not from 1 to 64");
   if (options.seed > 2'000'000'000)
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
   if (options.known_plan && !verify(instance, *options.known_plan).valid())
@@ -179,9 +188,11 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
 
 }  // namespace
 
-SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
+SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
+                         Companion* companion) {
   SolveOutcome outcome;
   LimitMonitor limits(options.limits);
+  if (companion != nullptr) limits.set_cancel(&companion->cancelled());
   const auto finish = [&]() -> SolveOutcome&& {
     if (outcome.internal_error) {
       outcome.status = Status::unknown;
@@ -204,7 +215,7 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
     outcome.explanation = feasibility.reason;
     return finish();
   }
-  Search(instance, options, limits, outcome).run();
+  Search(instance, options, limits, outcome, companion).run();
   if (outcome.plan) check_plan(instance, options, outcome);
   if (outcome.status == Status::feasible) outcome.stop = limits.reason();
   if (outcome.status == Status::unknown) {
@@ -214,6 +225,11 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
                               : "stopped by the limit: " + std::string(to_string(outcome.stop));
   }
   return finish();
+}
+
+SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
+  return options.threads > 1 ? solve_portfolio(instance, options)
+                             : solve_alone(instance, options, nullptr);
 }
 
 }  // namespace quadrille::discrete

@@ -37,6 +37,8 @@ class MockSolver {
   [[nodiscard]] const std::vector<std::pair<sat::Lit, std::vector<sat::Lit>>>& reasons() const {
     return reasons_;
   }
+  /// True if a reason that was asked for at once had a literal that was not false.
+  [[nodiscard]] bool has_bad_reason() const { return has_bad_reason_; }
   [[nodiscard]] bool is_true(sat::Lit lit) const { return value(lit) == 1; }
   [[nodiscard]] std::size_t num_assigned() const { return trail_.size(); }
 
@@ -98,6 +100,9 @@ class MockSolver {
     trail_.insert(trail_.end(), survivors.begin(), survivors.end());
   }
 
+  /// A clause that the solver has from the beginning.
+  void add_clause(std::vector<sat::Lit> clause) { clauses_.push_back(std::move(clause)); }
+
   /// A backtrack that nothing was announced for.
   void backtrack_unannounced_levels() { host_.notify_backtrack(level_ + draw(3)); }
 
@@ -110,7 +115,11 @@ class MockSolver {
       if (value(lit) == 0) {
         trail_.push_back({lit, level_, false, 0});
         propagated_.push_back(lit);
-        if (draw(3) == 0) ask_reason(lit);
+        if (draw(3) != 0) {
+          ask_reason(lit);
+          for (const sat::Lit other : reasons_.back().second)
+            if (other != lit && value(other) != -1) has_bad_reason_ = true;
+        }
         announce();
       } else {
         ask_reason(lit);
@@ -199,7 +208,7 @@ class MockSolver {
   std::vector<std::vector<sat::Lit>> clauses_;
   std::vector<sat::Lit> propagated_;
   std::vector<std::pair<sat::Lit, std::vector<sat::Lit>>> reasons_;
-  bool dead_ = false;
+  bool dead_ = false, has_bad_reason_ = false;
 };
 
 }  // namespace quadrille::support

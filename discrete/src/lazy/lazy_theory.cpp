@@ -22,6 +22,7 @@ class LazyTheory::ContextWriter final : public FormulaWriter {
     has_written_ = true;
     context_.add_lemma(lemma);
   }
+  void stop() { context_.stop(); }
   [[nodiscard]] bool has_written() const noexcept { return has_written_; }
 
  private:
@@ -31,6 +32,7 @@ class LazyTheory::ContextWriter final : public FormulaWriter {
 
 LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits)
     : model_(model),
+      limits_(limits),
       paths_(model.instance()),
       clauses_(model, paths_),
       obstacle_map_(model.instance().graph().num_vertices()),
@@ -165,9 +167,15 @@ void LazyTheory::set_path(AgentId i, const Path& path) {
   paths_.replace(i, path);
 }
 
-bool LazyTheory::replan_all(FormulaWriter& writer) {
-  for (const AgentId i : model_.instance().agents())
-    if (agents_[i].is_violated && is_present(i) && !replan(i, writer)) return false;
+bool LazyTheory::replan_all(ContextWriter& writer) {
+  for (const AgentId i : model_.instance().agents()) {
+    if (!agents_[i].is_violated || !is_present(i)) continue;
+    if (limits_.exhausted()) {
+      writer.stop();
+      return false;
+    }
+    if (!replan(i, writer)) return false;
+  }
   return true;
 }
 
@@ -237,10 +245,14 @@ void LazyTheory::check_paths(ContextWriter& writer) {
   while (true) {
     if (!replan_all(writer) || writer.has_written()) return;
     ++num_checks_;
+    if (limits_.exhausted_now()) {
+      writer.stop();
+      return;
+    }
     list_present_collisions();
     if (!has_bypassed) {
       has_bypassed = true;
-      while (bypass()) {
+      while (!limits_.exhausted_now() && bypass()) {
       }
       list_present_collisions();
     }
@@ -318,7 +330,7 @@ bool LazyTheory::bypass() {
   std::sort(colliding.begin(), colliding.end());
   colliding.erase(std::unique(colliding.begin(), colliding.end()), colliding.end());
   bool any = false;
-  for (const AgentId i : colliding) any = bypass(i) || any;
+  for (const AgentId i : colliding) any = (!limits_.exhausted() && bypass(i)) || any;
   return any;
 }
 

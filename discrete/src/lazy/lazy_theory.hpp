@@ -25,8 +25,8 @@ namespace quadrille::discrete {
 /// of present agents become clauses at once.
 class LazyTheory final : public sat::Theory {
  public:
-  /// `model` outlives the theory. Plans free paths that avoid each other where that is easy, and
-  /// as long as `limits` permit.
+  /// Both outlive the theory. Plans free paths that avoid each other where that is easy. When a
+  /// limit is met the theory ends the solve that it takes part in.
   LazyTheory(LazyModel& model, LimitMonitor& limits);
 
   /// The paths of the last complete assignment that was accepted; absent if an agent was.
@@ -71,8 +71,9 @@ class LazyTheory final : public sat::Theory {
   void undo(const Change& change);
   [[nodiscard]] bool is_path_bad(AgentId i) const;
 
-  /// Replaces violated paths of present agents. False if a lemma says that one has none.
-  bool replan_all(FormulaWriter& writer);
+  /// Replaces violated paths of present agents. False if a lemma says that one has none, or if a
+  /// limit was met.
+  bool replan_all(ContextWriter& writer);
   bool replan(AgentId i, FormulaWriter& writer);
   /// Adds "i costs more than `cost`, or one of these usages is allowed". The searches' state is
   /// that of the last find_cheapest for i.
@@ -92,6 +93,7 @@ class LazyTheory final : public sat::Theory {
   void accept();
 
   LazyModel& model_;
+  LimitMonitor& limits_;
   PathIndex paths_;
   EncounterClauses clauses_;
   ObstacleMap obstacle_map_;

@@ -44,6 +44,8 @@ class LimitMonitor {
   /// Calls `listener` from within `exhausted` about every `interval_s` seconds.
   void set_ticker(double interval_s, std::function<void()> listener);
 
+  /// A second interrupt flag. May be null; must outlive the monitor otherwise.
+  void set_cancel(const std::atomic<bool>* cancel) noexcept { cancel_ = cancel; }
   /// Calls `listener` after each conflict that is counted.
   void set_conflict_listener(std::function<void()> listener);
   /// From now on, and if no limit was met before, the search has to stop for that reason.
@@ -58,6 +60,7 @@ class LimitMonitor {
 
  private:
   Limits limits_;
+  const std::atomic<bool>* cancel_ = nullptr;
   double wall_start_, cpu_start_;
   std::int64_t conflicts_ = 0;
   std::uint32_t calls_ = 0;

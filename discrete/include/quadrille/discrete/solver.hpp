@@ -19,7 +19,7 @@ namespace quadrille::discrete {
 
 /// The solving systems; see docs/architecture.md.
 enum class System {
-  dpll,      ///< The default: lazy path model, paths kept by the theory, lemmas from cuts.
+  dpll,      ///< The default. Lazy path model: paths live in the theory.
   dpll_mdd,  ///< MDD path model, collision clauses made inside the search as `check` says.
   smt_cbs,   ///< MDD path model, collision clauses made after each complete assignment.
   mdd_sat,   ///< MDD path model, all collision clauses made before solving.
@@ -74,7 +74,7 @@ struct Progress {
 struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
-  CheckSchedule check;  ///< Of dpll_mdd; the other systems have their own.
+  CheckSchedule check;  ///< Of dpll_mdd; the other systems check when they have to.
   /// For the sum of costs; the makespan is always searched upwards. Absent: core-guided for dpll,
   /// iterative for the published systems.
   std::optional<CostSearch> cost_search;
@@ -88,6 +88,12 @@ struct SolveOptions {
   /// negative.
   std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
+  /// More than one: that many searches side by side, this one and others with other systems; the
+  /// first proof is the answer. 1 .. 64.
+  std::size_t threads = 1;
+  /// With several threads, take the proof that comes first in time. Otherwise it is the first one
+  /// counted in steps, so that the answer is always the same.
+  bool race = false;
   /// Called on the solving thread, at most a few times a second. May be empty.
   std::function<void(const Progress&)> on_progress;
 
