@@ -31,6 +31,9 @@ class LazyTheory final : public sat::Theory {
 
   /// The paths of the last complete assignment that was accepted; absent if an agent was.
   [[nodiscard]] const std::optional<Plan>& accepted() const noexcept { return accepted_; }
+  /// The current path. After a check that added no lemma, those of agents with a cap respect the
+  /// caps and the active obstacles.
+  [[nodiscard]] const Path& path(AgentId agent) const { return paths_.path(agent); }
   /// Times that the paths of a complete assignment were checked for collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
