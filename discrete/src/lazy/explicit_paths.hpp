@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "mdd_paths.hpp"
 #include "lazy_model.hpp"
+#include "mdd_paths.hpp"
 
 namespace quadrille::discrete {
 

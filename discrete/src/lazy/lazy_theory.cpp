@@ -10,24 +10,27 @@ namespace quadrille::discrete {
 using sat::Lit;
 using sat::Truth;
 
-/// Writes to the solver by way of the theory's context and tells whether anything was written.
+/// Writes to the solver by way of the theory's context and tells whether the assignment cannot stay
+/// as it is: because of a clause that is false or of a literal that has no value yet.
 class LazyTheory::ContextWriter final : public FormulaWriter {
  public:
   explicit ContextWriter(sat::TheoryContext& context) : context_(context) {}
   [[nodiscard]] Lit new_lit() override {
-    has_written_ = true;
+    has_excluded_ = true;
     return context_.new_lit();
   }
   void add(const sat::Lemma& lemma) override {
-    has_written_ = true;
+    has_excluded_ =
+        has_excluded_ || std::all_of(lemma.clause.begin(), lemma.clause.end(),
+                                     [&](Lit l) { return context_.value(l) == Truth::is_false; });
     context_.add_lemma(lemma);
   }
   void stop() { context_.stop(); }
-  [[nodiscard]] bool has_written() const noexcept { return has_written_; }
+  [[nodiscard]] bool has_excluded() const noexcept { return has_excluded_; }
 
  private:
   sat::TheoryContext& context_;
-  bool has_written_ = false;
+  bool has_excluded_ = false;
 };
 
 LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits)
@@ -239,11 +242,11 @@ void LazyTheory::list_present_collisions() {
 }
 
 // Obstacles whose literal is false already take effect without a clause: then paths change, and
-// this has to look again, because an unchanged formula would count as consent.
+// this has to look again, because a formula that is still satisfied would count as consent.
 void LazyTheory::check_paths(ContextWriter& writer) {
   bool has_bypassed = false;
   while (true) {
-    if (!replan_all(writer) || writer.has_written()) return;
+    if (!replan_all(writer) || writer.has_excluded()) return;
     ++num_checks_;
     if (limits_.exhausted_now()) {
       writer.stop();
@@ -266,7 +269,7 @@ void LazyTheory::check_paths(ContextWriter& writer) {
     for (const Encounter& e : collisions_) clauses_.exclude(e, agents_[e.first].cap, writer);
     notice_new_obstacles();
     explicit_paths_.link_new_obstacles(writer);
-    if (writer.has_written()) return;
+    if (writer.has_excluded()) return;
   }
 }
 
