@@ -37,6 +37,8 @@ Json options_json(const SolveRequest& request) {
   json["check"] = has_schedule(options.system) ? Json(to_string(options.check)) : Json(nullptr);
   json["cost_search"] = options.cost_search ? Json(to_string(*options.cost_search)) : Json(nullptr);
   json["mdd_growth"] = to_string(options.mdd_growth);
+  json["first_plan"] = options.first_plan;
+  json["gap"] = or_null(options.gap_percent);
   json["seed"] = options.seed;
   json["time_limit"] = or_null(options.limits.wall_s);
   json["cpu_limit"] = or_null(options.limits.cpu_s);

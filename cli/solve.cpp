@@ -93,6 +93,9 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
                                   discrete::parse_mdd_growth,
                                   "How far the MDDs reach at first: on-demand (default) or full")
       ->group(group);
+  app.add_flag("!--no-first-plan", options.first_plan,
+               "Do not look for a plan of any cost before and beside the proof")
+      ->group(group);
   add_integer(app, "--seed", arguments.seed, 0, kMaxSeed, "Seed of all random choices; default 0")
       ->group(group);
 }
@@ -109,6 +112,9 @@ void add_limit_options(CLI::App& app, SolveArguments& arguments) {
       ->group(group);
   add_integer(app, "--conflict-limit", limits.conflicts, 0, INT64_MAX,
               "Stop after this many conflicts of the SAT solver")
+      ->group(group);
+  add_per_cent(app, "--gap", arguments.request.options.gap_percent,
+               "Stop when the plan is proved to cost at most this many per cent too much")
       ->group(group);
 }
 

@@ -23,7 +23,7 @@ constexpr double kSoon = 2.0;
 /// Every agent on a walk across a room: much too hard to finish within the limits below.
 Instance hard_instance() {
   Random random(2);
-  return random_grid(random, {20, 20, 0, 120, 120});
+  return random_grid(random, {20, 20, 0, 360, 360});
 }
 
 SolveOptions with_limits(SolveOptions options, const Limits& limits) {
@@ -35,6 +35,9 @@ std::vector<SolveOptions> systems_for_both_objectives() {
   std::vector<SolveOptions> systems = all_systems(Objective::sum_of_costs);
   const std::vector<SolveOptions> more = all_systems(Objective::makespan);
   systems.insert(systems.end(), more.begin(), more.end());
+  // The first plan of the hard instance has the least makespan, which would be the end.
+  for (SolveOptions& options : systems)
+    if (options.objective == Objective::makespan) options.first_plan = false;
   return systems;
 }
 

@@ -239,6 +239,7 @@ std::string options_text(const SolveOptions& options) {
   if (options.mdd_growth != SolveOptions().mdd_growth)
     text += " growth=" + std::string(to_string(options.mdd_growth));
   text += " seed=" + std::to_string(options.seed);
+  if (!options.first_plan) text += " no-first-plan";
   if (options.audit) text += " audit";
   if (options.known_plan) text += " known-plan";
   return text + "\n";

@@ -29,13 +29,14 @@ class LazyTheory::ContextWriter final : public FormulaWriter {
   bool has_written_ = false;
 };
 
-LazyTheory::LazyTheory(LazyModel& model)
+LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits)
     : model_(model),
       paths_(model.instance()),
       clauses_(model, paths_),
       obstacle_map_(model.instance().graph().num_vertices()),
       finder_(model.instance().graph().num_vertices()),
       explainer_(model.instance().graph().num_vertices()),
+      explicit_paths_(model),
       agents_(model.instance().num_agents()) {
   for (const AgentId i : model.instance().agents()) {
     const AgentDistances& distances = model_.distances(i);
@@ -47,7 +48,7 @@ LazyTheory::LazyTheory(LazyModel& model)
     agents_[i].cap = distances.free_cost();
   }
   constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds && bypass(); ++round) {
+  for (int round = 0; round < kRounds && !limits.exhausted_now() && bypass(); ++round) {
   }
   for (Agent& agent : agents_) agent.cap = kForever;
 }
@@ -72,7 +73,9 @@ void LazyTheory::on_assign(std::span<const Lit> newly_true) {
     // Usages are allowed and costs are high while their variables are false.
     if (!lit.positive()) continue;
     const auto meaning = model_.variable(lit);
-    if (meaning.kind == LazyModel::VariableKind::auxiliary) continue;
+    if (meaning.kind == LazyModel::VariableKind::auxiliary ||
+        meaning.kind == LazyModel::VariableKind::vertex)
+      continue;
     if (index < watchers_.size())
       for (const ObstacleId id : watchers_[index]) activate(id);
     if (meaning.kind == LazyModel::VariableKind::cost) lower_cap(meaning.agent, meaning.cost);
@@ -207,6 +210,7 @@ void LazyTheory::explain_bound(AgentId i, Timestep cost, FormulaWriter& writer) 
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
   bump(clause);
+  explicit_paths_.on_path_lemma(i, agent.cap, writer);
 }
 
 // ---- checks -------------------------------------------------------------------------------------
@@ -249,6 +253,7 @@ void LazyTheory::check_paths(ContextWriter& writer) {
         [](const Encounter& a, const Encounter& b) { return a.timestep < b.timestep; });
     for (const Encounter& e : collisions_) clauses_.exclude(e, agents_[e.first].cap, writer);
     notice_new_obstacles();
+    explicit_paths_.link_new_obstacles(writer);
     if (writer.has_written()) return;
   }
 }
@@ -277,6 +282,7 @@ Lit LazyTheory::decide(sat::TheoryContext& context) {
   for (const Encounter& e : std::vector<Encounter>(collisions_)) {
     const auto usages = clauses_.exclude(e, agents_[e.first].cap, writer);
     notice_new_obstacles();
+    explicit_paths_.link_new_obstacles(writer);
     Lit choice;
     for (const ObstacleId id : usages) {
       const Lit allowed = model_.obstacles()[id].allowed;

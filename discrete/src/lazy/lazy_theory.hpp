@@ -7,9 +7,11 @@
 
 #include "encounter_clauses.hpp"
 #include "explanation.hpp"
+#include "explicit_paths.hpp"
 #include "lazy_model.hpp"
 #include "path_finder.hpp"
 #include "path_index.hpp"
+#include "quadrille/core/limits.hpp"
 #include "quadrille/sat/theory.hpp"
 
 namespace quadrille::discrete {
@@ -23,13 +25,17 @@ namespace quadrille::discrete {
 /// of present agents become clauses at once.
 class LazyTheory final : public sat::Theory {
  public:
-  /// `model` outlives the theory. Plans free paths that avoid each other where that is easy.
-  explicit LazyTheory(LazyModel& model);
+  /// `model` outlives the theory. Plans free paths that avoid each other where that is easy, and
+  /// as long as `limits` permit.
+  LazyTheory(LazyModel& model, LimitMonitor& limits);
 
   /// The paths of the last complete assignment that was accepted; absent if an agent was.
   [[nodiscard]] const std::optional<Plan>& accepted() const noexcept { return accepted_; }
   /// Times that the paths of a complete assignment were checked for collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
+
+  /// States that path searches have expanded.
+  [[nodiscard]] std::int64_t effort() const noexcept { return finder_.effort(); }
 
   /// Called before each solve. Unless all agents will have a cap, only conflicts among those that
   /// have matter: the theory decides for them and ends the solve when they do not collide.
@@ -91,6 +97,7 @@ class LazyTheory final : public sat::Theory {
   ObstacleMap obstacle_map_;
   PathFinder finder_;
   Explainer explainer_;
+  ExplicitPaths explicit_paths_;
 
   IdVector<AgentId, Agent> agents_;
   std::vector<sat::Lit> stack_;

@@ -42,6 +42,7 @@ void PathFinder::trace(const Query& query, Timestep arrival, Path& path) {
 template <class Hit, class Push>
 void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hit& hit,
                         const Push& push) {
+  ++effort_;
   const AgentDistances& d = query.distances;
   const Timestep max_slack = query.max_cost - d.free_cost();
   const Timestep h = d.to_goal(v), t = d.free_cost() + slack - h;

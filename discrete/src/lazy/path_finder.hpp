@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,9 @@ class PathFinder {
   /// Requires `others`.
   [[nodiscard]] bool find_quietest(const Query& query, int below, Path& path);
 
+  /// States expanded so far by all searches.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+
  private:
   struct State {
     VertexId vertex, parent;
@@ -59,6 +63,7 @@ class PathFinder {
   void trace(const Query& query, Timestep arrival, Path& path);
 
   std::size_t num_vertices_;
+  std::int64_t effort_ = 0;
   std::uint32_t stamp_ = 0;
   std::vector<std::vector<Closed>> layers_;  // by slack, then vertex
   std::vector<Buckets> open_;                // cheapest: by slack % 3; quietest: by collisions

@@ -44,7 +44,12 @@ class LimitMonitor {
   /// Calls `listener` from within `exhausted` about every `interval_s` seconds.
   void set_ticker(double interval_s, std::function<void()> listener);
 
-  void add_conflicts(std::int64_t count) noexcept { conflicts_ += count; }
+  /// Calls `listener` after each conflict that is counted.
+  void set_conflict_listener(std::function<void()> listener);
+  /// From now on, and if no limit was met before, the search has to stop for that reason.
+  void stop(StopReason reason) noexcept;
+
+  void add_conflicts(std::int64_t count);
   [[nodiscard]] std::int64_t conflicts() const noexcept { return conflicts_; }
   [[nodiscard]] StopReason reason() const noexcept { return reason_; }
   /// Since the monitor was made.
@@ -57,7 +62,7 @@ class LimitMonitor {
   std::int64_t conflicts_ = 0;
   std::uint32_t calls_ = 0;
   StopReason reason_ = StopReason::none;
-  std::function<void()> ticker_;
+  std::function<void()> ticker_, conflict_listener_;
   double tick_interval_ = 0, next_tick_ = 0;
 };
 
