@@ -30,9 +30,8 @@ endif()
 quadrille_find_package(nlohmann_json nlohmann-json3-dev 3.11)
 quadrille_find_package(yaml-cpp libyaml-cpp-dev 0.7)
 
-# For geometry/. Nothing is linked to them yet.
-if(QUADRILLE_FIND_GEOMETRY)
-  quadrille_find_package(Eigen3 libeigen3-dev 3.3 NO_MODULE)
-  quadrille_find_package(ccd libccd-dev)
-  quadrille_find_package(fcl libfcl-dev 0.7)
-endif()
+# For geometry/. Users of a static package link FCL too; Boost is used for its headers alone.
+quadrille_find_package(Eigen3 libeigen3-dev 3.3 NO_MODULE)
+quadrille_find_package(ccd libccd-dev)
+quadrille_find_package(fcl libfcl-dev 0.7)
+quadrille_find_package(Boost libboost-dev 1.74)

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Answers per second of geometry/, for pairs of motions that the broad phase lets through: edges of
+// a random roadmap, up to about three units long, and moves on a grid, where exact contacts are
+// common. The unit has a million length units, as in the default resolution.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+
+#include "quadrille/geometry/body_pair.hpp"
+#include "quadrille/geometry/swept_volumes.hpp"
+
+namespace quadrille::geometry {
+namespace {
+
+constexpr Length kUnit = 1000000;
+constexpr Length kRadius = 353553;  // sqrt(2) / 4, rounded down.
+
+// Pairs whose swept volumes are near each other: what the broad phase lets through.
+struct Pair {
+  Motion a;
+  Motion b;
+};
+
+std::vector<Motion> roadmap(std::size_t count, bool grid) {
+  std::mt19937_64 random(1);
+  const auto draw = [&](Length first, Length last) {
+    return first + static_cast<Length>(random() % static_cast<std::uint64_t>(last - first + 1));
+  };
+  const Length side = static_cast<Length>(std::sqrt(static_cast<double>(count)));
+  const Length step = grid ? kUnit : 1;
+  std::vector<Motion> motions;
+  while (motions.size() < count) {
+    const Point from{draw(0, side * kUnit / step) * step, draw(0, side * kUnit / step) * step};
+    const Length reach = (grid ? 1 : 3 * kUnit);
+    const Point to{from.x + draw(-reach, reach) * step, from.y + draw(-reach, reach) * step};
+    if (from == to) continue;
+    const double length =
+        std::hypot(static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y));
+    motions.push_back({from, to, std::max(Ticks{1}, static_cast<Ticks>(std::llround(length)))});
+  }
+  return motions;
+}
+
+Body body(std::int64_t kind) {
+  if (kind == 0) return Disc{kRadius};
+  const Length r = kRadius;
+  return ConvexPolygon::make({{-r, -r / 2}, {r, -r / 2}, {r, r / 2}, {-r, r / 2}}).value();
+}
+
+std::vector<Pair> near_pairs(const Body& shape, bool grid) {
+  const SweptVolumes volumes(shape, roadmap(2000, grid));
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < volumes.motions().size(); ++i)
+    for (const std::size_t k : volumes.near(shape, i))
+      pairs.push_back({volumes.motions()[i], volumes.motions()[k]});
+  return pairs;
+}
+
+void unsafe_offsets(benchmark::State& state) {
+  const Body shape = body(state.range(0));
+  const BodyPair pair(shape, shape);
+  const std::vector<Pair> pairs = near_pairs(shape, state.range(1) != 0);
+  std::size_t next = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const Pair& at = pairs[next++ % pairs.size()];
+    benchmark::DoNotOptimize(pair.unsafe_offsets(at.a, at.b));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(unsafe_offsets)->ArgNames({"polygon", "grid"})->ArgsProduct({{0, 1}, {0, 1}});
+
+void collide(benchmark::State& state) {
+  const Body shape = body(state.range(0));
+  const BodyPair pair(shape, shape);
+  const std::vector<Pair> pairs = near_pairs(shape, state.range(1) != 0);
+  std::size_t next = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const Pair& at = pairs[next % pairs.size()];
+    const auto range = static_cast<std::size_t>(at.a.duration + at.b.duration);
+    const Ticks offset = static_cast<Ticks>(next++ * 7919 % range) - at.b.duration;
+    benchmark::DoNotOptimize(pair.collide(at.a, at.b, offset));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(collide)->ArgNames({"polygon", "grid"})->ArgsProduct({{0, 1}, {0, 1}});
+
+void contact_window(benchmark::State& state) {
+  const Body shape = body(state.range(0));
+  const BodyPair pair(shape, shape);
+  const std::vector<Pair> pairs = near_pairs(shape, state.range(1) != 0);
+  std::size_t next = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const Pair& at = pairs[next++ % pairs.size()];
+    benchmark::DoNotOptimize(pair.contact_window(at.a, at.b.from));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(contact_window)->ArgNames({"polygon", "grid"})->ArgsProduct({{0, 1}, {0, 1}});
+
+void broad_phase(benchmark::State& state) {
+  const Body shape = body(0);
+  const std::vector<Motion> motions = roadmap(static_cast<std::size_t>(state.range(0)), true);
+  std::size_t found = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const SweptVolumes volumes(shape, motions);
+    found = 0;
+    for (std::size_t i = 0; i < motions.size(); ++i) found += volumes.near(shape, i).size();
+  }
+  state.counters["pairs"] = static_cast<double>(found);
+}
+BENCHMARK(broad_phase)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace quadrille::geometry
+
+BENCHMARK_MAIN();

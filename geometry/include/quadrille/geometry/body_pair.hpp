@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "quadrille/geometry/body.hpp"
+#include "quadrille/geometry/motion.hpp"
+
+namespace quadrille::geometry {
+
+/// Start-time differences t_b - t_a, in ticks; both ends belong to it; lo <= hi.
+struct OffsetInterval {
+  Ticks lo = 0;
+  Ticks hi = 0;
+
+  friend constexpr bool operator==(const OffsetInterval&, const OffsetInterval&) = default;
+};
+
+/// When a moving body is in contact with a place, in ticks since the motion began.
+///
+/// A body that stands at the place during the closed real interval [arrive, leave], arrive <= leave
+/// whole ticks since the motion began, collides with the moving one if and only if
+///     arrive < last  and  leave > first.
+/// With the real times of contact forming the open interval (a, b): first = floor(a), last =
+/// ceil(b). An overlap at the very start of the motion gives first = -1, one at its very end last =
+/// duration + 1, because there the end of the motion itself belongs to the contact. first < last.
+struct ContactWindow {
+  Ticks first = 0;
+  Ticks last = 0;
+
+  /// The condition above.
+  [[nodiscard]] constexpr bool meets(Ticks arrive, Ticks leave) const noexcept {
+    return arrive < last && leave > first;
+  }
+  friend constexpr bool operator==(const ContactWindow&, const ContactWindow&) = default;
+};
+
+/// The free space between two bodies in length units, as a certified pair of bounds:
+/// at_least <= exact value <= at_most. Both are 0 when the bodies touch or collide, which `collide`
+/// tells apart, and only at_most > 0 otherwise; they differ by at most 10^-13 of the largest length
+/// involved.
+struct Gap {
+  double at_least = 0;
+  double at_most = 0;
+};
+
+/// Every question about two bodies, `a` and `b`, that move or rest.
+///
+/// Touching is allowed: *collide* means that the interiors meet, for discs that the distance of the
+/// centres is less than the sum of the radii. Every answer is exact for the numbers given, for
+/// discs and polygons alike, except the bounds of `gap`: floating point only filters, and what it
+/// leaves in doubt is decided in exact integer arithmetic.
+///
+/// Immutable, cheap to copy; all members may be called from several threads at once. They require
+/// valid motions and points in range. Time is constant for discs and grows with the number of
+/// corners for polygons, whose pairs are also dearer to construct: keep one per pair of body
+/// classes.
+class BodyPair {
+ public:
+  /// Requires radii in [1, kMaxLength].
+  BodyPair(const Body& a, const Body& b);
+
+  /// The offsets d = t_b - t_a at which the bodies collide at some moment while both motions run:
+  /// a's during [t_a, t_a + a.duration], b's during [t_b, t_b + b.duration], ends included. They
+  /// form one run of integers; none if there is no such integer. With the arguments and the bodies
+  /// swapped the result is [-hi, -lo].
+  [[nodiscard]] std::optional<OffsetInterval> unsafe_offsets(const Motion& a,
+                                                             const Motion& b) const;
+
+  /// Whether `offset` is in unsafe_offsets(a, b). Any offset is allowed.
+  [[nodiscard]] bool collide(const Motion& a, const Motion& b, Ticks offset) const;
+
+  /// When b's body, standing at `place`, is in the way of a's motion; none if never.
+  [[nodiscard]] std::optional<ContactWindow> contact_window(const Motion& a,
+                                                            const Point& place) const;
+
+  /// Whether the interiors meet when a is at `place_a` and b at `place_b`.
+  [[nodiscard]] bool overlap(const Point& place_a, const Point& place_b) const;
+
+  /// The smallest gap over all moments at which both motions run, b starting `offset` ticks after
+  /// a; none if there is no such moment.
+  [[nodiscard]] std::optional<Gap> gap(const Motion& a, const Motion& b, Ticks offset) const;
+
+  /// Whether the motions collide at some offset, real ones included: whether the areas that the two
+  /// bodies sweep have a common interior point.
+  [[nodiscard]] bool can_meet(const Motion& a, const Motion& b) const;
+
+  /// The same pair, b first.
+  [[nodiscard]] BodyPair swapped() const;
+
+ private:
+  class Shape;  // Null for two discs.
+
+  // Without checking the motions.
+  [[nodiscard]] bool collide_unchecked(const Motion& a, const Motion& b, Ticks offset) const;
+  // What b's position relative to a's must keep `reach_` away from: a convex polygon or a point.
+  [[nodiscard]] std::span<const Point> corners() const;
+  [[nodiscard]] Length size() const;
+
+  Length reach_ = 0;  // The sum of the radii; 0 for two polygons.
+  std::shared_ptr<const Shape> shape_;
+};
+
+/// BodyPair(body_a, body_b).unsafe_offsets(a, b).
+[[nodiscard]] inline std::optional<OffsetInterval> unsafe_offsets(const Body& body_a,
+                                                                  const Motion& a,
+                                                                  const Body& body_b,
+                                                                  const Motion& b) {
+  return BodyPair(body_a, body_b).unsafe_offsets(a, b);
+}
+
+/// BodyPair(body_a, body_b).overlap(place_a, place_b).
+[[nodiscard]] inline bool bodies_overlap(const Body& body_a, const Point& place_a,
+                                         const Body& body_b, const Point& place_b) {
+  return BodyPair(body_a, body_b).overlap(place_a, place_b);
+}
+
+}  // namespace quadrille::geometry

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace quadrille::geometry {
+
+/// Time, in whole ticks. A time *difference* may be negative.
+using Ticks = std::int64_t;
+/// Length, in whole length units.
+using Length = std::int64_t;
+
+/// What the exact arithmetic is laid out for: coordinates of a point lie in [-kMaxLength,
+/// kMaxLength], and so do radii and the coordinates of a polygon's corners. With a unit of 10^-6
+/// that is a million.
+inline constexpr Length kMaxLength = Length{1} << 40;
+/// The longest motion, rests included.
+inline constexpr Ticks kMaxDuration = Ticks{1} << 40;
+
+/// A point or a vector of the plane, in length units.
+struct Point {
+  Length x = 0;
+  Length y = 0;
+
+  friend constexpr bool operator==(const Point&, const Point&) = default;
+};
+
+/// Whether both coordinates are within kMaxLength.
+[[nodiscard]] constexpr bool in_range(const Point& point) noexcept {
+  return -kMaxLength <= point.x && point.x <= kMaxLength && -kMaxLength <= point.y &&
+         point.y <= kMaxLength;
+}
+
+}  // namespace quadrille::geometry

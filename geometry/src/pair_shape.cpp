@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "pair_shape.hpp"
+
+#include "grown_shape.hpp"
+
+namespace quadrille::geometry {
+namespace {
+
+Length size_of(const std::vector<Point>& corners, Length reach) {
+  Length size = 0;
+  for (const Point& corner : corners) size = std::max(size, extent(corner));
+  return size + reach;
+}
+
+}  // namespace
+
+BodyPair::Shape::Shape(const Body& a, const Body& b, Length reach)
+    : a_(a),
+      b_(b),
+      reach_(reach),
+      corners_(grown_corners(a, b)),
+      size_(size_of(corners_, reach)),
+      advancement_(a, b, corners_, reach) {
+  for (const Point& corner : corners_) vecs_.push_back(to_vec(corner));
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Vec side = to_vec(corners_[(i + 1) % corners_.size()] - corners_[i]);
+    normals_.push_back((1 / norm(side)) * Vec{side.y, -side.x});
+  }
+}
+
+double BodyPair::Shape::depth(const RelativePath& path) const {
+  // The part of the path on the inner side of every side, then the depth in the middle of it. The
+  // middle need not be the deepest point, so this is a lower bound.
+  double from = 0;
+  double to = 1;
+  for (std::size_t i = 0; i < vecs_.size(); ++i) {
+    const double begin = dot(normals_[i], path.begin - vecs_[i]);
+    const double end = dot(normals_[i], path.end - vecs_[i]);
+    if (begin > 0 && end > 0) return -1;
+    if (begin > 0) from = std::max(from, begin / (begin - end));
+    if (end > 0) to = std::min(to, begin / (begin - end));
+  }
+  if (from > to) return -1;
+  const Vec middle = path.begin + ((from + to) / 2) * (path.end - path.begin);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < vecs_.size(); ++i)
+    least = std::min(least, -dot(normals_[i], middle - vecs_[i]));
+  return least;
+}
+
+double BodyPair::Shape::distance(const RelativePath& path) const {
+  if (depth(path) >= 0) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < vecs_.size(); ++i) {
+    const Vec next = vecs_[(i + 1) % vecs_.size()];
+    least = std::min({least, geometry::distance(vecs_[i], path.begin, path.end),
+                      geometry::distance(path.begin, vecs_[i], next),
+                      geometry::distance(path.end, vecs_[i], next)});
+  }
+  return least;
+}
+
+int BodyPair::Shape::filter(const RelativePath& path) const {
+  if (depth(path) > path.error) return 1;
+  if (reach_ > 0 && distance(path) < static_cast<double>(reach_) - path.error) return 1;
+  return advancement_.proves_apart(path) ? -1 : 0;
+}
+
+// The grown polygon is the union of the polygon, a disc around each corner, and a rectangle on each
+// side; the offsets of each part are easy.
+RealInterval BodyPair::Shape::likely_offsets(const Motion& a, const Motion& b) const {
+  RealInterval offsets;
+  include_polygon(a, b, vecs_, offsets);
+  if (reach_ == 0) return offsets;
+  const double reach = static_cast<double>(reach_);
+  for (std::size_t i = 0; i < vecs_.size(); ++i) {
+    const Vec next = vecs_[(i + 1) % vecs_.size()];
+    const Vec out = reach * normals_[i];
+    include_disc(a, b, vecs_[i], reach, offsets);
+    include_polygon(a, b, std::vector<Vec>{vecs_[i], vecs_[i] + out, next + out, next}, offsets);
+  }
+  return offsets;
+}
+
+}  // namespace quadrille::geometry

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/geometry/body.hpp"
+
+#include <gtest/gtest.h>
+
+namespace quadrille::geometry {
+namespace {
+
+ErrorCode refused(std::vector<Point> vertices) {
+  const auto polygon = ConvexPolygon::make(std::move(vertices));
+  EXPECT_FALSE(polygon.has_value());
+  return polygon ? ErrorCode::internal : polygon.error().code;
+}
+
+TEST(ConvexPolygon, IsKeptCounterClockwise) {
+  const std::vector<Point> corners{{0, 0}, {4, 0}, {4, 3}};
+  EXPECT_EQ(ConvexPolygon::make(corners).value().vertices(), corners);
+  EXPECT_EQ(ConvexPolygon::make({{0, 0}, {4, 3}, {4, 0}}).value().vertices(), corners);
+}
+
+TEST(ConvexPolygon, RefusesWhatIsNone) {
+  using enum ErrorCode;
+  EXPECT_EQ(refused({}), invalid_instance);
+  EXPECT_EQ(refused({{0, 0}, {1, 0}}), invalid_instance);
+  EXPECT_EQ(refused({{0, 0}, {1, 0}, {2, 0}}), invalid_instance);          // A line.
+  EXPECT_EQ(refused({{0, 0}, {2, 0}, {4, 0}, {2, 3}}), invalid_instance);  // Straight.
+  EXPECT_EQ(refused({{0, 0}, {4, 0}, {4, 0}, {2, 3}}), invalid_instance);  // Repeats.
+  EXPECT_EQ(refused({{0, 0}, {4, 0}, {1, 1}, {0, 4}}), invalid_instance);  // Notch.
+  EXPECT_EQ(refused({{0, 0}, {4, 4}, {4, 0}, {0, 4}}), invalid_instance);  // Bow tie.
+  EXPECT_EQ(refused({{0, 10}, {6, -8}, {-10, 3}, {10, 3}, {-6, -8}}), invalid_instance);  // Star.
+  EXPECT_EQ(refused({{0, 0}, {4, 0}, {2, 3}, {0, 0}, {4, 0}, {2, 3}}), invalid_instance);
+  EXPECT_EQ(refused({{0, 0}, {kMaxLength + 1, 0}, {2, 3}}), out_of_range);
+  std::vector<Point> many;
+  for (Length i = 0; i <= 64; ++i) many.push_back({i, i * i});
+  EXPECT_EQ(refused(many), out_of_range);
+  many.pop_back();
+  EXPECT_TRUE(ConvexPolygon::make(many).has_value());
+}
+
+}  // namespace
+}  // namespace quadrille::geometry

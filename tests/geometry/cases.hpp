@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ostream>
+
+#include "quadrille/geometry/body.hpp"
+#include "quadrille/geometry/motion.hpp"
+#include "support/random.hpp"
+
+namespace quadrille::geometry {
+
+/// Two bodies and a motion of each.
+struct Case {
+  Body body_a;
+  Motion a;
+  Body body_b;
+  Motion b;
+};
+
+/// As C++, to be pasted into a test.
+std::ostream& operator<<(std::ostream& out, const Case& c);
+
+/// Uniform in first .. last, which may be negative.
+Length draw(support::Random& random, Length first, Length last);
+
+/// Durations and coordinates up to about forty, so that every offset can be tried.
+Case small_discs(support::Random& random);
+Case small_bodies(support::Random& random);
+
+/// One of the hard families, at some scale up to the largest numbers allowed: tangent and one unit
+/// to either side of it, equal velocities, slow relative motion, collinear followers, tiny
+/// durations, an overlap at the start, rests, and motions with nothing special, with different
+/// radii and speeds.
+Case hard_discs(support::Random& random);
+/// The same for two bodies of which at least one is a polygon.
+Case hard_bodies(support::Random& random);
+
+/// A convex polygon around the origin whose corners are at most about `size` away.
+ConvexPolygon random_polygon(support::Random& random, Length size);
+
+}  // namespace quadrille::geometry
