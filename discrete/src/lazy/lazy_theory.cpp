@@ -342,7 +342,11 @@ bool LazyTheory::bypass(AgentId i) {
   if (now == 0) return false;
   const AgentDistances& distances = model_.distances(i);
   obstacle_map_.load(model_.obstacles(), agents_[i].active, distances.goal());
-  if (!finder_.find_quietest({i, distances, obstacle_map_, agents_[i].cap, &paths_}, now, path_))
+  // On open maps a vain search would look at everything within the cap.
+  constexpr std::int64_t kStatesPerStep = 10;
+  const auto max_effort = kStatesPerStep * static_cast<std::int64_t>(paths_.path(i).size());
+  if (!finder_.find_quietest({i, distances, obstacle_map_, agents_[i].cap, &paths_, max_effort},
+                             now, path_))
     return false;
   set_path(i, path_);
   return true;

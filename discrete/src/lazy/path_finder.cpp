@@ -108,6 +108,8 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
 
 bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
   QUADRILLE_REQUIRE(query.others != nullptr, "collisions with somebody");
+  const std::int64_t last_effort =
+      query.max_effort > INT64_MAX - effort_ ? INT64_MAX : effort_ + query.max_effort;
   const AgentDistances& d = query.distances;
   if (query.max_cost < d.free_cost() || query.obstacles.earliest_rest() > query.max_cost)
     return false;
@@ -120,6 +122,7 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
     Buckets& buckets = open_[static_cast<std::size_t>(c)];
     for (std::size_t s = 0; s < buckets.size(); ++s) {  // steps never lessen the slack
       while (!buckets[s].empty()) {
+        if (effort_ >= last_effort) return false;
         const State state = buckets[s].back();
         buckets[s].pop_back();
         const auto slack = static_cast<Timestep>(s);

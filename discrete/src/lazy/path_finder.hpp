@@ -23,6 +23,7 @@ class PathFinder {
     const ObstacleMap& obstacles;  ///< Loaded for the agent.
     Timestep max_cost = 0;
     const PathIndex* others = nullptr;  ///< Whose collisions to avoid; null: nobody's.
+    std::int64_t max_effort = INT64_MAX;  ///< Of find_quietest: states to expand before giving up.
   };
 
   /// Finds a cheapest path of at most `max_cost`, among these one with few collisions. False if
