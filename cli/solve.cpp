@@ -94,6 +94,9 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
                                   discrete::parse_mdd_growth,
                                   "How far the MDDs reach at first: on-demand (default) or full")
       ->group(group);
+  app.add_flag("--forbid-first", options.forbid_first,
+               "dpll: try first to forbid usages; faster on some hard instances, slower on others")
+      ->group(group);
   app.add_flag("!--no-first-plan", options.first_plan,
                "Do not look for a plan of any cost before and beside the proof")
       ->group(group);

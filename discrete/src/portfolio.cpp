@@ -98,7 +98,7 @@ class WorkerCompanion final : public Companion {
   std::size_t worker_;
 };
 
-/// What another worker does: the other path model first, then variants of it.
+/// What another worker does: the lazy model with the other phase first, then the MDD model.
 SolveOptions options_of(const SolveOptions& options, std::size_t worker) {
   if (worker == 0) return options;
   using Kind = CheckSchedule::Kind;
@@ -107,15 +107,14 @@ SolveOptions options_of(const SolveOptions& options, std::size_t worker) {
   other.first_plan = false;
   other.cost_search = CostSearch::core_guided;
   other.mdd_growth = MddGrowth::on_demand;
-  const bool lazy_first = options.system == System::dpll;
   const std::size_t variant = (worker - 1) % 4;
   if (variant == 0) {
-    other.system = lazy_first ? System::dpll_mdd : System::dpll;
-    other.check = {Kind::propagate, {}};
+    other.forbid_first = options.system == System::dpll && !options.forbid_first;
+    other.system = System::dpll;
   } else {
     other.system = System::dpll_mdd;
-    other.check = {variant == 2 ? Kind::propagate : Kind::watch, {}};
-    if (variant != 1) other.cost_search = CostSearch::iterative;
+    other.check = {variant == 2 ? Kind::watch : Kind::propagate, {}};
+    if (variant == 3) other.cost_search = CostSearch::iterative;
   }
   return other;
 }

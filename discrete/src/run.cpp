@@ -19,6 +19,8 @@ namespace {
 sat::EngineOptions engine_options(const SolveOptions& options, sat::ClauseObserver* observer) {
   sat::EngineOptions engine_options;
   engine_options.seed = options.seed;
+  // Usages are negated variables.
+  engine_options.initial_phase = options.forbid_first && options.system == System::dpll;
   engine_options.observer = observer;
   return engine_options;
 }

@@ -60,7 +60,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     set("ilb", 0);
     set("walk", 0);
     set("lucky", 0);
-    set("phase", 0);  // few of the many usages happen
+    set("phase", options.initial_phase ? 1 : 0);  // 0: few of the many usages happen
     set("exteagerreasons", 0);
     set("exteagerrecalc", 0);
     set("chrono", 1);

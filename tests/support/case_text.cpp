@@ -128,6 +128,8 @@ class CaseReader {
     const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
     if (word == "no-first-plan") {
       options_->first_plan = false;
+    } else if (word == "forbid-first") {
+      options_->forbid_first = true;
     } else if (word == "race") {
       options_->race = true;
     } else if (key == "threads" && value.size() == 1 && value[0] >= '1' && value[0] <= '9') {
@@ -245,6 +247,7 @@ std::string options_text(const SolveOptions& options) {
   text += " seed=" + std::to_string(options.seed);
   if (options.threads > 1) text += " threads=" + std::to_string(options.threads);
   if (options.race) text += " race";
+  if (options.forbid_first) text += " forbid-first";
   if (!options.first_plan) text += " no-first-plan";
   if (options.audit) text += " audit";
   if (options.known_plan) text += " known-plan";

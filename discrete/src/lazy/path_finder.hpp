@@ -22,7 +22,7 @@ class PathFinder {
     const AgentDistances& distances;
     const ObstacleMap& obstacles;  ///< Loaded for the agent.
     Timestep max_cost = 0;
-    const PathIndex* others = nullptr;  ///< Whose collisions to avoid; null: nobody's.
+    const PathIndex* others = nullptr;    ///< Whose collisions to avoid; null: nobody's.
     std::int64_t max_effort = INT64_MAX;  ///< Of find_quietest: states to expand before giving up.
   };
 

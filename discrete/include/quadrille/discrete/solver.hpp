@@ -80,6 +80,9 @@ struct SolveOptions {
   std::optional<CostSearch> cost_search;
   /// Of the iterative search.
   MddGrowth mdd_growth = MddGrowth::on_demand;
+  /// Of dpll: try first to forbid usages instead of allowing them. Much faster on some hard
+  /// instances, slower on others.
+  bool forbid_first = false;
   Limits limits;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
