@@ -14,8 +14,9 @@ ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILE
 
 void ProgressLine::show(const discrete::Progress& progress) {
   if (!active_) return;
-  const std::string text = fmt::format("cost >= {}, {:.1f} s, {} conflicts", progress.lower_bound,
-                                       progress.elapsed_s, progress.conflicts);
+  const std::string plan = progress.cost ? fmt::format(", plan {}", *progress.cost) : "";
+  const std::string text = fmt::format("cost >= {}{}, {:.1f} s, {} conflicts", progress.lower_bound,
+                                       plan, progress.elapsed_s, progress.conflicts);
   // Blanks instead of escape sequences: every terminal knows them.
   print_stderr(fmt::format("\r{:<{}}", text, shown_));
   shown_ = text.size();

@@ -37,6 +37,11 @@ Json options_json(const SolveRequest& request) {
   json["check"] = has_schedule(options.system) ? Json(to_string(options.check)) : Json(nullptr);
   json["cost_search"] = options.cost_search ? Json(to_string(*options.cost_search)) : Json(nullptr);
   json["mdd_growth"] = to_string(options.mdd_growth);
+  json["forbid_first"] = options.forbid_first;
+  json["first_plan"] = options.first_plan;
+  json["gap"] = or_null(options.gap_percent);
+  json["threads"] = options.threads;
+  json["race"] = options.race;
   json["seed"] = options.seed;
   json["time_limit"] = or_null(options.limits.wall_s);
   json["cpu_limit"] = or_null(options.limits.cpu_s);
@@ -91,9 +96,7 @@ std::string dump(const Json& json) {
 
 }  // namespace
 
-bool has_schedule(discrete::System system) noexcept {
-  return system == discrete::System::dpll || system == discrete::System::dpll_mdd;
-}
+bool has_schedule(discrete::System system) noexcept { return system == discrete::System::dpll_mdd; }
 
 ExitCode exit_code(const SolveOutcome& outcome) {
   if (outcome.internal_error) return ExitCode::internal;

@@ -17,7 +17,7 @@ struct SolveRequest {
   std::string known_plan;  ///< File name; empty without one.
 };
 
-/// Whether `--check` means something to a system; the others have a schedule of their own.
+/// Whether `--check` means something to a system; the others check when they have to.
 [[nodiscard]] bool has_schedule(discrete::System system) noexcept;
 
 /// The exit code that says what the outcome says.

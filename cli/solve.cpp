@@ -27,6 +27,7 @@ using discrete::PlanFormat;
 using discrete::SolveOutcome;
 using discrete::System;
 
+constexpr std::int64_t kMaxThreads = 64;
 constexpr std::int64_t kMaxSeed = 2'000'000'000;
 
 constexpr const char* kFooter =
@@ -44,7 +45,7 @@ struct SolveArguments {
   RoadmapOptions roadmap;
   std::optional<System> system;
   std::optional<discrete::CheckSchedule> check;
-  std::optional<std::int64_t> seed, memory_mib;
+  std::optional<std::int64_t> seed, threads, memory_mib;
   std::string plan, json;
   std::optional<PlanFormat> plan_format;
   bool quiet = false;
@@ -85,8 +86,8 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   };
   app.add_option_function<std::string>(
          "--check", read_check,
-         "When dpll and dpll-mdd check unfinished assignments: watch (default), propagate, or at\n"
-         "shares of the assigned literals, such as 1/2,3/4")
+         "When dpll-mdd checks unfinished assignments: watch (default), propagate, or at\n"
+         "shares of the assigned literals, such as 1/2,3/4. With it, dpll means dpll-mdd")
       ->type_name("SCHEDULE")
       ->group(group);
   add_choice<std::optional<CostSearch>>(
@@ -97,6 +98,19 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   add_choice<discrete::MddGrowth>(app, "--mdd-growth", options.mdd_growth, "on-demand or full",
                                   discrete::parse_mdd_growth,
                                   "How far the MDDs reach at first: on-demand (default) or full")
+      ->group(group);
+  app.add_flag("--forbid-first", options.forbid_first,
+               "dpll: try first to forbid usages; faster on some hard instances, slower on others")
+      ->group(group);
+  app.add_flag("!--no-first-plan", options.first_plan,
+               "Do not look for a plan of any cost before and beside the proof")
+      ->group(group);
+  add_integer(app, "--threads", arguments.threads, 1, kMaxThreads,
+              "Searches side by side, with other systems; default 1")
+      ->group(group);
+  app.add_flag("--race", options.race,
+               "With --threads: take the proof that comes first in time; the plan may differ from\n"
+               "run to run then")
       ->group(group);
   add_integer(app, "--seed", arguments.seed, 0, kMaxSeed, "Seed of all random choices; default 0")
       ->group(group);
@@ -114,6 +128,9 @@ void add_limit_options(CLI::App& app, SolveArguments& arguments) {
       ->group(group);
   add_integer(app, "--conflict-limit", limits.conflicts, 0, INT64_MAX,
               "Stop after this many conflicts of the SAT solver")
+      ->group(group);
+  add_per_cent(app, "--gap", arguments.request.options.gap_percent,
+               "Stop when the plan is proved to cost at most this many per cent too much")
       ->group(group);
 }
 
@@ -164,9 +181,13 @@ std::string settle(SolveArguments& arguments) {
   discrete::SolveOptions& options = arguments.request.options;
   options.system = arguments.system.value_or(System::dpll);
   if (arguments.check) {
-    if (!has_schedule(options.system)) return "--check belongs to --system dpll and dpll-mdd";
+    // Schedules are a matter of the MDD path model: DPLL(MAPF) as published.
+    if (options.system == System::dpll) options.system = System::dpll_mdd;
+    if (!has_schedule(options.system)) return "--check belongs to --system dpll-mdd";
     options.check = *arguments.check;
   }
+  if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
+  if (options.race && options.threads == 1) return "--race needs --threads";
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
   if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (!arguments.plan_format)

@@ -14,6 +14,8 @@ macro(quadrille_find_package package debian)
 endmacro()
 
 find_package(CaDiCaL 2.1 REQUIRED)
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
 
 if(CaDiCaL_NEEDS_GLIBC_SHIM AND NOT TARGET quadrille_glibc_shim)
   add_library(quadrille_glibc_shim STATIC cmake/glibc_shim.cpp)

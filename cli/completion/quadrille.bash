@@ -37,7 +37,8 @@ _quadrille() {
   local options=
   case $command in
     solve)
-      options="$instance --objective --system --check --cost-search --mdd-growth --seed --time-limit --cpu-limit
+      options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first --no-first-plan
+        --threads --race --gap --seed --time-limit --cpu-limit
         --memory-limit --conflict-limit --plan --plan-format --json --quiet --audit --known-plan"
       ;;
     verify) options="$instance --plan-format --quiet" ;;

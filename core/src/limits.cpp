@@ -51,6 +51,19 @@ void LimitMonitor::set_ticker(double interval_s, std::function<void()> listener)
   next_tick_ = elapsed_wall() + interval_s;
 }
 
+void LimitMonitor::set_conflict_listener(std::function<void()> listener) {
+  conflict_listener_ = std::move(listener);
+}
+
+void LimitMonitor::add_conflicts(std::int64_t count) {
+  conflicts_ += count;
+  if (conflict_listener_) conflict_listener_();
+}
+
+void LimitMonitor::stop(StopReason reason) noexcept {
+  if (reason_ == StopReason::none) reason_ = reason;
+}
+
 bool LimitMonitor::exhausted() {
   if (reason_ != StopReason::none) return true;
   ++calls_;
@@ -59,6 +72,8 @@ bool LimitMonitor::exhausted() {
     next_tick_ = elapsed_wall() + tick_interval_;
   }
   if (limits_.interrupt != nullptr && limits_.interrupt->load(std::memory_order_relaxed))
+    reason_ = StopReason::interrupt;
+  else if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed))
     reason_ = StopReason::interrupt;
   else if (limits_.conflicts && conflicts_ >= *limits_.conflicts)
     reason_ = StopReason::conflicts;

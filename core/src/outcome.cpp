@@ -41,6 +41,8 @@ std::string_view to_string(StopReason reason) noexcept {
       return "conflicts";
     case StopReason::interrupt:
       return "interrupt";
+    case StopReason::gap:
+      return "gap";
   }
   return "?";
 }

@@ -30,6 +30,7 @@ void CollisionTheory::on_extended() {
 }
 
 void CollisionTheory::on_assign(std::span<const Lit> newly_true) {
+  effort_ += static_cast<std::int64_t>(newly_true.size());
   stack_.insert(stack_.end(), newly_true.begin(), newly_true.end());
 }
 
@@ -143,7 +144,9 @@ void CollisionTheory::deny_others(Lit x, const MddModel::Variable& var,
   for (const Lit y : rivals_(var.vertex, var.number)) {
     if (model_.variable(y).agent == var.agent) continue;
     if (context.value(y) != Truth::unassigned) continue;
-    reason_[static_cast<std::size_t>(y.variable())] = x;
+    // Who asked for it first stays the reason: `x` may be retracted while the request still stands.
+    Lit& reason = reason_[static_cast<std::size_t>(y.variable())];
+    if (!reason.valid() || context.value(reason) != Truth::is_true) reason = x;
     context.propagate(~y);
   }
 }

@@ -27,6 +27,8 @@ class CollisionTheory final : public sat::Theory {
   /// To be called before a solve after the model was extended.
   void on_extended();
   /// Times the consistency of an assignment was looked at.
+  /// Literals that were announced so far.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
   void on_assign(std::span<const sat::Lit> newly_true) override;
@@ -62,7 +64,7 @@ class CollisionTheory final : public sat::Theory {
   std::array<sat::Usage, 2> reason_usages_;  // of the last explanation
   std::size_t stages_done_ = 0;
   std::size_t num_variables_ = 1;
-  std::int64_t num_checks_ = 0;
+  std::int64_t num_checks_ = 0, effort_ = 0;
 };
 
 }  // namespace quadrille::discrete

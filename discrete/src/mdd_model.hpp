@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "mdd.hpp"
+#include "mdd_paths.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/discrete/plan.hpp"
@@ -47,12 +47,12 @@ class MddModel {
   /// then.
   [[nodiscard]] bool extend(AgentId agent, Timestep cap, LimitMonitor& limits);
   /// Largest delay that the agent's paths can have; -1 before the first `extend`.
-  [[nodiscard]] Timestep cap(AgentId agent) const {
-    return static_cast<Timestep>(agents_[agent].layers.size()) - 1;
-  }
+  [[nodiscard]] Timestep cap(AgentId agent) const { return agents_[agent].paths.cap(); }
 
   /// X(agent, v, t), invalid if there is no such variable. O(1).
-  [[nodiscard]] sat::Lit at(AgentId agent, VertexId v, Timestep t) const;
+  [[nodiscard]] sat::Lit at(AgentId agent, VertexId v, Timestep t) const {
+    return agents_[agent].paths.at(v, t);
+  }
   /// C(agent, delay), made if need be. Requires delay >= 1. Not during solve.
   [[nodiscard]] sat::Lit delay_at_least(AgentId agent, Timestep delay);
   /// A literal "the agent arrives after `t`" if the clauses about its rest at the goal need one: if
@@ -67,7 +67,7 @@ class MddModel {
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] Objective objective() const noexcept { return objective_; }
-  [[nodiscard]] const Mdd& mdd(AgentId agent) const { return agents_[agent].mdd; }
+  [[nodiscard]] const Mdd& mdd(AgentId agent) const { return agents_[agent].paths.mdd(); }
   /// The agent whose goal is `v`.
   [[nodiscard]] std::optional<AgentId> resident(VertexId v) const;
 
@@ -80,7 +80,7 @@ class MddModel {
   /// `is_true(Lit)` tells the assignment.
   template <class IsTrue>
   [[nodiscard]] Path extract_path(AgentId agent, const IsTrue& is_true) const {
-    const Mdd& mdd = agents_[agent].mdd;
+    const Mdd& mdd = agents_[agent].paths.mdd();
     const VertexId goal = mdd.task().goal;
     const Timestep end = mdd.distance() + cap(agent);
     Path path{mdd.task().start};
@@ -105,16 +105,12 @@ class MddModel {
 
  private:
   struct Agent {
-    Mdd mdd;
-    std::vector<std::vector<sat::Lit>> layers;  // [slack][rank]
+    MddPaths paths;
     std::map<Timestep, sat::Lit> delays;
   };
+  class AgentFormula;
   [[nodiscard]] sat::Lit new_lit(const Variable& variable);
-  void add_path_clause(AgentId agent, const std::vector<sat::Lit>& clause);
-  void make_layer(AgentId agent, Timestep slack);
-  void add_delay_clauses(AgentId agent, Timestep slack);
-  void add_predecessor_clauses(AgentId agent, Timestep slack);
-  void add_successor_clauses(AgentId agent, Timestep slack, Timestep old_cap);
+  void prepare_rest(AgentId agent, VertexId v, Timestep t);
 
   Instance instance_;
   Objective objective_;
@@ -122,7 +118,6 @@ class MddModel {
   IdVector<AgentId, Agent> agents_;
   IdVector<VertexId, std::uint32_t> resident_;  // agent + 1; 0: none
   std::vector<Variable> variables_;
-  std::vector<sat::Lit> scratch_;
 };
 
 }  // namespace quadrille::discrete

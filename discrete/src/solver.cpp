@@ -6,163 +6,136 @@
 #include <optional>
 #include <utility>
 
-#include "collision_theory.hpp"
-#include "eager_collisions.hpp"
-#include "lazy/lazy_auditor.hpp"
-#include "lazy/lazy_model.hpp"
-#include "lazy/lazy_problem.hpp"
-#include "lazy/lazy_theory.hpp"
-#include "lemma_auditor.hpp"
-#include "mdd_model.hpp"
-#include "mdd_problem.hpp"
+#include "portfolio.hpp"
 #include "quadrille/discrete/feasibility.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
-#include "quadrille/sat/core_guided_search.hpp"
-#include "quadrille/sat/cost_search.hpp"
+#include "run.hpp"
+#include "upper_bound.hpp"
 #include "usages.hpp"
 
 namespace quadrille::discrete {
 namespace {
 
-/// Everything that one run needs, wired up as the system asks.
-class Run {
+/// One solve, with what all systems have in common: bounds from both sides.
+class Search {
  public:
-  virtual ~Run() = default;
-  /// Computes the agents' distances and what else the rest needs; to be called once, first. False
-  /// if `limits` ended that early.
-  [[nodiscard]] virtual bool prepare(LimitMonitor& limits) = 0;
-  [[nodiscard]] virtual sat::Engine& engine() = 0;
-  [[nodiscard]] virtual sat::BoundedProblem& bounded_problem() = 0;
-  [[nodiscard]] virtual sat::AgentCostProblem& agent_cost_problem() = 0;
-  [[nodiscard]] virtual const Plan& plan() const = 0;
-  [[nodiscard]] virtual std::int64_t num_checks() const = 0;
-  [[nodiscard]] virtual std::int64_t num_rejected() const = 0;
-  [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
-};
+  Search(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
+         SolveOutcome& outcome, Companion* companion)
+      : instance_(instance),
+        options_(options),
+        limits_(limits),
+        outcome_(outcome),
+        companion_(companion) {}
 
-sat::EngineOptions engine_options(const SolveOptions& options, sat::ClauseObserver* observer) {
-  sat::EngineOptions engine_options;
-  engine_options.seed = options.seed;
-  engine_options.observer = observer;
-  return engine_options;
-}
-
-class MddRun final : public Run {
- public:
-  MddRun(const Instance& instance, const SolveOptions& options)
-      : growth_(options.mdd_growth), model_(instance, options.objective) {
-    if (options.system == System::dpll_mdd)
-      theory_ = std::make_unique<CollisionTheory>(model_, options.check);
-    if (options.system == System::mdd_sat) eager_ = std::make_unique<EagerCollisions>(model_);
-    if (options.audit || options.known_plan)
-      auditor_ = std::make_unique<LemmaAuditor>(model_, options.audit, options.known_plan);
-    engine_ = std::make_unique<sat::Engine>(theory_.get(), engine_options(options, auditor_.get()));
-  }
-
-  bool prepare(LimitMonitor& limits) override {
-    if (!model_.attach(*engine_, limits)) return false;
-    problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(), growth_);
-    return true;
-  }
-
-  sat::Engine& engine() override { return *engine_; }
-  sat::BoundedProblem& bounded_problem() override { return *problem_; }
-  sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
-  const Plan& plan() const override { return problem_->plan(); }
-  std::int64_t num_checks() const override {
-    return problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);
-  }
-  std::int64_t num_rejected() const override { return problem_->num_rejected(); }
-  std::optional<std::string> complaint() const override {
-    return auditor_ ? auditor_->complaint() : std::nullopt;
+  void run() {
+    const auto distances = GoalDistances::make(instance_, limits_);
+    outcome_.lower_bound = free_bound(distances.get());
+    if (!distances) return;
+    listen();
+    if (options_.first_plan) {
+      upper_.emplace(instance_, options_.objective, distances, options_.seed);
+      upper_->start(limits_);
+      consider_stop();
+    }
+    if (!limits_.exhausted_now()) search(distances);
+    if (!outcome_.internal_error && !outcome_.plan && upper_ && upper_->cost()) {
+      outcome_.plan = upper_->plan();
+      outcome_.status =
+          *upper_->cost() == outcome_.lower_bound ? Status::optimal : Status::feasible;
+    }
   }
 
  private:
-  MddGrowth growth_;
-  MddModel model_;
-  std::unique_ptr<CollisionTheory> theory_;
-  std::unique_ptr<EagerCollisions> eager_;
-  std::unique_ptr<LemmaAuditor> auditor_;
-  std::unique_ptr<sat::Engine> engine_;
-  std::unique_ptr<MddProblem> problem_;
-};
-
-class LazyRun final : public Run {
- public:
-  LazyRun(const Instance& instance, const SolveOptions& options)
-      : instance_(instance), options_(options) {}
-
-  bool prepare(LimitMonitor& limits) override {
-    model_ = std::make_unique<LazyModel>(instance_, limits);
-    if (!model_->is_complete()) return false;
-    theory_ = std::make_unique<LazyTheory>(*model_);
-    if (options_.audit || options_.known_plan)
-      auditor_ = std::make_unique<LazyAuditor>(*model_, options_.audit, options_.known_plan);
-    engine_ =
-        std::make_unique<sat::Engine>(theory_.get(), engine_options(options_, auditor_.get()));
-    problem_ = std::make_unique<LazyProblem>(*model_, *engine_, *theory_, options_.objective);
-    return true;
+  /// What the agents cost when each is alone. Without `distances`, because a limit was met, of as
+  /// many as can be looked at in little time.
+  [[nodiscard]] Cost free_bound(const GoalDistances* distances) const {
+    constexpr double kGrace = 0.5;  // s
+    Cost bound = 0;
+    const double begin = wall_seconds();
+    for (const AgentId i : instance_.agents()) {
+      const Task& task = instance_.tasks()[i];
+      const Cost cost = distances != nullptr
+                            ? (*distances)(i, task.start)
+                            : distances_from(instance_.graph(), task.goal)[task.start];
+      bound = options_.objective == Objective::sum_of_costs ? bound + cost : std::max(bound, cost);
+      if (distances == nullptr && wall_seconds() > begin + kGrace) break;
+    }
+    return bound;
   }
 
-  sat::Engine& engine() override { return *engine_; }
-  sat::BoundedProblem& bounded_problem() override { return *problem_; }
-  sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
-  const Plan& plan() const override { return problem_->plan(); }
-  std::int64_t num_checks() const override { return theory_->num_checks(); }
-  std::int64_t num_rejected() const override { return 0; }
-  std::optional<std::string> complaint() const override {
-    return auditor_ ? auditor_->complaint() : std::nullopt;
+  void listen() {
+    limits_.set_ticker(0.25, [this] {
+      if (!options_.on_progress) return;
+      options_.on_progress({outcome_.lower_bound, upper_ ? upper_->cost() : std::nullopt,
+                            limits_.elapsed_wall(), limits_.conflicts()});
+    });
+    limits_.set_conflict_listener([this] { improve(); });
   }
 
- private:
+  void raise_bound(Cost bound) {
+    outcome_.lower_bound = std::max(outcome_.lower_bound, bound);
+    improve();
+    consider_stop();
+  }
+
+  void improve() {
+    constexpr std::int64_t kEffortOfConflict = 300;
+    if (run_ == nullptr) return;
+    const std::int64_t effort = limits_.conflicts() * kEffortOfConflict + run_->effort();
+    if (companion_ != nullptr) companion_->on_effort(effort);
+    if (upper_ && upper_->advance(effort, limits_)) consider_stop();
+  }
+
+  /// Ends the search when the bounds meet, or are as close as was asked for.
+  void consider_stop() {
+    if (!upper_ || !upper_->cost()) return;
+    const Cost cost = *upper_->cost(), gap = cost - outcome_.lower_bound;
+    if (gap == 0 || (options_.gap_percent && static_cast<double>(gap) * 100 <=
+                                                 *options_.gap_percent * static_cast<double>(cost)))
+      limits_.stop(StopReason::gap);
+  }
+
+  [[nodiscard]] sat::SearchReport search_costs(Run& run) {
+    const auto on_bound = [this](Cost bound) { raise_bound(bound); };
+    const CostSearch by_default =
+        options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
+    if (options_.objective == Objective::sum_of_costs &&
+        options_.cost_search.value_or(by_default) == CostSearch::core_guided)
+      return sat::search_by_cores(run.engine(), run.agent_cost_problem(), {}, limits_,
+                                  outcome_.statistics, on_bound);
+    return sat::search_upwards(run.engine(), run.bounded_problem(), limits_, on_bound);
+  }
+
+  void search(const std::shared_ptr<const GoalDistances>& distances) {
+    const std::unique_ptr<Run> run = make_run(instance_, options_);
+    if (!run->prepare(distances, limits_)) return;
+    run_ = run.get();
+    raise_bound(run->bounded_problem().lower_bound());
+    const auto report = search_costs(*run);
+    outcome_.lower_bound = std::max(outcome_.lower_bound, report.lower_bound);
+    run->engine().add_statistics(outcome_.statistics);
+    outcome_.statistics.checks = run->num_checks();
+    outcome_.statistics.rejected_models = run->num_rejected();
+    if (const auto complaint = run->complaint()) {
+      outcome_.internal_error = Error{ErrorCode::internal, *complaint, {}};
+    } else if (report.end == sat::SearchReport::End::exhausted) {
+      outcome_.internal_error =
+          Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
+    } else if (report.end == sat::SearchReport::End::found) {
+      outcome_.plan = run->plan();
+      outcome_.status = Status::optimal;
+    }
+  }
+
   const Instance& instance_;
   const SolveOptions& options_;
-  std::unique_ptr<LazyModel> model_;
-  std::unique_ptr<LazyTheory> theory_;
-  std::unique_ptr<LazyAuditor> auditor_;
-  std::unique_ptr<sat::Engine> engine_;
-  std::unique_ptr<LazyProblem> problem_;
+  LimitMonitor& limits_;
+  SolveOutcome& outcome_;
+  Companion* const companion_;
+  std::optional<UpperBound> upper_;
+  const Run* run_ = nullptr;  // when it is prepared
 };
-
-std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options) {
-  if (options.system == System::dpll) return std::make_unique<LazyRun>(instance, options);
-  return std::make_unique<MddRun>(instance, options);
-}
-
-sat::SearchReport search(Run& run, const SolveOptions& options, LimitMonitor& limits,
-                         SolveOutcome& outcome) {
-  const auto on_bound = [&](Cost bound) { outcome.lower_bound = bound; };
-  const CostSearch by_default =
-      options.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
-  if (options.objective == Objective::sum_of_costs &&
-      options.cost_search.value_or(by_default) == CostSearch::core_guided)
-    return sat::search_by_cores(run.engine(), run.agent_cost_problem(), {}, limits,
-                                outcome.statistics, on_bound);
-  return sat::search_upwards(run.engine(), run.bounded_problem(), limits, on_bound);
-}
-
-void find_plan(Run& run, const SolveOptions& options, LimitMonitor& limits, SolveOutcome& outcome) {
-  if (!run.prepare(limits)) return;
-  outcome.lower_bound = run.bounded_problem().lower_bound();
-  limits.set_ticker(0.25, [&] {
-    if (options.on_progress)
-      options.on_progress({outcome.lower_bound, limits.elapsed_wall(), limits.conflicts()});
-  });
-  const auto report = search(run, options, limits, outcome);
-  outcome.lower_bound = report.lower_bound;
-  run.engine().add_statistics(outcome.statistics);
-  outcome.statistics.checks = run.num_checks();
-  outcome.statistics.rejected_models = run.num_rejected();
-  if (const auto complaint = run.complaint()) {
-    outcome.internal_error = Error{ErrorCode::internal, *complaint, {}};
-  } else if (report.end == sat::SearchReport::End::exhausted) {
-    outcome.internal_error =
-        Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
-  } else if (report.end == sat::SearchReport::End::found) {
-    outcome.plan = run.plan();
-    outcome.status = Status::optimal;
-  }
-}
 
 /// The plan has to pass `verify` and to cost what was proved.
 void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
@@ -202,6 +175,10 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
                     "the fractions of a check schedule increase between 0 and 1");
     last = f;
   }
+  if (options.gap_percent && !(*options.gap_percent >= 0))
+    return refuse(ErrorCode::out_of_range, "the gap is not a number of at least 0");
+  if (options.threads < 1 || options.threads > 64)
+    return refuse(ErrorCode::out_of_range, "the number of threads is not from 1 to 64");
   if (options.seed > 2'000'000'000)
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
   if (options.known_plan && !verify(instance, *options.known_plan).valid())
@@ -211,9 +188,11 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
 
 }  // namespace
 
-SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
+SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
+                         Companion* companion) {
   SolveOutcome outcome;
   LimitMonitor limits(options.limits);
+  if (companion != nullptr) limits.set_cancel(&companion->cancelled());
   const auto finish = [&]() -> SolveOutcome&& {
     if (outcome.internal_error) {
       outcome.status = Status::unknown;
@@ -236,8 +215,9 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
     outcome.explanation = feasibility.reason;
     return finish();
   }
-  find_plan(*make_run(instance, options), options, limits, outcome);
+  Search(instance, options, limits, outcome, companion).run();
   if (outcome.plan) check_plan(instance, options, outcome);
+  if (outcome.status == Status::feasible) outcome.stop = limits.reason();
   if (outcome.status == Status::unknown) {
     outcome.stop = limits.reason();
     outcome.explanation = outcome.stop == StopReason::none
@@ -245,6 +225,11 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
                               : "stopped by the limit: " + std::string(to_string(outcome.stop));
   }
   return finish();
+}
+
+SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
+  return options.threads > 1 ? solve_portfolio(instance, options)
+                             : solve_alone(instance, options, nullptr);
 }
 
 }  // namespace quadrille::discrete

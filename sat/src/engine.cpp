@@ -60,7 +60,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     set("ilb", 0);
     set("walk", 0);
     set("lucky", 0);
-    set("phase", 0);  // few of the many usages happen
+    set("phase", options.initial_phase ? 1 : 0);  // 0: few of the many usages happen
     set("exteagerreasons", 0);
     set("exteagerrecalc", 0);
     set("chrono", 1);
@@ -129,7 +129,9 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     if (answer == 0) solver_.reset_assumptions();
     // After a conflict the solver leaves the rest of the queue alone; it is still true.
     for (const QueuedLemma& rest : host_.take_queue()) add_to_solver(rest.clause);
-    last_ = answer == 10 ? Verdict::sat : answer == 20 ? Verdict::unsat : Verdict::unknown;
+    // A theory that stops has not looked at the model.
+    const bool is_model = answer == 10 && !host_.wants_stop();
+    last_ = is_model ? Verdict::sat : answer == 20 ? Verdict::unsat : Verdict::unknown;
     return last_;
   }
 

@@ -68,6 +68,8 @@ void TheoryHost::notify_backtrack(std::size_t level) {
 // ---------------------------------------------------------------------------
 
 bool TheoryHost::check_found_model() {
+  // A theory may rely on what it has said: it is not asked about models that its clauses exclude.
+  if (queue_head_ < queue_.size()) return false;
   ++models_checked_;
   made_variable_ = false;
   consulted_ = stack_.size();

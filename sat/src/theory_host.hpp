@@ -39,7 +39,7 @@ class TheoryHost final : private TheoryContext {
   void notify_new_decision_level();
   void notify_backtrack(std::size_t level);
   /// True if the theory agrees with the complete assignment announced so far. If false, there is a
-  /// clause to fetch, or a new variable.
+  /// clause to fetch, or a new variable. The theory is not asked while clauses wait.
   [[nodiscard]] bool check_found_model();
   /// A literal to propagate, or 0. Consults the theory when literals were assigned since last time.
   [[nodiscard]] int propagate();

@@ -105,5 +105,26 @@ TEST_F(DocumentsTest, TheExampleOfTheManualIsReal) {
               HasSubstr(std::regex_replace(finished.out, measured, "")));
 }
 
+TEST_F(DocumentsTest, TheRunInTheReadmeIsReal) {
+  // What scripts/solve does without arguments; without pictures, seconds and the way to the files.
+  const std::string maps = QUADRILLE_SOURCE_DIR "/examples/maps/meeting";
+  const Finished finished =
+      run({"solve", "--map", maps + ".map", "--scen", maps + ".scen", "--agents", "6"});
+  const std::regex root(QUADRILLE_SOURCE_DIR "/"), measured("search     [^,]*,");
+  const auto stable = [&](const std::string& text) {
+    return std::regex_replace(std::regex_replace(text, measured, "search"), root, "…/");
+  };
+  const std::string out = stable(finished.out), readme = stable(source("README.md"));
+  EXPECT_THAT(readme, HasSubstr(out.substr(0, out.find("\n\n"))));
+  EXPECT_THAT(readme, HasSubstr(out.substr(out.rfind("\n\n") + 2)));
+}
+
+TEST_F(DocumentsTest, TheProgramInTheReadmeIsAnExampleThatTheTestsRun) {
+  const std::string example = source("examples/two_agents.cpp"), readme = source("README.md");
+  EXPECT_THAT(readme, HasSubstr("```cpp\n" + example.substr(example.find('\n') + 1) + "```"));
+  const std::string expected = source("examples/two_agents.expected");
+  EXPECT_THAT(readme, HasSubstr("prints `" + expected.substr(0, expected.find('\n')) + "`"));
+}
+
 }  // namespace
 }  // namespace quadrille::cli::test

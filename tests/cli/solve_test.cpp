@@ -40,6 +40,10 @@ TEST_F(SolveTest, CheckSchedules) {
     ASSERT_EQ(finished.code, 0) << finished.err;
     EXPECT_EQ(json::parse(finished.out)["options"]["check"], check);
   }
+  const Finished finished =
+      run(small("solve", {"--system", "dpll", "--check", "1/2", "--json", "-"}));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_EQ(json::parse(finished.out)["options"]["system"], "dpll-mdd");
 }
 
 TEST_F(SolveTest, CostSearches) {

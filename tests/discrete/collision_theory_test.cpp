@@ -180,6 +180,7 @@ TEST(CollisionTheory, FindsWhatARecomputationFindsUnderAnyCallbacks) {
           }
         }
       }
+      ASSERT_FALSE(solver.has_bad_reason());
       for (const auto& clause : solver.clauses()) ASSERT_TRUE(is_collision_clause(model, clause));
       for (const auto& [implied, reason] : solver.reasons()) {
         ASSERT_TRUE(is_collision_clause(model, reason));

@@ -130,6 +130,7 @@ TEST(TheoryHost, RejectsAModelUntilItsClauseIsFetched) {
   const int both[] = {1, 2};
   host.notify_assignment(both);
   EXPECT_FALSE(host.check_found_model());
+  EXPECT_FALSE(host.check_found_model());  // the theory is not asked again
   bool forgettable = true;
   ASSERT_TRUE(host.has_clause(forgettable));
   EXPECT_FALSE(forgettable);
@@ -137,6 +138,7 @@ TEST(TheoryHost, RejectsAModelUntilItsClauseIsFetched) {
   EXPECT_EQ(host.next_clause_literal(), -2);
   EXPECT_EQ(host.next_clause_literal(), 0);
   EXPECT_FALSE(host.has_clause(forgettable));
+  EXPECT_EQ(host.num_models_checked(), 1);
 }
 
 TEST(TheoryHost, HandsOverWhatTheSolverDidNotFetch) {

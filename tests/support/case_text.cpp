@@ -126,7 +126,15 @@ class CaseReader {
     const auto equals = word.find('=');
     const std::string key = word.substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
-    if (word == "audit") {
+    if (word == "no-first-plan") {
+      options_->first_plan = false;
+    } else if (word == "forbid-first") {
+      options_->forbid_first = true;
+    } else if (word == "race") {
+      options_->race = true;
+    } else if (key == "threads" && value.size() == 1 && value[0] >= '1' && value[0] <= '9') {
+      options_->threads = static_cast<std::size_t>(value[0] - '0');
+    } else if (word == "audit") {
       options_->audit = true;
     } else if (word == "known-plan") {
       known_plan_ = true;
@@ -140,8 +148,6 @@ class CaseReader {
       options_->check = *parse_check_schedule(value);
     } else if (key == "search" && parse_cost_search(value)) {
       options_->cost_search = parse_cost_search(value);
-    } else if (key == "search" && parse_cost_search(value)) {
-      options_->cost_search = *parse_cost_search(value);
     } else if (key == "growth" && parse_mdd_growth(value)) {
       options_->mdd_growth = *parse_mdd_growth(value);
     } else if (key == "seed" && !value.empty() &&
@@ -239,6 +245,10 @@ std::string options_text(const SolveOptions& options) {
   if (options.mdd_growth != SolveOptions().mdd_growth)
     text += " growth=" + std::string(to_string(options.mdd_growth));
   text += " seed=" + std::to_string(options.seed);
+  if (options.threads > 1) text += " threads=" + std::to_string(options.threads);
+  if (options.race) text += " race";
+  if (options.forbid_first) text += " forbid-first";
+  if (!options.first_plan) text += " no-first-plan";
   if (options.audit) text += " audit";
   if (options.known_plan) text += " known-plan";
   return text + "\n";

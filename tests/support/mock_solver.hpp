@@ -37,6 +37,8 @@ class MockSolver {
   [[nodiscard]] const std::vector<std::pair<sat::Lit, std::vector<sat::Lit>>>& reasons() const {
     return reasons_;
   }
+  /// True if a reason that was asked for at once had a literal that was not false.
+  [[nodiscard]] bool has_bad_reason() const { return has_bad_reason_; }
   [[nodiscard]] bool is_true(sat::Lit lit) const { return value(lit) == 1; }
   [[nodiscard]] std::size_t num_assigned() const { return trail_.size(); }
 
@@ -53,7 +55,11 @@ class MockSolver {
     if (value(lit) != 0) return;
     const std::size_t level = draw(4) == 0 ? draw(level_ + 1) : level_;
     trail_.push_back({lit, level, false, 0});
+    set_value(lit, 1);
   }
+
+  /// A clause that came from elsewhere than the host, such as an earlier solve.
+  void add_clause(std::vector<sat::Lit> clause) { clauses_.push_back(std::move(clause)); }
 
   /// Announces what is not announced yet, in batches, some of them empty, with repetitions of
   /// literals at level 0.
@@ -84,7 +90,10 @@ class MockSolver {
     announcements_ = kept;
     std::vector<Assigned> survivors, others;
     for (Assigned a : trail_) {
-      if (a.level > level) continue;
+      if (a.level > level) {
+        set_value(a.lit, 0);
+        continue;
+      }
       if (a.announced && a.order >= kept) {  // the host has forgotten it
         a.announced = false;
         survivors.push_back(a);
@@ -109,8 +118,13 @@ class MockSolver {
       const sat::Lit lit = sat::Lit::from_dimacs(literal);
       if (value(lit) == 0) {
         trail_.push_back({lit, level_, false, 0});
+        set_value(lit, 1);
         propagated_.push_back(lit);
-        if (draw(3) == 0) ask_reason(lit);
+        if (draw(3) != 0) {
+          ask_reason(lit);
+          for (const sat::Lit other : reasons_.back().second)
+            if (other != lit && value(other) != -1) has_bad_reason_ = true;
+        }
         announce();
       } else {
         ask_reason(lit);
@@ -156,6 +170,40 @@ class MockSolver {
   }
   [[nodiscard]] bool dead() const { return dead_; }
 
+  /// Asks for a decision and takes it at a level of its own. No literal if there is none.
+  sat::Lit decide() {
+    const int literal = host_.decide();
+    if (literal == 0) return {};
+    const sat::Lit lit = sat::Lit::from_dimacs(literal);
+    open_level();
+    assign(lit);
+    return lit;
+  }
+
+  /// Gives every variable below `end` a value such that no clause is false. False if it ran into a
+  /// conflict; then it has backtracked. Variables are false by default, as in the solver.
+  bool complete(int end) {
+    std::vector<std::vector<std::size_t>> occurrences(2 * static_cast<std::size_t>(end));
+    const auto index = [](sat::Lit lit) {
+      return 2 * static_cast<std::size_t>(lit.variable()) + (lit.positive() ? 0 : 1);
+    };
+    for (std::size_t c = 0; c < clauses_.size(); ++c) {
+      for (const sat::Lit lit : clauses_[c]) occurrences[index(lit)].push_back(c);
+      assign_if_unit(clauses_[c]);
+    }
+    std::size_t head = 0;
+    int next = 1;
+    while (true) {
+      for (; head < trail_.size(); ++head)
+        for (const std::size_t c : occurrences[index(~trail_[head].lit)])
+          assign_if_unit(clauses_[c]);
+      while (next < end && value(sat::Lit::from_dimacs(next)) != 0) ++next;
+      if (next == end) return !resolve_conflicts();
+      if (draw(3) == 0) open_level();
+      assign(sat::Lit::from_dimacs(draw(8) == 0 ? next : -next));
+    }
+  }
+
   [[nodiscard]] bool check_found_model() {
     announce();
     return host_.check_found_model();
@@ -171,12 +219,24 @@ class MockSolver {
     std::size_t order;  // of the announcement
   };
 
+  /// 1 true, -1 false, 0 unassigned.
   [[nodiscard]] int value(sat::Lit lit) const {
-    for (const Assigned& a : trail_) {
-      if (a.lit == lit) return 1;
-      if (a.lit == ~lit) return -1;
+    const auto index = static_cast<std::size_t>(lit.variable());
+    if (index >= values_.size()) return 0;
+    return lit.positive() ? values_[index] : -values_[index];
+  }
+  void set_value(sat::Lit lit, int value) {
+    const auto index = static_cast<std::size_t>(lit.variable());
+    if (index >= values_.size()) values_.resize(index + 1, 0);
+    values_[index] = static_cast<std::int8_t>(lit.positive() ? value : -value);
+  }
+  void assign_if_unit(const std::vector<sat::Lit>& clause) {
+    sat::Lit open;
+    for (const sat::Lit lit : clause) {
+      if (value(lit) == 1 || (value(lit) == 0 && open.valid())) return;
+      if (value(lit) == 0) open = lit;
     }
-    return 0;
+    if (open.valid()) assign(open);
   }
   [[nodiscard]] std::size_t level_of(sat::Lit lit) const {
     for (const Assigned& a : trail_)
@@ -194,12 +254,13 @@ class MockSolver {
   int num_variables_;
   std::mt19937_64 random_;
   std::vector<Assigned> trail_;
+  std::vector<std::int8_t> values_;       // by variable: 1 true, -1 false, 0 unassigned
   std::vector<std::size_t> level_begin_;  // announcements_ when the level was opened
   std::size_t level_ = 0, announcements_ = 0;
   std::vector<std::vector<sat::Lit>> clauses_;
   std::vector<sat::Lit> propagated_;
   std::vector<std::pair<sat::Lit, std::vector<sat::Lit>>> reasons_;
-  bool dead_ = false;
+  bool dead_ = false, has_bad_reason_ = false;
 };
 
 }  // namespace quadrille::support

@@ -23,6 +23,7 @@ SolveOptions make_options(Objective objective, System system, CheckSchedule chec
   options.system = system;
   options.check = std::move(check);
   options.limits.wall_s = kPatience;
+  options.first_plan = false;
   return options;
 }
 
@@ -105,7 +106,11 @@ SolveOutcome solve_noted(const Instance& instance, const SolveOptions& options,
 }  // namespace
 
 std::vector<SolveOptions> all_systems(Objective objective) {
-  return {make_options(objective, System::dpll),
+  // Elsewhere a lucky first plan could spare the search that is to be tested.
+  SolveOptions with_first_plan = make_options(objective, System::dpll);
+  with_first_plan.first_plan = true;
+  return {with_first_plan,
+          make_options(objective, System::dpll),
           make_options(objective, System::dpll_mdd, {Kind::watch, {}}),
           make_options(objective, System::dpll_mdd, {Kind::propagate, {}}),
           make_options(objective, System::dpll_mdd, {Kind::fractions, {{1, 3}, {2, 3}}}),
@@ -129,6 +134,12 @@ std::vector<SolveOptions> random_systems(Random& random, Objective objective) {
     if (random.percent(50))
       options.cost_search = random.percent(50) ? CostSearch::iterative : CostSearch::core_guided;
     options.audit = random.percent(30);
+    options.first_plan = random.percent(30);
+    options.forbid_first = random.percent(30);
+    if (random.percent(5)) {
+      options.threads = 2 + random.below(2);
+      options.race = random.percent(50);
+    }
     if (random.percent(30)) options.known_plan = Plan();  // replaced by the oracle's
   }
   return systems;

@@ -3,8 +3,8 @@
 
 namespace quadrille::discrete {
 
-AgentDistances::AgentDistances(const Graph& graph, const Task& task)
-    : graph_(&graph), task_(task), to_goal_(distances_from(graph, task.goal)) {
+AgentDistances::AgentDistances(const Graph& graph, const Task& task, GoalDistances::Row to_goal)
+    : graph_(&graph), task_(task), to_goal_(to_goal) {
   QUADRILLE_REQUIRE(free_cost() != kUnreachable, "the goal is reachable");
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
 
 namespace quadrille::discrete {
@@ -10,8 +11,9 @@ namespace quadrille::discrete {
 /// What is fixed about the paths of one agent: its task and distances on the empty graph.
 class AgentDistances {
  public:
-  /// Requires that the goal can be reached from the start. `graph` outlives the object. O(V + E).
-  AgentDistances(const Graph& graph, const Task& task);
+  /// Requires that the goal can be reached from the start. `graph` and the table of `to_goal`
+  /// outlive the object.
+  AgentDistances(const Graph& graph, const Task& task, GoalDistances::Row to_goal);
 
   [[nodiscard]] const Graph& graph() const noexcept { return *graph_; }
   [[nodiscard]] VertexId start() const noexcept { return task_.start; }
@@ -30,7 +32,7 @@ class AgentDistances {
  private:
   const Graph* graph_;
   Task task_;
-  IdVector<VertexId, Timestep> to_goal_;
+  GoalDistances::Row to_goal_;
   mutable std::optional<IdVector<VertexId, Timestep>> from_start_;
 };
 

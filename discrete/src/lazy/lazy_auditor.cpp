@@ -73,37 +73,74 @@ std::string LazyAuditor::audit_usages(const sat::Lemma& lemma) const {
 }
 
 std::string LazyAuditor::audit_path(const sat::Lemma& lemma) const {
+  for (const Lit lit : lemma.clause)
+    if (const auto var = model_.variable(lit); var.kind == VariableKind::vertex)
+      return audit_explicit(lemma.clause, var.agent);
   if (lemma.usages.empty() || lemma.clause.empty()) return "a path lemma has an agent";
   if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
   const AgentId agent = lemma.usages[0].agent;
   const auto cost = model_.variable(lemma.clause[0]);
   if (cost.kind != VariableKind::cost || cost.agent != agent || lemma.clause[0].positive())
     return "a path lemma begins with a cost";
-  std::vector<Obstacle> usages;
+  Demand demand{{}, {}, cost.cost, 0};
   for (const sat::Usage& usage : lemma.usages) {
-    usages.push_back(model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))]);
+    demand.avoided.push_back(
+        model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))]);
     if (usage.agent != agent) return "a path lemma is about one agent";
-    if (std::find(lemma.clause.begin() + 1, lemma.clause.end(), usages.back().allowed) ==
+    if (std::find(lemma.clause.begin() + 1, lemma.clause.end(), demand.avoided.back().allowed) ==
         lemma.clause.end())
       return "a path lemma lacks the literal of a usage";
   }
-  return has_path(agent, usages, cost.cost) ? "some path does not satisfy a path lemma" : "";
+  return has_path(agent, demand) ? "some path does not satisfy a path lemma" : "";
 }
 
-bool LazyAuditor::has_path(AgentId agent, std::span<const Obstacle> usages, Timestep bound) const {
+// No path may do the opposite of everything that the clause says.
+std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
+  Demand demand;
+  const auto avoid_range = [&](VertexId v, Timestep first, Timestep last) {
+    demand.avoided.push_back({Kind::range, agent, {}, v, {}, first, last, 0, 0});
+  };
+  for (const Lit lit : clause) {
+    const auto var = model_.variable(lit);
+    if (var.kind == VariableKind::vertex) {
+      if (var.agent != agent) return "a clause is about the explicit paths of two agents";
+      demand.horizon = std::max(demand.horizon, var.visit.timestep);
+      if (lit.positive())
+        avoid_range(var.visit.vertex, var.visit.timestep, var.visit.timestep);
+      else
+        demand.visits.push_back(var.visit);
+    } else if (lit.positive() || var.kind == VariableKind::auxiliary) {
+      return "explicit paths are bound to what is false";
+    } else if (var.kind == VariableKind::usage) {
+      if (var.agent != agent) return "explicit paths are bound to the usages of another agent";
+      demand.avoided.push_back(model_.obstacles()[var.obstacle]);
+    } else if (var.agent == agent) {
+      demand.bound = std::min(demand.bound.value_or(var.cost), var.cost);
+    } else {  // the other agent rests at its goal
+      avoid_range(model_.instance().tasks()[var.agent].goal, var.cost, kForever);
+    }
+  }
+  return has_path(agent, demand) ? "some path does not satisfy a clause about explicit paths" : "";
+}
+
+bool LazyAuditor::has_path(AgentId agent, const Demand& demand) const {
   const Graph& graph = model_.instance().graph();
   const Task& task = model_.instance().tasks()[agent];
   const auto visit_allowed = [&](VertexId v, Timestep t) {
-    return std::none_of(usages.begin(), usages.end(),
-                        [&](const Obstacle& o) { return forbids_visit(o, v, t); });
+    return std::none_of(demand.avoided.begin(), demand.avoided.end(),
+                        [&](const Obstacle& o) { return forbids_visit(o, v, t); }) &&
+           std::all_of(demand.visits.begin(), demand.visits.end(), [&](const Visit& visit) {
+             return visit.timestep != t || visit.vertex == v;
+           });
   };
   const auto move_allowed = [&](VertexId v, VertexId w, Timestep t) {
-    return std::none_of(usages.begin(), usages.end(),
+    return std::none_of(demand.avoided.begin(), demand.avoided.end(),
                         [&](const Obstacle& o) { return forbids_move(o, v, w, t); });
   };
+  const Timestep end = demand.bound.value_or(demand.horizon);
   IdVector<VertexId, bool> here(graph.num_vertices(), false);
   here[task.start] = visit_allowed(task.start, 0);
-  for (Timestep t = 0; t < bound; ++t) {
+  for (Timestep t = 0; t < end; ++t) {
     IdVector<VertexId, bool> next(graph.num_vertices(), false);
     for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
       if (!here[v]) continue;
@@ -113,9 +150,14 @@ bool LazyAuditor::has_path(AgentId agent, std::span<const Obstacle> usages, Time
     }
     here = std::move(next);
   }
-  const bool can_rest = std::none_of(usages.begin(), usages.end(), [&](const Obstacle& o) {
-    return model_.obstacles().last_block(o, task.goal) >= bound;
-  });
+  if (!demand.bound) return std::find(here.begin(), here.end(), true) != here.end();
+  const bool can_rest =
+      std::none_of(
+          demand.avoided.begin(), demand.avoided.end(),
+          [&](const Obstacle& o) { return model_.obstacles().last_block(o, task.goal) >= end; }) &&
+      std::all_of(demand.visits.begin(), demand.visits.end(), [&](const Visit& visit) {
+        return visit.timestep < end || visit.vertex == task.goal;
+      });
   return here[task.goal] && can_rest;
 }
 
@@ -206,6 +248,9 @@ bool LazyAuditor::is_true_in_plan(Lit lit) const {
     return model_.obstacles().hits(var.obstacle, known_plan_->paths[var.agent]) != lit.positive();
   if (var.kind == VariableKind::cost)  // the negated variable: the agent costs more
     return (arrival(known_plan_->paths[var.agent]) > var.cost) != lit.positive();
+  if (var.kind == VariableKind::vertex)
+    return (position(known_plan_->paths[var.agent], var.visit.timestep) == var.visit.vertex) ==
+           lit.positive();
   const auto index = static_cast<std::size_t>(lit.variable());
   return (index < counter_is_true_.size() && counter_is_true_[index]) == lit.positive();
 }
@@ -232,9 +277,12 @@ std::string LazyAuditor::describe(Clause clause) const {
   for (const Lit lit : clause) {
     const auto var = model_.variable(lit);
     const std::string agent = std::to_string(var.agent.value());
-    text += var.kind == VariableKind::auxiliary ? (lit.positive() ? " +" : " -")
-                                                : (lit.positive() ? " -" : " +");
-    if (var.kind == VariableKind::auxiliary) {
+    const bool is_negated = var.kind == VariableKind::usage || var.kind == VariableKind::cost;
+    text += lit.positive() != is_negated ? " +" : " -";
+    if (var.kind == VariableKind::vertex) {
+      text += "at(" + agent + "," + vertex_name(model_.instance().graph(), var.visit.vertex) + "," +
+              std::to_string(var.visit.timestep) + ")";
+    } else if (var.kind == VariableKind::auxiliary) {
       text += "v" + std::to_string(lit.variable());
     } else if (var.kind == VariableKind::cost) {
       text += "cost(" + agent + ")>" + std::to_string(var.cost);

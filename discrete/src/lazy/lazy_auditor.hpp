@@ -30,6 +30,8 @@ class LazyAuditor final : public sat::ClauseObserver {
   using Clause = std::span<const sat::Lit>;
   /// Each returns what is wrong, empty if nothing is.
   [[nodiscard]] std::string audit_path(const sat::Lemma& lemma) const;
+  /// Of the clauses about explicit paths.
+  [[nodiscard]] std::string audit_explicit(Clause clause, AgentId agent) const;
   [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma) const;
   [[nodiscard]] std::string audit_order(Clause clause) const;
   [[nodiscard]] std::string audit_usages(const sat::Lemma& lemma) const;
@@ -38,9 +40,14 @@ class LazyAuditor final : public sat::ClauseObserver {
   [[nodiscard]] bool forbids_visit(const Obstacle& obstacle, VertexId v, Timestep t) const;
   [[nodiscard]] bool forbids_move(const Obstacle& obstacle, VertexId v, VertexId w,
                                   Timestep t) const;
-  /// True if the agent can cost at most `bound` without any of the usages.
-  [[nodiscard]] bool has_path(AgentId agent, std::span<const Obstacle> usages,
-                              Timestep bound) const;
+  /// What a path has to do and to avoid.
+  struct Demand {
+    std::vector<Obstacle> avoided;
+    std::vector<Visit> visits;
+    std::optional<Timestep> bound;  // on the cost; absent: only what comes until the horizon
+    Timestep horizon = 0;
+  };
+  [[nodiscard]] bool has_path(AgentId agent, const Demand& demand) const;
   /// True if the agents can move from their starts so that they do not collide and each makes all
   /// of its usages. At most four usages.
   [[nodiscard]] bool can_use_all(AgentId a, AgentId b, std::span<const Obstacle> usages) const;

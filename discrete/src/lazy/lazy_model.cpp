@@ -2,6 +2,7 @@
 #include "lazy_model.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "quadrille/core/contract.hpp"
 
@@ -9,13 +10,11 @@ namespace quadrille::discrete {
 
 using sat::Lit;
 
-LazyModel::LazyModel(const Instance& instance, LimitMonitor& limits)
-    : instance_(instance), costs_(instance.num_agents()) {
+LazyModel::LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances)
+    : instance_(instance), goal_distances_(std::move(distances)), costs_(instance.num_agents()) {
   distances_.reserve(instance.num_agents());
-  for (const Task& task : instance.tasks()) {
-    if (limits.exhausted_now()) return;
-    distances_.emplace_back(instance.graph(), task);
-  }
+  for (const AgentId i : instance.agents())
+    distances_.emplace_back(instance.graph(), instance.tasks()[i], goal_distances_->row(i));
 }
 
 void LazyModel::remember(Lit lit, const Variable& variable) {
@@ -36,7 +35,7 @@ Lit LazyModel::cost_above(AgentId agent, Timestep cost, FormulaWriter& writer) {
                                    [](const CostLiteral& c, Timestep k) { return c.cost < k; });
   if (at != known.end() && at->cost == cost) return at->above;
   const Lit above = ~writer.new_lit();
-  remember(above, {VariableKind::cost, agent, ObstacleId(), cost});
+  remember(above, {VariableKind::cost, agent, ObstacleId(), cost, {}});
   const auto index = static_cast<std::size_t>(at - known.begin());
   known.insert(at, {cost, above});
   const auto order = [&](Lit stronger, Lit weaker) {
@@ -50,8 +49,14 @@ Lit LazyModel::cost_above(AgentId agent, Timestep cost, FormulaWriter& writer) {
 
 Lit LazyModel::make_usage(AgentId agent, FormulaWriter& writer) {
   const Lit allowed = ~writer.new_lit();
-  remember(allowed, {VariableKind::usage, agent, ObstacleId(obstacles_.size()), 0});
+  remember(allowed, {VariableKind::usage, agent, ObstacleId(obstacles_.size()), 0, {}});
   return allowed;
+}
+
+Lit LazyModel::new_vertex(AgentId agent, Visit visit, FormulaWriter& writer) {
+  const Lit at = writer.new_lit();
+  remember(at, {VariableKind::vertex, agent, ObstacleId(), 0, visit});
+  return at;
 }
 
 std::optional<ObstacleId> LazyModel::find_user(const Users& users, AgentId agent) const {

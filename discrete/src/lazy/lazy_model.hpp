@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
@@ -9,7 +10,6 @@
 
 #include "agent_distances.hpp"
 #include "obstacles.hpp"
-#include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/sat/lemma.hpp"
 
@@ -36,10 +36,9 @@ class FormulaWriter {
 /// In lemmas, the resource number of a usage is the index of its obstacle.
 class LazyModel {
  public:
-  /// Requires that all goals can be reached. `instance` outlives the model. If `limits` end the
-  /// computation of the distances early, the model is not complete and of no use.
-  LazyModel(const Instance& instance, LimitMonitor& limits);
-  [[nodiscard]] bool is_complete() const { return distances_.size() == instance_.num_agents(); }
+  /// Requires that all goals can be reached, and the distances of `instance`, which outlives the
+  /// model.
+  LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances);
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] const AgentDistances& distances(AgentId agent) const {
@@ -72,12 +71,17 @@ class LazyModel {
   /// Keeps `agent` away from the goal of `resident` from `t` on while that costs at most `t`.
   ObstacleId keep_off_goal(AgentId agent, AgentId resident, Timestep t, FormulaWriter& writer);
 
-  enum class VariableKind { auxiliary, usage, cost };
+  /// The literal "the agent is in that vertex at that timestep", or at rest there if it is its
+  /// goal: of an explicit path. Made anew at each call.
+  [[nodiscard]] sat::Lit new_vertex(AgentId agent, Visit visit, FormulaWriter& writer);
+
+  enum class VariableKind { auxiliary, usage, cost, vertex };
   struct Variable {
     VariableKind kind = VariableKind::auxiliary;
     AgentId agent;
     ObstacleId obstacle;  // usage
     Timestep cost = 0;    // cost: false says "costs more than this", true the opposite
+    Visit visit;          // vertex
   };
   /// auxiliary for variables that are not of this model.
   [[nodiscard]] Variable variable(sat::Lit lit) const;
@@ -91,6 +95,7 @@ class LazyModel {
   void remember(sat::Lit lit, const Variable& variable);
 
   const Instance& instance_;
+  std::shared_ptr<const GoalDistances> goal_distances_;
   std::vector<AgentDistances> distances_;
   ObstacleTable obstacles_;
   IdVector<AgentId, std::vector<CostLiteral>> costs_;

@@ -10,32 +10,38 @@ namespace quadrille::discrete {
 using sat::Lit;
 using sat::Truth;
 
-/// Writes to the solver by way of the theory's context and tells whether anything was written.
+/// Writes to the solver by way of the theory's context and tells whether the assignment cannot stay
+/// as it is: because of a clause that is false or of a literal that has no value yet.
 class LazyTheory::ContextWriter final : public FormulaWriter {
  public:
   explicit ContextWriter(sat::TheoryContext& context) : context_(context) {}
   [[nodiscard]] Lit new_lit() override {
-    has_written_ = true;
+    has_excluded_ = true;
     return context_.new_lit();
   }
   void add(const sat::Lemma& lemma) override {
-    has_written_ = true;
+    has_excluded_ =
+        has_excluded_ || std::all_of(lemma.clause.begin(), lemma.clause.end(),
+                                     [&](Lit l) { return context_.value(l) == Truth::is_false; });
     context_.add_lemma(lemma);
   }
-  [[nodiscard]] bool has_written() const noexcept { return has_written_; }
+  void stop() { context_.stop(); }
+  [[nodiscard]] bool has_excluded() const noexcept { return has_excluded_; }
 
  private:
   sat::TheoryContext& context_;
-  bool has_written_ = false;
+  bool has_excluded_ = false;
 };
 
-LazyTheory::LazyTheory(LazyModel& model)
+LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits)
     : model_(model),
+      limits_(limits),
       paths_(model.instance()),
       clauses_(model, paths_),
       obstacle_map_(model.instance().graph().num_vertices()),
       finder_(model.instance().graph().num_vertices()),
       explainer_(model.instance().graph().num_vertices()),
+      explicit_paths_(model),
       agents_(model.instance().num_agents()) {
   for (const AgentId i : model.instance().agents()) {
     const AgentDistances& distances = model_.distances(i);
@@ -47,7 +53,7 @@ LazyTheory::LazyTheory(LazyModel& model)
     agents_[i].cap = distances.free_cost();
   }
   constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds && bypass(); ++round) {
+  for (int round = 0; round < kRounds && !limits.exhausted_now() && bypass(); ++round) {
   }
   for (Agent& agent : agents_) agent.cap = kForever;
 }
@@ -72,7 +78,9 @@ void LazyTheory::on_assign(std::span<const Lit> newly_true) {
     // Usages are allowed and costs are high while their variables are false.
     if (!lit.positive()) continue;
     const auto meaning = model_.variable(lit);
-    if (meaning.kind == LazyModel::VariableKind::auxiliary) continue;
+    if (meaning.kind == LazyModel::VariableKind::auxiliary ||
+        meaning.kind == LazyModel::VariableKind::vertex)
+      continue;
     if (index < watchers_.size())
       for (const ObstacleId id : watchers_[index]) activate(id);
     if (meaning.kind == LazyModel::VariableKind::cost) lower_cap(meaning.agent, meaning.cost);
@@ -162,9 +170,15 @@ void LazyTheory::set_path(AgentId i, const Path& path) {
   paths_.replace(i, path);
 }
 
-bool LazyTheory::replan_all(FormulaWriter& writer) {
-  for (const AgentId i : model_.instance().agents())
-    if (agents_[i].is_violated && is_present(i) && !replan(i, writer)) return false;
+bool LazyTheory::replan_all(ContextWriter& writer) {
+  for (const AgentId i : model_.instance().agents()) {
+    if (!agents_[i].is_violated || !is_present(i)) continue;
+    if (limits_.exhausted()) {
+      writer.stop();
+      return false;
+    }
+    if (!replan(i, writer)) return false;
+  }
   return true;
 }
 
@@ -207,6 +221,7 @@ void LazyTheory::explain_bound(AgentId i, Timestep cost, FormulaWriter& writer) 
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
   bump(clause);
+  explicit_paths_.on_path_lemma(i, agent.cap, writer);
 }
 
 // ---- checks -------------------------------------------------------------------------------------
@@ -227,16 +242,20 @@ void LazyTheory::list_present_collisions() {
 }
 
 // Obstacles whose literal is false already take effect without a clause: then paths change, and
-// this has to look again, because an unchanged formula would count as consent.
+// this has to look again, because a formula that is still satisfied would count as consent.
 void LazyTheory::check_paths(ContextWriter& writer) {
   bool has_bypassed = false;
   while (true) {
-    if (!replan_all(writer) || writer.has_written()) return;
+    if (!replan_all(writer) || writer.has_excluded()) return;
     ++num_checks_;
+    if (limits_.exhausted_now()) {
+      writer.stop();
+      return;
+    }
     list_present_collisions();
     if (!has_bypassed) {
       has_bypassed = true;
-      while (bypass()) {
+      while (!limits_.exhausted_now() && bypass()) {
       }
       list_present_collisions();
     }
@@ -249,7 +268,8 @@ void LazyTheory::check_paths(ContextWriter& writer) {
         [](const Encounter& a, const Encounter& b) { return a.timestep < b.timestep; });
     for (const Encounter& e : collisions_) clauses_.exclude(e, agents_[e.first].cap, writer);
     notice_new_obstacles();
-    if (writer.has_written()) return;
+    explicit_paths_.link_new_obstacles(writer);
+    if (writer.has_excluded()) return;
   }
 }
 
@@ -277,6 +297,7 @@ Lit LazyTheory::decide(sat::TheoryContext& context) {
   for (const Encounter& e : std::vector<Encounter>(collisions_)) {
     const auto usages = clauses_.exclude(e, agents_[e.first].cap, writer);
     notice_new_obstacles();
+    explicit_paths_.link_new_obstacles(writer);
     Lit choice;
     for (const ObstacleId id : usages) {
       const Lit allowed = model_.obstacles()[id].allowed;
@@ -312,7 +333,7 @@ bool LazyTheory::bypass() {
   std::sort(colliding.begin(), colliding.end());
   colliding.erase(std::unique(colliding.begin(), colliding.end()), colliding.end());
   bool any = false;
-  for (const AgentId i : colliding) any = bypass(i) || any;
+  for (const AgentId i : colliding) any = (!limits_.exhausted() && bypass(i)) || any;
   return any;
 }
 
@@ -321,7 +342,11 @@ bool LazyTheory::bypass(AgentId i) {
   if (now == 0) return false;
   const AgentDistances& distances = model_.distances(i);
   obstacle_map_.load(model_.obstacles(), agents_[i].active, distances.goal());
-  if (!finder_.find_quietest({i, distances, obstacle_map_, agents_[i].cap, &paths_}, now, path_))
+  // On open maps a vain search would look at everything within the cap.
+  constexpr std::int64_t kStatesPerStep = 10;
+  const auto max_effort = kStatesPerStep * static_cast<std::int64_t>(paths_.path(i).size());
+  if (!finder_.find_quietest({i, distances, obstacle_map_, agents_[i].cap, &paths_, max_effort},
+                             now, path_))
     return false;
   set_path(i, path_);
   return true;

@@ -7,9 +7,11 @@
 
 #include "encounter_clauses.hpp"
 #include "explanation.hpp"
+#include "explicit_paths.hpp"
 #include "lazy_model.hpp"
 #include "path_finder.hpp"
 #include "path_index.hpp"
+#include "quadrille/core/limits.hpp"
 #include "quadrille/sat/theory.hpp"
 
 namespace quadrille::discrete {
@@ -23,13 +25,20 @@ namespace quadrille::discrete {
 /// of present agents become clauses at once.
 class LazyTheory final : public sat::Theory {
  public:
-  /// `model` outlives the theory. Plans free paths that avoid each other where that is easy.
-  explicit LazyTheory(LazyModel& model);
+  /// Both outlive the theory. Plans free paths that avoid each other where that is easy. When a
+  /// limit is met the theory ends the solve that it takes part in.
+  LazyTheory(LazyModel& model, LimitMonitor& limits);
 
   /// The paths of the last complete assignment that was accepted; absent if an agent was.
   [[nodiscard]] const std::optional<Plan>& accepted() const noexcept { return accepted_; }
+  /// The current path. After a check that added no lemma, those of agents with a cap respect the
+  /// caps and the active obstacles.
+  [[nodiscard]] const Path& path(AgentId agent) const { return paths_.path(agent); }
   /// Times that the paths of a complete assignment were checked for collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
+
+  /// States that path searches have expanded.
+  [[nodiscard]] std::int64_t effort() const noexcept { return finder_.effort(); }
 
   /// Called before each solve. Unless all agents will have a cap, only conflicts among those that
   /// have matter: the theory decides for them and ends the solve when they do not collide.
@@ -65,8 +74,9 @@ class LazyTheory final : public sat::Theory {
   void undo(const Change& change);
   [[nodiscard]] bool is_path_bad(AgentId i) const;
 
-  /// Replaces violated paths of present agents. False if a lemma says that one has none.
-  bool replan_all(FormulaWriter& writer);
+  /// Replaces violated paths of present agents. False if a lemma says that one has none, or if a
+  /// limit was met.
+  bool replan_all(ContextWriter& writer);
   bool replan(AgentId i, FormulaWriter& writer);
   /// Adds "i costs more than `cost`, or one of these usages is allowed". The searches' state is
   /// that of the last find_cheapest for i.
@@ -86,11 +96,13 @@ class LazyTheory final : public sat::Theory {
   void accept();
 
   LazyModel& model_;
+  LimitMonitor& limits_;
   PathIndex paths_;
   EncounterClauses clauses_;
   ObstacleMap obstacle_map_;
   PathFinder finder_;
   Explainer explainer_;
+  ExplicitPaths explicit_paths_;
 
   IdVector<AgentId, Agent> agents_;
   std::vector<sat::Lit> stack_;

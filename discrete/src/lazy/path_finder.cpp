@@ -42,6 +42,7 @@ void PathFinder::trace(const Query& query, Timestep arrival, Path& path) {
 template <class Hit, class Push>
 void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hit& hit,
                         const Push& push) {
+  ++effort_;
   const AgentDistances& d = query.distances;
   const Timestep max_slack = query.max_cost - d.free_cost();
   const Timestep h = d.to_goal(v), t = d.free_cost() + slack - h;
@@ -107,6 +108,8 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
 
 bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
   QUADRILLE_REQUIRE(query.others != nullptr, "collisions with somebody");
+  const std::int64_t last_effort =
+      query.max_effort > INT64_MAX - effort_ ? INT64_MAX : effort_ + query.max_effort;
   const AgentDistances& d = query.distances;
   if (query.max_cost < d.free_cost() || query.obstacles.earliest_rest() > query.max_cost)
     return false;
@@ -119,6 +122,7 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
     Buckets& buckets = open_[static_cast<std::size_t>(c)];
     for (std::size_t s = 0; s < buckets.size(); ++s) {  // steps never lessen the slack
       while (!buckets[s].empty()) {
+        if (effort_ >= last_effort) return false;
         const State state = buckets[s].back();
         buckets[s].pop_back();
         const auto slack = static_cast<Timestep>(s);

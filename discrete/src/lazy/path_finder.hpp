@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,8 @@ class PathFinder {
     const AgentDistances& distances;
     const ObstacleMap& obstacles;  ///< Loaded for the agent.
     Timestep max_cost = 0;
-    const PathIndex* others = nullptr;  ///< Whose collisions to avoid; null: nobody's.
+    const PathIndex* others = nullptr;    ///< Whose collisions to avoid; null: nobody's.
+    std::int64_t max_effort = INT64_MAX;  ///< Of find_quietest: states to expand before giving up.
   };
 
   /// Finds a cheapest path of at most `max_cost`, among these one with few collisions. False if
@@ -36,6 +38,9 @@ class PathFinder {
   /// Finds a path of at most `max_cost` with the fewest collisions, if they are less than `below`.
   /// Requires `others`.
   [[nodiscard]] bool find_quietest(const Query& query, int below, Path& path);
+
+  /// States expanded so far by all searches.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 
  private:
   struct State {
@@ -59,6 +64,7 @@ class PathFinder {
   void trace(const Query& query, Timestep arrival, Path& path);
 
   std::size_t num_vertices_;
+  std::int64_t effort_ = 0;
   std::uint32_t stamp_ = 0;
   std::vector<std::vector<Closed>> layers_;  // by slack, then vertex
   std::vector<Buckets> open_;                // cheapest: by slack % 3; quietest: by collisions

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "lazy/path_finder.hpp"
+#include "support/distances.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -118,7 +119,8 @@ TEST(Explanation, CutsOffEveryCheapPathAndPathsAreCheapest) {
   for (unsigned seed = 0; seed < 5000; ++seed) {
     SCOPED_TRACE(seed);
     const Trial trial = random_trial(seed);
-    const AgentDistances distances(*trial.graph, trial.task);
+    const auto table = support::distances_of(*trial.graph, trial.task);
+    const AgentDistances distances(*trial.graph, trial.task, table->row(AgentId(0)));
     ObstacleMap map(trial.graph->num_vertices());
     PathFinder finder(trial.graph->num_vertices());
     Explainer explainer(trial.graph->num_vertices());
@@ -156,7 +158,8 @@ TEST(Explanation, LeavesOutWhatIsNotInTheWay) {
   trial.active = {trial.table.add_point(AgentId(0), {}, {VertexId(3), 1}),
                   trial.table.add_point(AgentId(0), {}, {VertexId(1), 1}),
                   trial.table.add_point(AgentId(0), {}, {VertexId(2), 1})};
-  const AgentDistances distances(*trial.graph, trial.task);
+  const auto table = support::distances_of(*trial.graph, trial.task);
+  const AgentDistances distances(*trial.graph, trial.task, table->row(AgentId(0)));
   ObstacleMap map(4);
   PathFinder finder(4);
   Explainer explainer(4);

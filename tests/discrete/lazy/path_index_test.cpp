@@ -7,6 +7,7 @@
 #include <random>
 
 #include "lazy/path_finder.hpp"
+#include "support/distances.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -92,7 +93,8 @@ TEST(PathFinder, FindsAWayAroundOthersWithinTheCap) {
   index.replace(AgentId(0), {VertexId(0), VertexId(1), VertexId(2)});
   index.replace(AgentId(1), {VertexId(1)});
   EXPECT_EQ(index.num_collisions(AgentId(0)), 1);
-  const AgentDistances distances(graph, instance.tasks()[AgentId(0)]);
+  const auto table = support::distances_of(instance);
+  const AgentDistances distances(graph, instance.tasks()[AgentId(0)], table->row(AgentId(0)));
   ObstacleMap map(6);
   map.load({}, {}, VertexId(2));
   PathFinder finder(6);

@@ -44,7 +44,14 @@ class LimitMonitor {
   /// Calls `listener` from within `exhausted` about every `interval_s` seconds.
   void set_ticker(double interval_s, std::function<void()> listener);
 
-  void add_conflicts(std::int64_t count) noexcept { conflicts_ += count; }
+  /// A second interrupt flag. May be null; must outlive the monitor otherwise.
+  void set_cancel(const std::atomic<bool>* cancel) noexcept { cancel_ = cancel; }
+  /// Calls `listener` after each conflict that is counted.
+  void set_conflict_listener(std::function<void()> listener);
+  /// From now on, and if no limit was met before, the search has to stop for that reason.
+  void stop(StopReason reason) noexcept;
+
+  void add_conflicts(std::int64_t count);
   [[nodiscard]] std::int64_t conflicts() const noexcept { return conflicts_; }
   [[nodiscard]] StopReason reason() const noexcept { return reason_; }
   /// Since the monitor was made.
@@ -53,11 +60,12 @@ class LimitMonitor {
 
  private:
   Limits limits_;
+  const std::atomic<bool>* cancel_ = nullptr;
   double wall_start_, cpu_start_;
   std::int64_t conflicts_ = 0;
   std::uint32_t calls_ = 0;
   StopReason reason_ = StopReason::none;
-  std::function<void()> ticker_;
+  std::function<void()> ticker_, conflict_listener_;
   double tick_interval_ = 0, next_tick_ = 0;
 };
 

@@ -17,8 +17,9 @@ enum class Status {
   unknown,     ///< No plan; a limit ended the search, or a proof was lost.
 };
 
-/// Which limit ended a search. `none`: it ended by itself.
-enum class StopReason { none, wall_time, cpu_time, memory, conflicts, interrupt };
+/// What ended a search. `none`: it ended by itself. `gap`: the plan is as close to the lower bound
+/// as was asked for.
+enum class StopReason { none, wall_time, cpu_time, memory, conflicts, interrupt, gap };
 
 [[nodiscard]] std::string_view to_string(
     Objective objective) noexcept;                                 ///< "sum-of-costs" | "makespan"

@@ -19,6 +19,25 @@ class GoalDistances {
   [[nodiscard]] static std::shared_ptr<const GoalDistances> make(const Instance& instance,
                                                                  LimitMonitor& limits);
 
+  /// The distances to one goal. Valid as long as the table.
+  class Row {
+   public:
+    [[nodiscard]] Timestep operator[](VertexId vertex) const {
+      if (small_ == nullptr) return large_[vertex.index()];
+      return small_[vertex.index()] == kNoWay ? kUnreachable : Timestep{small_[vertex.index()]};
+    }
+
+   private:
+    friend class GoalDistances;
+    Row(const std::uint16_t* small, const Timestep* large) : small_(small), large_(large) {}
+    const std::uint16_t* small_;  // One of the two is null.
+    const Timestep* large_;
+  };
+  [[nodiscard]] Row row(AgentId agent) const {
+    const std::size_t at = agent.index() * num_vertices_;
+    return large_.empty() ? Row(small_.data() + at, nullptr) : Row(nullptr, large_.data() + at);
+  }
+
   /// kUnreachable where there is no way.
   [[nodiscard]] Timestep operator()(AgentId agent, VertexId vertex) const {
     const std::size_t at = agent.index() * num_vertices_ + vertex.index();

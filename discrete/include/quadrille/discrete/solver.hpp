@@ -19,7 +19,7 @@ namespace quadrille::discrete {
 
 /// The solving systems; see docs/architecture.md.
 enum class System {
-  dpll,      ///< The default; at present the same as dpll_mdd.
+  dpll,      ///< The default. Lazy path model: paths live in the theory.
   dpll_mdd,  ///< MDD path model, collision clauses made inside the search as `check` says.
   smt_cbs,   ///< MDD path model, collision clauses made after each complete assignment.
   mdd_sat,   ///< MDD path model, all collision clauses made before solving.
@@ -66,6 +66,7 @@ enum class MddGrowth {
 /// A look at a running search.
 struct Progress {
   Cost lower_bound = 0;
+  std::optional<Cost> cost;  ///< Of the best plan so far.
   double elapsed_s = 0;
   std::int64_t conflicts = 0;
 };
@@ -73,14 +74,29 @@ struct Progress {
 struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
-  CheckSchedule check;  ///< Of dpll and dpll_mdd; the other systems have their own.
+  CheckSchedule check;  ///< Of dpll_mdd; the other systems check when they have to.
   /// For the sum of costs; the makespan is always searched upwards. Absent: core-guided for dpll,
   /// iterative for the published systems.
   std::optional<CostSearch> cost_search;
   /// Of the iterative search.
   MddGrowth mdd_growth = MddGrowth::on_demand;
+  /// Of dpll: try first to forbid usages instead of allowing them. Much faster on some hard
+  /// instances, slower on others.
+  bool forbid_first = false;
   Limits limits;
+  /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
+  /// primal.hpp): then a search that a limit ends has a plan.
+  bool first_plan = true;
+  /// Stop when the plan is proved to cost at most this many per cent of its cost too much. Not
+  /// negative.
+  std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
+  /// More than one: that many searches side by side, this one and others with other systems; the
+  /// first proof is the answer. 1 .. 64.
+  std::size_t threads = 1;
+  /// With several threads, take the proof that comes first in time. Otherwise it is the first one
+  /// counted in steps, so that the answer is always the same.
+  bool race = false;
   /// Called on the solving thread, at most a few times a second. May be empty.
   std::function<void(const Progress&)> on_progress;
 

@@ -35,7 +35,8 @@ class TheoryContext {
   /// A new literal, observed. During search this can undo assignments, so prefer making literals
   /// before solving.
   [[nodiscard]] virtual Lit new_lit() = 0;
-  /// Asks to end the running solve soon, with the verdict `unknown`.
+  /// Asks to end the running solve soon, with the verdict `unknown`. Then nothing is owed for a
+  /// complete assignment.
   virtual void stop() = 0;
 
  protected:

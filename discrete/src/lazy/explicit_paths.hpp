@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lazy_model.hpp"
+#include "mdd_paths.hpp"
+
+namespace quadrille::discrete {
+
+/// Gives an agent of the lazy model explicit paths, the clauses of its MDD over X(v,t), once it has
+/// cost about as many path lemmas as these clauses number: on small, crowded maps the cuts that
+/// refute a bound are too many to be listed, and resolution over X(v,t) finds short proofs.
+///
+/// X(v,t) implies all usage literals of obstacles that (v,t) is part of, so the explicit paths keep
+/// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
+class ExplicitPaths {
+ public:
+  /// `model` outlives this.
+  explicit ExplicitPaths(LazyModel& model)
+      : model_(model), agents_(model.instance().num_agents()) {}
+
+  /// To be called for each path lemma, with the largest cost that the agent may have at present.
+  void on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer);
+  /// To be called when obstacles were added to the model.
+  void link_new_obstacles(FormulaWriter& writer);
+
+ private:
+  struct Agent {
+    std::int64_t num_lemmas = 0;
+    std::int64_t next_look = 0;         // number of lemmas
+    std::optional<MddPaths> paths;      // absent: not explicit
+    std::vector<ObstacleId> obstacles;  // of this agent
+  };
+  class AgentFormula;
+
+  [[nodiscard]] std::int64_t size(AgentId agent, Timestep max_delay) const;
+  /// X implies what the obstacle's literal says, for X beyond the delay `old_cap`.
+  void link(AgentId agent, ObstacleId id, Timestep old_cap, FormulaWriter& writer);
+
+  LazyModel& model_;
+  IdVector<AgentId, Agent> agents_;
+  std::size_t num_linked_ = 0;  // obstacles
+};
+
+}  // namespace quadrille::discrete

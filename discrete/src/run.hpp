@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "quadrille/core/limits.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
+#include "quadrille/discrete/solver.hpp"
+#include "quadrille/sat/core_guided_search.hpp"
+#include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/engine.hpp"
+
+namespace quadrille::discrete {
+
+/// The models, theory and engine of one search, wired up as its system asks.
+class Run {
+ public:
+  virtual ~Run() = default;
+  /// To be called once, first. False if `limits` ended that early.
+  [[nodiscard]] virtual bool prepare(std::shared_ptr<const GoalDistances> distances,
+                                     LimitMonitor& limits) = 0;
+  [[nodiscard]] virtual sat::Engine& engine() = 0;
+  [[nodiscard]] virtual sat::BoundedProblem& bounded_problem() = 0;
+  [[nodiscard]] virtual sat::AgentCostProblem& agent_cost_problem() = 0;
+  [[nodiscard]] virtual const Plan& plan() const = 0;
+  /// Elementary steps of the theory so far, of less than a microsecond each.
+  [[nodiscard]] virtual std::int64_t effort() const = 0;
+  [[nodiscard]] virtual std::int64_t num_checks() const = 0;
+  [[nodiscard]] virtual std::int64_t num_rejected() const = 0;
+  [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
+};
+
+/// `instance` and `options` outlive the run.
+[[nodiscard]] std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options);
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "upper_bound.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille::discrete {
+namespace {
+
+constexpr std::int64_t kFirstEffort = 20'000'000, kSlice = 20'000;
+constexpr std::int64_t kLargestShare = 8, kSmallestShare = 64;  // one in so many
+
+}  // namespace
+
+UpperBound::UpperBound(const Instance& instance, Objective objective,
+                       std::shared_ptr<const GoalDistances> distances, std::uint32_t seed)
+    : instance_(instance),
+      objective_(objective),
+      distances_(std::move(distances)),
+      seed_(seed),
+      first_(instance, distances_, seed),
+      share_(kLargestShare),
+      due_(kLargestShare * kSlice) {}
+
+void UpperBound::start(LimitMonitor& limits) {
+  static_cast<void>(first_.advance(kFirstEffort, limits));
+  take_first_plan();
+}
+
+void UpperBound::take_first_plan() {
+  if (first_.state() == PrimalSearch::State::found)
+    improver_.emplace(instance_, distances_, objective_, first_.plan(), seed_);
+}
+
+std::optional<Cost> UpperBound::cost() const {
+  if (!improver_) return std::nullopt;
+  return improver_->cost();
+}
+
+bool UpperBound::advance(std::int64_t search_effort, LimitMonitor& limits) {
+  if (search_effort < due_) return false;
+  const bool cheaper = work(limits);
+  share_ = cheaper ? kLargestShare : std::min(kSmallestShare, share_ * 2);
+  due_ = search_effort + share_ * kSlice;
+  return cheaper;
+}
+
+bool UpperBound::work(LimitMonitor& limits) {
+  if (improver_) {
+    const Cost before = improver_->cost();
+    static_cast<void>(improver_->improve(kSlice, limits));
+    return improver_->cost() < before;
+  }
+  static_cast<void>(first_.advance(kSlice, limits));
+  take_first_plan();
+  return improver_.has_value();
+}
+
+}  // namespace quadrille::discrete
