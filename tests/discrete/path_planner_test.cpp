@@ -213,7 +213,7 @@ TEST(Neighbourhoods, HaveTheSizeAskedForAndNobodyTwice) {
   Neighbourhoods neighbourhoods(instance, *distances, plan.paths, reservations, draws);
   using Rule = Neighbourhoods::Rule;
   for (const Rule rule : {Rule::delayed, Rule::place, Rule::any})
-    for (const std::size_t size : {1, 2, 16, 40, 100}) {
+    for (const std::size_t size : {1U, 2U, 16U, 40U, 100U}) {
       auto agents = neighbourhoods.choose(rule, size, AgentId(5));
       if (rule == Rule::delayed) {
         EXPECT_EQ(agents.front(), AgentId(5));

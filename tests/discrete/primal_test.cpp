@@ -218,7 +218,7 @@ Instance crowd(std::int32_t side, std::size_t num_agents, std::uint64_t seed) {
 
 TEST(PrimalSearch, MovesLargeCrowds) {
   // The longer way of pushing: nearly all of 1600 cells are taken.
-  for (const std::size_t num_agents : {500, 1000, 1400}) {
+  for (const std::size_t num_agents : {500U, 1000U, 1400U}) {
     const Instance instance = crowd(40, num_agents, num_agents);
     const PrimalSearch search = searched(instance);
     ASSERT_EQ(search.state(), State::found);
