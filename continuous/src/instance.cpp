@@ -23,7 +23,9 @@ std::string name(std::size_t agent) { return "agent " + std::to_string(agent); }
 
 Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
 
-std::optional<Error> check(const Roadmap& roadmap, const Agent& agent, std::size_t index) {
+std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                           std::size_t index) {
+  const Agent& agent = agents[index];
   for (const VertexId v : {agent.start, agent.goal})
     if (v.index() >= roadmap.num_vertices())
       return invalid(name(index) + " names vertex " + std::to_string(v.index()) +
@@ -41,16 +43,25 @@ std::optional<Error> check(const Roadmap& roadmap, const Agent& agent, std::size
   return std::nullopt;
 }
 
-/// Two agents that overlap when each is at its start (goal).
+/// An agent that overlaps an earlier one when each is at its start (goal).
 std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                 VertexId Agent::*place, const std::string& what) {
-  for (std::size_t j = 0; j < agents.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i)
-      if (squared_distance(roadmap.position(agents[i].*place), roadmap.position(agents[j].*place)) <
-          square(agents[i].radius + agents[j].radius))
-        return invalid("the " + what + " of agents " + std::to_string(i) + " and " +
-                       std::to_string(j) + " overlap");
+                                 std::size_t j, VertexId Agent::*place, const std::string& what) {
+  for (std::size_t i = 0; i < j; ++i)
+    if (squared_distance(roadmap.position(agents[i].*place), roadmap.position(agents[j].*place)) <
+        square(agents[i].radius + agents[j].radius))
+      return invalid("the " + what + " of agents " + std::to_string(i) + " and " +
+                     std::to_string(j) + " overlap");
   return std::nullopt;
+}
+
+std::optional<Error> check_start_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                       std::size_t j) {
+  return check_apart(roadmap, agents, j, &Agent::start, "starts");
+}
+
+std::optional<Error> check_goal_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                      std::size_t j) {
+  return check_apart(roadmap, agents, j, &Agent::goal, "goals");
 }
 
 bool can_reach(const Roadmap& roadmap, VertexId start, VertexId goal) {
@@ -68,6 +79,15 @@ bool can_reach(const Roadmap& roadmap, VertexId start, VertexId goal) {
     }
   }
   return seen[goal.index()];
+}
+
+std::optional<Error> check_reachable(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                     std::size_t i) {
+  const Agent& agent = agents[i];
+  if (can_reach(roadmap, agent.start, agent.goal)) return std::nullopt;
+  return invalid(name(i) + " cannot reach its goal: there is no way from vertex " +
+                 std::to_string(agent.start.index()) + " to vertex " +
+                 std::to_string(agent.goal.index()));
 }
 
 Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed) {
@@ -97,19 +117,17 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed) {
 }  // namespace
 
 Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vector<Agent> agents,
-                                double resolution) {
+                                double resolution, std::span<const SourcePlace> places) {
   QUADRILLE_REQUIRE(roadmap != nullptr, "an instance has a roadmap");
+  QUADRILLE_REQUIRE(places.empty() || places.size() == agents.size(), "one place per agent");
   if (!(std::isfinite(resolution) && resolution > 0))
     return Error{ErrorCode::out_of_range, "the resolution has to be positive and finite", {}};
-  for (std::size_t i = 0; i < agents.size(); ++i)
-    if (auto error = check(*roadmap, agents[i], i)) return *error;
-  if (auto error = check_apart(*roadmap, agents, &Agent::start, "starts")) return *error;
-  if (auto error = check_apart(*roadmap, agents, &Agent::goal, "goals")) return *error;
-  for (std::size_t i = 0; i < agents.size(); ++i)
-    if (!can_reach(*roadmap, agents[i].start, agents[i].goal))
-      return invalid(name(i) + " cannot reach its goal: there is no way from vertex " +
-                     std::to_string(agents[i].start.index()) + " to vertex " +
-                     std::to_string(agents[i].goal.index()));
+  for (const auto& step : {check, check_start_apart, check_goal_apart, check_reachable})
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      if (auto error = step(*roadmap, agents, i)) {
+        if (!places.empty()) error->where = places[i];
+        return *error;
+      }
 
   Instance instance;
   std::map<Speed, std::size_t> speeds;

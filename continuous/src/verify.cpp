@@ -22,6 +22,7 @@ constexpr Ticks kMaxTick = Ticks{1} << 60;
 struct Piece {
   Ticks begin, end;
   Point from, to;
+  VertexId start, goal;
 };
 
 std::string agent_name(AgentId i) { return "agent " + std::to_string(i.index()); }
@@ -43,9 +44,14 @@ class PathCheck {
     const Agent& agent = instance_.agent(i_);
     bool good = true;
     if (path.front().vertex != agent.start)
-      good = fail(Kind::wrong_start, 0, "does not begin at its start");
+      good = fail(Kind::wrong_start, 0,
+                  "begins at vertex " + std::to_string(path.front().vertex.index()) +
+                      ", but its start is vertex " + std::to_string(agent.start.index()));
     if (path.back().vertex != agent.goal)
-      good = fail(Kind::wrong_goal, path.back().arrive, "does not end at its goal");
+      good = fail(Kind::wrong_goal, path.back().arrive,
+                  "ends at vertex " + std::to_string(path.back().vertex.index()) + " at tick " +
+                      std::to_string(path.back().arrive) + ", but its goal is vertex " +
+                      std::to_string(agent.goal.index()));
     for (std::size_t k = 0; k + 1 < path.size(); ++k) good &= check_move(path[k], path[k + 1]);
     return good;
   }
@@ -63,7 +69,11 @@ class PathCheck {
         return fail(Kind::bad_vertex, stop.arrive,
                     "names vertex " + std::to_string(stop.vertex.index()) + ", which is none");
       if (stop.arrive < now || stop.depart < stop.arrive || stop.depart > kMaxTick)
-        return fail(Kind::bad_time, stop.arrive, "goes back in time or on for too long");
+        return fail(Kind::bad_time, stop.arrive,
+                    "arrives at vertex " + std::to_string(stop.vertex.index()) + " at tick " +
+                        std::to_string(stop.arrive) + " and departs at tick " +
+                        std::to_string(stop.depart) +
+                        ": that goes back in time, or on for too long");
       now = stop.depart;
     }
     if (path.front().arrive != 0) return fail(Kind::bad_time, 0, "is nowhere at tick 0");
@@ -74,17 +84,19 @@ class PathCheck {
 
   bool check_move(const Stop& a, const Stop& b) {
     bool is_adjacent = false;
+    Ticks takes = 0;
     const ClassId c = instance_.class_of(i_);
     for (const EdgeId e : instance_.roadmap().out_edges(a.vertex)) {
       if (instance_.roadmap().edge(e).to != b.vertex) continue;
       is_adjacent = true;
-      if (instance_.duration(c, e) == b.arrive - a.depart) return true;
+      takes = instance_.duration(c, e);
+      if (takes == b.arrive - a.depart) return true;
     }
     const std::string name = move_name(a.vertex, b.vertex, a.depart);
     if (!is_adjacent) return fail(Kind::not_adjacent, a.depart, name + ", but there is no edge");
     return fail(Kind::duration, a.depart,
                 name + " and takes " + std::to_string(b.arrive - a.depart) +
-                    " ticks, which is not what the edge takes");
+                    " ticks, but the edge takes " + std::to_string(takes));
   }
 
   const Instance& instance_;
@@ -99,10 +111,11 @@ std::vector<Piece> pieces(const Roadmap& roadmap, const Path& path, Ticks horizo
     const Point at = roadmap.position(path[k].vertex);
     const bool is_last = k + 1 == path.size();
     const Ticks depart = is_last ? horizon : path[k].depart;
-    if (depart > path[k].arrive) result.push_back({path[k].arrive, depart, at, at});
+    if (depart > path[k].arrive)
+      result.push_back({path[k].arrive, depart, at, at, path[k].vertex, path[k].vertex});
     if (!is_last)
-      result.push_back(
-          {path[k].depart, path[k + 1].arrive, at, roadmap.position(path[k + 1].vertex)});
+      result.push_back({path[k].depart, path[k + 1].arrive, at,
+                        roadmap.position(path[k + 1].vertex), path[k].vertex, path[k + 1].vertex});
   }
   return result;
 }
@@ -154,18 +167,47 @@ bool come_nearer(const Piece& a, const Piece& b, Ticks begin, Ticks end, Length 
   return cross * cross < reach2 * (dx * dx + dy * dy);
 }
 
+std::string describe(const Piece& piece) {
+  const std::string from = "vertex " + std::to_string(piece.start.index());
+  if (piece.start == piece.goal) return "stands at " + from;
+  return "moves from " + from + " to vertex " + std::to_string(piece.goal.index());
+}
+
+/// Two pieces that collide, and when both last.
+struct Collision {
+  Piece a, b;
+  Ticks begin, end;
+  Nearest nearest;
+};
+
+std::string describe(AgentId i, AgentId j, const Collision& c, Length reach) {
+  const auto number = [](long double value) {
+    return std::to_string(static_cast<std::int64_t>(std::llround(value)));
+  };
+  const long double overlap = static_cast<long double>(reach) - c.nearest.distance;
+  return "agents " + std::to_string(i.index()) + " and " + std::to_string(j.index()) +
+         " collide between ticks " + std::to_string(c.begin) + " and " + std::to_string(c.end) +
+         ", while agent " + std::to_string(i.index()) + " " + describe(c.a) + " and agent " +
+         std::to_string(j.index()) + " " + describe(c.b) + ": nearest at about tick " +
+         number(c.nearest.tick) + ", " +
+         (overlap < 1 ? "less than one length unit"
+                      : "about " + number(overlap) + " length units") +
+         " too close";
+}
+
 class PairCheck {
  public:
   PairCheck(Length reach, Clearance& clearance) : reach_(reach), clearance_(clearance) {
     clearance.gap = std::numeric_limits<double>::infinity();
   }
 
-  /// The moment from which on two pieces collide, if any do.
-  std::optional<Ticks> check(const std::vector<Piece>& a, const std::vector<Piece>& b) {
-    std::optional<Ticks> collision;
+  /// The first two pieces that collide, if any do.
+  std::optional<Collision> check(const std::vector<Piece>& a, const std::vector<Piece>& b) {
+    std::optional<Collision> collision;
     for (std::size_t k = 0, l = 0; k < a.size() && l < b.size();) {
       const Ticks begin = std::max(a[k].begin, b[l].begin), end = std::min(a[k].end, b[l].end);
-      if (look(a[k], b[l], begin, end) && !collision) collision = begin;
+      if (look(a[k], b[l], begin, end) && !collision)
+        collision = Collision{a[k], b[l], begin, end, nearest(a[k], b[l], begin, end)};
       if (a[k].end < b[l].end)
         ++k;
       else if (b[l].end < a[k].end)
@@ -207,13 +249,10 @@ void check_pairs(const Instance& instance, const Plan& plan, const IdVector<Agen
       if (!(i < j && sound[i] && sound[j])) continue;
       Clearance clearance{i, j};
       const Length reach = instance.agent(i).radius + instance.agent(j).radius;
-      const auto tick = PairCheck(reach, clearance).check(trips[i], trips[j]);
+      const auto found = PairCheck(reach, clearance).check(trips[i], trips[j]);
       report.clearances.push_back(clearance);
-      if (tick)
-        collisions.push_back({Kind::collision, i, j, *tick,
-                              "agents " + std::to_string(i.index()) + " and " +
-                                  std::to_string(j.index()) + " collide in the step from tick " +
-                                  std::to_string(*tick) + " on"});
+      if (found)
+        collisions.push_back({Kind::collision, i, j, found->begin, describe(i, j, *found, reach)});
     }
   }
   std::stable_sort(collisions.begin(), collisions.end(),

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <utility>
 
-#include "quadrille/continuous/roadmap_xml.hpp"
+#include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -20,47 +20,56 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
 }
 
-long line_at(std::string_view text, std::ptrdiff_t offset) {
-  if (offset < 0) return 0;
-  const auto end = text.begin() + std::min<std::ptrdiff_t>(offset, std::ssize(text));
-  return 1 + static_cast<long>(std::count(text.begin(), end, '\n'));
-}
-
 }  // namespace
 
-Result<XmlFile> XmlFile::read(std::istream& in, const std::string& file) {
+Result<XmlFile> XmlFile::parse(std::string text, const std::string& file) {
   XmlFile xml;
   xml.file_ = file;
-  char buffer[1 << 16];
-  while (in.read(buffer, sizeof buffer), in.gcount() > 0) {
-    xml.text_.append(buffer, static_cast<std::size_t>(in.gcount()));
-    if (xml.text_.size() > kMaxXmlBytes)
-      return Error{ErrorCode::out_of_range, "the file is too large", {file, 0}};
-  }
-  if (in.bad()) return Error{ErrorCode::io, "cannot be read", {file, 0}};
-  if (const auto nul = xml.text_.find('\0'); nul != std::string::npos)
-    return Error{ErrorCode::syntax,
-                 "a NUL byte",
-                 {file, line_at(xml.text_, static_cast<std::ptrdiff_t>(nul))}};
+  xml.text_ = std::move(text);
   xml.document_ = std::make_unique<pugi::xml_document>();
-  const auto parsed = xml.document_->load_buffer(xml.text_.data(), xml.text_.size());
+  // As a fragment, so that text around the root element is not overlooked.
+  const auto parsed = xml.document_->load_buffer(xml.text_.data(), xml.text_.size(),
+                                                 pugi::parse_default | pugi::parse_fragment);
   if (!parsed)
     return Error{ErrorCode::syntax,
                  std::string("not well-formed XML: ") + parsed.description(),
-                 {file, line_at(xml.text_, parsed.offset)}};
+                 {file, xml.line_at(parsed.offset)}};
+  bool has_root = false;
+  for (const pugi::xml_node child : xml.document_->children()) {
+    if (child.type() == pugi::node_pcdata && trimmed(child.value()).empty()) continue;
+    if (child.type() == pugi::node_element && !has_root)
+      has_root = true;
+    else if (child.type() == pugi::node_element)
+      return xml.error(child, "there is a second root element");
+    else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
+      return xml.error(child, "not well-formed XML: text outside of the root element");
+  }
+  if (!has_root) return Error{ErrorCode::syntax, "not well-formed XML: no element", {file, 1}};
   return xml;
 }
 
+Result<XmlFile> XmlFile::read(std::istream& in, const std::string& file) {
+  auto text = text::read_all(in, file);
+  if (!text) return text.error();
+  return parse(std::move(text).value(), file);
+}
+
 Result<XmlFile> XmlFile::read(const std::filesystem::path& path) {
-  std::error_code problem;
-  if (std::filesystem::is_directory(path, problem))
-    return Error{ErrorCode::io, "is a directory", {path.string(), 0}};
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return Error{ErrorCode::io, "cannot be opened", {path.string(), 0}};
+  std::ifstream in;
+  if (auto error = text::open_input(path, in)) return *error;
   return read(in, path.string());
 }
 
-long XmlFile::line(const pugi::xml_node& node) const { return line_at(text_, node.offset_debug()); }
+long XmlFile::line_at(std::ptrdiff_t offset) const {
+  if (offset < 0) return 0;
+  offset = std::min(offset, std::ssize(text_));
+  if (offset < counted_) counted_ = 0, line_ = 1;
+  line_ += static_cast<long>(std::count(text_.begin() + counted_, text_.begin() + offset, '\n'));
+  counted_ = offset;
+  return line_;
+}
+
+long XmlFile::line(const pugi::xml_node& node) const { return line_at(node.offset_debug()); }
 
 Error XmlFile::error(const pugi::xml_node& node, const std::string& message, ErrorCode code) const {
   return {code, message, {file_, line(node)}};
@@ -83,13 +92,6 @@ std::optional<std::int64_t> parse_integer(std::string_view text, std::int64_t mi
   if (problem != std::errc() || end != text.data() + text.size() || value < min || value > max)
     return std::nullopt;
   return value;
-}
-
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kMaxLength = 40;
-  std::string result = "'";
-  for (const char c : text.substr(0, kMaxLength)) result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (text.size() > kMaxLength ? "...'" : "'");
 }
 
 }  // namespace quadrille::continuous

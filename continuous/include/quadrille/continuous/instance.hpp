@@ -42,9 +42,11 @@ class Instance {
   /// [1, kMaxSpeed], a duration outside [1, geometry::kMaxDuration], a resolution that is not
   /// positive and finite; invalid_instance for vertices that do not exist, overlapping starts,
   /// overlapping goals (interiors) and goals that cannot be reached. Agents are named by index.
+  /// `places`: where each agent comes from, for errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents,
-                                             double resolution = kDefaultResolution);
+                                             double resolution = kDefaultResolution,
+                                             std::span<const SourcePlace> places = {});
 
   [[nodiscard]] const Roadmap& roadmap() const noexcept { return *roadmap_; }
   [[nodiscard]] std::shared_ptr<const Roadmap> shared_roadmap() const noexcept { return roadmap_; }

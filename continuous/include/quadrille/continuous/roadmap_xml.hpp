@@ -18,9 +18,6 @@
 
 namespace quadrille::continuous {
 
-/// Larger files are refused.
-inline constexpr std::size_t kMaxXmlBytes = std::size_t{1} << 28;
-
 /// What a map file contains.
 struct MapXml {
   std::variant<Roadmap, OccupancyGrid> map;
