@@ -3,50 +3,96 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "arguments.hpp"
+#include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/roadmap_xml.hpp"
 #include "quadrille/discrete/movingai.hpp"
+#include "quadrille/text/text_input.hpp"
 
 namespace quadrille::cli {
 namespace {
 
 using continuous::GridRoadmap;
+using continuous::Instance;
 using continuous::OccupancyGrid;
 using continuous::Roadmap;
 
-/// sqrt(2) / 4: on a grid a diagonal move just touches a disc in the cell beside it.
-constexpr double kDefaultRadius = 0.35355339059327379;
 constexpr int kDefaultNeighbourhood = 3;
 
-bool ends_with(const std::string& text, std::string_view end) {
-  return std::string_view(text).ends_with(end);
-}
+bool is_movingai_map(const std::string& file) { return std::string_view(file).ends_with(".map"); }
 
-Result<continuous::MapXml> read_map(const std::string& file, double resolution) {
-  if (!ends_with(file, ".map"))
+Result<continuous::MapXml> read_map(const std::string& file, const discrete::MapOptions& letters,
+                                    double resolution) {
+  if (!is_movingai_map(file))
     return continuous::read_map_xml(std::filesystem::path(file), resolution);
-  auto map = discrete::read_map(std::filesystem::path(file));
+  auto map = discrete::read_map(std::filesystem::path(file), letters);
   if (!map) return map.error();
   return continuous::MapXml{OccupancyGrid{map->height, map->width, std::move(map->passable)}, 0};
 }
 
-Result<continuous::TaskXml> read_task(const std::string& file) {
-  if (!ends_with(file, ".scen")) return continuous::read_task_xml(std::filesystem::path(file));
+/// `grid`: what the cells of a scenario belong to, if the map is one.
+Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGrid* grid) {
+  if (!std::string_view(file).ends_with(".scen"))
+    return continuous::read_task_xml(std::filesystem::path(file));
   const auto scenario = discrete::read_scenario(std::filesystem::path(file));
   if (!scenario) return scenario.error();
   continuous::TaskXml task{file, {}};
-  for (const discrete::ScenarioRow& row : scenario->rows)
+  for (const discrete::ScenarioRow& row : scenario->rows) {
+    if (grid != nullptr && (row.width != grid->width || row.height != grid->height))
+      return Error{ErrorCode::invalid_instance,
+                   fmt::format("the row is for a map of {} x {} cells, not {} x {}", row.width,
+                               row.height, grid->width, grid->height),
+                   {file, row.line}};
     task.rows.push_back({row.line, std::pair{continuous::Cell{row.start.y, row.start.x},
                                              continuous::Cell{row.goal.y, row.goal.x}}});
+  }
   return task;
 }
 
 Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
+
+/// What all agents have in common.
+struct Numbers {
+  double resolution;
+  continuous::Length radius;
+  continuous::Speed speed;
+};
+
+Result<Numbers> quantise(const RoadmapOptions& options) {
+  const double resolution = options.resolution.value_or(continuous::kDefaultResolution);
+  const auto radius =
+      continuous::quantise_radius(options.radius.value_or(kDefaultRadius), resolution);
+  if (!radius)
+    return out_of_range(fmt::format("--radius: {} is less than one length unit, or too large",
+                                    options.radius.value_or(kDefaultRadius)));
+  const auto speed = continuous::quantise_speed(options.speed.value_or(1));
+  if (!speed)
+    return out_of_range(
+        fmt::format("--speed: {} is not between 0.000001 and 1000000", options.speed.value_or(1)));
+  return Numbers{resolution, *radius, *speed};
+}
+
+Result<RoadmapInput> read_instance(const InputOptions& input) {
+  std::istringstream in(*input.instance_text);
+  auto instance = continuous::read_instance_json(in, input.instance);
+  if (!instance) return instance.error();
+  const std::size_t count = instance->num_agents();
+  return RoadmapInput{
+      std::move(instance).value(), {}, input.instance, input.instance, count, "", 0};
+}
+
+std::string range(double least, double most) {
+  return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+}
 
 }  // namespace
 
@@ -68,38 +114,69 @@ void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
       ->group(group);
 }
 
-std::string check_roadmap_options(const RoadmapOptions& options,
-                                  std::optional<std::int64_t> agents) {
-  if (options.task.empty()) return "--roadmap needs --task";
-  if (agents && *agents < 0) return "--agents is negative";
-  return "";
+bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
+  if (!input.instance.empty()) {
+    std::ifstream in;
+    if (text::open_input(input.instance, in)) return !options.roadmap.empty();
+    auto text = text::read_all(in, input.instance);
+    if (text) input.instance_text = std::move(text).value();
+    if (input.instance_text && continuous::is_roadmap_json(*input.instance_text)) return true;
+  }
+  return !options.roadmap.empty();
 }
 
-Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options,
-                                        std::optional<std::int64_t> agents) {
-  const double resolution = options.resolution.value_or(continuous::kDefaultResolution);
-  const auto radius =
-      continuous::quantise_radius(options.radius.value_or(kDefaultRadius), resolution);
-  if (!radius) return out_of_range("the radius and the resolution do not fit together");
-  const auto speed = continuous::quantise_speed(options.speed.value_or(1));
-  if (!speed) return out_of_range("the speed is not supported");
-  auto map = read_map(options.roadmap, resolution);
+std::string check_roadmap_options(const RoadmapOptions& options, const InputOptions& input,
+                                  Need need) {
+  const bool letters = !input.letters.passable.empty() || !input.letters.blocked.empty();
+  if (!options.roadmap.empty()) {
+    if (!input.map.empty() || !input.scen.empty() || !input.instance.empty())
+      return "--roadmap goes with --task, not with --map, --scen or --instance";
+    if (letters && !is_movingai_map(options.roadmap))
+      return "--passable and --blocked belong to .map files";
+    if (options.task.empty() && (need == Need::tasks || input.agents)) return "--task is missing";
+    const auto numbers = quantise(options);
+    return numbers ? "" : numbers.error().message;
+  }
+  if (!input.map.empty() || !input.scen.empty()) return "--instance excludes --map and --scen";
+  if (input.agents) return "--agents belongs to --task, not to --instance";
+  if (letters) return "--passable and --blocked belong to .map files, not to --instance";
+  return why_no_roadmap(options);
+}
+
+std::string why_no_roadmap(const RoadmapOptions& options) {
+  if (options.task.empty() && !options.radius && !options.speed && !options.resolution &&
+      !options.neighbourhood)
+    return "";
+  return "--task, --radius, --speed, --neighbourhood and --resolution belong to --roadmap";
+}
+
+Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const InputOptions& input) {
+  if (options.roadmap.empty()) return read_instance(input);
+  const auto numbers = quantise(options);
+  if (!numbers) return numbers.error();
+  auto map = read_map(options.roadmap, input.letters, numbers->resolution);
   if (!map) return map.error();
-  const auto task = read_task(options.task);
-  if (!task) return task.error();
-  const std::size_t count = agents ? static_cast<std::size_t>(*agents) : task->rows.size();
+  const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
+  continuous::TaskXml task;
+  if (!options.task.empty()) {
+    auto read = read_task(options.task, cells);
+    if (!read) return read.error();
+    task = std::move(read).value();
+  }
+  const std::size_t count =
+      input.agents ? static_cast<std::size_t>(*input.agents) : task.rows.size();
 
   std::optional<GridRoadmap> grid;
   std::shared_ptr<const Roadmap> roadmap;
-  Result<std::vector<continuous::Agent>> made = std::vector<continuous::Agent>();
+  Result<std::vector<continuous::Agent>> agents = std::vector<continuous::Agent>();
   std::string kind;
-  if (const auto* cells = std::get_if<OccupancyGrid>(&map->map)) {
+  if (cells != nullptr) {
     const auto k = static_cast<int>(options.neighbourhood.value_or(kDefaultNeighbourhood));
-    auto of_grid = GridRoadmap::make(*cells, k, *radius, resolution);
-    if (!of_grid) return Error{of_grid.error().code, of_grid.error().message, {options.roadmap, 0}};
-    grid = std::move(of_grid).value();
+    auto made = GridRoadmap::make(*cells, k, numbers->radius, numbers->resolution);
+    if (!made) return Error{made.error().code, made.error().message, {options.roadmap, 0}};
+    grid = std::move(made).value();
     roadmap = grid->roadmap();
-    made = agents_of(*task, count, *grid, *radius, *speed);
+    agents = agents_of(task, count, *grid, numbers->radius, numbers->speed);
     kind = fmt::format("{} x {} grid, 2^{} neighbours, ", cells->width, cells->height, k);
   } else {
     if (options.neighbourhood)
@@ -107,19 +184,54 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options,
                    "--neighbourhood is for grids, and this is a roadmap",
                    {options.roadmap, 0}};
     roadmap = std::make_shared<const Roadmap>(std::get<Roadmap>(std::move(map->map)));
-    made = agents_of(*task, count, *roadmap, *radius, *speed);
+    agents = agents_of(task, count, *roadmap, numbers->radius, numbers->speed);
   }
-  if (!made) return made.error();
-  auto instance = continuous::Instance::make(roadmap, std::move(made).value(), resolution);
-  if (!instance) return Error{instance.error().code, instance.error().message, {options.task, 0}};
-  std::string text = fmt::format("roadmap    {}: {}{} vertices, {} edges\n", options.roadmap, kind,
-                                 roadmap->num_vertices(), roadmap->num_edges());
-  if (map->num_zero_length_edges > 0)
+  if (!agents) return agents.error();
+  std::vector<SourcePlace> places;
+  for (std::size_t i = 0; i < count; ++i) places.push_back({task.file, task.rows[i].line});
+  auto instance = Instance::make(roadmap, std::move(agents).value(), numbers->resolution, places);
+  if (!instance) {
+    Error error = instance.error();
+    if (error.where.file.empty()) error.where.file = options.roadmap;
+    return error;
+  }
+  return RoadmapInput{std::move(instance).value(),
+                      std::move(grid),
+                      options.roadmap,
+                      options.task,
+                      task.rows.size(),
+                      std::move(kind),
+                      map->num_zero_length_edges};
+}
+
+std::string describe_input(const RoadmapInput& input) {
+  const Instance& instance = input.instance;
+  const double resolution = instance.resolution();
+  std::string text =
+      fmt::format("roadmap    {}: {}{} vertices, {} edges\n", input.source, input.kind,
+                  instance.roadmap().num_vertices(), instance.roadmap().num_edges());
+  if (input.num_zero_length_edges > 0)
     text += fmt::format("           {} edges of length zero, which take one tick\n",
-                        map->num_zero_length_edges);
-  text += fmt::format("agents     {} of {} in {}, radius {} and speed {} in units of {}\n", count,
-                      task->rows.size(), options.task, *radius, *speed, resolution);
-  return RoadmapInput{std::move(instance).value(), std::move(grid), std::move(text)};
+                        input.num_zero_length_edges);
+  if (!input.task_source.empty()) {
+    text += fmt::format("agents     {} from {}", instance.num_agents(), input.task_source);
+    if (input.rows != instance.num_agents()) text += fmt::format(" (of {})", input.rows);
+    if (instance.num_agents() > 0) {
+      const auto [small, large] =
+          std::minmax_element(instance.agents().begin(), instance.agents().end(),
+                              [](const auto& a, const auto& b) { return a.radius < b.radius; });
+      const auto [slow, fast] =
+          std::minmax_element(instance.agents().begin(), instance.agents().end(),
+                              [](const auto& a, const auto& b) { return a.speed < b.speed; });
+      text += fmt::format(", radius {}, speed {}",
+                          range(continuous::in_input_units(small->radius, resolution),
+                                continuous::in_input_units(large->radius, resolution)),
+                          range(continuous::speed_in_input_units(slow->speed),
+                                continuous::speed_in_input_units(fast->speed)));
+    }
+    text += "\n";
+  }
+  return text + fmt::format("units      one tick, and one length unit, is {}\n", resolution);
 }
 
 }  // namespace quadrille::cli
