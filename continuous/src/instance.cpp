@@ -90,7 +90,8 @@ std::optional<Error> check_reachable(const Roadmap& roadmap, const std::vector<A
                  std::to_string(agent.goal.index()));
 }
 
-Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed) {
+/// `agent`: somebody of this speed.
+Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std::size_t agent) {
   std::vector<Ticks> durations;
   durations.reserve(roadmap.num_edges());
   for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
@@ -106,8 +107,8 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed) {
     if (!(ticks >= 1 && ticks <= static_cast<long double>(geometry::kMaxDuration)))
       return Error{ErrorCode::out_of_range,
                    "edge " + std::to_string(e) + " takes less than one tick, or more than " +
-                       std::to_string(geometry::kMaxDuration) +
-                       ", at the speed of an agent; choose another resolution",
+                       std::to_string(geometry::kMaxDuration) + ", at the speed of agent " +
+                       std::to_string(agent) + "; choose another resolution",
                    {}};
     durations.push_back(static_cast<Ticks>(ticks));
   }
@@ -132,11 +133,16 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
   Instance instance;
   std::map<Speed, std::size_t> speeds;
   std::map<std::pair<Length, Speed>, ClassId> classes;
-  for (const Agent& agent : agents) {
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const Agent& agent = agents[i];
     const auto [speed, is_new] = speeds.try_emplace(agent.speed, instance.durations_.size());
     if (is_new) {
-      auto durations = durations_at(*roadmap, agent.speed);
-      if (!durations) return durations.error();
+      auto durations = durations_at(*roadmap, agent.speed, i);
+      if (!durations) {
+        Error error = durations.error();
+        if (!places.empty()) error.where = places[i];
+        return error;
+      }
       instance.durations_.push_back(std::move(durations).value());
     }
     const auto key = std::make_pair(agent.radius, agent.speed);
