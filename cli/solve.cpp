@@ -280,8 +280,6 @@ ExitCode SolveRun::deliver(const Input& input, SolveOutcome outcome) {
 
 ExitCode SolveRun::run() {
   SolveRequest& request = arguments_.request;
-  request.options.limits.interrupt = &catch_interrupts();
-
   const auto input = load_input(request.input);
   if (!input) {
     report_error(input.error());
@@ -356,6 +354,7 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
 }
 
 ExitCode run(const CLI::App& app, SolveArguments& arguments) {
+  arguments.request.options.limits.interrupt = &catch_interrupts();  // before anything is read
   if (is_roadmap(arguments.request.input, arguments.roadmap)) {
     auto request = settle_roadmap(app, arguments);
     return request ? solve_roadmap(std::move(request).value())

@@ -11,7 +11,6 @@
 #include "delivery.hpp"
 #include "progress.hpp"
 #include "report.hpp"
-#include "signals.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -61,7 +60,6 @@ Result<std::string> plan_text(const RoadmapInput& input, const continuous::Plan&
 }  // namespace
 
 ExitCode solve_roadmap(RoadmapSolveRequest request) {
-  request.options.limits.interrupt = &catch_interrupts();
   const auto input = load_roadmap_input(request.roadmap, request.input);
   if (!input) {
     report_error(input.error());
