@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "quadrille/continuous/quantise.hpp"
 #include "report.hpp"
@@ -20,9 +21,10 @@ using continuous::SolveOutcome;
 using continuous::VerifyReport;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kClaim =
-    "exact for the instance in ticks and length units: coordinates and durations rounded to the "
-    "nearest, radii rounded down, departures at whole ticks, touching allowed";
+/// In two lines.
+constexpr std::string_view kClaim[] = {
+    "exact in ticks and length units: coordinates and durations rounded to the nearest,",
+    "radii down; departures at whole ticks; touching allowed"};
 
 std::optional<continuous::Clearance> least_clearance(const VerifyReport& check) {
   const auto least = std::min_element(check.clearances.begin(), check.clearances.end(),
@@ -120,7 +122,7 @@ std::string result_json(const Instance& instance, const RoadmapSolveRequest& req
   add("lower_bound", infeasible ? "null" : dump(time(outcome.lower_bound)));
   add("lower_bound_ticks", infeasible ? "null" : dump(outcome.lower_bound));
   add("resolution", dump(resolution));
-  add("claim", dump(kClaim));
+  add("claim", dump(fmt::format("{} {}", kClaim[0], kClaim[1])));
   add("stop_reason", dump(to_string(outcome.stop)));
   add("explanation", dump(outcome.explanation));
   add("internal_error",
@@ -179,7 +181,7 @@ std::string describe_outcome(const Instance& instance, const RoadmapSolveRequest
                       s.wall_s, s.sat_calls, s.conflicts, s.collision_clauses);
   if (outcome.plan) text += describe_check(instance, check);
   if (outcome.plan || outcome.status == Status::infeasible)
-    text += fmt::format("claim      {}\n", kClaim);
+    text += fmt::format("claim      {}\n           {}\n", kClaim[0], kClaim[1]);
   return text;
 }
 

@@ -119,6 +119,17 @@ TEST_F(DocumentsTest, TheRunInTheReadmeIsReal) {
   EXPECT_THAT(readme, HasSubstr(out.substr(out.rfind("\n\n") + 2)));
 }
 
+TEST_F(DocumentsTest, TheRunInContinuousTimeInTheReadmeIsReal) {
+  const Finished finished =
+      run({"solve", "--instance", QUADRILLE_SOURCE_DIR "/examples/maps/siding.json"});
+  const std::regex root(QUADRILLE_SOURCE_DIR "/"), measured("search     .*\n");
+  const auto stable = [&](const std::string& text) {
+    return std::regex_replace(std::regex_replace(text, measured, ""), root, "…/");
+  };
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_THAT(stable(source("README.md")), HasSubstr(stable(finished.out) + "```"));
+}
+
 TEST_F(DocumentsTest, TheProgramInTheReadmeIsAnExampleThatTheTestsRun) {
   const std::string example = source("examples/two_agents.cpp"), readme = source("README.md");
   EXPECT_THAT(readme, HasSubstr("```cpp\n" + example.substr(example.find('\n') + 1) + "```"));

@@ -27,7 +27,7 @@ TEST_F(RoadmapTest, HumanOutputOfASmallSolve) {
         "objective sum-of-costs, seed 0\n", "result     optimal\n",
         "cost       5.015 (sum-of-costs), lower bound 5.015\n",
         "verified   2 agents, makespan 2.9, sum of costs 5.015, no violations\n",
-        "least clearance 7.3e-05, between agents 0 and 1 at 0.623\n", "claim      exact for",
+        "least clearance 7.3e-05, between agents 0 and 1 at 0.623\n", "claim      exact in ticks",
         "    0     2.115  0 (0.115) 1 2\n", "    1       2.9  2 1 3 1 0\n"})
     EXPECT_THAT(finished.out, HasSubstr(part));
 }
