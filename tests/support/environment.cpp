@@ -49,6 +49,8 @@ bool nightly() {
   return !text.empty() && text != "0";
 }
 
+std::string only_system() { return variable("QUADRILLE_TEST_SYSTEM"); }
+
 std::optional<std::string> data_folder() {
   std::string folder = variable("QUADRILLE_DATA");
   if (folder.empty()) return std::nullopt;

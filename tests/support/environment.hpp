@@ -11,6 +11,8 @@ namespace quadrille::support {
 [[nodiscard]] std::size_t scaled(std::size_t count);
 /// Whether QUADRILLE_NIGHTLY is set to something other than 0.
 [[nodiscard]] bool nightly();
+/// The one system that random tests run, QUADRILLE_TEST_SYSTEM; empty: all.
+[[nodiscard]] std::string only_system();
 /// The folder QUADRILLE_DATA, if it is set and not empty.
 [[nodiscard]] std::optional<std::string> data_folder();
 
