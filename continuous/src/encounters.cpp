@@ -21,7 +21,7 @@ bool are_far(const Instance& instance, const Step& a, const Step& b, Length reac
   };
   const auto [p0, p1] = ends(a);
   const auto [q0, q1] = ends(b);
-  const auto apart = [&](Length Point::*axis) {
+  const auto apart = [&, p0 = p0, p1 = p1, q0 = q0, q1 = q1](Length Point::*axis) {
     return std::min(p0.*axis, p1.*axis) - std::max(q0.*axis, q1.*axis) >= reach ||
            std::min(q0.*axis, q1.*axis) - std::max(p0.*axis, p1.*axis) >= reach;
   };
