@@ -76,6 +76,31 @@ TEST(ContinuousVerify, TouchingIsAllowedAndOneUnitLessIsNot) {
   }
 }
 
+TEST(ContinuousVerify, PassingInTouchIsAllowedInTheMiddleOfAMoveToo) {
+  // The second agent stands 600 beside the middle of a long oblique road: along (3, 4), off (4,
+  // -3).
+  auto roadmap = Roadmap::make({{0, 0}, {6000, 8000}, {3000 + 480, 4000 - 360}},
+                               {{VertexId(0), VertexId(1), std::nullopt}});
+  const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
+  for (const Length radius : {300, 301}) {
+    const auto instance = Instance::make(shared, {{VertexId(0), VertexId(1), radius, kUnitSpeed},
+                                                  {VertexId(2), VertexId(2), 300, kUnitSpeed}})
+                              .value();
+    Plan plan;
+    plan.paths.push_back({{VertexId(0), 0, 0}, {VertexId(1), 10000, 10000}});
+    plan.paths.push_back({{VertexId(2), 0, 0}});
+    const auto report = verify(instance, plan);
+    EXPECT_EQ(report.valid(), radius == 300);
+    EXPECT_NEAR(report.clearances[0].gap, 300 - static_cast<double>(radius), 1e-9);
+    EXPECT_NEAR(report.clearances[0].tick, 5000, 1e-6);
+    if (report.valid()) continue;
+    EXPECT_EQ(report.violations[0].message,
+              "agents 0 and 1 collide between ticks 0 and 10000, while agent 0 moves from vertex 0 "
+              "to vertex 1 and agent 1 stands at vertex 2: nearest at about tick 5000, about 1 "
+              "length unit(s) too close");
+  }
+}
+
 TEST(ContinuousVerify, CrossingIsDecidedExactly) {
   // At right angles with equal speeds the distance is offset / sqrt(2): reach 99 needs 141 ticks
   // (99 * sqrt(2) = 140.007...).
