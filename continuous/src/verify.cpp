@@ -190,8 +190,8 @@ std::string describe(AgentId i, AgentId j, const Collision& c, Length reach) {
          ", while agent " + std::to_string(i.index()) + " " + describe(c.a) + " and agent " +
          std::to_string(j.index()) + " " + describe(c.b) + ": nearest at about tick " +
          number(c.nearest.tick) + ", " +
-         (overlap < 1 ? "less than one length unit"
-                      : "about " + number(overlap) + " length units") +
+         (overlap < 1.5L ? "one length unit or less"
+                         : "about " + number(overlap) + " length units") +
          " too close";
 }
 

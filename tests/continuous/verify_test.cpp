@@ -96,8 +96,8 @@ TEST(ContinuousVerify, PassingInTouchIsAllowedInTheMiddleOfAMoveToo) {
     if (report.valid()) continue;
     EXPECT_EQ(report.violations[0].message,
               "agents 0 and 1 collide between ticks 0 and 10000, while agent 0 moves from vertex 0 "
-              "to vertex 1 and agent 1 stands at vertex 2: nearest at about tick 5000, about 1 "
-              "length unit(s) too close");
+              "to vertex 1 and agent 1 stands at vertex 2: nearest at about tick 5000, one "
+              "length unit or less too close");
   }
 }
 
