@@ -8,12 +8,15 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 #include <thread>
 
 namespace quadrille::cli::test {
 namespace {
+
+constexpr std::chrono::duration<double> kPatience(30);
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -58,12 +61,47 @@ Process::~Process() {
 
 void Process::signal(int number) const { ::kill(pid_, number); }
 
+bool Process::has_signal(const std::string& set, int number) const {
+  std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+  for (std::string name, mask; status >> name; std::getline(status, mask))
+    if (name == set) {
+      std::getline(status, mask);
+      return ((std::stoull(mask, nullptr, 16) >> (number - 1)) & 1U) != 0;
+    }
+  return false;
+}
+
+void Process::wait_until_caught(int number) const {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!has_signal("SigCgt:", number)) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end) << "the program does not catch the signal";
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+void Process::wait_until_received(int number) const {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (has_signal("SigPnd:", number) || has_signal("ShdPnd:", number)) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end) << "the signal stays pending";
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+double Process::cpu_seconds() const {
+  clockid_t clock{};
+  timespec time{};
+  if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 Finished Process::wait(double seconds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  const auto end = std::chrono::steady_clock::now() +
+                   std::max(kPatience, std::chrono::duration<double>(seconds));
+  const double cpu_limit = cpu_seconds() + seconds;
   Finished finished;
   int status = 0;
   while (::waitpid(pid_, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > end) {
+    if (std::chrono::steady_clock::now() > end || cpu_seconds() > cpu_limit) {
       ADD_FAILURE() << "still running after " << seconds << " s";
       ::kill(pid_, SIGKILL);
       ::waitpid(pid_, &status, 0);

@@ -30,11 +30,20 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void signal(int number) const;
-  /// Waits for the end, but no longer than `seconds`: then kills it and fails the test.
+  /// Waits until the program catches the signal: before, it is not loaded yet and simply dies.
+  void wait_until_caught(int number) const;
+  /// Waits until the signal was taken notice of.
+  void wait_until_received(int number) const;
+  /// Waits for the end, but no longer than `seconds` of the program's CPU time (what the clock says
+  /// depends on what else the machine does), or half a minute: then kills it and fails the test.
   Finished wait(double seconds);
 
  private:
   std::filesystem::path out_, err_;
+  /// Whether /proc says so of the signal.
+  [[nodiscard]] bool has_signal(const std::string& set, int number) const;
+  [[nodiscard]] double cpu_seconds() const;
+
   pid_t pid_ = -1;
 };
 

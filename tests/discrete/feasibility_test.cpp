@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -179,8 +179,9 @@ std::shared_ptr<const Graph> drawn_grid(const std::vector<std::string>& rows) {
       static_cast<std::int32_t>(rows[0].size()), static_cast<std::int32_t>(rows.size()), passable));
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+/// CPU time: what the clock says depends on what else the machine does.
+double seconds_since(std::clock_t start) {
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 TEST(Feasibility, NamesTwoAgentsThatMeetInACorridor) {
@@ -248,7 +249,7 @@ TEST(Feasibility, TakesNoAgentsAndLonelyAgents) {
 
 TEST(Feasibility, DecidesLongCorridorsAtOnce) {
   const auto corridor = path_graph(10'000);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = std::clock();
   EXPECT_THAT(check(corridor, {0, 9'999}, {9'999, 0}).reason,
               HasSubstr("agents 0 and 1 cannot pass"));
   EXPECT_LT(seconds_since(start), 0.5);
@@ -266,12 +267,12 @@ TEST(Feasibility, FindsACorridorBesideALargeMap) {
   std::vector<std::size_t> starts, goals;
   for (std::size_t i = 0; i < 498; ++i) starts.push_back(300 + 3 * i);
   goals.assign(starts.rbegin(), starts.rend());
-  auto start = std::chrono::steady_clock::now();
+  auto start = std::clock();
   EXPECT_TRUE(check(map, starts, goals).feasible);
   EXPECT_LT(seconds_since(start), 0.5);
   starts.insert(starts.end(), {10, 20});
   goals.insert(goals.end(), {20, 10});
-  start = std::chrono::steady_clock::now();
+  start = std::clock();
   EXPECT_THAT(check(map, starts, goals).reason, HasSubstr("agents 498 and 499 cannot pass"));
   EXPECT_LT(seconds_since(start), 0.5);
 }

@@ -11,8 +11,9 @@
 namespace quadrille::discrete {
 
 /// Gives an agent of the lazy model explicit paths, the clauses of its MDD over X(v,t), once it has
-/// cost about as many path lemmas as these clauses number: on small, crowded maps the cuts that
-/// refute a bound are too many to be listed, and resolution over X(v,t) finds short proofs.
+/// cost an eighth as many path lemmas as these variables number: in mazes and on small, crowded
+/// maps the cuts that refute a bound are too many to be listed, and resolution over X(v,t) finds
+/// short proofs.
 ///
 /// X(v,t) implies all usage literals of obstacles that (v,t) is part of, so the explicit paths keep
 /// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
