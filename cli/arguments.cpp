@@ -70,6 +70,17 @@ CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<dou
   return add_number(app, name, number, 1, "a number from 0 to 1", help)->type_name("SHARE");
 }
 
+CLI::Option* add_positive(CLI::App& app, const std::string& name, std::optional<double>& number,
+                          const std::string& help) {
+  const auto read = [&number, name](const std::string& text) {
+    const auto parsed = parse_whole<double>(text);
+    if (!parsed || !std::isfinite(*parsed) || *parsed <= 0)
+      refuse_value(name, text, "a positive number");
+    number = *parsed;
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name("X");
+}
+
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file,
                       const std::string& help) {
   const auto read = [&file, name](const std::string& text) {

@@ -38,6 +38,10 @@ CLI::Option* add_per_cent(CLI::App& app, const std::string& name, std::optional<
 CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<double>& number,
                        const std::string& help);
 
+/// Adds an option that takes a finite number > 0.
+CLI::Option* add_positive(CLI::App& app, const std::string& name, std::optional<double>& number,
+                          const std::string& help);
+
 /// Adds an option that takes a file name, which may not be empty.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file,
                       const std::string& help);

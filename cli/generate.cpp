@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "generate_roadmap.hpp"
 #include "output.hpp"
 #include "quadrille/discrete/generator.hpp"
 #include "subcommands.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 using discrete::GridMap;
 
-enum class Kind { empty, random, maze, room, warehouse };
+enum class Kind { empty, random, maze, room, warehouse, roadmap };
 
 constexpr const char* kFooter =
     "Without --map-output and --scen-output the map goes to standard output. The same options and\n"
@@ -26,6 +27,8 @@ constexpr const char* kFooter =
     "  quadrille generate --kind random --width 32 --height 32 --obstacles 0.2 --seed 1 \\\n"
     "      --map-output r.map --scen-output r.scen --agents 50\n"
     "  quadrille generate --map r.map --scen-output other.scen --agents 50 --seed 2\n"
+    "  quadrille generate --kind roadmap --vertices 60 --agents 12 --mixed --instance-output "
+    "d.json\n"
     "\n";
 
 struct GenerateArguments {
@@ -37,6 +40,7 @@ struct GenerateArguments {
       side_width;
   std::optional<std::int64_t> agents, seed;
   bool any_goal = false;
+  GenerateRoadmapOptions roadmap;
   std::string map_output, scen_output;
 
   [[nodiscard]] std::uint64_t random_seed() const {
@@ -45,11 +49,9 @@ struct GenerateArguments {
 };
 
 std::optional<std::optional<Kind>> choose_kind(std::string_view text) {
-  constexpr std::pair<std::string_view, Kind> kKinds[] = {{"empty", Kind::empty},
-                                                          {"random", Kind::random},
-                                                          {"maze", Kind::maze},
-                                                          {"room", Kind::room},
-                                                          {"warehouse", Kind::warehouse}};
+  constexpr std::pair<std::string_view, Kind> kKinds[] = {
+      {"empty", Kind::empty}, {"random", Kind::random},       {"maze", Kind::maze},
+      {"room", Kind::room},   {"warehouse", Kind::warehouse}, {"roadmap", Kind::roadmap}};
   for (const auto& [name, kind] : kKinds)
     if (text == name) return std::optional(kind);
   return std::nullopt;
@@ -74,6 +76,7 @@ Result<GridMap> make_map(const GenerateArguments& arguments) {
       return discrete::room_map(width, height, size_or(arguments.room_size, 4),
                                 arguments.doors.value_or(0.5), seed);
     case Kind::warehouse:
+    case Kind::roadmap:
       break;
   }
   discrete::WarehouseLayout layout;
@@ -147,12 +150,16 @@ ExitCode run(const CLI::App& app, const GenerateArguments& arguments) {
 struct KindOption {
   const char* name;
   std::vector<Kind> kinds;
+  /// Whether it belongs to all maps, given ones included.
+  [[nodiscard]] bool of_maps() const {
+    return kinds.size() == 5 && kinds.back() == Kind::warehouse;
+  }
 };
 
 const std::vector<KindOption>& kind_options() {
   static const std::vector<KindOption> options = {
-      {"--width", {Kind::empty, Kind::random, Kind::maze, Kind::room}},
-      {"--height", {Kind::empty, Kind::random, Kind::maze, Kind::room}},
+      {"--width", {Kind::empty, Kind::random, Kind::maze, Kind::room, Kind::roadmap}},
+      {"--height", {Kind::empty, Kind::random, Kind::maze, Kind::room, Kind::roadmap}},
       {"--obstacles", {Kind::random}},
       {"--corridor-width", {Kind::maze}},
       {"--room-size", {Kind::room}},
@@ -163,6 +170,15 @@ const std::vector<KindOption>& kind_options() {
       {"--shelf-width", {Kind::warehouse}},
       {"--aisle-width", {Kind::warehouse}},
       {"--side-width", {Kind::warehouse}},
+      {"--vertices", {Kind::roadmap}},
+      {"--radius", {Kind::roadmap}},
+      {"--speed", {Kind::roadmap}},
+      {"--mixed", {Kind::roadmap}},
+      {"--resolution", {Kind::roadmap}},
+      {"--instance-output", {Kind::roadmap}},
+      {"--map-output", {Kind::empty, Kind::random, Kind::maze, Kind::room, Kind::warehouse}},
+      {"--scen-output", {Kind::empty, Kind::random, Kind::maze, Kind::room, Kind::warehouse}},
+      {"--any-goal", {Kind::empty, Kind::random, Kind::maze, Kind::room, Kind::warehouse}},
   };
   return options;
 }
@@ -173,11 +189,13 @@ std::string settle(const CLI::App& app, GenerateArguments& arguments) {
     return "either --kind or --map is needed";
   for (const KindOption& option : kind_options()) {
     if (app.count(option.name) == 0) continue;
+    if (!arguments.kind && option.of_maps()) continue;
     if (!arguments.kind) return fmt::format("{} belongs to --kind", option.name);
     bool fits = false;
     for (const Kind kind : option.kinds) fits = fits || kind == *arguments.kind;
     if (!fits) return fmt::format("{} does not belong to this --kind", option.name);
   }
+  if (arguments.kind == Kind::roadmap) return arguments.agents ? "" : "--agents is missing";
   if (arguments.map_output.empty() && arguments.scen_output.empty()) {
     if (!arguments.kind) return "--scen-output is missing";
     arguments.map_output = "-";
@@ -194,12 +212,13 @@ std::string settle(const CLI::App& app, GenerateArguments& arguments) {
 void add_options(CLI::App& app, GenerateArguments& arguments) {
   constexpr std::int64_t kMost = INT32_MAX;
   add_choice<std::optional<Kind>>(app, "--kind", arguments.kind,
-                                  "empty, random, maze, room or warehouse", choose_kind,
-                                  "Make a map: empty, random, maze, room or warehouse");
+                                  "empty, random, maze, room, warehouse or roadmap", choose_kind,
+                                  "Make a map: empty, random, maze, room or warehouse; or a\n"
+                                  "roadmap with agents in continuous time");
   add_file(app, "--map", arguments.map, "Instead: make a scenario for this map");
   add_file(app, "--map-output", arguments.map_output, "Write the map");
   add_file(app, "--scen-output", arguments.scen_output, "Write a scenario with random agents");
-  add_integer(app, "--agents", arguments.agents, 0, kMost, "Number of rows of the scenario");
+  add_integer(app, "--agents", arguments.agents, 0, kMost, "Number of agents");
   app.add_flag("--any-goal", arguments.any_goal, "Draw goals that may be out of reach, too");
   add_integer(app, "--seed", arguments.seed, 0, INT64_MAX, "Seed of all random choices; default 0");
   const auto add = [&](const char* name, std::optional<std::int64_t>& number, int least,
@@ -222,6 +241,7 @@ void add_options(CLI::App& app, GenerateArguments& arguments) {
   add("--aisle-width", arguments.aisle_width, 1, "Warehouse; default 1");
   add("--side-width", arguments.side_width, 0,
       "Warehouse: open columns left and right; default 25");
+  add_generate_roadmap_options(app, arguments.roadmap);
 }
 
 }  // namespace
@@ -233,7 +253,11 @@ Subcommand add_generate(CLI::App& program) {
   app->footer(std::string(kFooter) + kExitCodesHelp);
   return {app, [app, arguments] {
             const std::string wrong = settle(*app, *arguments);
-            return wrong.empty() ? run(*app, *arguments) : usage_error(*app, wrong);
+            if (!wrong.empty()) return usage_error(*app, wrong);
+            if (arguments->kind != Kind::roadmap) return run(*app, *arguments);
+            return generate_roadmap(*app, arguments->roadmap, arguments->width.value_or(32),
+                                    arguments->height.value_or(32), *arguments->agents,
+                                    arguments->random_seed());
           }};
 }
 

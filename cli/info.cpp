@@ -8,6 +8,7 @@
 #include "input.hpp"
 #include "output.hpp"
 #include "quadrille/discrete/feasibility.hpp"
+#include "roadmap_info.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {
@@ -20,6 +21,7 @@ using discrete::kUnreachable;
 constexpr const char* kFooter =
     "Example:\n"
     "  quadrille info --map maze-32-32-4.map --scen maze-32-32-4-random-1.scen --agents 20\n"
+    "  quadrille info --roadmap map.xml --task task.xml --agents 20\n"
     "\n";
 
 /// Sizes of the connected components, largest first.
@@ -113,10 +115,16 @@ Subcommand add_info(CLI::App& program) {
   CLI::App* app = program.add_subcommand("info", "Describe a map or an instance");
   const auto options = std::make_shared<InputOptions>();
   add_input_options(*app, *options);
+  const auto roadmap = std::make_shared<RoadmapOptions>();
+  add_roadmap_options(*app, *roadmap);
   app->footer(std::string(kFooter) + kExitCodesHelp);
-  return {app, [app, options] {
-            const std::string wrong = check_input_options(*options, Need::map);
-            return wrong.empty() ? run(*options) : usage_error(*app, wrong);
+  return {app, [app, options, roadmap] {
+            const bool continuous = is_roadmap(*options, *roadmap);
+            std::string wrong = continuous ? check_roadmap_options(*roadmap, *options, Need::map)
+                                           : why_no_roadmap(*roadmap);
+            if (wrong.empty() && !continuous) wrong = check_input_options(*options, Need::map);
+            if (!wrong.empty()) return usage_error(*app, wrong);
+            return continuous ? print_roadmap_info(*roadmap, *options) : run(*options);
           }};
 }
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 #include <utility>
 
 #include "arguments.hpp"
@@ -44,20 +44,19 @@ Result<Input> load_map(const InputOptions& options) {
                map->other_letters};
 }
 
-Result<discrete::Instance> read_instance(const std::string& file) {
-  const std::filesystem::path path(file);
+Result<discrete::Instance> read_instance(const InputOptions& options) {
+  const std::filesystem::path path(options.instance);
   const std::string extension = path.extension().string();
-  if (extension == ".json") return discrete::read_instance_json(path);
-  if (extension == ".yaml" || extension == ".yml") return discrete::read_instance_yaml(path);
-  std::error_code ignored;
-  // A folder opens like a file; the reader of paths words that error.
-  if (std::filesystem::is_directory(path, ignored)) return discrete::read_instance_json(path);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return discrete::read_instance_json(path);
-  // One look, nothing consumed: the file may be a pipe.
-  if (in.peek() == '{') return discrete::read_instance_json(in, file);
-  in.clear();
-  return discrete::read_instance_yaml(in, file);
+  if (!options.instance_text) {
+    // It cannot be read, and the reader of paths words why.
+    if (extension == ".yaml" || extension == ".yml") return discrete::read_instance_yaml(path);
+    return discrete::read_instance_json(path);
+  }
+  std::istringstream in(*options.instance_text);
+  const bool is_yaml = extension == ".yaml" || extension == ".yml" ||
+                       (extension != ".json" && !options.instance_text->starts_with('{'));
+  return is_yaml ? discrete::read_instance_yaml(in, options.instance)
+                 : discrete::read_instance_json(in, options.instance);
 }
 
 }  // namespace
@@ -69,7 +68,8 @@ void add_input_options(CLI::App& app, InputOptions& options) {
   add_integer(app, "--agents", options.agents, 0, kMaxAgents, "Take the first N rows of --scen")
       ->group(group);
   add_file(app, "--instance", options.instance,
-           "Instead: one file, quadrille's JSON or libMultiRobotPlanning's YAML")
+           "Instead: one file, quadrille's JSON (also with a roadmap) or\n"
+           "libMultiRobotPlanning's YAML")
       ->group(group);
   add_letters(app, "--passable", options.letters.passable,
               "Map letters that are passable besides . and G");
@@ -97,7 +97,7 @@ std::string check_input_options(const InputOptions& options, Need need) {
 
 Result<Input> load_input(const InputOptions& options) {
   if (options.instance.empty()) return load_map(options);
-  auto instance = read_instance(options.instance);
+  auto instance = read_instance(options);
   if (!instance) return instance.error();
   return Input{std::move(instance.value()), options.instance, options.instance, 0, {}};
 }
@@ -121,11 +121,22 @@ std::string describe_input(const Input& input) {
   return text + "\n";
 }
 
-CLI::Option* add_plan_format(CLI::App& app, const std::string& name,
-                             std::optional<discrete::PlanFormat>& format, const std::string& help) {
-  const auto read = [&format, name](const std::string& text) {
-    format = discrete::parse_plan_format(text);
-    if (!format) refuse_value(name, text, "json, cbsh2, visualizer or yaml");
+std::string PlanFormats::why_not_discrete(const std::string& option) const {
+  if (!is_given() || discrete) return "";
+  return fmt::format("{} {} is for roadmaps", option, to_string(*continuous));
+}
+
+std::string PlanFormats::why_not_continuous(const std::string& option) const {
+  if (!is_given() || continuous) return "";
+  return fmt::format("{} {} is not for roadmaps, whose plans are json or ccbs", option,
+                     to_string(*discrete));
+}
+
+CLI::Option* add_plan_format(CLI::App& app, const std::string& name, PlanFormats& formats,
+                             const std::string& help) {
+  const auto read = [&formats, name](const std::string& text) {
+    formats = {discrete::parse_plan_format(text), continuous::parse_plan_format(text)};
+    if (!formats.is_given()) refuse_value(name, text, "json, cbsh2, visualizer, yaml or ccbs");
   };
   return app.add_option_function<std::string>(name, read, help)->type_name("FORMAT");
 }

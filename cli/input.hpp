@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/movingai.hpp"
@@ -20,6 +21,8 @@ struct InputOptions {
   std::string map, scen, instance;
   std::optional<std::int64_t> agents;
   discrete::MapOptions letters;
+  /// The contents of `instance`, if they have been read already.
+  std::optional<std::string> instance_text;
 };
 
 enum class Need {
@@ -47,8 +50,19 @@ struct Input {
 /// The lines "map" and "agents" of the human output, and one line per unusual letter.
 [[nodiscard]] std::string describe_input(const Input& input);
 
+/// A plan format in both domains; "json" is one of either.
+struct PlanFormats {
+  std::optional<discrete::PlanFormat> discrete;
+  std::optional<continuous::PlanFormat> continuous;
+
+  [[nodiscard]] bool is_given() const { return discrete || continuous; }
+  /// What is wrong with the format where the instance is one with timesteps, or a roadmap; empty if
+  /// nothing is, or no format was given.
+  [[nodiscard]] std::string why_not_discrete(const std::string& option) const;
+  [[nodiscard]] std::string why_not_continuous(const std::string& option) const;
+};
 /// "--plan-format" and its like. Refuses unknown names.
-CLI::Option* add_plan_format(CLI::App& app, const std::string& name,
-                             std::optional<discrete::PlanFormat>& format, const std::string& help);
+CLI::Option* add_plan_format(CLI::App& app, const std::string& name, PlanFormats& formats,
+                             const std::string& help);
 
 }  // namespace quadrille::cli

@@ -4,19 +4,27 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <string>
-
 #include "output.hpp"
+#include "quadrille/continuous/quantise.hpp"
 
 namespace quadrille::cli {
 
+std::string progress_text(const discrete::Progress& progress) {
+  const std::string plan = progress.cost ? fmt::format(", plan {}", *progress.cost) : "";
+  return fmt::format("cost >= {}{}, {:.1f} s, {} conflicts", progress.lower_bound, plan,
+                     progress.elapsed_s, progress.conflicts);
+}
+
+std::string progress_text(const continuous::Progress& progress, double resolution) {
+  return fmt::format("cost >= {}, {:.1f} s, {} conflicts",
+                     continuous::in_input_units(progress.lower_bound, resolution),
+                     progress.elapsed_s, progress.conflicts);
+}
+
 ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILENO) == 1) {}
 
-void ProgressLine::show(const discrete::Progress& progress) {
+void ProgressLine::show(const std::string& text) {
   if (!active_) return;
-  const std::string plan = progress.cost ? fmt::format(", plan {}", *progress.cost) : "";
-  const std::string text = fmt::format("cost >= {}{}, {:.1f} s, {} conflicts", progress.lower_bound,
-                                       plan, progress.elapsed_s, progress.conflicts);
   // Blanks instead of escape sequences: every terminal knows them.
   print_stderr(fmt::format("\r{:<{}}", text, shown_));
   shown_ = text.size();

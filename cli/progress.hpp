@@ -2,10 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
+#include "quadrille/continuous/solver.hpp"
 #include "quadrille/discrete/solver.hpp"
 
 namespace quadrille::cli {
+
+[[nodiscard]] std::string progress_text(const discrete::Progress& progress);
+/// `resolution`: the size of a tick.
+[[nodiscard]] std::string progress_text(const continuous::Progress& progress, double resolution);
 
 /// One line on a terminal's stderr that is rewritten in place and gone at the end.
 class ProgressLine {
@@ -17,7 +23,7 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   [[nodiscard]] bool active() const noexcept { return active_; }
-  void show(const discrete::Progress& progress);
+  void show(const std::string& text);
   void clear();
 
  private:

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "quadrille/discrete/plan_formats.hpp"
@@ -13,15 +11,7 @@
 namespace quadrille::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using discrete::SolveOutcome;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json options_json(const SolveRequest& request) {
   const discrete::SolveOptions& options = request.options;
@@ -52,6 +42,26 @@ Json options_json(const SolveRequest& request) {
   return json;
 }
 
+/// One agent per line: `text` is the plan on one line, a list of lists.
+std::string break_lines(std::string_view text) {
+  std::string broken;
+  int depth = 0;
+  bool agent_ended = false;
+  for (const char c : text) {
+    if (c == '[' && ++depth == 2) {
+      // Whatever separates two agents on one line is replaced.
+      if (agent_ended) broken.erase(broken.find_last_not_of(", ") + 1);
+      broken += agent_ended ? ",\n    " : "\n    ";
+    }
+    if (c == ']' && depth-- == 2) agent_ended = true;
+    if (c == ']' && depth == 0 && agent_ended) broken += "\n  ";
+    broken += c;
+  }
+  return broken;
+}
+
+}  // namespace
+
 Json statistics_json(const Statistics& statistics) {
   Json json;
   // Digits beyond a microsecond are noise.
@@ -71,36 +81,16 @@ Json statistics_json(const Statistics& statistics) {
   return json;
 }
 
-/// One agent per line: `text` is the plan on one line, a list of lists.
-std::string break_lines(std::string_view text) {
-  std::string broken;
-  int depth = 0;
-  bool agent_ended = false;
-  for (const char c : text) {
-    if (c == '[' && ++depth == 2) {
-      // Whatever separates two agents on one line is replaced.
-      if (agent_ended) broken.erase(broken.find_last_not_of(", ") + 1);
-      broken += agent_ended ? ",\n    " : "\n    ";
-    }
-    if (c == ']' && depth-- == 2) agent_ended = true;
-    if (c == ']' && depth == 0 && agent_ended) broken += "\n  ";
-    broken += c;
-  }
-  return broken;
-}
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
-/// File names need not be UTF-8.
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace
-
 bool has_schedule(discrete::System system) noexcept { return system == discrete::System::dpll_mdd; }
 
-ExitCode exit_code(const SolveOutcome& outcome) {
-  if (outcome.internal_error) return ExitCode::internal;
-  switch (outcome.status) {
+ExitCode exit_code(Status status) {
+  switch (status) {
     case Status::optimal:
       return ExitCode::success;
     case Status::feasible:
@@ -111,6 +101,10 @@ ExitCode exit_code(const SolveOutcome& outcome) {
       return ExitCode::unknown;
   }
   return ExitCode::internal;
+}
+
+ExitCode exit_code(const SolveOutcome& outcome) {
+  return outcome.internal_error ? ExitCode::internal : exit_code(outcome.status);
 }
 
 std::string result_json(const discrete::Instance& instance, const SolveRequest& request,
@@ -158,16 +152,6 @@ std::string describe_outcome(const SolveRequest& request, const SolveOutcome& ou
   if (check != nullptr && check->valid())
     text += fmt::format("verified   {} agents, makespan {}, sum of costs {}, no violations\n",
                         outcome.plan->paths.size(), check->makespan, check->sum_of_costs);
-  return text;
-}
-
-std::string describe_violations(const discrete::VerifyReport& check) {
-  constexpr std::size_t kShown = 100;
-  std::string text;
-  const std::size_t shown = std::min(kShown, check.violations.size());
-  for (std::size_t i = 0; i < shown; ++i) text += check.violations[i].message + "\n";
-  if (shown < check.violations.size())
-    text += fmt::format("... and {} more\n", check.violations.size() - shown);
   return text;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "exit_codes.hpp"
@@ -21,6 +24,7 @@ struct SolveRequest {
 [[nodiscard]] bool has_schedule(discrete::System system) noexcept;
 
 /// The exit code that says what the outcome says.
+[[nodiscard]] ExitCode exit_code(Status status);
 [[nodiscard]] ExitCode exit_code(const discrete::SolveOutcome& outcome);
 
 /// The result as JSON, documented in docs/cli.md: one key per line, the plan one agent per line.
@@ -35,6 +39,29 @@ struct SolveRequest {
                                            const discrete::VerifyReport* check);
 
 /// The first violations, one per line, and how many more there are.
-[[nodiscard]] std::string describe_violations(const discrete::VerifyReport& check);
+template <class VerifyReport>
+[[nodiscard]] std::string describe_violations(const VerifyReport& check) {
+  constexpr std::size_t kShown = 100;
+  std::string text;
+  const std::size_t shown = std::min(kShown, check.violations.size());
+  for (std::size_t i = 0; i < shown; ++i) text += check.violations[i].message + "\n";
+  if (shown < check.violations.size())
+    text += "... and " + std::to_string(check.violations.size() - shown) + " more\n";
+  return text;
+}
+
+// Parts of the results in JSON.
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+[[nodiscard]] Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+/// null for an empty text.
+[[nodiscard]] Json text_or_null(const std::string& text);
+[[nodiscard]] Json statistics_json(const Statistics& statistics);
+/// On one line. Bytes that are not UTF-8, as file names may have, are replaced.
+[[nodiscard]] std::string dump(const Json& json);
 
 }  // namespace quadrille::cli

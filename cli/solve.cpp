@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -9,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "delivery.hpp"
 #include "input.hpp"
 #include "outcome_check.hpp"
 #include "output.hpp"
@@ -16,6 +16,7 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "signals.hpp"
+#include "solve_roadmap.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {
@@ -33,16 +34,21 @@ constexpr const char* kFooter =
     "Example:\n"
     "  quadrille solve --map empty-8-8.map --scen empty-8-8-random-1.scen --agents 10\n"
     "\n"
+    "In continuous time:\n"
+    "  quadrille solve --roadmap map.xml --task task.xml --agents 10 --radius 0.35\n"
+    "  quadrille solve --instance discs.json\n"
+    "\n"
     "SIGINT and SIGTERM end the search with what is known so far; a second one ends the program.\n"
     "\n";
 
 struct SolveArguments {
   SolveRequest request;
+  RoadmapOptions roadmap;
   std::optional<System> system;
   std::optional<discrete::CheckSchedule> check;
   std::optional<std::int64_t> seed, threads, memory_mib;
   std::string plan, json;
-  std::optional<PlanFormat> plan_format;
+  PlanFormats plan_format;
   bool quiet = false;
 };
 
@@ -134,7 +140,8 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
   add_file(app, "--plan", arguments.plan, "Write the plan to a file; - is standard output")
       ->group(group);
   add_plan_format(app, "--plan-format", arguments.plan_format,
-                  "json, cbsh2, visualizer or yaml; default: by the name of the file, else json")
+                  "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs; default: by the\n"
+                  "name of the file, else json")
       ->group(group);
   add_file(app, "--json", arguments.json, "Write the result as JSON; - is standard output")
       ->group(group);
@@ -171,7 +178,10 @@ std::string settle(SolveArguments& arguments) {
   for (const std::string* output : {&arguments.plan, &arguments.json})
     for (const std::string* in : inputs)
       if (*output != "-" && same_file(*output, *in)) return *output + " is an input of this run";
-  if (arguments.plan_format && arguments.plan.empty()) return "--plan-format needs --plan";
+  if (arguments.plan_format.is_given() && arguments.plan.empty())
+    return "--plan-format needs --plan";
+  wrong = arguments.plan_format.why_not_discrete("--plan-format");
+  if (!wrong.empty()) return wrong;
 
   discrete::SolveOptions& options = arguments.request.options;
   options.system = arguments.system.value_or(System::dpll);
@@ -185,8 +195,9 @@ std::string settle(SolveArguments& arguments) {
   if (options.race && options.threads == 1) return "--race needs --threads";
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
   if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
-  if (!arguments.plan_format)
-    arguments.plan_format = discrete::plan_format_of(arguments.plan).value_or(PlanFormat::json);
+  if (!arguments.plan_format.discrete)
+    arguments.plan_format.discrete =
+        discrete::plan_format_of(arguments.plan).value_or(PlanFormat::json);
   return "";
 }
 
@@ -202,35 +213,18 @@ Result<std::string> plan_text(const discrete::Graph& graph, const discrete::Plan
 class SolveRun {
  public:
   explicit SolveRun(SolveArguments& arguments)
-      : arguments_(arguments),
-        console_(arguments.quiet, arguments.json == "-" || arguments.plan == "-") {}
+      : arguments_(arguments), delivery_(arguments.quiet, arguments.plan, arguments.json) {}
 
   ExitCode run();
 
  private:
-  bool probe(const std::string& path, std::optional<OutputFile>& file);
   std::optional<Error> read_known_plan(const discrete::Instance& instance);
   SolveOutcome search(const discrete::Instance& instance);
   ExitCode deliver(const Input& input, SolveOutcome outcome);
-  void write(const OutputFile& file, const std::string& text);
 
   SolveArguments& arguments_;
-  Console console_;
-  std::optional<OutputFile> plan_file_, json_file_;
-  bool delivered_ = false;  // a file with the result has been written
-  bool output_failed_ = false;
-  std::string unwritten_;  // the text of an output that failed
+  Delivery delivery_;
 };
-
-bool SolveRun::probe(const std::string& path, std::optional<OutputFile>& file) {
-  if (path.empty()) return true;
-  auto probed = OutputFile::probe(path);
-  if (probed)
-    file = std::move(probed.value());
-  else
-    report_error(probed.error());
-  return probed.has_value();
-}
 
 std::optional<Error> SolveRun::read_known_plan(const discrete::Instance& instance) {
   SolveRequest& request = arguments_.request;
@@ -250,7 +244,8 @@ std::optional<Error> SolveRun::read_known_plan(const discrete::Instance& instanc
 SolveOutcome SolveRun::search(const discrete::Instance& instance) {
   ProgressLine line(!arguments_.quiet);
   discrete::SolveOptions options = arguments_.request.options;
-  if (line.active()) options.on_progress = [&line](const auto& progress) { line.show(progress); };
+  if (line.active())
+    options.on_progress = [&line](const auto& progress) { line.show(progress_text(progress)); };
   try {
     return solve(instance, options);
   } catch (const std::bad_alloc&) {
@@ -259,18 +254,6 @@ SolveOutcome SolveRun::search(const discrete::Instance& instance) {
     outcome.explanation = "the system has no more memory";
     return outcome;
   }
-}
-
-void SolveRun::write(const OutputFile& file, const std::string& text) {
-  const int code = file.write(text);
-  if (code == 0) {
-    delivered_ = true;
-    return;
-  }
-  report_write_failure(file.path(), code);
-  output_failed_ = true;
-  // A reader that has left does not want the rest.
-  if (code != EPIPE) unwritten_ = text;
 }
 
 ExitCode SolveRun::deliver(const Input& input, SolveOutcome outcome) {
@@ -282,38 +265,21 @@ ExitCode SolveRun::deliver(const Input& input, SolveOutcome outcome) {
                   outcome.internal_error->where});
     print_stderr(describe_violations(replay));
   }
-  if (plan_file_ && outcome.plan) {
-    auto text = plan_text(instance.graph(), *outcome.plan, *arguments_.plan_format);
-    if (text) {
-      write(*plan_file_, *text);
-    } else {
-      report_error(text.error());
-      output_failed_ = true;
-    }
-  } else if (plan_file_) {
-    console_.print(fmt::format("plan       none; {} is not written\n", plan_file_->path()));
-  }
-  if (json_file_) write(*json_file_, result_json(instance, request, outcome));
+  std::optional<Result<std::string>> plan;
+  if (outcome.plan && delivery_.has_plan_file())
+    plan = plan_text(instance.graph(), *outcome.plan, *arguments_.plan_format.discrete);
+  delivery_.write_plan(plan);
+  if (delivery_.has_json_file()) delivery_.write_json(result_json(instance, request, outcome));
 
   const auto* check = outcome.plan ? &replay : nullptr;
-  const std::string summary = describe_outcome(request, outcome, check);
-  console_.print(summary);
-  if (outcome.plan && arguments_.plan.empty()) console_.print(draw_plan(instance, *outcome.plan));
-  if (console_.failure() != 0) {
-    report_write_failure("-", console_.failure());
-    output_failed_ = true;
-    if (console_.failure() != EPIPE) unwritten_ = summary + unwritten_;
-  }
-  // A result that went nowhere would have to be computed again.
-  if (!delivered_) print_stderr(unwritten_);
-  const ExitCode code = exit_code(outcome);
-  return output_failed_ && code != ExitCode::internal ? ExitCode::output : code;
+  const bool draw = outcome.plan && arguments_.plan.empty();
+  delivery_.print_summary(describe_outcome(request, outcome, check),
+                          draw ? draw_plan(instance, *outcome.plan) : "");
+  return delivery_.finish(exit_code(outcome));
 }
 
 ExitCode SolveRun::run() {
   SolveRequest& request = arguments_.request;
-  request.options.limits.interrupt = &catch_interrupts();
-
   const auto input = load_input(request.input);
   if (!input) {
     report_error(input.error());
@@ -325,22 +291,78 @@ ExitCode SolveRun::run() {
   }
   if (!arguments_.plan.empty()) {
     // Some formats need a grid; that must not come out after the search.
-    const auto text = plan_text(input->instance.graph(), {}, *arguments_.plan_format);
+    const auto text = plan_text(input->instance.graph(), {}, *arguments_.plan_format.discrete);
     if (!text) {
       report_error(text.error());
       return ExitCode::bad_input;
     }
   }
-  if (!probe(arguments_.plan, plan_file_) || !probe(arguments_.json, json_file_))
-    return ExitCode::output;
+  if (!delivery_.probe()) return ExitCode::output;
 
   const discrete::SolveOptions& options = request.options;
-  console_.print(describe_input(*input));
-  console_.print(
+  delivery_.console().print(describe_input(*input));
+  delivery_.console().print(
       fmt::format("system     {}{}, objective {}, seed {}\n", to_string(options.system),
                   has_schedule(options.system) ? " with check " + to_string(options.check) : "",
                   to_string(options.objective), options.seed));
   return deliver(*input, search(input->instance));
+}
+
+/// The options of a solve in continuous time. Errors are usage errors.
+Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& arguments) {
+  const auto refuse = [](std::string message) {
+    return Error{ErrorCode::out_of_range, std::move(message), {}};
+  };
+  const InputOptions& input = arguments.request.input;
+  for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
+                             "--no-first-plan", "--threads", "--race", "--gap", "--audit"})
+    if (app.count(option) > 0) return refuse(std::string(option) + " does not apply to roadmaps");
+  std::string wrong = check_roadmap_options(arguments.roadmap, input, Need::tasks);
+  if (wrong.empty()) wrong = arguments.plan_format.why_not_continuous("--plan-format");
+  if (!wrong.empty()) return refuse(wrong);
+  if (arguments.plan_format.is_given() && arguments.plan.empty())
+    return refuse("--plan-format needs --plan");
+  if (same_file(arguments.plan, arguments.json))
+    return refuse("--plan and --json name the same output");
+  const std::vector<const std::string*> inputs = {&arguments.roadmap.roadmap,
+                                                  &arguments.roadmap.task, &input.instance,
+                                                  &arguments.request.known_plan};
+  for (const std::string* output : {&arguments.plan, &arguments.json})
+    for (const std::string* in : inputs)
+      if (*output != "-" && same_file(*output, *in))
+        return refuse(*output + " is an input of this run");
+  const auto system = continuous::parse_system(to_string(arguments.system.value_or(System::dpll)));
+  if (!system) return refuse("a roadmap needs --system dpll or smt-cbs");
+
+  RoadmapSolveRequest request;
+  request.roadmap = arguments.roadmap;
+  request.input = input;
+  const discrete::SolveOptions& options = arguments.request.options;
+  request.options.objective = options.objective;
+  request.options.system = *system;
+  request.options.limits = options.limits;
+  if (arguments.memory_mib)
+    request.options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
+  if (arguments.seed) request.options.seed = static_cast<std::uint32_t>(*arguments.seed);
+  request.known_plan = arguments.request.known_plan;
+  request.plan = arguments.plan;
+  request.plan_format = arguments.plan_format.continuous.value_or(
+      continuous::plan_format_of(arguments.plan).value_or(continuous::PlanFormat::json));
+  request.json = arguments.json;
+  request.quiet = arguments.quiet;
+  return request;
+}
+
+ExitCode run(const CLI::App& app, SolveArguments& arguments) {
+  arguments.request.options.limits.interrupt = &catch_interrupts();  // before anything is read
+  if (is_roadmap(arguments.request.input, arguments.roadmap)) {
+    auto request = settle_roadmap(app, arguments);
+    return request ? solve_roadmap(std::move(request).value())
+                   : usage_error(app, request.error().message);
+  }
+  std::string wrong = why_no_roadmap(arguments.roadmap);
+  if (wrong.empty()) wrong = settle(arguments);
+  return wrong.empty() ? SolveRun(arguments).run() : usage_error(app, wrong);
 }
 
 }  // namespace
@@ -349,14 +371,12 @@ Subcommand add_solve(CLI::App& program) {
   CLI::App* app = program.add_subcommand("solve", "Find a plan of least cost");
   const auto arguments = std::make_shared<SolveArguments>();
   add_input_options(*app, arguments->request.input);
+  add_roadmap_options(*app, arguments->roadmap);
   add_search_options(*app, *arguments);
   add_limit_options(*app, *arguments);
   add_output_options(*app, *arguments);
   app->footer(std::string(kFooter) + kExitCodesHelp);
-  return {app, [app, arguments] {
-            const std::string wrong = settle(*arguments);
-            return wrong.empty() ? SolveRun(*arguments).run() : usage_error(*app, wrong);
-          }};
+  return {app, [app, arguments] { return run(*app, *arguments); }};
 }
 
 }  // namespace quadrille::cli

@@ -35,3 +35,6 @@ quadrille_find_package(Eigen3 libeigen3-dev 3.3 NO_MODULE)
 quadrille_find_package(ccd libccd-dev)
 quadrille_find_package(fcl libfcl-dev 0.7)
 quadrille_find_package(Boost libboost-dev 1.74)
+
+# For the XML files of continuous/. Users of a static package link it.
+quadrille_find_package(pugixml libpugixml-dev 1.10)

@@ -17,14 +17,17 @@ _quadrille() {
     --check) values="watch propagate 1/2 2/3 1/3,2/3 1/2,3/4" ;;
     --cost-search) values="iterative core-guided" ;;
     --mdd-growth) values="on-demand full" ;;
-    --plan-format | --from | --to) values="json cbsh2 visualizer yaml" ;;
-    --kind) values="empty random maze room warehouse" ;;
-    --map | --scen | --instance | --plan | --json | --known-plan | --output | --map-output | --scen-output)
+    --plan-format | --from | --to) values="json cbsh2 visualizer yaml ccbs" ;;
+    --kind) values="empty random maze room warehouse roadmap" ;;
+    --neighbourhood) values="2 3 4 5" ;;
+    --map | --scen | --instance | --roadmap | --task | --plan | --json | --known-plan | --output | --map-output | \
+      --scen-output | --instance-output)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
       ;;
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
-      --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width)
+      --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
+      --speed | --resolution)
       return
       ;;
   esac
@@ -33,7 +36,8 @@ _quadrille() {
     return
   fi
 
-  local instance="--map --scen --agents --instance --passable --blocked"
+  local instance="--map --scen --agents --instance --passable --blocked
+    --roadmap --task --radius --speed --neighbourhood --resolution"
   local options=
   case $command in
     solve)
@@ -46,7 +50,8 @@ _quadrille() {
     generate)
       options="--kind --map --map-output --scen-output --agents --any-goal --seed --width --height
         --obstacles --corridor-width --room-size --doors --shelf-columns --shelf-rows --shelf-length
-        --shelf-width --aisle-width --side-width"
+        --shelf-width --aisle-width --side-width --vertices --radius --speed --mixed --resolution
+        --instance-output"
       ;;
     convert) options="$instance --to --from --output" ;;
   esac

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "random.hpp"
+#include "quadrille/core/random.hpp"
 
 namespace quadrille::discrete {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "pibt.hpp"
+#include "quadrille/core/random.hpp"
 #include "quadrille/discrete/primal.hpp"
-#include "random.hpp"
 
 namespace quadrille::discrete {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
-#include "random.hpp"
 #include "reservations.hpp"
 
 namespace quadrille::discrete {

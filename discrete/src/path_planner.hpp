@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "quadrille/core/limits.hpp"
+#include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
-#include "random.hpp"
 #include "reservations.hpp"
 
 namespace quadrille::discrete {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
-#include "random.hpp"
 
 namespace quadrille::discrete {
 

@@ -9,8 +9,8 @@
 
 #include "neighbourhoods.hpp"
 #include "path_planner.hpp"
+#include "quadrille/core/random.hpp"
 #include "quadrille/discrete/primal.hpp"
-#include "random.hpp"
 #include "reservations.hpp"
 
 namespace quadrille::discrete {

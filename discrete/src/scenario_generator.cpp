@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "octile.hpp"
+#include "quadrille/core/random.hpp"
 #include "quadrille/discrete/generator.hpp"
-#include "random.hpp"
 
 namespace quadrille::discrete {
 namespace {

@@ -119,6 +119,16 @@ TEST_F(DocumentsTest, TheRunInTheReadmeIsReal) {
   EXPECT_THAT(readme, HasSubstr(out.substr(out.rfind("\n\n") + 2)));
 }
 
+TEST_F(DocumentsTest, TheRunInContinuousTimeInTheReadmeIsReal) {
+  std::filesystem::current_path(QUADRILLE_SOURCE_DIR);
+  const Finished finished = run({"solve", "--instance", "examples/maps/siding.json"});
+  const std::regex measured("search     .*\n");  // the search itself may change
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_THAT(std::regex_replace(source("README.md"), measured, ""),
+              HasSubstr("$ scripts/solve --instance examples/maps/siding.json\n" +
+                        std::regex_replace(finished.out, measured, "") + "```"));
+}
+
 TEST_F(DocumentsTest, TheProgramInTheReadmeIsAnExampleThatTheTestsRun) {
   const std::string example = source("examples/two_agents.cpp"), readme = source("README.md");
   EXPECT_THAT(readme, HasSubstr("```cpp\n" + example.substr(example.find('\n') + 1) + "```"));

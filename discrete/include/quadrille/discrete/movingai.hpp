@@ -12,6 +12,7 @@
 
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
+#include "quadrille/text/text_input.hpp"
 
 // MovingAI `.map` and `.scen` files; docs/formats.md has examples. For all readers and writers:
 //   - `file` only names the stream in messages; streams need not be seekable (pipes work).
@@ -26,7 +27,7 @@ namespace quadrille::discrete {
 /// Larger maps are refused before anything of their size is allocated.
 inline constexpr std::int64_t kMaxMapCells = std::int64_t{1} << 26;
 /// Larger files, of any format, are refused.
-inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 28;
+inline constexpr std::size_t kMaxFileBytes = text::kMaxFileBytes;
 
 /// Which letters of a map agents may stand on. Without options `.` and `G` are passable and `@`,
 /// `O` and `T` are blocked; every other letter is refused until one of these lists names it. The

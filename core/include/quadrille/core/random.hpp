@@ -9,7 +9,7 @@
 
 #include "quadrille/core/contract.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille {
 
 /// Random numbers that are the same on every platform: the standard fixes what std::mt19937_64
 /// gives, but not what its distributions and std::shuffle make of it.
@@ -45,4 +45,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille

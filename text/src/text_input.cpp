@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "text_input.hpp"
+#include "quadrille/text/text_input.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,7 @@
 #include <ostream>
 #include <system_error>
 
-#include "quadrille/discrete/movingai.hpp"
-
-namespace quadrille::discrete {
+namespace quadrille::text {
 
 Result<std::string> read_all(std::istream& in, const std::string& file) {
   std::string text;
@@ -96,4 +94,4 @@ std::string printable(std::string_view text, std::size_t max_length) {
 
 std::string in_quotes(std::string_view text) { return "'" + printable(text, 40) + "'"; }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::text

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "document.hpp"
-#include "text_input.hpp"
+#include "quadrille/text/document.hpp"
+#include "quadrille/text/text_input.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille::text {
 namespace {
 
 /// Walks over the text and tells how far the parser has read.
@@ -63,12 +63,10 @@ class JsonHandler {
   bool boolean(bool) { return builder_.add_opaque(Document::Kind::boolean, line()); }
   bool number_integer(std::int64_t value) { return builder_.add_integer(value, line()); }
   bool number_unsigned(std::uint64_t value) {
-    if (value > INT64_MAX) return number_float(0, {});
+    if (value > INT64_MAX) return number_float(static_cast<double>(value), {});
     return builder_.add_integer(static_cast<std::int64_t>(value), line());
   }
-  bool number_float(double, const std::string&) {
-    return builder_.add_opaque(Document::Kind::real, line());
-  }
+  bool number_float(double value, const std::string&) { return builder_.add_real(value, line()); }
   bool string(const std::string& text) { return builder_.add_text(text, line()); }
   bool binary(const nlohmann::json::binary_t&) {
     return builder_.fail(ErrorCode::syntax, "binary value", line());
@@ -120,4 +118,4 @@ Result<Document> parse_json(std::string_view text, const std::string& file) {
   return std::move(handler.builder()).take();
 }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::text

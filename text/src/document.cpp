@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "document.hpp"
+#include "quadrille/text/document.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
-#include "text_input.hpp"
+#include "quadrille/text/text_input.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille::text {
 namespace {
 
 constexpr long kMaxLine = (1L << 29) - 1;
@@ -19,6 +20,11 @@ std::string kind_name(Document::Kind kind) {
 }
 
 }  // namespace
+
+double Document::number(Node node) const {
+  const std::int64_t payload = items_[node].payload;
+  return kind(node) == Kind::real ? std::bit_cast<double>(payload) : static_cast<double>(payload);
+}
 
 std::string_view Document::text(Node node) const {
   const auto packed = static_cast<std::uint64_t>(items_[node].payload);
@@ -141,6 +147,14 @@ bool Checker::integer(Document::Node node, std::int64_t min, std::int64_t max,
                         std::to_string(max) + ", found " + kind_name(document_.kind(node)));
 }
 
+bool Checker::number(Document::Node node, double& value) {
+  const Document::Kind kind = document_.kind(node);
+  if (kind != Document::Kind::integer && kind != Document::Kind::real)
+    return fail(node, "expected a number, found " + kind_name(kind));
+  value = document_.number(node);
+  return std::isfinite(value) || fail(node, ErrorCode::out_of_range, "the number is too large");
+}
+
 bool Checker::text(Document::Node node, std::string_view& value) {
   if (document_.kind(node) != Document::Kind::string)
     return fail(node, "expected a string, found " + kind_name(document_.kind(node)));
@@ -154,4 +168,4 @@ bool Checker::pair(Document::Node node, std::int64_t max, std::int64_t& first,
          integer(document_.next(document_.first(node)), 0, max, second);
 }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::text

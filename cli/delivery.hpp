@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "exit_codes.hpp"
+#include "output.hpp"
+#include "quadrille/core/result.hpp"
+
+namespace quadrille::cli {
+
+/// The outputs of one solve: a file for the plan, one for the result, and the console. A result
+/// that none of them takes ends up on stderr.
+class Delivery {
+ public:
+  /// File names; empty for none, "-" for standard output.
+  Delivery(bool quiet, std::string plan, std::string json)
+      : plan_(std::move(plan)),
+        json_(std::move(json)),
+        console_(quiet, plan_ == "-" || json_ == "-") {}
+
+  /// Whether all files can be written, as far as that is known beforehand. Says why not.
+  [[nodiscard]] bool probe();
+
+  [[nodiscard]] Console& console() noexcept { return console_; }
+  [[nodiscard]] bool has_plan_file() const noexcept { return !plan_.empty(); }
+
+  /// `text`: the plan, or why it cannot be expressed; nullopt without a plan.
+  void write_plan(const std::optional<Result<std::string>>& text);
+  [[nodiscard]] bool has_json_file() const noexcept { return json_file_.has_value(); }
+  void write_json(const std::string& text);
+  /// The end of the human output.
+  void print_summary(const std::string& summary, const std::string& picture);
+  /// `code`, unless an output failed.
+  [[nodiscard]] ExitCode finish(ExitCode code);
+
+ private:
+  static bool probe(const std::string& path, std::optional<OutputFile>& file);
+  void write(const OutputFile& file, const std::string& text);
+
+  std::string plan_, json_;
+  Console console_;
+  std::optional<OutputFile> plan_file_, json_file_;
+  bool delivered_ = false;  // a file with the result has been written
+  bool output_failed_ = false;
+  std::string unwritten_;  // the text of an output that failed
+};
+
+}  // namespace quadrille::cli

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "roadmap_info.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "output.hpp"
+#include "quadrille/continuous/quantise.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+using continuous::EdgeId;
+using continuous::in_input_units;
+using continuous::Instance;
+using continuous::Roadmap;
+using continuous::Ticks;
+
+/// Vertices that are connected by edges, whatever their direction; sizes, largest first.
+std::vector<std::size_t> component_sizes(const Roadmap& roadmap) {
+  std::vector<std::size_t> sizes;
+  std::vector<bool> seen(roadmap.num_vertices(), false);
+  std::vector<VertexId> queue;
+  const auto visit = [&](VertexId v) {
+    if (seen[v.index()]) return;
+    seen[v.index()] = true;
+    queue.push_back(v);
+  };
+  for (std::size_t root = 0; root < roadmap.num_vertices(); ++root) {
+    queue.clear();
+    visit(VertexId(root));
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+      const VertexId v = queue[head];
+      for (const EdgeId e : roadmap.out_edges(v)) visit(roadmap.edge(e).to);
+      for (const EdgeId e : roadmap.in_edges(v)) visit(roadmap.edge(e).from);
+    }
+    if (!queue.empty()) sizes.push_back(queue.size());
+  }
+  std::sort(sizes.rbegin(), sizes.rend());
+  return sizes;
+}
+
+std::string describe_roadmap(const Roadmap& roadmap) {
+  constexpr std::size_t kShown = 8;
+  const std::vector<std::size_t> sizes = component_sizes(roadmap);
+  std::string text = fmt::format("components {}", sizes.size());
+  for (std::size_t i = 0; i < std::min(kShown, sizes.size()); ++i)
+    text += fmt::format("{}{}", i == 0 ? ", of " : ", ", sizes[i]);
+  if (sizes.size() > kShown) text += ", ...";
+  text += sizes.empty() ? "\n" : " vertices\n";
+
+  std::map<std::size_t, std::size_t> count;
+  for (std::size_t v = 0; v < roadmap.num_vertices(); ++v)
+    ++count[roadmap.out_edges(VertexId(v)).size()];
+  text += "degrees    ";
+  const char* separator = "";
+  for (const auto& [degree, vertices] : count) {
+    text += fmt::format("{}{}: {}", separator, degree, vertices);
+    separator = ", ";
+  }
+  return text + "  (edges out of a vertex)\n";
+}
+
+/// The least duration of the agent's path, alone on the roadmap. The goal can be reached.
+Ticks free_cost(const Instance& instance, AgentId i) {
+  const Roadmap& roadmap = instance.roadmap();
+  constexpr Ticks kFar = std::numeric_limits<Ticks>::max();
+  std::vector<Ticks> arrival(roadmap.num_vertices(), kFar);
+  using Entry = std::pair<Ticks, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  const auto& agent = instance.agent(i);
+  arrival[agent.start.index()] = 0;
+  open.emplace(0, agent.start.index());
+  while (!open.empty()) {
+    const auto [tick, v] = open.top();
+    open.pop();
+    if (v == agent.goal.index()) return tick;
+    if (tick > arrival[v]) continue;
+    for (const EdgeId e : roadmap.out_edges(VertexId(v))) {
+      const std::size_t w = roadmap.edge(e).to.index();
+      const Ticks then = tick + instance.duration(instance.class_of(i), e);
+      if (then >= arrival[w]) continue;
+      arrival[w] = then;
+      open.emplace(then, w);
+    }
+  }
+  return kFar;
+}
+
+std::string describe_agents(const Instance& instance) {
+  Cost sum = 0, largest = 0;
+  for (const AgentId i : instance.agent_ids()) {
+    const Ticks cost = free_cost(instance, i);
+    sum += cost;
+    largest = std::max<Cost>(largest, cost);
+  }
+  const double resolution = instance.resolution();
+  return fmt::format(
+      "classes    {} of agents with equal radius and speed\n"
+      "distances  sum {}, largest {} (lower bounds of sum of costs, makespan)\n",
+      instance.num_classes(), in_input_units(sum, resolution), in_input_units(largest, resolution));
+}
+
+}  // namespace
+
+ExitCode print_roadmap_info(const RoadmapOptions& options, const InputOptions& input_options) {
+  const auto input = load_roadmap_input(options, input_options);
+  if (!input) {
+    report_error(input.error());
+    return ExitCode::bad_input;
+  }
+  Console console(false, false);
+  console.print(describe_input(*input));
+  console.print(describe_roadmap(input->instance.roadmap()));
+  if (!input->task_source.empty()) console.print(describe_agents(input->instance));
+  if (console.failure() == 0) return ExitCode::success;
+  report_write_failure("-", console.failure());
+  return ExitCode::output;
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "roadmap_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "arguments.hpp"
+#include "quadrille/continuous/instance_json.hpp"
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/continuous/roadmap_xml.hpp"
+#include "quadrille/discrete/movingai.hpp"
+#include "quadrille/text/text_input.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+using continuous::GridRoadmap;
+using continuous::Instance;
+using continuous::OccupancyGrid;
+using continuous::Roadmap;
+
+constexpr int kDefaultNeighbourhood = 3;
+
+bool is_movingai_map(const std::string& file) { return std::string_view(file).ends_with(".map"); }
+
+Result<continuous::MapXml> read_map(const std::string& file, const discrete::MapOptions& letters,
+                                    double resolution) {
+  if (!is_movingai_map(file))
+    return continuous::read_map_xml(std::filesystem::path(file), resolution);
+  auto map = discrete::read_map(std::filesystem::path(file), letters);
+  if (!map) return map.error();
+  return continuous::MapXml{OccupancyGrid{map->height, map->width, std::move(map->passable)}, 0};
+}
+
+/// `grid`: what the cells of a scenario belong to, if the map is one.
+Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGrid* grid) {
+  if (!std::string_view(file).ends_with(".scen"))
+    return continuous::read_task_xml(std::filesystem::path(file));
+  const auto scenario = discrete::read_scenario(std::filesystem::path(file));
+  if (!scenario) return scenario.error();
+  continuous::TaskXml task{file, {}};
+  for (const discrete::ScenarioRow& row : scenario->rows) {
+    if (grid != nullptr && (row.width != grid->width || row.height != grid->height))
+      return Error{ErrorCode::invalid_instance,
+                   fmt::format("the row is for a map of {} x {} cells, not {} x {}", row.width,
+                               row.height, grid->width, grid->height),
+                   {file, row.line}};
+    task.rows.push_back({row.line, std::pair{continuous::Cell{row.start.y, row.start.x},
+                                             continuous::Cell{row.goal.y, row.goal.x}}});
+  }
+  return task;
+}
+
+Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
+
+/// What all agents have in common.
+struct Numbers {
+  double resolution;
+  continuous::Length radius;
+  continuous::Speed speed;
+};
+
+Result<Numbers> quantise(const RoadmapOptions& options) {
+  const double resolution = options.resolution.value_or(continuous::kDefaultResolution);
+  const auto radius =
+      continuous::quantise_radius(options.radius.value_or(kDefaultRadius), resolution);
+  if (!radius)
+    return out_of_range(fmt::format("--radius: {} is less than one length unit, or too large",
+                                    options.radius.value_or(kDefaultRadius)));
+  const auto speed = continuous::quantise_speed(options.speed.value_or(1));
+  if (!speed)
+    return out_of_range(
+        fmt::format("--speed: {} is not between 0.000001 and 1000000", options.speed.value_or(1)));
+  return Numbers{resolution, *radius, *speed};
+}
+
+Result<RoadmapInput> read_instance(const InputOptions& input) {
+  std::istringstream in(*input.instance_text);
+  auto instance = continuous::read_instance_json(in, input.instance);
+  if (!instance) return instance.error();
+  const std::size_t count = instance->num_agents();
+  return RoadmapInput{
+      std::move(instance).value(), {}, input.instance, input.instance, count, "", 0};
+}
+
+std::string range(double least, double most) {
+  return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+}
+
+}  // namespace
+
+void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
+  const std::string group = "Continuous time";
+  add_file(app, "--roadmap", options.roadmap,
+           "Roadmap: GraphML, a grid as XML, or a MovingAI .map file")
+      ->group(group);
+  add_file(app, "--task", options.task, "Its agents: a task as XML, or a MovingAI .scen file")
+      ->group(group);
+  add_positive(app, "--radius", options.radius, "Radius of all agents; default sqrt(2)/4")
+      ->group(group);
+  add_positive(app, "--speed", options.speed, "Speed of all agents; default 1")->group(group);
+  add_integer(app, "--neighbourhood", options.neighbourhood, GridRoadmap::kMinNeighbourhood,
+              GridRoadmap::kMaxNeighbourhood, "On grids: moves to 2^N neighbours; default 3")
+      ->group(group);
+  add_positive(app, "--resolution", options.resolution,
+               "Size of a tick and of a length unit; default 0.000001")
+      ->group(group);
+}
+
+bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
+  if (!input.instance.empty()) {
+    std::ifstream in;
+    if (text::open_input(input.instance, in)) return !options.roadmap.empty();
+    auto text = text::read_all(in, input.instance);
+    if (text) input.instance_text = std::move(text).value();
+    if (input.instance_text && continuous::is_roadmap_json(*input.instance_text)) return true;
+  }
+  return !options.roadmap.empty();
+}
+
+std::string check_roadmap_options(const RoadmapOptions& options, const InputOptions& input,
+                                  Need need) {
+  const bool letters = !input.letters.passable.empty() || !input.letters.blocked.empty();
+  if (!options.roadmap.empty()) {
+    if (!input.map.empty() || !input.scen.empty() || !input.instance.empty())
+      return "--roadmap goes with --task, not with --map, --scen or --instance";
+    if (letters && !is_movingai_map(options.roadmap))
+      return "--passable and --blocked belong to .map files";
+    if (options.task.empty() && (need == Need::tasks || input.agents)) return "--task is missing";
+    const auto numbers = quantise(options);
+    return numbers ? "" : numbers.error().message;
+  }
+  if (!input.map.empty() || !input.scen.empty()) return "--instance excludes --map and --scen";
+  if (input.agents) return "--agents belongs to --task, not to --instance";
+  if (letters) return "--passable and --blocked belong to .map files, not to --instance";
+  return why_no_roadmap(options);
+}
+
+std::string why_no_roadmap(const RoadmapOptions& options) {
+  if (options.task.empty() && !options.radius && !options.speed && !options.resolution &&
+      !options.neighbourhood)
+    return "";
+  return "--task, --radius, --speed, --neighbourhood and --resolution belong to --roadmap";
+}
+
+Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const InputOptions& input) {
+  if (options.roadmap.empty()) return read_instance(input);
+  const auto numbers = quantise(options);
+  if (!numbers) return numbers.error();
+  auto map = read_map(options.roadmap, input.letters, numbers->resolution);
+  if (!map) return map.error();
+  const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
+  continuous::TaskXml task;
+  if (!options.task.empty()) {
+    auto read = read_task(options.task, cells);
+    if (!read) return read.error();
+    task = std::move(read).value();
+  }
+  const std::size_t count =
+      input.agents ? static_cast<std::size_t>(*input.agents) : task.rows.size();
+
+  std::optional<GridRoadmap> grid;
+  std::shared_ptr<const Roadmap> roadmap;
+  Result<std::vector<continuous::Agent>> agents = std::vector<continuous::Agent>();
+  std::string kind;
+  if (cells != nullptr) {
+    const auto k = static_cast<int>(options.neighbourhood.value_or(kDefaultNeighbourhood));
+    auto made = GridRoadmap::make(*cells, k, numbers->radius, numbers->resolution);
+    if (!made) return Error{made.error().code, made.error().message, {options.roadmap, 0}};
+    grid = std::move(made).value();
+    roadmap = grid->roadmap();
+    agents = agents_of(task, count, *grid, numbers->radius, numbers->speed);
+    kind = fmt::format("{} x {} grid, 2^{} neighbours, ", cells->width, cells->height, k);
+  } else {
+    if (options.neighbourhood)
+      return Error{ErrorCode::invalid_instance,
+                   "--neighbourhood is for grids, and this is a roadmap",
+                   {options.roadmap, 0}};
+    roadmap = std::make_shared<const Roadmap>(std::get<Roadmap>(std::move(map->map)));
+    agents = agents_of(task, count, *roadmap, numbers->radius, numbers->speed);
+  }
+  if (!agents) return agents.error();
+  std::vector<SourcePlace> places;
+  for (std::size_t i = 0; i < count; ++i) places.push_back({task.file, task.rows[i].line});
+  auto instance = Instance::make(roadmap, std::move(agents).value(), numbers->resolution, places);
+  if (!instance) {
+    Error error = instance.error();
+    if (error.where.file.empty()) error.where.file = options.roadmap;
+    return error;
+  }
+  return RoadmapInput{std::move(instance).value(),
+                      std::move(grid),
+                      options.roadmap,
+                      options.task,
+                      task.rows.size(),
+                      std::move(kind),
+                      map->num_zero_length_edges};
+}
+
+std::string describe_input(const RoadmapInput& input) {
+  const Instance& instance = input.instance;
+  const double resolution = instance.resolution();
+  std::string text =
+      fmt::format("roadmap    {}: {}{} vertices, {} edges\n", input.source, input.kind,
+                  instance.roadmap().num_vertices(), instance.roadmap().num_edges());
+  if (input.num_zero_length_edges > 0)
+    text += fmt::format("           {} edges of length zero, which take one tick\n",
+                        input.num_zero_length_edges);
+  if (!input.task_source.empty()) {
+    text += fmt::format("agents     {} from {}", instance.num_agents(), input.task_source);
+    if (input.rows != instance.num_agents()) text += fmt::format(" (of {})", input.rows);
+    if (instance.num_agents() > 0) {
+      const auto [small, large] =
+          std::minmax_element(instance.agents().begin(), instance.agents().end(),
+                              [](const auto& a, const auto& b) { return a.radius < b.radius; });
+      const auto [slow, fast] =
+          std::minmax_element(instance.agents().begin(), instance.agents().end(),
+                              [](const auto& a, const auto& b) { return a.speed < b.speed; });
+      text += fmt::format(", radius {}, speed {}",
+                          range(continuous::in_input_units(small->radius, resolution),
+                                continuous::in_input_units(large->radius, resolution)),
+                          range(continuous::speed_in_input_units(slow->speed),
+                                continuous::speed_in_input_units(fast->speed)));
+    }
+    text += "\n";
+  }
+  return text + fmt::format("units      one tick, and one length unit, is {}\n", resolution);
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "exit_codes.hpp"
+#include "quadrille/continuous/plan_files.hpp"
+#include "quadrille/continuous/solver.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "roadmap_input.hpp"
+
+namespace quadrille::cli {
+
+/// `solve` for a roadmap: what was asked.
+struct RoadmapSolveRequest {
+  RoadmapOptions roadmap;
+  InputOptions input;
+  continuous::SolveOptions options;
+  std::string known_plan;  ///< File name; empty without one.
+  std::string plan, json;  ///< Output files; empty without, "-" for standard output.
+  continuous::PlanFormat plan_format = continuous::PlanFormat::json;
+  bool quiet = false;
+};
+
+/// Replays the plan of an outcome and holds its claims against the replay. A claim that fails turns
+/// the outcome into `unknown` with an internal error, without plan, cost and lower bound.
+continuous::VerifyReport check_outcome(const continuous::Instance& instance, Objective objective,
+                                       continuous::SolveOutcome& outcome);
+
+[[nodiscard]] ExitCode exit_code(const continuous::SolveOutcome& outcome);
+
+/// The result as JSON, documented in docs/cli.md. `check`: the replay of the plan, if there is one.
+[[nodiscard]] std::string result_json(const continuous::Instance& instance,
+                                      const RoadmapSolveRequest& request,
+                                      const continuous::SolveOutcome& outcome,
+                                      const continuous::VerifyReport& check);
+
+/// The lines "result", "cost", "search", "verified" and "claim" of the human output.
+[[nodiscard]] std::string describe_outcome(const continuous::Instance& instance,
+                                           const RoadmapSolveRequest& request,
+                                           const continuous::SolveOutcome& outcome,
+                                           const continuous::VerifyReport& check);
+
+/// The line "verified" of a valid plan.
+[[nodiscard]] std::string describe_check(const continuous::Instance& instance,
+                                         const continuous::VerifyReport& check);
+/// "least clearance 0.25, between agents 0 and 3 at 1.5"; empty for fewer than two sound paths.
+[[nodiscard]] std::string describe_clearance(const continuous::Instance& instance,
+                                             const continuous::VerifyReport& check);
+
+/// One line per agent: start, goal, cost, and the vertices with the waits between them. A line that
+/// says why not for a plan too large to read.
+[[nodiscard]] std::string list_paths(const continuous::Instance& instance,
+                                     const continuous::Plan& plan);
+
+}  // namespace quadrille::cli

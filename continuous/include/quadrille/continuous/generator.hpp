@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "quadrille/continuous/instance.hpp"
+#include "quadrille/core/result.hpp"
+
+namespace quadrille::continuous {
+
+/// Most vertices that random_instance makes.
+inline constexpr std::size_t kMaxRandomVertices = 10'000;
+
+/// Lengths are in length units.
+struct RandomInstanceOptions {
+  std::size_t num_vertices = 100;   ///< 1 .. kMaxRandomVertices
+  std::size_t num_agents = 10;      ///< At most num_vertices.
+  Length width = 32 * kUnitSpeed;   ///< 1 .. geometry::kMaxLength
+  Length height = 32 * kUnitSpeed;  ///< The same.
+  Length radius = 353'553;          ///< Of the largest agents; 1 .. kMaxLength / 4.
+  Speed speed = kUnitSpeed;         ///< Of the fastest agents.
+  bool mixed = false;               ///< Radii and speeds from half of these up, at random.
+  double resolution = kDefaultResolution;
+};
+
+/// A random roadmap with random tasks. The vertices are at least 2 sqrt(2) radius apart; the edges,
+/// in both directions, are those of their Gabriel graph: u and v are connected unless another
+/// vertex lies in the disc that has the segment between them as diameter, or on its boundary. So
+/// the roadmap is connected, no two edges cross, and no edge comes nearer than 2 radius to a vertex
+/// that is not its end: an agent at rest is in the way of nobody but those who pass its vertex.
+/// Starts are distinct, and so are goals; a start may be its own goal or another agent's. The same
+/// options and seed give the same instance on every platform. Errors: out_of_range for options
+/// outside the ranges above, and for vertices that do not fit into the area. O(vertices^2 * log).
+[[nodiscard]] Result<Instance> random_instance(const RandomInstanceOptions& options,
+                                               std::uint64_t seed);
+
+}  // namespace quadrille::continuous

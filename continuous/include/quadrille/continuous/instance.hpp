@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "quadrille/continuous/roadmap.hpp"
+#include "quadrille/geometry/motion.hpp"
+
+namespace quadrille::continuous {
+
+/// Millionths of a length unit per tick.
+using Speed = std::int64_t;
+inline constexpr Speed kUnitSpeed = 1'000'000;
+inline constexpr Speed kMaxSpeed = 1'000'000'000'000;
+
+/// A disc with a task.
+struct Agent {
+  VertexId start;
+  VertexId goal;
+  Length radius = 1;
+  Speed speed = kUnitSpeed;
+  friend bool operator==(const Agent&, const Agent&) = default;
+};
+
+/// Agents of the same radius and speed are alike.
+using ClassId = StrongId<struct ClassTag>;
+
+/// How a number of the input becomes integers: `resolution` is the size of a length unit and of a
+/// tick in the input's units of length and time.
+inline constexpr double kDefaultResolution = 1e-6;
+
+/// A MAPF_R instance: a roadmap and one disc with a task per agent, all in whole ticks and length
+/// units. Agents wait at vertices only, a whole number of ticks, move along edges at constant
+/// speed, and stay at their goal for ever. Two agents collide when the interiors of their discs
+/// meet; touching is allowed. Immutable; cheap to copy (the roadmap is shared).
+class Instance {
+ public:
+  /// Durations that the roadmap does not give are length / speed, rounded to the nearest tick.
+  /// Errors: out_of_range for a radius outside [1, geometry::kMaxLength], a speed outside
+  /// [1, kMaxSpeed], a duration outside [1, geometry::kMaxDuration], a resolution that is not
+  /// positive and finite; invalid_instance for vertices that do not exist, overlapping starts,
+  /// overlapping goals (interiors) and goals that cannot be reached. Agents are named by index.
+  /// `places`: where each agent comes from, for errors about it; none, or one per agent.
+  [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
+                                             std::vector<Agent> agents,
+                                             double resolution = kDefaultResolution,
+                                             std::span<const SourcePlace> places = {});
+
+  [[nodiscard]] const Roadmap& roadmap() const noexcept { return *roadmap_; }
+  [[nodiscard]] std::shared_ptr<const Roadmap> shared_roadmap() const noexcept { return roadmap_; }
+  [[nodiscard]] double resolution() const noexcept { return resolution_; }
+  [[nodiscard]] std::size_t num_agents() const noexcept { return agents_.size(); }
+  [[nodiscard]] IdRange<AgentId> agent_ids() const noexcept {
+    return IdRange<AgentId>(num_agents());
+  }
+  [[nodiscard]] const IdVector<AgentId, Agent>& agents() const noexcept { return agents_; }
+  [[nodiscard]] const Agent& agent(AgentId i) const { return agents_[i]; }
+
+  [[nodiscard]] std::size_t num_classes() const noexcept { return classes_.size(); }
+  [[nodiscard]] ClassId class_of(AgentId i) const { return class_of_[i]; }
+  [[nodiscard]] Length radius(ClassId c) const { return classes_[c].radius; }
+  [[nodiscard]] Ticks duration(ClassId c, EdgeId e) const {
+    return durations_[classes_[c].durations][e.index()];
+  }
+  [[nodiscard]] geometry::Motion motion(ClassId c, EdgeId e) const {
+    const Edge& edge = roadmap_->edge(e);
+    return {roadmap_->position(edge.from), roadmap_->position(edge.to), duration(c, e)};
+  }
+
+ private:
+  struct Class {
+    Length radius = 1;
+    Speed speed = kUnitSpeed;
+    std::size_t durations = 0;  // into durations_, one per speed
+  };
+  Instance() = default;
+
+  std::shared_ptr<const Roadmap> roadmap_;
+  IdVector<AgentId, Agent> agents_;
+  double resolution_ = kDefaultResolution;
+  IdVector<ClassId, Class> classes_;
+  IdVector<AgentId, ClassId> class_of_;
+  std::vector<std::vector<Ticks>> durations_;  // by speed, by edge
+};
+
+}  // namespace quadrille::continuous

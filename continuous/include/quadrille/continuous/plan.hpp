@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "quadrille/continuous/roadmap.hpp"
+#include "quadrille/core/outcome.hpp"
+
+namespace quadrille::continuous {
+
+/// A stay at a vertex, from `arrive` to `depart`, both included; arrive == depart passes through.
+struct Stop {
+  VertexId vertex;
+  Ticks arrive = 0;
+  Ticks depart = 0;
+  friend bool operator==(const Stop&, const Stop&) = default;
+};
+
+/// Where one agent is: it moves from each stop to the next, from its departure to the next arrival.
+/// The first arrival is at tick 0. The last stop is for ever, its `depart` equals its `arrive`.
+using Path = std::vector<Stop>;
+
+/// One path per agent.
+struct Plan {
+  IdVector<AgentId, Path> paths;
+  friend bool operator==(const Plan&, const Plan&) = default;
+};
+
+/// When the path arrives at its last stop; 0 for an empty path.
+[[nodiscard]] inline Cost cost(const Path& path) { return path.empty() ? 0 : path.back().arrive; }
+[[nodiscard]] Cost cost(const Plan& plan, Objective objective);
+
+}  // namespace quadrille::continuous

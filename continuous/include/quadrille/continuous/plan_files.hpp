@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "quadrille/continuous/grid.hpp"
+#include "quadrille/continuous/instance.hpp"
+#include "quadrille/continuous/plan.hpp"
+
+namespace quadrille::continuous {
+
+/// The formats of plan files; docs/formats.md has an example of each.
+enum class PlanFormat {
+  json,  ///< This project's JSON: a plan, or the result of a solve. Exact.
+  ccbs,  ///< The log of the published continuous-time CBS, XML.
+};
+[[nodiscard]] std::string_view to_string(PlanFormat format) noexcept;  ///< "json" | "ccbs"
+[[nodiscard]] std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept;
+/// .json and .xml; other extensions mean nothing.
+[[nodiscard]] std::optional<PlanFormat> plan_format_of(const std::filesystem::path& path);
+
+/// A plan as a file states it. Nothing is claimed about its validity: see verify.
+struct PlanFile {
+  Plan plan;  ///< Vertices belong to the roadmap; no path is empty.
+  /// Costs in ticks that the file states; the reader does not compare them with the plan.
+  std::optional<Cost> sum_of_costs;
+  std::optional<Cost> makespan;
+};
+
+/// Reads a plan for `instance`; without `format` the first character that is no white space
+/// decides: `<` is ccbs, anything else json. `grid`: the grid that the roadmap comes from, if any;
+/// a log that names cells needs it. In a log, waits are rounded to the nearest tick, and a move
+/// that takes as long as its edge, up to two ticks, takes exactly as long. Errors, with file and
+/// line: io, syntax, out_of_range, invalid_plan (a vertex that the roadmap does not have, another
+/// resolution, no plan, sections that do not fit together).
+[[nodiscard]] Result<PlanFile> read_plan(std::istream& in, const std::string& file,
+                                         const Instance& instance,
+                                         const GridRoadmap* grid = nullptr,
+                                         std::optional<PlanFormat> format = std::nullopt);
+[[nodiscard]] Result<PlanFile> read_plan(const std::filesystem::path& path,
+                                         const Instance& instance,
+                                         const GridRoadmap* grid = nullptr,
+                                         std::optional<PlanFormat> format = std::nullopt);
+
+/// Writes a plan. Reading it back with the same instance and grid gives an equal plan. In ccbs
+/// there is one <section> per move or wait, with its duration in the input's unit of time; with a
+/// grid, sections name cells, else vertex numbers. Requires vertices of the roadmap. Errors: io.
+[[nodiscard]] std::optional<Error> write_plan(std::ostream& out, const std::string& file,
+                                              const Instance& instance, const Plan& plan,
+                                              PlanFormat format, const GridRoadmap* grid = nullptr);
+
+/// The value of the key `plan` in this project's JSON: per agent, on a line of its own, the list of
+/// its stops with vertex, place, and times in the input's unit and in ticks. Requires vertices of
+/// the roadmap.
+[[nodiscard]] std::string plan_to_json(const Instance& instance, const Plan& plan);
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "quadrille/continuous/instance.hpp"
+
+// From the numbers of an input, in its own units of length and time, to whole length units and
+// ticks. `resolution` is the size of both in the input's units. nullopt where the number is not
+// finite, the resolution is not positive, or the result would be out of range.
+
+namespace quadrille::continuous {
+
+/// A coordinate, to the nearest length unit.
+[[nodiscard]] std::optional<Length> quantise_coordinate(double value, double resolution);
+/// A radius, rounded down: less than one length unit is lost. nullopt if nothing is left.
+[[nodiscard]] std::optional<Length> quantise_radius(double value, double resolution);
+/// A duration, to the nearest tick. nullopt if that is none.
+[[nodiscard]] std::optional<Ticks> quantise_duration(double value, double resolution);
+/// A speed, to the nearest Speed; the resolution cancels out. nullopt if that is 0.
+[[nodiscard]] std::optional<Speed> quantise_speed(double value);
+
+// And back, for output: decimal numbers as short as the resolution allows, where that is the
+// reciprocal of an integer. Quantised with the same resolution they give the same integers again.
+
+/// A coordinate, a duration, a time or a cost.
+[[nodiscard]] double in_input_units(std::int64_t units, double resolution);
+[[nodiscard]] double radius_in_input_units(Length radius, double resolution);
+[[nodiscard]] double speed_in_input_units(Speed speed);
+/// Whether `value`, in the input's units, is `units` up to half a unit.
+[[nodiscard]] bool is_about(double value, std::int64_t units, double resolution);
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "quadrille/continuous/instance.hpp"
+#include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/core/result.hpp"
+#include "quadrille/core/statistics.hpp"
+
+namespace quadrille::continuous {
+
+/// When paths and their collisions are looked at.
+enum class System {
+  dpll,     ///< The default: inside the SAT search.
+  smt_cbs,  ///< Between its complete assignments.
+};
+[[nodiscard]] std::string_view to_string(System system) noexcept;  ///< "dpll" | "smt-cbs"
+[[nodiscard]] std::optional<System> parse_system(std::string_view text) noexcept;
+
+/// A look at a running search.
+struct Progress {
+  Cost lower_bound = 0;  ///< Ticks.
+  double elapsed_s = 0;
+  std::int64_t conflicts = 0;
+};
+
+struct SolveOptions {
+  Objective objective = Objective::sum_of_costs;
+  System system = System::dpll;
+  Limits limits;
+  std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
+  /// Called on the solving thread, at most a few times a second. May be empty.
+  std::function<void(const Progress&)> on_progress;
+  /// Debugging: a valid plan. Every clause is checked to allow it; no clause may exclude a valid
+  /// plan, whatever it costs. Slow.
+  std::optional<Plan> known_plan;
+};
+
+struct SolveOutcome {
+  Status status = Status::unknown;
+  std::optional<Plan> plan;  ///< Present for optimal and feasible; verified.
+  std::optional<Cost> cost;  ///< Of `plan`, in ticks.
+  Cost lower_bound = 0;      ///< Proven, in ticks, for every status but infeasible.
+  StopReason stop = StopReason::none;
+  std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
+  Statistics statistics;
+  /// A check of the program's own work failed; status is unknown then.
+  std::optional<Error> internal_error;
+};
+
+/// Finds a plan of least cost among all plans whose departures are at whole ticks. `infeasible` is
+/// a proof. A search for a plan where none exists may also go on until a limit ends it: `unknown`
+/// then. Deterministic for the same instance, options and seed as long as no limit is met. Does not
+/// print. Thread-safe.
+[[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadrille/continuous/instance.hpp"
+#include "quadrille/continuous/plan.hpp"
+
+namespace quadrille::continuous {
+
+/// One broken rule of a plan.
+struct Violation {
+  enum class Kind {
+    path_count,    ///< Not one path per agent.
+    empty_path,    ///< A path without stops.
+    bad_vertex,    ///< A vertex that the roadmap does not have.
+    bad_time,      ///< Not from tick 0 on, or later than supported, or a departure before arrival.
+    wrong_start,   ///< The path begins elsewhere.
+    wrong_goal,    ///< The path ends elsewhere.
+    not_adjacent,  ///< A move along no edge.
+    duration,      ///< A move that takes longer or shorter than its edge does.
+    collision,     ///< The interiors of two discs meet.
+  };
+  Kind kind;
+  AgentId agent;
+  std::optional<AgentId> other;  ///< For collisions; larger than `agent`.
+  Ticks tick = 0;                ///< When the step begins in which it happens.
+  std::string message;           ///< One sentence that names agents, place and time.
+};
+
+/// The free space between two agents over all time.
+struct Clearance {
+  AgentId agent;
+  AgentId other;
+  double gap = 0;   ///< Length units; distance of the centres minus radii, rounded to double.
+  double tick = 0;  ///< A moment at which it is that small.
+};
+
+struct VerifyReport {
+  /// Broken rules of the paths first, then collisions, one per pair of agents, by tick.
+  std::vector<Violation> violations;
+  /// Of every pair of agents with sound paths, by agent, then other. For the reader's information:
+  /// collisions are decided in exact arithmetic.
+  std::vector<Clearance> clearances;
+  Cost sum_of_costs = 0;  ///< Meaningful when there are no violations.
+  Cost makespan = 0;
+  [[nodiscard]] bool valid() const noexcept { return violations.empty(); }
+};
+
+/// Replays a plan over all time, goal stays included. Shares no code with the search or with
+/// geometry/: a plan that passes is a plan. Takes any plan, however broken. Time is proportional to
+/// agents times stops.
+[[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan);
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "quadrille/core/random.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+__extension__ using Wide = __int128;
+
+/// Darts that are thrown for one vertex before the area counts as full.
+constexpr int kMaxDarts = 1000;
+
+Wide dot(const Point& a, const Point& b, const Point& c) {
+  return Wide{a.x - c.x} * (b.x - c.x) + Wide{a.y - c.y} * (b.y - c.y);
+}
+
+Wide squared_distance(const Point& a, const Point& b) { return dot(a, a, b); }
+
+Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
+
+std::optional<Error> check(const RandomInstanceOptions& options) {
+  if (options.num_vertices < 1 || options.num_vertices > kMaxRandomVertices)
+    return out_of_range("the number of vertices is 1 .. " + std::to_string(kMaxRandomVertices));
+  if (options.num_agents > options.num_vertices)
+    return out_of_range(std::to_string(options.num_agents) + " agents need as many vertices");
+  for (const Length side : {options.width, options.height})
+    if (side < 1 || side > geometry::kMaxLength)
+      return out_of_range("the area is 1 .. " + std::to_string(geometry::kMaxLength) +
+                          " length units wide and high");
+  if (options.radius < 1 || options.radius > geometry::kMaxLength / 4)
+    return out_of_range("the radius is 1 .. " + std::to_string(geometry::kMaxLength / 4) +
+                        " length units");
+  if (options.speed < 1 || options.speed > kMaxSpeed)
+    return out_of_range("the speed is not supported");
+  return std::nullopt;
+}
+
+/// Random points that are 2 sqrt(2) radius apart, fewer than wanted if they do not fit.
+std::vector<Point> draw_vertices(const RandomInstanceOptions& options, Random& random) {
+  const Wide spacing2 = 8 * Wide{options.radius} * options.radius;
+  const auto coordinate = [&](Length side) {
+    return static_cast<Length>(random.below(static_cast<std::uint64_t>(side) + 1));
+  };
+  std::vector<Point> vertices;
+  while (vertices.size() < options.num_vertices) {
+    bool fits = false;
+    for (int dart = 0; dart < kMaxDarts && !fits; ++dart) {
+      const Length x = coordinate(options.width);
+      const Point point{x, coordinate(options.height)};
+      fits = std::none_of(vertices.begin(), vertices.end(), [&](const Point& other) {
+        return squared_distance(point, other) < spacing2;
+      });
+      if (fits) vertices.push_back(point);
+    }
+    if (!fits) break;
+  }
+  return vertices;
+}
+
+std::vector<Edge> gabriel_edges(const std::vector<Point>& vertices) {
+  std::vector<Edge> edges;
+  std::vector<std::size_t> others(vertices.size());
+  for (std::size_t u = 0; u < vertices.size(); ++u) {
+    std::iota(others.begin(), others.end(), std::size_t{0});
+    // The nearest first: most pairs are separated by a neighbour of u.
+    std::sort(others.begin(), others.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair(squared_distance(vertices[u], vertices[a]), a) <
+             std::pair(squared_distance(vertices[u], vertices[b]), b);
+    });
+    std::vector<std::size_t> neighbours;
+    for (std::size_t rank = 1; rank < others.size(); ++rank) {
+      const std::size_t v = others[rank];
+      // A vertex in the disc is nearer to u than v is.
+      const bool is_separated = std::any_of(
+          others.begin() + 1, others.begin() + static_cast<std::ptrdiff_t>(rank),
+          [&](std::size_t w) { return dot(vertices[u], vertices[v], vertices[w]) <= 0; });
+      if (!is_separated) neighbours.push_back(v);
+    }
+    std::sort(neighbours.begin(), neighbours.end());
+    for (const std::size_t v : neighbours)
+      edges.push_back({VertexId(u), VertexId(v), std::nullopt});
+  }
+  return edges;
+}
+
+std::vector<Agent> draw_agents(const RandomInstanceOptions& options, Random& random) {
+  std::vector<std::size_t> starts(options.num_vertices), goals(options.num_vertices);
+  std::iota(starts.begin(), starts.end(), std::size_t{0});
+  std::iota(goals.begin(), goals.end(), std::size_t{0});
+  random.shuffle_front(starts, options.num_agents);
+  random.shuffle_front(goals, options.num_agents);
+  const auto upper_half = [&](std::int64_t most) {
+    const std::int64_t least = (most + 1) / 2;
+    return least +
+           static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(most - least) + 1));
+  };
+  std::vector<Agent> agents;
+  for (std::size_t i = 0; i < options.num_agents; ++i) {
+    Agent agent{VertexId(starts[i]), VertexId(goals[i]), options.radius, options.speed};
+    if (options.mixed) {
+      agent.radius = upper_half(options.radius);
+      agent.speed = upper_half(options.speed);
+    }
+    agents.push_back(agent);
+  }
+  return agents;
+}
+
+}  // namespace
+
+Result<Instance> random_instance(const RandomInstanceOptions& options, std::uint64_t seed) {
+  if (auto error = check(options)) return *error;
+  Random random(seed);
+  std::vector<Point> vertices = draw_vertices(options, random);
+  if (vertices.size() < options.num_vertices)
+    return out_of_range(std::to_string(options.num_vertices) +
+                        " vertices do not fit into the area at that radius; " +
+                        std::to_string(vertices.size()) + " did");
+  std::vector<Edge> edges = gabriel_edges(vertices);
+  auto roadmap = Roadmap::make(std::move(vertices), std::move(edges));
+  if (!roadmap) return roadmap.error();
+  return Instance::make(std::make_shared<const Roadmap>(std::move(roadmap).value()),
+                        draw_agents(options, random), options.resolution);
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/instance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace quadrille::continuous {
+namespace {
+
+__extension__ using Wide = __int128;
+
+Wide square(Wide x) { return x * x; }  // of at most 2^42: differences of coordinates, sums of radii
+
+Wide squared_distance(const Point& a, const Point& b) {
+  return square(a.x - b.x) + square(a.y - b.y);
+}
+
+std::string name(std::size_t agent) { return "agent " + std::to_string(agent); }
+
+Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+
+std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                           std::size_t index) {
+  const Agent& agent = agents[index];
+  for (const VertexId v : {agent.start, agent.goal})
+    if (v.index() >= roadmap.num_vertices())
+      return invalid(name(index) + " names vertex " + std::to_string(v.index()) +
+                     ", but there are " + std::to_string(roadmap.num_vertices()) + " vertices");
+  if (agent.radius < 1 || agent.radius > geometry::kMaxLength)
+    return Error{ErrorCode::out_of_range,
+                 name(index) + " has a radius of " + std::to_string(agent.radius) +
+                     " length units, not 1 .. " + std::to_string(geometry::kMaxLength),
+                 {}};
+  if (agent.speed < 1 || agent.speed > kMaxSpeed)
+    return Error{
+        ErrorCode::out_of_range,
+        name(index) + " has a speed outside (0, " + std::to_string(kMaxSpeed / kUnitSpeed) + "]",
+        {}};
+  return std::nullopt;
+}
+
+/// An agent that overlaps an earlier one when each is at its start (goal).
+std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                 std::size_t j, VertexId Agent::*place, const std::string& what) {
+  for (std::size_t i = 0; i < j; ++i)
+    if (squared_distance(roadmap.position(agents[i].*place), roadmap.position(agents[j].*place)) <
+        square(agents[i].radius + agents[j].radius))
+      return invalid("the " + what + " of agents " + std::to_string(i) + " and " +
+                     std::to_string(j) + " overlap");
+  return std::nullopt;
+}
+
+std::optional<Error> check_start_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                       std::size_t j) {
+  return check_apart(roadmap, agents, j, &Agent::start, "starts");
+}
+
+std::optional<Error> check_goal_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                      std::size_t j) {
+  return check_apart(roadmap, agents, j, &Agent::goal, "goals");
+}
+
+bool can_reach(const Roadmap& roadmap, VertexId start, VertexId goal) {
+  std::vector<bool> seen(roadmap.num_vertices(), false);
+  std::vector<VertexId> stack{start};
+  seen[start.index()] = true;
+  while (!stack.empty() && !seen[goal.index()]) {
+    const VertexId v = stack.back();
+    stack.pop_back();
+    for (const EdgeId e : roadmap.out_edges(v)) {
+      const VertexId w = roadmap.edge(e).to;
+      if (seen[w.index()]) continue;
+      seen[w.index()] = true;
+      stack.push_back(w);
+    }
+  }
+  return seen[goal.index()];
+}
+
+std::optional<Error> check_reachable(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                     std::size_t i) {
+  const Agent& agent = agents[i];
+  if (can_reach(roadmap, agent.start, agent.goal)) return std::nullopt;
+  return invalid(name(i) + " cannot reach its goal: there is no way from vertex " +
+                 std::to_string(agent.start.index()) + " to vertex " +
+                 std::to_string(agent.goal.index()));
+}
+
+/// `agent`: somebody of this speed.
+Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std::size_t agent) {
+  std::vector<Ticks> durations;
+  durations.reserve(roadmap.num_edges());
+  for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
+    const Edge& edge = roadmap.edge(EdgeId(e));
+    if (edge.duration) {
+      durations.push_back(*edge.duration);
+      continue;
+    }
+    const auto length = std::sqrt(static_cast<long double>(
+        squared_distance(roadmap.position(edge.from), roadmap.position(edge.to))));
+    const long double ticks =
+        std::round(length * static_cast<long double>(kUnitSpeed) / static_cast<long double>(speed));
+    if (!(ticks >= 1 && ticks <= static_cast<long double>(geometry::kMaxDuration)))
+      return Error{ErrorCode::out_of_range,
+                   "edge " + std::to_string(e) + " takes less than one tick, or more than " +
+                       std::to_string(geometry::kMaxDuration) + ", at the speed of agent " +
+                       std::to_string(agent) + "; choose another resolution",
+                   {}};
+    durations.push_back(static_cast<Ticks>(ticks));
+  }
+  return durations;
+}
+
+}  // namespace
+
+Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vector<Agent> agents,
+                                double resolution, std::span<const SourcePlace> places) {
+  QUADRILLE_REQUIRE(roadmap != nullptr, "an instance has a roadmap");
+  QUADRILLE_REQUIRE(places.empty() || places.size() == agents.size(), "one place per agent");
+  if (!(std::isfinite(resolution) && resolution > 0))
+    return Error{ErrorCode::out_of_range, "the resolution has to be positive and finite", {}};
+  for (const auto& step : {check, check_start_apart, check_goal_apart, check_reachable})
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      if (auto error = step(*roadmap, agents, i)) {
+        if (!places.empty()) error->where = places[i];
+        return *error;
+      }
+
+  Instance instance;
+  std::map<Speed, std::size_t> speeds;
+  std::map<std::pair<Length, Speed>, ClassId> classes;
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const Agent& agent = agents[i];
+    const auto [speed, is_new] = speeds.try_emplace(agent.speed, instance.durations_.size());
+    if (is_new) {
+      auto durations = durations_at(*roadmap, agent.speed, i);
+      if (!durations) {
+        Error error = durations.error();
+        if (!places.empty()) error.where = places[i];
+        return error;
+      }
+      instance.durations_.push_back(std::move(durations).value());
+    }
+    const auto key = std::make_pair(agent.radius, agent.speed);
+    const auto [known, is_new_class] = classes.try_emplace(key, instance.classes_.next_id());
+    if (is_new_class) instance.classes_.push_back({agent.radius, agent.speed, speed->second});
+    instance.class_of_.push_back(known->second);
+  }
+  instance.roadmap_ = std::move(roadmap);
+  instance.agents_ = IdVector<AgentId, Agent>(std::move(agents));
+  instance.resolution_ = resolution;
+  return instance;
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/quantise.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace quadrille::continuous {
+namespace {
+
+/// Resolutions are reciprocals of integers as a rule, and products with integers round better: 0.3
+/// * 10^6 is 300000, 0.3 / 10^-6 is less. nullopt for others.
+std::optional<double> units_per_one(double resolution) {
+  const double per_unit = 1 / resolution, nearest = std::round(per_unit);
+  if (nearest >= 1 && std::abs(per_unit - nearest) <= 1e-12 * nearest) return nearest;
+  return std::nullopt;
+}
+
+std::optional<double> in_units(double value, double resolution, double max) {
+  if (!std::isfinite(value) || !std::isfinite(resolution) || resolution <= 0) return std::nullopt;
+  const auto factor = units_per_one(resolution);
+  const double units = factor ? value * *factor : value / resolution;
+  if (!(std::abs(units) <= max)) return std::nullopt;
+  return units;
+}
+
+}  // namespace
+
+std::optional<Length> quantise_coordinate(double value, double resolution) {
+  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength));
+  if (!units) return std::nullopt;
+  return static_cast<Length>(std::round(*units));
+}
+
+std::optional<Length> quantise_radius(double value, double resolution) {
+  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength));
+  if (!units || *units < 1) return std::nullopt;
+  return static_cast<Length>(std::floor(*units));
+}
+
+std::optional<Ticks> quantise_duration(double value, double resolution) {
+  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxDuration));
+  if (!units || std::round(*units) < 1) return std::nullopt;
+  return static_cast<Ticks>(std::round(*units));
+}
+
+std::optional<Speed> quantise_speed(double value) {
+  const double speed = std::round(value * static_cast<double>(kUnitSpeed));
+  if (!(speed >= 1 && speed <= static_cast<double>(kMaxSpeed))) return std::nullopt;
+  return static_cast<Speed>(speed);
+}
+
+double in_input_units(std::int64_t units, double resolution) {
+  const auto factor = units_per_one(resolution);
+  return factor ? static_cast<double>(units) / *factor : static_cast<double>(units) * resolution;
+}
+
+double radius_in_input_units(Length radius, double resolution) {
+  double value = in_input_units(radius, resolution);
+  // Radii are rounded down: the nearest number may be just too small.
+  for (int step = 0; step < 8 && quantise_radius(value, resolution) != radius; ++step)
+    value = std::nextafter(value, std::numeric_limits<double>::infinity());
+  return value;
+}
+
+double speed_in_input_units(Speed speed) {
+  return static_cast<double>(speed) / static_cast<double>(kUnitSpeed);
+}
+
+bool is_about(double value, std::int64_t units, double resolution) {
+  const double exact = in_input_units(units, resolution);
+  return std::abs(value - exact) <= resolution / 2 + 1e-12 * std::abs(exact);
+}
+
+}  // namespace quadrille::continuous

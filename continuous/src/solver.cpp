@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/solver.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "cost_problem.hpp"
+#include "cover_search.hpp"
+#include "known_plan_auditor.hpp"
+#include "model.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "theory.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+std::optional<Error> check_options(const Instance& instance, const SolveOptions& options) {
+  if (options.seed > 2'000'000'000)
+    return Error{ErrorCode::out_of_range, "the seed is larger than 2000000000", {}};
+  if (options.known_plan && !verify(instance, *options.known_plan).valid())
+    return Error{ErrorCode::invalid_plan, "the known plan is not a plan of this instance", {}};
+  return std::nullopt;
+}
+
+void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
+               SolveOutcome& outcome) {
+  Model model(instance, limits);
+  if (!model.is_complete()) return;
+  ContinuousTheory theory(model);
+  std::optional<KnownPlanAuditor> auditor;
+  if (options.known_plan) auditor.emplace(model, *options.known_plan);
+  const bool in_search = options.system == System::dpll;
+  sat::EngineOptions engine_options;
+  engine_options.seed = options.seed;
+  engine_options.observer = auditor ? &*auditor : nullptr;
+  sat::Engine engine(in_search ? &theory : nullptr, engine_options);
+  CostProblem problem(model, engine, theory, in_search);
+
+  limits.set_ticker(0.25, [&] {
+    if (options.on_progress)
+      options.on_progress({outcome.lower_bound, limits.elapsed_wall(), limits.conflicts()});
+  });
+  const auto on_bound = [&](Cost bound) { outcome.lower_bound = bound; };
+  const auto report = options.objective == Objective::sum_of_costs
+                          ? search_by_covers(problem, limits, outcome.statistics, on_bound)
+                          : search_makespan(problem, limits, outcome.statistics, on_bound);
+  outcome.lower_bound = report.lower_bound;
+  engine.add_statistics(outcome.statistics);
+  outcome.statistics.checks = theory.num_checks();
+  if (auditor && auditor->complaint()) {
+    outcome.internal_error = Error{ErrorCode::internal, *auditor->complaint(), {}};
+  } else if (report.end == sat::SearchReport::End::exhausted) {
+    outcome.status = Status::infeasible;
+    outcome.explanation = "every combination of paths collides";
+  } else if (report.plan) {
+    outcome.plan = report.plan;
+    outcome.status =
+        report.end == sat::SearchReport::End::found ? Status::optimal : Status::feasible;
+  }
+}
+
+/// The plan has to pass `verify` and to cost what was proved.
+void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
+  const VerifyReport report = verify(instance, *outcome.plan);
+  const Cost cost =
+      options.objective == Objective::sum_of_costs ? report.sum_of_costs : report.makespan;
+  std::optional<std::string> wrong;
+  if (!report.valid())
+    wrong = "the plan is not valid: " + report.violations.front().message;
+  else if (cost < outcome.lower_bound ||
+           (outcome.status == Status::optimal && cost != outcome.lower_bound))
+    wrong = "the plan costs " + std::to_string(cost) + " and the proven bound is " +
+            std::to_string(outcome.lower_bound);
+  if (wrong) {
+    outcome.internal_error = Error{ErrorCode::internal, *wrong, {}};
+    return;
+  }
+  outcome.cost = cost;
+}
+
+}  // namespace
+
+std::string_view to_string(System system) noexcept {
+  return system == System::dpll ? "dpll" : "smt-cbs";
+}
+
+std::optional<System> parse_system(std::string_view text) noexcept {
+  for (const System system : {System::dpll, System::smt_cbs})
+    if (text == to_string(system)) return system;
+  return std::nullopt;
+}
+
+SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
+  SolveOutcome outcome;
+  LimitMonitor limits(options.limits);
+  if (auto error = check_options(instance, options))
+    outcome.internal_error = std::move(error);
+  else
+    find_plan(instance, options, limits, outcome);
+  if (outcome.plan) check_plan(instance, options, outcome);
+  if (outcome.internal_error) {
+    outcome.status = Status::unknown;
+    outcome.plan.reset();
+    outcome.cost.reset();
+    outcome.explanation = outcome.internal_error->message;
+  } else if (outcome.status == Status::unknown || outcome.status == Status::feasible) {
+    outcome.stop = limits.reason();
+    outcome.explanation = "stopped by a limit: " + std::string(to_string(outcome.stop));
+  }
+  outcome.statistics.cpu_s = limits.elapsed_cpu();
+  outcome.statistics.wall_s = limits.elapsed_wall();
+  outcome.statistics.peak_rss_mib = peak_rss_mib();
+  return outcome;
+}
+
+}  // namespace quadrille::continuous

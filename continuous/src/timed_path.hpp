@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "quadrille/continuous/instance.hpp"
+#include "quadrille/continuous/plan.hpp"
+
+namespace quadrille::continuous {
+
+inline constexpr Ticks kForever = std::numeric_limits<Ticks>::max() / 4;
+
+/// One move of a path.
+struct Move {
+  EdgeId edge;
+  Ticks start = 0;
+  friend bool operator==(const Move&, const Move&) = default;
+};
+
+/// A path as the search sees it: its moves in order; the stays follow from them.
+struct TimedPath {
+  std::vector<Move> moves;
+  Ticks arrival = 0;  ///< At the goal, for the last time.
+  friend bool operator==(const TimedPath&, const TimedPath&) = default;
+};
+
+/// The path with its stops. `c`: the agent's class.
+[[nodiscard]] Path with_stops(const Instance& instance, AgentId agent, const TimedPath& path);
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+//
+// On purpose this uses nothing of geometry/ but its names for integers: an independent opinion.
+#include "quadrille/continuous/verify.hpp"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace quadrille::continuous {
+namespace {
+
+using Integer = boost::multiprecision::cpp_int;
+using Kind = Violation::Kind;
+
+/// Later times are refused: sums of two of them are still far from overflow.
+constexpr Ticks kMaxTick = Ticks{1} << 60;
+
+/// A stretch of a path along which the agent goes straight, or stands (from == to).
+struct Piece {
+  Ticks begin, end;
+  Point from, to;
+  VertexId start, goal;
+};
+
+std::string agent_name(AgentId i) { return "agent " + std::to_string(i.index()); }
+
+std::string move_name(VertexId v, VertexId w, Ticks tick) {
+  return "moves from vertex " + std::to_string(v.index()) + " to vertex " +
+         std::to_string(w.index()) + " at tick " + std::to_string(tick);
+}
+
+class PathCheck {
+ public:
+  PathCheck(const Instance& instance, AgentId i, std::vector<Violation>& violations)
+      : instance_(instance), i_(i), violations_(violations) {}
+
+  /// Whether the path can be laid out in space and time.
+  bool check(const Path& path) {
+    if (path.empty()) return fail(Kind::empty_path, 0, "has no stops");
+    if (!check_stops(path)) return false;
+    const Agent& agent = instance_.agent(i_);
+    bool good = true;
+    if (path.front().vertex != agent.start)
+      good = fail(Kind::wrong_start, 0,
+                  "begins at vertex " + std::to_string(path.front().vertex.index()) +
+                      ", but its start is vertex " + std::to_string(agent.start.index()));
+    if (path.back().vertex != agent.goal)
+      good = fail(Kind::wrong_goal, path.back().arrive,
+                  "ends at vertex " + std::to_string(path.back().vertex.index()) + " at tick " +
+                      std::to_string(path.back().arrive) + ", but its goal is vertex " +
+                      std::to_string(agent.goal.index()));
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) good &= check_move(path[k], path[k + 1]);
+    return good;
+  }
+
+ private:
+  bool fail(Kind kind, Ticks tick, const std::string& what) {
+    violations_.push_back({kind, i_, std::nullopt, tick, agent_name(i_) + " " + what});
+    return false;
+  }
+
+  bool check_stops(const Path& path) {
+    Ticks now = 0;
+    for (const Stop& stop : path) {
+      if (stop.vertex.index() >= instance_.roadmap().num_vertices())
+        return fail(Kind::bad_vertex, stop.arrive,
+                    "names vertex " + std::to_string(stop.vertex.index()) + ", which is none");
+      if (stop.arrive < now || stop.depart < stop.arrive || stop.depart > kMaxTick)
+        return fail(Kind::bad_time, stop.arrive,
+                    "arrives at vertex " + std::to_string(stop.vertex.index()) + " at tick " +
+                        std::to_string(stop.arrive) + " and departs at tick " +
+                        std::to_string(stop.depart) +
+                        ": that goes back in time, or on for too long");
+      now = stop.depart;
+    }
+    if (path.front().arrive != 0) return fail(Kind::bad_time, 0, "is nowhere at tick 0");
+    if (path.back().depart != path.back().arrive)
+      return fail(Kind::bad_time, path.back().depart, "departs from its last stop");
+    return true;
+  }
+
+  bool check_move(const Stop& a, const Stop& b) {
+    bool is_adjacent = false;
+    Ticks takes = 0;
+    const ClassId c = instance_.class_of(i_);
+    for (const EdgeId e : instance_.roadmap().out_edges(a.vertex)) {
+      if (instance_.roadmap().edge(e).to != b.vertex) continue;
+      is_adjacent = true;
+      takes = instance_.duration(c, e);
+      if (takes == b.arrive - a.depart) return true;
+    }
+    const std::string name = move_name(a.vertex, b.vertex, a.depart);
+    if (!is_adjacent) return fail(Kind::not_adjacent, a.depart, name + ", but there is no edge");
+    return fail(Kind::duration, a.depart,
+                name + " and takes " + std::to_string(b.arrive - a.depart) +
+                    " ticks, but the edge takes " + std::to_string(takes));
+  }
+
+  const Instance& instance_;
+  const AgentId i_;
+  std::vector<Violation>& violations_;
+};
+
+/// The path as pieces without gaps; the last one ends at `horizon`, which is after every arrival.
+std::vector<Piece> pieces(const Roadmap& roadmap, const Path& path, Ticks horizon) {
+  std::vector<Piece> result;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const Point at = roadmap.position(path[k].vertex);
+    const bool is_last = k + 1 == path.size();
+    const Ticks depart = is_last ? horizon : path[k].depart;
+    if (depart > path[k].arrive)
+      result.push_back({path[k].arrive, depart, at, at, path[k].vertex, path[k].vertex});
+    if (!is_last)
+      result.push_back({path[k].depart, path[k + 1].arrive, at,
+                        roadmap.position(path[k + 1].vertex), path[k].vertex, path[k + 1].vertex});
+  }
+  return result;
+}
+
+/// The distance of two pieces from `begin` to `end`, in floating point.
+struct Nearest {
+  long double distance;
+  long double tick;
+};
+
+Nearest nearest(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
+  const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) {
+    return static_cast<long double>(p.from.*axis) +
+           static_cast<long double>(p.to.*axis - p.from.*axis) *
+               static_cast<long double>(tick - p.begin) / static_cast<long double>(p.end - p.begin);
+  };
+  const auto gap = [&](Ticks tick, Length Point::*axis) {
+    return at(a, tick, axis) - at(b, tick, axis);
+  };
+  const long double x0 = gap(begin, &Point::x), y0 = gap(begin, &Point::y);
+  const long double dx = gap(end, &Point::x) - x0, dy = gap(end, &Point::y) - y0;
+  const long double length2 = dx * dx + dy * dy;
+  long double share = length2 > 0 ? -(x0 * dx + y0 * dy) / length2 : 0;
+  share = std::clamp(share, 0.0L, 1.0L);
+  return {std::hypot(x0 + share * dx, y0 + share * dy),
+          static_cast<long double>(begin) + share * static_cast<long double>(end - begin)};
+}
+
+/// Whether the centres come nearer than `reach` from `begin` to `end`. Exact: the difference of the
+/// positions, multiplied by both durations, is an integer vector that moves along a segment.
+bool come_nearer(const Piece& a, const Piece& b, Ticks begin, Ticks end, Length reach) {
+  const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) -> Integer {
+    return Integer(p.from.*axis) * (p.end - p.begin) +
+           Integer(p.to.*axis - p.from.*axis) * (tick - p.begin);
+  };
+  const auto gap = [&](Ticks tick, Length Point::*axis) -> Integer {
+    return at(a, tick, axis) * (b.end - b.begin) - at(b, tick, axis) * (a.end - a.begin);
+  };
+  const Integer x0 = gap(begin, &Point::x), y0 = gap(begin, &Point::y);
+  const Integer x1 = gap(end, &Point::x), y1 = gap(end, &Point::y);
+  const Integer scaled = Integer(reach) * (a.end - a.begin) * (b.end - b.begin);
+  const Integer reach2 = scaled * scaled;
+  if (x0 * x0 + y0 * y0 < reach2 || x1 * x1 + y1 * y1 < reach2) return true;
+  const Integer dx = x1 - x0, dy = y1 - y0;
+  // The foot of the perpendicular from the origin is inside the segment only if both ends look away
+  // from each other; its distance is |cross| / length.
+  if (x0 * dx + y0 * dy >= 0 || x1 * dx + y1 * dy <= 0) return false;
+  const Integer cross = x0 * y1 - y0 * x1;
+  return cross * cross < reach2 * (dx * dx + dy * dy);
+}
+
+std::string describe(const Piece& piece) {
+  const std::string from = "vertex " + std::to_string(piece.start.index());
+  if (piece.start == piece.goal) return "stands at " + from;
+  return "moves from " + from + " to vertex " + std::to_string(piece.goal.index());
+}
+
+/// Two pieces that collide, and when both last.
+struct Collision {
+  Piece a, b;
+  Ticks begin, end;
+  Nearest nearest;
+};
+
+std::string describe(AgentId i, AgentId j, const Collision& c, Length reach) {
+  const auto number = [](long double value) {
+    return std::to_string(static_cast<std::int64_t>(std::llround(value)));
+  };
+  const long double overlap = static_cast<long double>(reach) - c.nearest.distance;
+  return "agents " + std::to_string(i.index()) + " and " + std::to_string(j.index()) +
+         " collide between ticks " + std::to_string(c.begin) + " and " + std::to_string(c.end) +
+         ", while agent " + std::to_string(i.index()) + " " + describe(c.a) + " and agent " +
+         std::to_string(j.index()) + " " + describe(c.b) + ": nearest at about tick " +
+         number(c.nearest.tick) + ", " +
+         (overlap < 1.5L ? "one length unit or less"
+                         : "about " + number(overlap) + " length units") +
+         " too close";
+}
+
+class PairCheck {
+ public:
+  PairCheck(Length reach, Clearance& clearance) : reach_(reach), clearance_(clearance) {
+    clearance.gap = std::numeric_limits<double>::infinity();
+  }
+
+  /// The first two pieces that collide, if any do.
+  std::optional<Collision> check(const std::vector<Piece>& a, const std::vector<Piece>& b) {
+    std::optional<Collision> collision;
+    for (std::size_t k = 0, l = 0; k < a.size() && l < b.size();) {
+      const Ticks begin = std::max(a[k].begin, b[l].begin), end = std::min(a[k].end, b[l].end);
+      if (look(a[k], b[l], begin, end) && !collision)
+        collision = Collision{a[k], b[l], begin, end, nearest(a[k], b[l], begin, end)};
+      if (a[k].end < b[l].end)
+        ++k;
+      else if (b[l].end < a[k].end)
+        ++l;
+      else
+        ++k, ++l;
+    }
+    return collision;
+  }
+
+ private:
+  bool look(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
+    const Nearest near = nearest(a, b, begin, end);
+    const auto reach = static_cast<long double>(reach_);
+    if (static_cast<double>(near.distance - reach) < clearance_.gap) {
+      clearance_.gap = static_cast<double>(near.distance - reach);
+      clearance_.tick = static_cast<double>(near.tick);
+    }
+    // Coordinates are below 2^42 and the rounding error of `nearest`, even where long double is
+    // double, below 2^-6: those that are a whole unit apart need no exact look.
+    return near.distance < reach + 1 && come_nearer(a, b, begin, end, reach_);
+  }
+
+  const Length reach_;
+  Clearance& clearance_;
+};
+
+void check_pairs(const Instance& instance, const Plan& plan, const IdVector<AgentId, bool>& sound,
+                 VerifyReport& report) {
+  Ticks horizon = 1;
+  for (const AgentId i : instance.agent_ids())
+    if (sound[i]) horizon = std::max(horizon, cost(plan.paths[i]) + 1);
+  IdVector<AgentId, std::vector<Piece>> trips(plan.paths.size());
+  for (const AgentId i : instance.agent_ids())
+    if (sound[i]) trips[i] = pieces(instance.roadmap(), plan.paths[i], horizon);
+  std::vector<Violation> collisions;
+  for (const AgentId i : instance.agent_ids()) {
+    for (const AgentId j : instance.agent_ids()) {
+      if (!(i < j && sound[i] && sound[j])) continue;
+      Clearance clearance{i, j};
+      const Length reach = instance.agent(i).radius + instance.agent(j).radius;
+      const auto found = PairCheck(reach, clearance).check(trips[i], trips[j]);
+      report.clearances.push_back(clearance);
+      if (found)
+        collisions.push_back({Kind::collision, i, j, found->begin, describe(i, j, *found, reach)});
+    }
+  }
+  std::stable_sort(collisions.begin(), collisions.end(),
+                   [](const Violation& a, const Violation& b) { return a.tick < b.tick; });
+  report.violations.insert(report.violations.end(), collisions.begin(), collisions.end());
+}
+
+}  // namespace
+
+VerifyReport verify(const Instance& instance, const Plan& plan) {
+  VerifyReport report;
+  if (plan.paths.size() != instance.num_agents()) {
+    report.violations.push_back({Kind::path_count, AgentId(0), std::nullopt, 0,
+                                 "the plan has " + std::to_string(plan.paths.size()) +
+                                     " paths for " + std::to_string(instance.num_agents()) +
+                                     " agents"});
+    return report;
+  }
+  IdVector<AgentId, bool> sound(plan.paths.size(), false);
+  for (const AgentId i : instance.agent_ids())
+    sound[i] = PathCheck(instance, i, report.violations).check(plan.paths[i]);
+  check_pairs(instance, plan, sound, report);
+  report.sum_of_costs = cost(plan, Objective::sum_of_costs);
+  report.makespan = cost(plan, Objective::makespan);
+  return report;
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+//
+// What is refused where time is continuous: command lines (64) and files (65).
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "cli/roadmap_support.hpp"
+
+namespace quadrille::cli::test {
+namespace {
+
+using testing::HasSubstr;
+
+class RoadmapInputTest : public RoadmapCliTest {
+ protected:
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) {
+    const Finished finished = run(arguments);
+    SCOPED_TRACE(testing::PrintToString(arguments) + "\n" + finished.err);
+    EXPECT_EQ(finished.code, 65);
+    EXPECT_EQ(finished.out, "");
+    EXPECT_THAT(finished.err, HasSubstr(reason));
+    // One reason, one line.
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1);
+  }
+  /// The roadmap of map.xml with another task.
+  std::vector<std::string> with_task(const std::string& rows, const std::string& agents = "2") {
+    return {"solve",
+            "--roadmap",
+            path("map.xml"),
+            "--task",
+            write("bad.xml", "<root>\n" + rows + "</root>\n"),
+            "--agents",
+            agents,
+            "--radius",
+            "0.3"};
+  }
+};
+
+TEST_F(RoadmapInputTest, OptionsThatMeanNothingForRoadmapsAreRefused) {
+  for (const std::vector<std::string>& option :
+       std::vector<std::vector<std::string>>{{"--check", "watch"},
+                                             {"--cost-search", "iterative"},
+                                             {"--mdd-growth", "full"},
+                                             {"--forbid-first"},
+                                             {"--no-first-plan"},
+                                             {"--threads", "2"},
+                                             {"--race"},
+                                             {"--gap", "5"},
+                                             {"--audit"}})
+    for (const auto& command : {discs("solve", option), xml("solve", option)}) {
+      SCOPED_TRACE(testing::PrintToString(command));
+      const Finished finished = run(command);
+      EXPECT_EQ(finished.code, 64);
+      EXPECT_EQ(finished.out, "");
+      EXPECT_THAT(finished.err,
+                  HasSubstr("quadrille: " + option.front() + " does not apply to roadmaps\n"));
+    }
+}
+
+TEST_F(RoadmapInputTest, WrongCommandLinesExitWith64AndNameTheCulprit) {
+  const struct {
+    std::vector<std::string> arguments;
+    const char* culprit;
+  } cases[] = {
+      {{"solve", "--roadmap", "m"}, "--task is missing"},
+      {{"info", "--roadmap", "m", "--agents", "3"}, "--task is missing"},
+      {{"solve", "--task", "t"}, "belong to --roadmap"},
+      {small("solve", {"--radius", "1"}), "belong to --roadmap"},
+      {small("verify", {"--speed", "1", "p"}), "belong to --roadmap"},
+      {small("info", {"--neighbourhood", "2"}), "belong to --roadmap"},
+      {small("convert", {"--resolution", "1", "--to", "json"}), "belong to --roadmap"},
+      {discs("solve", {"--radius", "1"}), "belong to --roadmap"},
+      {discs("solve", {"--agents", "1"}), "--agents belongs to --task, not to --instance"},
+      {discs("solve", {"--map", "m"}), "--instance excludes --map and --scen"},
+      {discs("solve", {"--passable", "S"}), "--passable and --blocked belong to .map files"},
+      {xml("solve", {"--blocked", "S"}), "--passable and --blocked belong to .map files"},
+      {xml("solve", {"--scen", "s"}), "--roadmap goes with --task"},
+      {xml("solve", {"--instance", "i"}), "--roadmap goes with --task"},
+      {xml("solve", {"--system", "mdd-sat"}), "a roadmap needs --system dpll or smt-cbs"},
+      {xml("solve", {"--plan-format", "json"}), "--plan-format needs --plan"},
+      {xml("solve", {"--plan", "p", "--plan-format", "yaml"}), "yaml is not for roadmaps"},
+      {small("solve", {"--plan", "p", "--plan-format", "ccbs"}), "ccbs is for roadmaps"},
+      {small("verify", {"p", "--plan-format", "ccbs"}), "ccbs is for roadmaps"},
+      {small("convert", {"p", "--to", "ccbs"}), "ccbs is for roadmaps"},
+      {discs("convert", {"p", "--to", "cbsh2"}), "cbsh2 is not for roadmaps"},
+      {discs("convert", {"--to", "ccbs"}), "converted to json; ccbs needs PLAN"},
+      {discs("convert", {"--to", "json", "--from", "json"}), "--from needs PLAN"},
+      {discs("solve", {"--plan", path("discs.json")}), "discs.json is an input"},
+      {xml("solve", {"--json", path("task.xml")}), "task.xml is an input"},
+      {xml("solve", {"--resolution", "1"}), "--radius: 0.3 is less than one length unit"},
+      {xml("solve", {"--speed", "1e-9"}), "--speed: 1e-09 is not between"},
+      {xml("solve", {"--speed", "nan"}), "--speed"},
+      {xml("solve", {"--speed", "-1"}), "--speed"},
+      {xml("solve", {"--resolution", "0"}), "--resolution"},
+      {xml("solve", {"--resolution", "inf"}), "--resolution"},
+      {xml("solve", {"--neighbourhood", "6"}), "--neighbourhood"},
+      {xml("solve", {"--neighbourhood", "1"}), "--neighbourhood"},
+      {{"generate", "--kind", "roadmap"}, "--agents is missing"},
+      {{"generate", "--kind", "roadmap", "--agents", "3", "--map-output", "m"}, "--map-output"},
+      {{"generate", "--kind", "roadmap", "--agents", "3", "--doors", "0"}, "--doors"},
+      {{"generate", "--kind", "empty", "--vertices", "3"}, "--vertices"},
+      {{"generate", "--kind", "roadmap", "--agents", "101"}, "101 agents"},
+      {{"generate", "--kind", "roadmap", "--agents", "1", "--radius", "9"}, "do not fit"},
+      {{"generate", "--kind", "roadmap", "--agents", "1", "--vertices", "99999999"}, "--vertices"},
+      {{"generate", "--map", "m", "--radius", "1"}, "--radius belongs to --kind"},
+  };
+  for (const auto& c : cases) {
+    const Finished finished = run(c.arguments);
+    SCOPED_TRACE(testing::PrintToString(c.arguments));
+    EXPECT_EQ(finished.code, 64);
+    EXPECT_EQ(finished.out, "");
+    EXPECT_THAT(finished.err, HasSubstr(c.culprit));
+    EXPECT_THAT(finished.err, HasSubstr("--help'"));
+  }
+}
+
+TEST_F(RoadmapInputTest, FilesThatCannotBeRead) {
+  expect_refused({"solve", "--roadmap", path("none.xml"), "--task", path("task.xml")},
+                 "none.xml: ");
+  expect_refused({"solve", "--roadmap", path("none.map"), "--task", path("task.xml")},
+                 "none.map: ");
+  expect_refused({"solve", "--roadmap", path("map.xml"), "--task", path("none.xml")}, "none.xml: ");
+  expect_refused({"solve", "--roadmap", path("map.xml"), "--task", path("none.scen")},
+                 "none.scen: ");
+  expect_refused({"solve", "--roadmap", folder_, "--task", path("task.xml")}, "is a directory");
+  expect_refused(discs("verify", {path("none")}), "none: ");
+  expect_refused(discs("convert", {"--to", "json", path("none")}), "none: ");
+}
+
+TEST_F(RoadmapInputTest, RoadmapsAndTasksNameFileLineAndReason) {
+  // The details are in tests/continuous; here is one of each kind.
+  const auto with_map = [&](const std::string& text) {
+    return std::vector<std::string>{"solve", "--roadmap", write("bad.xml", text), "--task",
+                                    path("task.xml")};
+  };
+  expect_refused(with_map(""), "bad.xml:1: not well-formed XML");
+  expect_refused(with_map("<graphml>\n<key"), "bad.xml:2: not well-formed XML");
+  expect_refused(with_map("<svg/>"), "bad.xml:1: neither <graphml> nor <root> but 'svg'");
+  expect_refused(with_map("<root><map><width>100000000000</width><height>1</height></map></root>"),
+                 "bad.xml:1: <width> has to be 1 .. 65536");
+  expect_refused(with_task("<agent start_id=\"0\" goal_id=\"9\"/>\n", "1"),
+                 "bad.xml:2: the goal of agent 0 is no vertex of the map");
+  expect_refused(with_task("<agent start_id=\"0\"/>\n", "1"), "bad.xml:2: an <agent> has start_id");
+  expect_refused(with_task("<agent start_id=\"0\" goal_id=\"1\"/>\n"),
+                 "bad.xml: 2 agents are asked for, but there are 1");
+  expect_refused(with_task("<agent start_id=\"0\" goal_id=\"1\"/>\n"
+                           "<agent start_id=\"0\" goal_id=\"3\"/>\n"),
+                 "bad.xml:3: the starts of agents 0 and 1 overlap");
+  expect_refused(with_task("<agent start_id=\"0\" goal_id=\"1\"/>\n"
+                           "<agent start_id=\"2\" goal_id=\"1\"/>\n"),
+                 "bad.xml:3: the goals of agents 0 and 1 overlap");
+  expect_refused(with_task("<agent start_id=\"0\" goal_id=\"1\"/>\n"
+                           "<agent start_id=\"2\" goal_id=\"0\"/>\n"),
+                 "bad.xml:3: agent 1 cannot reach its goal: there is no way from vertex 2 to "
+                 "vertex 0");
+  expect_refused(xml("solve", {"--neighbourhood", "3"}),
+                 "map.xml: --neighbourhood is for grids, and this is a roadmap");
+  expect_refused(xml("solve", {"--resolution", "1e-12"}), "map.xml:5: node n1 is too far away");
+}
+
+TEST_F(RoadmapInputTest, MapsAndScenariosOfMovingAiToo) {
+  expect_refused({"solve", "--roadmap", path("small.map"), "--task", path("corridor.scen")},
+                 "corridor.scen:2: the row is for a map of 3 x 1 cells, not 4 x 3");
+  expect_refused({"solve", "--roadmap", path("small.map"), "--task",
+                  write("wall.scen", "version 1\n0\tm\t4\t3\t0\t0\t1\t1\t1\n")},
+                 "wall.scen:2: the goal of agent 0 is no vertex of the map");
+  expect_refused(
+      {"solve", "--roadmap", path("small.map"), "--task",
+       write("near.scen", "version 1\n0\tm\t4\t3\t0\t0\t1\t0\t1\n0\tm\t4\t3\t0\t1\t2\t0\t1\n"),
+       "--radius", "0.6"},
+      "near.scen:2: the goal of agent 0 is no vertex of the map");
+}
+
+TEST_F(RoadmapInputTest, InstancesNameFileLineAndReason) {
+  const std::string good = read("discs.json");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    EXPECT_NE(text.find(from), std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    return std::vector<std::string>{"solve", "--instance", write("bad.json", text)};
+  };
+  expect_refused(with("\"goal\": 0", "\"goal\": 2"),
+                 "bad.json:11: the goals of agents 0 and 1 overlap");
+  expect_refused(with("\"radius\": 0.3", "\"radius\": -0.3"),
+                 "bad.json:10: /agents/0/radius: the radius is less than one length unit");
+  expect_refused(with("[3, 1, 1.5]", "[3, 4]"),
+                 "bad.json:7: /roadmap/edges/5/1: there is no vertex 4 among 4");
+  expect_refused(with("\"agents\"", "\"robots\""), "bad.json:9: /robots: this key is not known");
+  expect_refused(with("\n  ]\n}", ""), "bad.json:12: not valid JSON");
+  // A name without extension, and a pipe.
+  expect_refused({"info", "--instance", write("noname", "{\"roadmap\": 1}")},
+                 "noname:1: the key 'quadrille' is missing");
+  EXPECT_EQ(run({"solve", "--instance", write("discs", good), "--quiet"}).code, 0);
+}
+
+TEST_F(RoadmapInputTest, PlansOfOtherInstancesAreRefused) {
+  ASSERT_EQ(run(xml("solve", {"--quiet", "--plan", path("p.json")})).code, 0);
+  expect_refused(discs("verify", {path("p.json")}),
+                 "p.json:4: /resolution: the resolution of the instance is 0.001");
+  expect_refused(discs("verify", {write("p", "{\"resolution\": 0.001, \"status\": \"unknown\"}")}),
+                 "p:1: there is no plan");
+  expect_refused(discs("verify", {write("p", "Agent 0: (0,0)->\n")}), "p:1: not valid JSON");
+}
+
+TEST_F(RoadmapInputTest, NothingIsWrittenForBadInput) {
+  write("old.json", "old");
+  EXPECT_EQ(run(with_task("<agent/>\n") +
+                std::vector<std::string>{"--json", path("old.json"), "--plan", path("new")})
+                .code,
+            65);
+  EXPECT_EQ(read("old.json"), "old");
+  EXPECT_FALSE(exists("new"));
+}
+
+}  // namespace
+}  // namespace quadrille::cli::test

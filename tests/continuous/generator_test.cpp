@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/generator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace quadrille::continuous {
+namespace {
+
+double distance(const Point& p, const Point& a, const Point& b) {
+  const auto x = static_cast<double>(b.x - a.x), y = static_cast<double>(b.y - a.y);
+  const auto px = static_cast<double>(p.x - a.x), py = static_cast<double>(p.y - a.y);
+  const double share = std::clamp((px * x + py * y) / (x * x + y * y), 0.0, 1.0);
+  return std::hypot(px - share * x, py - share * y);
+}
+
+/// Twice the signed area of a triangle.
+double turn(const Point& a, const Point& b, const Point& c) {
+  return static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
+         static_cast<double>(b.y - a.y) * static_cast<double>(c.x - a.x);
+}
+
+TEST(RandomRoadmap, KeepsItsPromises) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomInstanceOptions options;
+    options.num_vertices = 5 + 9 * static_cast<std::size_t>(seed);
+    options.num_agents = 5;
+    options.width = 15'000'000;
+    options.height = 12'000'000;
+    options.mixed = seed % 2 == 1;
+    const Instance instance = random_instance(options, seed).value();
+    const Roadmap& roadmap = instance.roadmap();
+    ASSERT_EQ(roadmap.num_vertices(), options.num_vertices);
+    ASSERT_EQ(instance.num_agents(), options.num_agents);
+    std::set<std::pair<std::size_t, std::size_t>> edges;
+    for (const Edge& e : roadmap.edges()) edges.emplace(e.from.index(), e.to.index());
+    EXPECT_EQ(edges.size(), roadmap.num_edges());
+    const auto reach = static_cast<double>(2 * options.radius);
+    for (const auto& [u, v] : edges) {
+      EXPECT_TRUE(edges.contains({v, u}));
+      const Point &a = roadmap.positions()[u], &b = roadmap.positions()[v];
+      for (std::size_t w = 0; w < roadmap.num_vertices(); ++w) {
+        if (w == u || w == v) continue;
+        EXPECT_GE(distance(roadmap.positions()[w], a, b), reach) << u << " " << v << " " << w;
+      }
+      for (const auto& [s, t] : edges) {
+        const Point &c = roadmap.positions()[s], &d = roadmap.positions()[t];
+        const bool crosses = turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
+        EXPECT_FALSE(crosses && s != u && s != v && t != u && t != v);
+      }
+    }
+    for (const Agent& agent : instance.agents()) {
+      EXPECT_LE(agent.radius, options.radius);
+      EXPECT_GE(2 * agent.radius, options.mixed ? options.radius : 2 * options.radius);
+      EXPECT_LE(agent.speed, kUnitSpeed);
+      EXPECT_GE(2 * agent.speed, kUnitSpeed);
+    }
+  }
+}
+
+TEST(RandomRoadmap, TheSeedDecides) {
+  const auto make = [](std::uint64_t seed) { return random_instance({}, seed).value(); };
+  EXPECT_EQ(make(3).roadmap().positions(), make(3).roadmap().positions());
+  EXPECT_EQ(make(3).agents(), make(3).agents());
+  EXPECT_NE(make(3).roadmap().positions(), make(4).roadmap().positions());
+}
+
+TEST(RandomRoadmap, RefusesWhatCannotBe) {
+  const auto refused = [](auto change) {
+    RandomInstanceOptions options;
+    change(options);
+    const auto made = random_instance(options, 1);
+    return !made.has_value() && made.error().code == ErrorCode::out_of_range;
+  };
+  EXPECT_TRUE(refused([](auto& o) { o.num_vertices = 0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.num_vertices = kMaxRandomVertices + 1; }));
+  EXPECT_TRUE(refused([](auto& o) { o.num_agents = 101; }));
+  EXPECT_TRUE(refused([](auto& o) { o.width = 0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.height = geometry::kMaxLength + 1; }));
+  EXPECT_TRUE(refused([](auto& o) { o.radius = 0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.radius = geometry::kMaxLength; }));
+  EXPECT_TRUE(refused([](auto& o) { o.radius = 4'000'000; }));  // they do not fit
+  EXPECT_TRUE(refused([](auto& o) { o.speed = 0; }));
+  EXPECT_TRUE(refused([](auto& o) { o.resolution = 0; }));
+}
+
+}  // namespace
+}  // namespace quadrille::continuous

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+//
+// Random instances against the oracle. QUADRILLE_RANDOM_SEED shifts the seeds,
+// QUADRILLE_RANDOM_COUNT sets how many are drawn per test.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "order_search.hpp"
+#include "quadrille/continuous/solver.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "random_instance.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+std::uint32_t number_from_environment(const char* name, std::uint32_t by_default) {
+  const char* const text = std::getenv(name);
+  return text == nullptr ? by_default : static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10));
+}
+
+struct Tally {
+  int optimal = 0, infeasible = 0, unknown = 0;
+};
+
+bool has_long_path(const Plan& plan, std::size_t max_moves) {
+  return std::any_of(plan.paths.begin(), plan.paths.end(),
+                     [&](const Path& path) { return path.size() > max_moves + 1; });
+}
+
+/// Whatever the solver says has to agree with the oracle.
+void check(const Instance& instance, const OrderSearch& oracle, std::size_t max_moves,
+           const SolveOptions& options, Tally& tally) {
+  const SolveOutcome outcome = solve(instance, options);
+  ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
+  if (oracle.best) {
+    ASSERT_LE(outcome.lower_bound, *oracle.best);
+  }
+  switch (outcome.status) {
+    case Status::optimal:
+      ++tally.optimal;
+      ASSERT_TRUE(verify(instance, *outcome.plan).valid());
+      ASSERT_EQ(cost(*outcome.plan, options.objective), outcome.lower_bound);
+      if (!has_long_path(*outcome.plan, max_moves)) {
+        ASSERT_TRUE(oracle.best) << "the oracle found no plan";
+        ASSERT_EQ(outcome.lower_bound, *oracle.best);
+      }
+      break;
+    case Status::infeasible:
+      ++tally.infeasible;
+      ASSERT_FALSE(oracle.best);
+      break;
+    case Status::unknown:
+      ++tally.unknown;
+      break;
+    case Status::feasible:
+      ++tally.unknown;
+      ASSERT_TRUE(verify(instance, *outcome.plan).valid());
+      ASSERT_GT(cost(*outcome.plan, options.objective), outcome.lower_bound);
+      break;
+  }
+}
+
+class SolverRandom : public testing::TestWithParam<std::tuple<Objective, System>> {};
+
+TEST_P(SolverRandom, AgreesWithTheOracle) {
+  const auto [objective, system] = GetParam();
+  const std::uint32_t first = number_from_environment("QUADRILLE_RANDOM_SEED", 0);
+  const std::uint32_t count = number_from_environment("QUADRILLE_RANDOM_COUNT", 250);
+  Tally tally;
+  for (std::uint32_t seed = first; seed < first + count; ++seed) {
+    RandomOptions random;
+    random.num_agents = 2 + seed % 2;
+    random.num_vertices = 4 + seed / 2 % 4;
+    random.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
+    const Instance instance = random_instance(seed, random);
+    const std::size_t max_moves = random.num_agents == 2 ? 4 : 3;
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
+    const OrderSearch oracle = search_orders(instance, objective, max_moves);
+    if (oracle.best) {
+      ASSERT_TRUE(verify(instance, oracle.best_plan).valid());
+    }
+    SolveOptions options;
+    options.objective = objective;
+    options.system = system;
+    options.limits.conflicts = 3000;
+    options.limits.cpu_s = 0.3;  // for infeasible ones without conflicts
+    if (!oracle.some_plans.empty())
+      options.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
+    check(instance, oracle, max_moves, options, tally);
+    if (HasFatalFailure()) return;
+  }
+  RecordProperty("optimal", tally.optimal);
+  RecordProperty("infeasible", tally.infeasible);
+  RecordProperty("unknown", tally.unknown);
+  EXPECT_GT(tally.optimal, static_cast<int>(count) / 2);
+}
+
+std::string name(const testing::TestParamInfo<SolverRandom::ParamType>& param) {
+  const auto [objective, system] = param.param;
+  return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
+         (system == System::dpll ? "Dpll" : "SmtCbs");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SolverRandom,
+                         testing::Combine(testing::Values(Objective::sum_of_costs,
+                                                          Objective::makespan),
+                                          testing::Values(System::dpll, System::smt_cbs)),
+                         name);
+
+}  // namespace
+}  // namespace quadrille::continuous::test

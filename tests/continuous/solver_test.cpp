@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+//
+// Instances whose answers are known.
+#include "quadrille/continuous/solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include "quadrille/continuous/verify.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+std::shared_ptr<const Roadmap> two_way(std::vector<Point> points,
+                                       const std::vector<std::pair<int, int>>& roads) {
+  std::vector<Edge> edges;
+  for (const auto& [u, v] : roads) {
+    const VertexId a(static_cast<std::size_t>(u)), b(static_cast<std::size_t>(v));
+    edges.push_back({a, b, std::nullopt});
+    edges.push_back({b, a, std::nullopt});
+  }
+  return std::make_shared<const Roadmap>(
+      Roadmap::make(std::move(points), std::move(edges)).value());
+}
+
+Agent agent(std::size_t start, std::size_t goal, Length radius, Speed speed = kUnitSpeed) {
+  return {VertexId(start), VertexId(goal), radius, speed};
+}
+
+class ContinuousSolver : public testing::TestWithParam<System> {
+ protected:
+  Cost least(const Instance& instance, Objective objective = Objective::sum_of_costs) {
+    SolveOptions options;
+    options.system = GetParam();
+    options.objective = objective;
+    options.limits.cpu_s = 20;
+    const SolveOutcome outcome = solve(instance, options);
+    EXPECT_EQ(outcome.status, Status::optimal) << outcome.explanation;
+    if (!outcome.plan) return -1;
+    EXPECT_TRUE(verify(instance, *outcome.plan).valid());
+    return *outcome.cost;
+  }
+};
+
+TEST_P(ContinuousSolver, NoAgents) {
+  EXPECT_EQ(least(Instance::make(two_way({{0, 0}}, {}), {}).value()), 0);
+}
+
+TEST_P(ContinuousSolver, AlreadyThere) {
+  EXPECT_EQ(least(Instance::make(two_way({{0, 0}, {9, 0}}, {{0, 1}}), {agent(0, 0, 3)}).value()),
+            0);
+}
+
+TEST_P(ContinuousSolver, CrossingWaitsForTheFirstTickAtWhichBodiesTouchAtMost) {
+  const auto roadmap = two_way({{-100, 0}, {100, 0}, {0, -100}, {0, 100}}, {{0, 1}, {2, 3}});
+  const auto instance = Instance::make(roadmap, {agent(0, 1, 49), agent(2, 3, 50)}).value();
+  EXPECT_EQ(least(instance), 400 + 141);  // 99 * sqrt(2) = 140.007
+  EXPECT_EQ(least(instance, Objective::makespan), 200 + 141);
+}
+
+TEST_P(ContinuousSolver, FollowingAtTouchingDistanceCostsNothing) {
+  const auto roadmap = two_way({{0, 0}, {1000, 0}, {2000, 0}, {3000, 0}}, {{0, 1}, {1, 2}, {2, 3}});
+  EXPECT_EQ(least(Instance::make(roadmap, {agent(0, 2, 500), agent(1, 3, 500)}).value()), 4000);
+}
+
+TEST_P(ContinuousSolver, AFasterFollowerWaits) {
+  // The second agent is twice as fast and 1000 behind.
+  const auto roadmap = two_way({{0, 0}, {1000, 0}, {3000, 0}, {4000, 0}}, {{0, 1}, {1, 2}, {2, 3}});
+  const auto instance =
+      Instance::make(roadmap, {agent(1, 3, 150), agent(0, 2, 150, 2 * kUnitSpeed)}).value();
+  // If the follower enters the middle edge at s, it is at its end, 3000, at s + 1000, when the
+  // leader is at 2000 + s: s >= 1300 keeps them 300 apart.
+  EXPECT_EQ(least(instance), 3000 + 1300 + 1000);
+}
+
+TEST_P(ContinuousSolver, OneOfTwoGivesWayInAnAlcove) {
+  const auto roadmap =
+      two_way({{0, 0}, {1000, 0}, {2000, 0}, {1000, 800}}, {{0, 1}, {1, 2}, {1, 3}});
+  const auto instance = Instance::make(roadmap, {agent(0, 2, 300), agent(2, 0, 300)}).value();
+  const Cost cost = least(instance);
+  EXPECT_GT(cost, 4000 + 1600);
+  EXPECT_LT(cost, 4000 + 1600 + 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Systems, ContinuousSolver, testing::Values(System::dpll, System::smt_cbs),
+                         [](const auto& param) {
+                           return std::string(param.param == System::dpll ? "Dpll" : "SmtCbs");
+                         });
+
+TEST(ContinuousSolverLimits, LowerBoundIsKnownWhenALimitEndsTheSearch) {
+  // Two agents that would have to pass each other on a line.
+  const auto roadmap = two_way({{0, 0}, {1000, 0}}, {{0, 1}});
+  const auto instance = Instance::make(roadmap, {agent(0, 1, 100), agent(1, 0, 100)}).value();
+  SolveOptions options;
+  options.limits.cpu_s = 0.05;
+  const SolveOutcome outcome = solve(instance, options);
+  EXPECT_TRUE(outcome.status == Status::unknown || outcome.status == Status::infeasible);
+  EXPECT_GE(outcome.lower_bound, 2000);
+  EXPECT_FALSE(outcome.internal_error);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace quadrille::continuous {
+namespace {
+
+using Kind = Violation::Kind;
+
+/// Two agents of the given radii on two crossing roads: 0 -> 1 along x and 2 -> 3 along y.
+Instance crossing(Length radius_a, Length radius_b) {
+  auto roadmap = Roadmap::make(
+      {{-100, 0}, {100, 0}, {0, -100}, {0, 100}},
+      {{VertexId(0), VertexId(1), std::nullopt}, {VertexId(2), VertexId(3), std::nullopt}});
+  return Instance::make(std::make_shared<const Roadmap>(std::move(roadmap).value()),
+                        {{VertexId(0), VertexId(1), radius_a, kUnitSpeed},
+                         {VertexId(2), VertexId(3), radius_b, kUnitSpeed}})
+      .value();
+}
+
+Plan crossing_plan(Ticks first, Ticks second) {
+  const auto path = [](std::size_t from, std::size_t to, Ticks depart) {
+    return Path{{VertexId(from), 0, depart}, {VertexId(to), depart + 200, depart + 200}};
+  };
+  Plan plan;
+  plan.paths.push_back(path(0, 1, first));
+  plan.paths.push_back(path(2, 3, second));
+  return plan;
+}
+
+std::vector<Kind> kinds(const VerifyReport& report) {
+  std::vector<Kind> all;
+  for (const Violation& v : report.violations) all.push_back(v.kind);
+  return all;
+}
+
+TEST(ContinuousVerify, ReportsCostsAndClearance) {
+  const auto report = verify(crossing(10, 10), crossing_plan(0, 100));
+  EXPECT_TRUE(report.valid());
+  EXPECT_EQ(report.sum_of_costs, 500);
+  EXPECT_EQ(report.makespan, 300);
+  ASSERT_EQ(report.clearances.size(), 1u);
+  // One is 100 ahead when the other crosses; nearest at 100 / sqrt(2).
+  EXPECT_NEAR(report.clearances[0].gap, 100 / std::sqrt(2) - 20, 1e-9);
+  EXPECT_NEAR(report.clearances[0].tick, 150, 1e-9);
+}
+
+TEST(ContinuousVerify, TouchingIsAllowedAndOneUnitLessIsNot) {
+  // A follower 100 ticks behind on the same road keeps 100 units away.
+  auto roadmap = Roadmap::make({{0, 0}, {1000, 0}, {2000, 0}, {3000, 0}},
+                               {{VertexId(0), VertexId(1), std::nullopt},
+                                {VertexId(1), VertexId(2), std::nullopt},
+                                {VertexId(2), VertexId(3), std::nullopt}});
+  const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
+  for (const Length radius : {500, 501}) {
+    const auto instance = Instance::make(shared, {{VertexId(0), VertexId(2), 500, kUnitSpeed},
+                                                  {VertexId(1), VertexId(3), radius, kUnitSpeed}});
+    if (radius == 501) {  // the starts overlap already
+      EXPECT_FALSE(instance);
+      continue;
+    }
+    Plan plan;
+    plan.paths.push_back(
+        {{VertexId(0), 0, 0}, {VertexId(1), 1000, 1000}, {VertexId(2), 2000, 2000}});
+    plan.paths.push_back(
+        {{VertexId(1), 0, 0}, {VertexId(2), 1000, 1000}, {VertexId(3), 2000, 2000}});
+    const auto report = verify(*instance, plan);
+    EXPECT_TRUE(report.valid());
+    EXPECT_EQ(report.clearances[0].gap, 0);
+    plan.paths[AgentId(1)] = {
+        {VertexId(1), 0, 1}, {VertexId(2), 1001, 1001}, {VertexId(3), 2001, 2001}};
+    EXPECT_EQ(kinds(verify(*instance, plan)), std::vector<Kind>{Kind::collision});
+  }
+}
+
+TEST(ContinuousVerify, PassingInTouchIsAllowedInTheMiddleOfAMoveToo) {
+  // The second agent stands 600 beside the middle of a long oblique road: along (3, 4), off (4,
+  // -3).
+  auto roadmap = Roadmap::make({{0, 0}, {6000, 8000}, {3000 + 480, 4000 - 360}},
+                               {{VertexId(0), VertexId(1), std::nullopt}});
+  const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
+  for (const Length radius : {300, 301}) {
+    const auto instance = Instance::make(shared, {{VertexId(0), VertexId(1), radius, kUnitSpeed},
+                                                  {VertexId(2), VertexId(2), 300, kUnitSpeed}})
+                              .value();
+    Plan plan;
+    plan.paths.push_back({{VertexId(0), 0, 0}, {VertexId(1), 10000, 10000}});
+    plan.paths.push_back({{VertexId(2), 0, 0}});
+    const auto report = verify(instance, plan);
+    EXPECT_EQ(report.valid(), radius == 300);
+    EXPECT_NEAR(report.clearances[0].gap, 300 - static_cast<double>(radius), 1e-9);
+    EXPECT_NEAR(report.clearances[0].tick, 5000, 1e-6);
+    if (report.valid()) continue;
+    EXPECT_EQ(report.violations[0].message,
+              "agents 0 and 1 collide between ticks 0 and 10000, while agent 0 moves from vertex 0 "
+              "to vertex 1 and agent 1 stands at vertex 2: nearest at about tick 5000, one "
+              "length unit or less too close");
+  }
+}
+
+TEST(ContinuousVerify, CrossingIsDecidedExactly) {
+  // At right angles with equal speeds the distance is offset / sqrt(2): reach 99 needs 141 ticks
+  // (99 * sqrt(2) = 140.007...).
+  const Instance instance = crossing(49, 50);
+  EXPECT_TRUE(verify(instance, crossing_plan(0, 141)).valid());
+  const auto report = verify(instance, crossing_plan(0, 140));
+  ASSERT_EQ(kinds(report), std::vector<Kind>{Kind::collision});
+  EXPECT_EQ(report.violations[0].agent, AgentId(0));
+  EXPECT_EQ(report.violations[0].other, AgentId(1));
+  EXPECT_EQ(report.violations[0].tick, 140);
+}
+
+TEST(ContinuousVerify, GoalStaysLastForEver) {
+  auto roadmap = Roadmap::make({{0, 0}, {100, 0}, {200, 0}, {100, 100}},
+                               {{VertexId(0), VertexId(1), std::nullopt},
+                                {VertexId(1), VertexId(2), std::nullopt},
+                                {VertexId(3), VertexId(1), std::nullopt}});
+  const auto instance = Instance::make(std::make_shared<const Roadmap>(std::move(roadmap).value()),
+                                       {{VertexId(0), VertexId(2), 10, kUnitSpeed},
+                                        {VertexId(3), VertexId(1), 10, kUnitSpeed}})
+                            .value();
+  Plan plan;
+  plan.paths.push_back(
+      {{VertexId(0), 0, 5000}, {VertexId(1), 5100, 5100}, {VertexId(2), 5200, 5200}});
+  plan.paths.push_back({{VertexId(3), 0, 0}, {VertexId(1), 100, 100}});
+  EXPECT_EQ(kinds(verify(instance, plan)), std::vector<Kind>{Kind::collision});
+  plan.paths[AgentId(1)] = {{VertexId(3), 0, 6000}, {VertexId(1), 6100, 6100}};
+  EXPECT_TRUE(verify(instance, plan).valid());
+}
+
+TEST(ContinuousVerify, NamesEachBrokenRule) {
+  const Instance instance = crossing(10, 10);
+  const auto with_first_path = [&](Path path) {
+    Plan plan = crossing_plan(0, 500);
+    plan.paths[AgentId(0)] = std::move(path);
+    return kinds(verify(instance, plan));
+  };
+  const auto v = [](std::size_t id) { return VertexId(id); };
+  using Kinds = std::vector<Kind>;
+  EXPECT_EQ(with_first_path({}), Kinds{Kind::empty_path});
+  EXPECT_EQ(with_first_path({{v(0), 0, 0}, {v(9), 200, 200}}), Kinds{Kind::bad_vertex});
+  EXPECT_EQ(with_first_path({{v(0), 1, 1}, {v(1), 201, 201}}), Kinds{Kind::bad_time});
+  EXPECT_EQ(with_first_path({{v(0), 0, -1}, {v(1), 199, 199}}), Kinds{Kind::bad_time});
+  EXPECT_EQ(with_first_path({{v(0), 0, 0}, {v(1), 200, 201}}), Kinds{Kind::bad_time});
+  EXPECT_EQ(with_first_path({{v(0), 0, 0}, {v(1), 199, 199}}), Kinds{Kind::duration});
+  EXPECT_EQ(with_first_path({{v(0), 0, 0}, {v(3), 200, 200}}),
+            (Kinds{Kind::wrong_goal, Kind::not_adjacent}));
+  EXPECT_EQ(with_first_path({{v(1), 0, 0}}), Kinds{Kind::wrong_start});
+  EXPECT_EQ(with_first_path({{v(0), 0, 0}}), Kinds{Kind::wrong_goal});
+  Plan short_plan;
+  EXPECT_EQ(kinds(verify(instance, short_plan)), Kinds{Kind::path_count});
+}
+
+}  // namespace
+}  // namespace quadrille::continuous
