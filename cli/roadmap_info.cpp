@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "output.hpp"
-#include "quadrille/continuous/feasibility.hpp"
 #include "quadrille/continuous/quantise.hpp"
 
 namespace quadrille::cli {
@@ -120,12 +119,7 @@ ExitCode print_roadmap_info(const RoadmapOptions& options, const InputOptions& i
   Console console(false, false);
   console.print(describe_input(*input));
   console.print(describe_roadmap(input->instance.roadmap()));
-  if (!input->task_source.empty()) {
-    console.print(describe_agents(input->instance));
-    const auto stuck = find_stuck_pair(input->instance);
-    console.print(stuck ? fmt::format("feasible   no: {}\n", describe(*stuck))
-                        : "feasible   not known; no two agents are found to be stuck\n");
-  }
+  if (!input->task_source.empty()) console.print(describe_agents(input->instance));
   if (console.failure() == 0) return ExitCode::success;
   report_write_failure("-", console.failure());
   return ExitCode::output;

@@ -8,7 +8,6 @@
 #include "cover_search.hpp"
 #include "known_plan_auditor.hpp"
 #include "model.hpp"
-#include "quadrille/continuous/feasibility.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "theory.hpp"
 
@@ -94,14 +93,10 @@ std::optional<System> parse_system(std::string_view text) noexcept {
 SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
   SolveOutcome outcome;
   LimitMonitor limits(options.limits);
-  if (auto error = check_options(instance, options)) {
+  if (auto error = check_options(instance, options))
     outcome.internal_error = std::move(error);
-  } else if (const auto stuck = find_stuck_pair(instance)) {
-    outcome.status = Status::infeasible;
-    outcome.explanation = describe(*stuck);
-  } else {
+  else
     find_plan(instance, options, limits, outcome);
-  }
   if (outcome.plan) check_plan(instance, options, outcome);
   if (outcome.internal_error) {
     outcome.status = Status::unknown;

@@ -178,21 +178,6 @@ TEST_F(RoadmapTest, InfoDescribesRoadmapAndAgents) {
   EXPECT_THAT(alone.out, Not(HasSubstr("distances")));
 }
 
-TEST_F(RoadmapTest, TwoAgentsThatCannotPassAreInfeasibleAtOnce) {
-  const std::string narrow = read("discs.json");
-  const auto at = narrow.find("0.8]");
-  write("narrow.json", std::string(narrow).replace(at, 4, "0.54]"));
-  const Finished finished =
-      run({"solve", "--instance", path("narrow.json"), "--time-limit", "0", "--json", "-"});
-  EXPECT_EQ(finished.code, 20) << finished.err;
-  const json result = json::parse(finished.out);
-  EXPECT_EQ(result["status"], "infeasible");
-  EXPECT_TRUE(result["lower_bound"].is_null());
-  EXPECT_THAT(result["explanation"], HasSubstr("agents 0 and 1 cannot both get to their goals"));
-  EXPECT_THAT(run({"info", "--instance", path("narrow.json")}).out, HasSubstr("feasible   no: "));
-  EXPECT_THAT(run(discs("info")).out, HasSubstr("feasible   not known"));
-}
-
 TEST_F(RoadmapTest, GeneratedRoadmapsAreTheSameForASeedAndAreSolved) {
   const std::vector<std::string> generate = {
       "generate", "--kind", "roadmap",  "--vertices", "20",      "--agents", "6",
