@@ -51,6 +51,7 @@ ContinuousTheory::ContinuousTheory(Model& model)
       bans_(model.instance().roadmap()),
       explainer_(finder_),
       clauses_(model, finder_, bans_),
+      pair_lemmas_(model),
       agents_(model.instance().num_agents()),
       apart_(agents_.size() * agents_.size()) {
   for (const AgentId i : model.instance().agent_ids()) {
@@ -247,6 +248,11 @@ void ContinuousTheory::explain_bound(AgentId i, Cost bound, FormulaWriter& write
     if (std::find(clause.begin(), clause.end(), allowed) == clause.end()) clause.push_back(allowed);
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
+  if (getenv("QDBG")) {
+    fprintf(stderr, "L %zu b %lld slots %zu of %zu cap %lld free %lld:", i.index(), (long long)bound, slots.size(), agent.active.size(), (long long)agent.cap, (long long)model_.free_cost(i));
+    for (auto x : slots) fprintf(stderr, " %zu(%zu)", agent.active[x].index(), model_.obstacles()[agent.active[x]].bans.size());
+    fprintf(stderr, "\n");
+  }
 }
 
 // The costs of some agents alone are too much: so they are in every plan that costs them as much.
@@ -347,6 +353,9 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
       return;
     }
     for (const Encounter& e : found) {
+      if (pair_lemmas_.note_collision({e.first, agents_[e.first].cap},
+                                      {e.second, agents_[e.second].cap}, writer))
+        continue;
       const auto final_from = [&](AgentId i) {
         return std::max(agents_[i].path.arrival, agents_[i].floor);
       };

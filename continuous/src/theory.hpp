@@ -8,6 +8,7 @@
 #include "encounters.hpp"
 #include "explanation.hpp"
 #include "model.hpp"
+#include "pair_lemmas.hpp"
 #include "quadrille/sat/theory.hpp"
 
 namespace quadrille::continuous {
@@ -98,6 +99,7 @@ class ContinuousTheory final : public sat::Theory {
   BanTable bans_;
   Explainer explainer_;
   EncounterClauses clauses_;
+  PairLemmas pair_lemmas_;
   Mode mode_ = Mode::always;
   Cost budget_ = kForever;
   sat::Lit above_budget_;

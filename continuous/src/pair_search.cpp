@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: MIT
+#include "pair_search.hpp"
+
+#include <algorithm>
+#include <queue>
+#include <utility>
+
+namespace quadrille::continuous {
+namespace {
+
+/// Starts of one move that are not the earliest are split into so many intervals for the largest
+/// slack.
+constexpr Ticks kPieces = 4;
+constexpr std::size_t kMaxEdges = 50'000;
+
+std::uint64_t key(std::uint32_t x, std::uint32_t y) {
+  return static_cast<std::uint64_t>(x) << 32 | y;
+}
+
+}  // namespace
+
+void PairSearch::KeySet::clear() {
+  slots_.assign(1024, 0);
+  size_ = 0;
+}
+
+bool PairSearch::KeySet::insert(std::uint64_t key) {
+  if (2 * (size_ + 1) > slots_.size()) grow();
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 20) & mask;
+  for (; slots_[at] != 0; at = (at + 1) & mask)
+    if (slots_[at] == key + 1) return false;
+  slots_[at] = key + 1;
+  ++size_;
+  return true;
+}
+
+void PairSearch::KeySet::grow() {
+  std::vector<std::uint64_t> old(4 * slots_.size(), 0);
+  old.swap(slots_);
+  size_ = 0;
+  for (const std::uint64_t slot : old)
+    if (slot != 0) insert(slot - 1);
+}
+
+// ---- what an agent can do within its cap ---------------------------------------------------------
+
+bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& other,
+                               Cost other_raise, Side& side) {
+  const Instance& instance = model_.instance();
+  const Roadmap& roadmap = instance.roadmap();
+  side.agent = party.agent;
+  side.c = instance.class_of(party.agent);
+  const Ticks slack = party.cap + raise - model_.free_cost(party.agent);
+  side.width = std::max<Ticks>((slack + kPieces - 1) / kPieces, 1);
+  for (const VertexId v : side.reached) side.from_start[v.index()] = kForever;
+  side.reached.clear();
+  side.edges.clear();
+  if (side.from_start.empty()) {
+    side.from_start.assign(roadmap.num_vertices(), kForever);
+    for (auto* table : {&side.first_edge, &side.end_edge, &side.first_element, &side.end_element})
+      table->resize(roadmap.num_vertices());
+    side.stay_matters.resize(roadmap.num_vertices());
+    side.may_matter_later.resize(roadmap.num_vertices());
+  }
+  const auto& distances = model_.task(party.agent).distances;
+  const ClassId other_class = instance.class_of(other.agent);
+  const VertexId other_goal = instance.agent(other.agent).goal;
+  const Length reach_of_bodies = instance.radius(side.c) + instance.radius(other_class);
+  using Entry = std::pair<Ticks, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto reach = [&](VertexId v, Ticks ticks) {
+    Ticks& known = side.from_start[v.index()];
+    if (ticks >= known) return;
+    if (known == kForever) {
+      side.reached.push_back(v);
+      side.first_edge[v.index()] = side.end_edge[v.index()] = 0;
+      side.stay_matters[v.index()] = side.may_matter_later[v.index()] = 0;
+    }
+    known = ticks;
+    queue.emplace(ticks, v);
+  };
+  reach(instance.agent(party.agent).start, 0);
+  while (!queue.empty()) {
+    const auto [ticks, v] = queue.top();
+    queue.pop();
+    if (ticks > side.from_start[v.index()]) continue;
+    side.first_edge[v.index()] = static_cast<std::uint32_t>(side.edges.size());
+    for (const EdgeId e : roadmap.out_edges(v)) {
+      const Ticks rest = distances[roadmap.edge(e).to], duration = instance.duration(side.c, e);
+      if (rest >= kForever) continue;
+      const Ticks by_cap = party.cap - rest - duration;
+      TimedEdge edge{e, ticks, by_cap + raise, by_cap, false};
+      // From its cap on at the latest the other one stands at its goal.
+      if (const auto w = window(side.c, e, other_class, other_goal, reach_of_bodies)) {
+        const Ticks by_goal = other.cap - w->last;
+        edge.last = std::min(edge.last, by_goal + other_raise);
+        edge.last_without_raise = std::min(edge.last_without_raise, by_goal);
+      }
+      if (edge.last < ticks) continue;
+      side.edges.push_back(edge);
+      reach(roadmap.edge(e).to, ticks + duration);
+    }
+    side.end_edge[v.index()] = static_cast<std::uint32_t>(side.edges.size());
+    if (side.edges.size() > kMaxEdges) return false;
+  }
+  return true;
+}
+
+Ticks PairSearch::leave_by(const Side& side, VertexId v) const {
+  if (v == model_.instance().agent(side.agent).goal) return kForever;
+  Ticks last = -1;
+  for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k)
+    last = std::max(last, side.edges[k].last);
+  return last;
+}
+
+// ---- which of it matters --------------------------------------------------------------------------
+
+/// Marks the edges of x and y that could collide, and the edges of x and stays of y.
+void PairSearch::find_contacts(Side& x, Side& y) {
+  const Instance& instance = model_.instance();
+  const Roadmap& roadmap = instance.roadmap();
+  for (TimedEdge& e : x.edges) {
+    const Ticks duration = instance.duration(x.c, e.edge);
+    const auto& near = model_.contacts().near_edge(x.c, e.edge, y.c);
+    for (const EdgeId f : near.edges) {
+      const VertexId tail = roadmap.edge(f).from;
+      if (y.from_start[tail.index()] > e.last + duration) continue;
+      for (auto k = y.first_edge[tail.index()]; k < y.end_edge[tail.index()]; ++k) {
+        TimedEdge& other = y.edges[k];
+        if (other.edge != f || (e.matters && other.matters)) continue;
+        const Ticks least = other.first - e.last, most = other.last - e.first;
+        if (least > duration || most < -instance.duration(y.c, f)) continue;
+        const auto offsets = model_.contacts().offsets(x.c, e.edge, y.c, f);
+        if (offsets && offsets->lo <= most && least <= offsets->hi) e.matters = other.matters = true;
+      }
+    }
+    for (const VertexId v : near.vertices) {
+      const Ticks arrive = y.from_start[v.index()];
+      if (arrive > e.last + duration) continue;
+      const auto w = model_.contacts().window(x.c, e.edge, y.c, v);
+      if (w && arrive < e.last + w->last && leave_by(y, v) > e.first + w->first) {
+        e.matters = true;
+        y.stay_matters[v.index()] = 1;
+      }
+    }
+  }
+}
+
+void PairSearch::make_elements(Side& side) {
+  const Instance& instance = model_.instance();
+  const Roadmap& roadmap = instance.roadmap();
+  const VertexId start = instance.agent(side.agent).start;
+  side.elements.clear();
+  side.elements.push_back(
+      {false, true, side.stay_matters[start.index()] != 0, EdgeId(), start, 0, 0, 0, 0});
+  side.elements.push_back({false, true, false, EdgeId(), instance.agent(side.agent).goal, 0,
+                           kForever, 0, kForever});
+  for (const VertexId v : side.reached) {
+    side.first_element[v.index()] = static_cast<std::uint32_t>(side.elements.size());
+    for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k) {
+      TimedEdge& e = side.edges[k];
+      const VertexId to = roadmap.edge(e.edge).to;
+      const bool stay_matters = side.stay_matters[to.index()] != 0;
+      e.matters = e.matters || stay_matters || side.stay_matters[v.index()] != 0;
+      const Ticks duration = instance.duration(side.c, e.edge);
+      // The earliest start is by itself.
+      for (Ticks begin = e.first, end = e.first; begin <= e.last;
+           begin = end + 1, end = std::min(begin + side.width - 1, e.last))
+        side.elements.push_back({true, e.matters, stay_matters, e.edge, to, begin, end, duration,
+                                 e.last_without_raise});
+      if (e.matters && side.may_matter_later[v.index()] == 0) {
+        side.may_matter_later[v.index()] = 1;
+        stack_.push_back(v.value());
+      }
+    }
+    side.end_element[v.index()] = static_cast<std::uint32_t>(side.elements.size());
+  }
+  while (!stack_.empty()) {
+    const VertexId v(stack_.back());
+    stack_.pop_back();
+    for (const EdgeId e : roadmap.in_edges(v)) {
+      const VertexId u = roadmap.edge(e).from;
+      if (side.from_start[u.index()] >= kForever || side.may_matter_later[u.index()] != 0) continue;
+      side.may_matter_later[u.index()] = 1;
+      stack_.push_back(u.value());
+    }
+  }
+  side.stamp.assign(side.elements.size(), 0);
+  side.last_stamp = 0;
+  side.next.assign(side.elements.size(), {});
+}
+
+Cost PairSearch::raise_for_end(const Element& element, Ticks tick) {
+  if (tick > element.end) return kForever;
+  return std::max<Cost>(0, tick - element.end_without_raise);
+}
+
+Cost PairSearch::Next::raise_for_begin(Ticks tick) const {
+  if (tick > begin_by) return done_raise;
+  return std::min(done_raise, std::max<Cost>(0, tick - begin_by_without_raise));
+}
+
+const PairSearch::Next& PairSearch::next_of(Side& side, std::uint32_t element) {
+  Next& next = side.next[element];
+  if (next.is_known) return next;
+  next.is_known = true;
+  const std::uint32_t stamp = ++side.last_stamp;
+  const VertexId goal = model_.instance().agent(side.agent).goal;
+  const auto is_dearer = [](const Follower& a, const Follower& b) { return a.raise > b.raise; };
+  const auto push = [&](std::uint32_t k, Cost raise) {
+    followers_.push_back({k, raise});
+    std::push_heap(followers_.begin(), followers_.end(), is_dearer);
+  };
+  const auto go_on = [&](const Element& from, Cost raise) {
+    const bool is_end = side.may_matter_later[from.to.index()] == 0;
+    if (from.to == goal || is_end) push(kDone, raise);
+    if (is_end) return;
+    const auto v = from.to.index();
+    for (auto k = side.first_element[v]; k < side.end_element[v]; ++k) {
+      const Element& to = side.elements[k];
+      if (side.stamp[k] != stamp && to.end >= from.arrive_from())
+        push(k, std::max(raise, raise_for_end(to, std::max(to.begin, from.arrive_from()))));
+    }
+  };
+  go_on(side.elements[element], 0);
+  while (!followers_.empty()) {
+    std::pop_heap(followers_.begin(), followers_.end(), is_dearer);
+    const Follower follower = followers_.back();
+    followers_.pop_back();
+    if (side.stamp[follower.element] == stamp) continue;
+    side.stamp[follower.element] = stamp;
+    const Element& to = side.elements[follower.element];
+    if (to.matters) {
+      next.followers.push_back(follower);
+      if (follower.element == kDone) {
+        next.done_raise = follower.raise;
+        continue;
+      }
+      next.begin_by = std::max(next.begin_by, to.end);
+      next.begin_by_without_raise = std::max(next.begin_by_without_raise, to.end_without_raise);
+    } else {
+      go_on(to, follower.raise);
+    }
+  }
+  return next;
+}
+
+// ---- pairs ---------------------------------------------------------------------------------------
+
+bool PairSearch::are_far(EdgeId e, VertexId from, VertexId to, Length reach) const {
+  const Roadmap& roadmap = model_.instance().roadmap();
+  const Edge& edge = roadmap.edge(e);
+  const Point &p0 = roadmap.position(edge.from), &p1 = roadmap.position(edge.to);
+  const Point &q0 = roadmap.position(from), &q1 = roadmap.position(to);
+  const auto apart = [&](Length Point::*axis) {
+    return std::min(p0.*axis, p1.*axis) - std::max(q0.*axis, q1.*axis) >= reach ||
+           std::min(q0.*axis, q1.*axis) - std::max(p0.*axis, p1.*axis) >= reach;
+  };
+  return apart(&Point::x) || apart(&Point::y);
+}
+
+Contacts::Window PairSearch::window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach) {
+  if (are_far(e, v, v, reach)) return std::nullopt;
+  return model_.contacts().window(a, e, b, v);
+}
+
+// s is the start of `next`, t that of b's move; t <= s, because b's move is begun first. A stay
+// that matters is followed by a move that matters: so until s, b's agent stays at the end of its
+// move, if that matters, and x's agent before `next`. Each test below says what it takes that not
+// all of what the elements stand for collides.
+Cost PairSearch::needed_raise(const Side& x, const Element& a, const Element& next, const Side& y,
+                              const Element& b, const Next& after_b) {
+  const Instance& instance = model_.instance();
+  const Length reach = instance.radius(x.c) + instance.radius(y.c);
+  const Ticks first_s = std::max({next.begin, a.arrive_from(), b.begin}), first_t = b.begin;
+  Cost needed = std::max(raise_for_end(next, first_s), after_b.raise_for_begin(first_s));
+  if (b.is_move) {
+    const Edge& edge = instance.roadmap().edge(b.edge);
+    if (!are_far(next.edge, edge.from, edge.to, reach)) {
+      const auto offsets = model_.contacts().offsets(x.c, next.edge, y.c, b.edge);
+      if (offsets && offsets->lo <= 0) {
+        // t - s < lo or t - s > hi
+        const Ticks late = first_t - offsets->lo + 1;
+        const Cost by_s = std::max(raise_for_end(next, late), after_b.raise_for_begin(late));
+        const Cost by_t =
+            offsets->hi >= 0 ? kForever : raise_for_end(b, first_s + offsets->hi + 1);
+        needed = std::max(needed, std::min(by_s, by_t));
+      }
+    }
+    // x's stay before `next` and b's move: x comes late, or leaves early.
+    if (a.stay_matters)
+      if (const auto w = window(y.c, b.edge, x.c, a.to, reach))
+        needed = std::max(needed, std::min(raise_for_end(a, first_t + w->last - a.duration),
+                                           raise_for_end(b, first_s - w->first)));
+  }
+  if (!b.stay_matters) return needed;
+  // `next` sets out where b stands in its way: b comes late.
+  if (const auto w = window(x.c, next.edge, y.c, b.to, reach); w && w->first < 0)
+    needed = std::max(needed, raise_for_end(b, first_s + w->last - b.duration));
+  // a's move passed where b stands: b comes late.
+  if (a.is_move)
+    if (const auto w = window(x.c, a.edge, y.c, b.to, reach);
+        w && w->first < a.duration)
+      needed = std::max(needed, raise_for_end(b, a.begin + w->last - b.duration));
+  return needed;
+}
+
+bool PairSearch::is_dearer(const Pending& a, const Pending& b) {
+  return a.raise != b.raise ? a.raise > b.raise : a.pair > b.pair;
+}
+
+void PairSearch::advance(Side& x, std::uint32_t at_x, Side& y, std::uint32_t at_y, bool is_first) {
+  if (at_x == kDone) return;
+  const Element &a = x.elements[at_x], &b = y.elements[at_y];
+  const auto visit = [&](std::uint32_t k, Cost raise) {
+    if (raise > max_raise_) return;
+    const std::uint64_t pair = is_first ? key(k, at_y) : key(at_y, k);
+    if (raise <= raise_) {
+      if (visited_.insert(pair)) open_.push_back(pair);
+    } else {
+      pending_.push_back({raise, pair});
+      std::push_heap(pending_.begin(), pending_.end(), is_dearer);
+    }
+  };
+  const Next& next = next_of(x, at_x);
+  if (next.done_raise < kForever) visit(kDone, next.done_raise);
+  const Next* const after_b = at_y == kDone ? nullptr : &next_of(y, at_y);
+  for (const Follower& follower : next.followers) {
+    const std::uint32_t k = follower.element;
+    visit(k, after_b == nullptr
+                 ? follower.raise
+                 : std::max(follower.raise, needed_raise(x, a, x.elements[k], y, b, *after_b)));
+  }
+}
+
+bool PairSearch::next_raise() {
+  while (!pending_.empty()) {
+    std::pop_heap(pending_.begin(), pending_.end(), is_dearer);
+    const Pending next = pending_.back();
+    pending_.pop_back();
+    if (!visited_.insert(next.pair)) continue;
+    raise_ = next.raise;
+    open_.push_back(next.pair);
+    return true;
+  }
+  return false;
+}
+
+Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
+                               std::size_t max_pairs) {
+  Side &first = sides_[0], &second = sides_[1];
+  if (!collect_edges(i, max_raise, j, 0, first) || !collect_edges(j, 0, i, max_raise, second))
+    return 0;
+  find_contacts(first, second);
+  find_contacts(second, first);
+  make_elements(first);
+  make_elements(second);
+  visited_.clear();
+  pending_.clear();
+  raise_ = 0;
+  max_raise_ = max_raise;
+  open_.assign(1, key(kStart, kStart));
+  static_cast<void>(visited_.insert(open_.front()));
+  while (!open_.empty() || next_raise()) {
+    const std::uint64_t pair = open_.back();
+    open_.pop_back();
+    ++effort_;
+    const auto x = static_cast<std::uint32_t>(pair >> 32), y = static_cast<std::uint32_t>(pair);
+    if ((x == kDone && y == kDone) || visited_.size() > max_pairs) return raise_;
+    advance(first, x, second, y, true);
+    advance(second, y, first, x, false);
+  }
+  return max_raise + 1;
+}
+
+}  // namespace quadrille::continuous

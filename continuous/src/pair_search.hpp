@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model.hpp"
+
+namespace quadrille::continuous {
+
+/// Finds out how much more one of two agents has to cost while the other keeps a cap, whatever the
+/// others do.
+///
+/// Paths within a cap are made of *elements*: moves along an edge that begin in some interval of
+/// ticks. An element *matters* if its move, or the stay after it, or the stay before it, could
+/// collide with something that the other agent could do within its cap. The search visits pairs of
+/// elements that matter, those that the two agents began last, in the order of time. A step to the
+/// next one of either agent is refused only if all moves and stays that the elements stand for
+/// collide. So each pair of paths that do not collide is among what the search follows, and if it
+/// does not reach the two ends there is no such pair.
+///
+/// A higher cap lengthens the intervals, which may allow a step. The search takes the steps in the
+/// order of the caps that they need, and so finds the highest cap for which it fails.
+class PairSearch {
+ public:
+  explicit PairSearch(Model& model) : model_(model) {}
+
+  struct Party {
+    AgentId agent;
+    Cost cap = 0;  ///< It arrives at this tick or earlier. At least its free cost.
+  };
+  /// Some r in [0, max_raise + 1]: no plan has both cost(i) < i.cap + r and cost(j) <= j.cap.
+  /// Visits at most about `max_pairs` pairs of elements.
+  [[nodiscard]] Cost refuted_raise(const Party& i, const Party& j, Cost max_raise,
+                                   std::size_t max_pairs);
+
+  /// Pairs of elements visited so far by all searches.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+
+ private:
+  /// A move that begins at a tick in [begin, end]. The first element is the stay at the start, the
+  /// second one says that nothing more matters.
+  struct Element {
+    bool is_move = false;
+    bool matters = false;
+    bool stay_matters = false;  // the one after it; then all that can follow matters
+    EdgeId edge;
+    VertexId to;
+    Ticks begin = 0, end = 0;
+    Ticks duration = 0;
+    Ticks end_without_raise = 0;  // grows with the raise until it is `end`, or is larger
+    [[nodiscard]] Ticks arrive_from() const { return begin + duration; }
+  };
+  static constexpr std::uint32_t kStart = 0, kDone = 1;
+  struct TimedEdge {
+    EdgeId edge;
+    Ticks first = 0, last = 0;  // starts, at the largest raise
+    Ticks last_without_raise = 0;  // grows with the raise until it is `last`
+    bool matters = false;
+  };
+  /// An element and the raise that it needs.
+  struct Follower {
+    std::uint32_t element;
+    Cost raise;
+  };
+  /// The elements that may come next and matter.
+  struct Next {
+    bool is_known = false;
+    std::vector<Follower> followers;
+    // The last start of one of them is `begin_by` or, if that is less, `begin_by_without_raise` and
+    // the raise; without limit if that is at least `done_raise`.
+    Ticks begin_by = -1, begin_by_without_raise = -1;
+    Cost done_raise = kForever;
+    /// What a start at `tick` or later needs.
+    [[nodiscard]] Cost raise_for_begin(Ticks tick) const;
+  };
+  /// The elements of one agent.
+  struct Side {
+    ClassId c;
+    AgentId agent;
+    Ticks width = 1;               // of the intervals
+    std::vector<TimedEdge> edges;  // in the order of their tails
+    std::vector<Element> elements;
+    std::vector<Next> next;  // by element
+    // By vertex:
+    std::vector<Ticks> from_start;                // kForever: not reached within the cap
+    std::vector<std::uint32_t> first_edge, end_edge;  // that leave it
+    std::vector<std::uint32_t> first_element, end_element;
+    std::vector<char> stay_matters, may_matter_later;
+    std::vector<VertexId> reached;
+    std::vector<std::uint32_t> stamp;  // by element
+    std::uint32_t last_stamp = 0;
+  };
+  /// Open addressing; there is no need to take keys out.
+  class KeySet {
+   public:
+    void clear();
+    /// Whether it is new.
+    bool insert(std::uint64_t key);
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+   private:
+    void grow();
+    std::vector<std::uint64_t> slots_;  // key + 1; 0: none
+    std::size_t size_ = 0;
+  };
+
+  /// `raise`: of the cap of `party`; `other_raise`: of the other's. One of them is 0. False: there
+  /// is too much of it.
+  bool collect_edges(const Party& party, Cost raise, const Party& other, Cost other_raise,
+                     Side& side);
+  [[nodiscard]] Ticks leave_by(const Side& side, VertexId v) const;
+  void find_contacts(Side& x, Side& y);
+  void make_elements(Side& side);
+  [[nodiscard]] const Next& next_of(Side& side, std::uint32_t element);
+  /// Visits the pairs that follow when the agent of `x` begins its next move.
+  void advance(Side& x, std::uint32_t at_x, Side& y, std::uint32_t at_y, bool is_first);
+  /// The raise that x needs at least to go from a to `next` while y has not gone beyond `b`.
+  [[nodiscard]] Cost needed_raise(const Side& x, const Element& a, const Element& next,
+                                  const Side& y, const Element& b, const Next& after_b);
+  /// What `element` needs to end at `tick` or later.
+  [[nodiscard]] static Cost raise_for_end(const Element& element, Ticks tick);
+  [[nodiscard]] bool are_far(EdgeId e, VertexId from, VertexId to, Length reach) const;
+  [[nodiscard]] Contacts::Window window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach);
+
+  Model& model_;
+  Side sides_[2];
+  KeySet visited_;
+  struct Pending {
+    Cost raise;
+    std::uint64_t pair;
+  };
+  static bool is_dearer(const Pending& a, const Pending& b);
+  /// Goes on with the least raise that is pending. False: there is none.
+  bool next_raise();
+
+  Cost max_raise_ = 0;
+  Cost raise_ = 0;                   // up to which steps have been taken
+  std::vector<std::uint64_t> open_;  // to be visited
+  std::vector<Pending> pending_;     // a heap, the least raise first: to be visited later
+  std::vector<Follower> followers_;  // likewise
+  std::vector<std::uint32_t> stack_;
+  std::int64_t effort_ = 0;
+};
+
+}  // namespace quadrille::continuous
