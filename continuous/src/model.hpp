@@ -29,6 +29,7 @@ struct Obstacle {
   AgentId agent;
   sat::Lit allowed;
   std::vector<Ban> bans;
+  std::vector<AgentId> partners;  ///< Agents whose moves and stays these bans keep clear of.
 };
 
 /// The literals and what they mean.
@@ -78,9 +79,10 @@ class Model {
   /// The literal "the sum of all costs is more than `total`".
   [[nodiscard]] sat::Lit total_above(Cost total, FormulaWriter& writer);
 
-  /// The obstacle with these bans, made at the first call. `is_new` tells.
-  [[nodiscard]] ObstacleId usage(AgentId agent, std::vector<Ban> bans, FormulaWriter& writer,
-                                 bool& is_new);
+  /// The obstacle with these bans, made at the first call. `is_new` tells. `partner` joins its
+  /// partners.
+  [[nodiscard]] ObstacleId usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
+                                 FormulaWriter& writer, bool& is_new);
   /// Keeps `agent` away from the goal of `resident` from `tick` on while that costs less.
   [[nodiscard]] ObstacleId keep_off_goal(AgentId agent, AgentId resident, Ticks tick,
                                          FormulaWriter& writer, bool& is_new);

@@ -7,32 +7,110 @@ namespace quadrille::continuous {
 namespace {
 
 constexpr std::size_t kMaxPairs = 3'000'000;
+/// Of searches with obstacles, of which many are made.
+constexpr std::size_t kMaxPairsInReduction = 100'000;
+
+constexpr int kFirstCollision = 3, kFirstExplanation = 6;
 
 }  // namespace
 
-bool PairLemmas::note_collision(Party i, Party j, FormulaWriter& writer) {
-  Record& record = records_[{i.agent, j.agent}];
-  if (++record.collisions < record.next_try || i.cap >= kForever || j.cap >= kForever) return false;
-  if (std::any_of(record.open.begin(), record.open.end(), [&](const auto& caps) {
-        return i.cap >= caps.first && j.cap >= caps.second;
-      }))
-    return false;
-  record.next_try = 2 * record.collisions;
-  const Cost raise = search_.refuted_raise(i, j, max_raise(i.agent), kMaxPairs);
-  if (getenv("QDBG")) fprintf(stderr, "P %zu +%lld %zu +%lld: %lld effort %lld\n", i.agent.index(), (long long)(i.cap - model_.free_cost(i.agent)), j.agent.index(), (long long)(j.cap - model_.free_cost(j.agent)), (long long)raise, (long long)search_.effort());
-  if (raise == 0) {
-    record.open.emplace_back(i.cap, j.cap);
-    return false;
+bool PairLemmas::note_collision(const Party& i, const Party& j, FormulaWriter& writer) {
+  return note(collisions_[{i.agent, j.agent}], kFirstCollision, i, j, writer);
+}
+
+bool PairLemmas::note_explanation(const Party& i, const Party& j, FormulaWriter& writer) {
+  return note(explanations_[{i.agent, j.agent}], kFirstExplanation, i, j, writer);
+}
+
+bool PairLemmas::note(Record& record, int first_try, const Party& i, const Party& j,
+                      FormulaWriter& writer) {
+  if (++record.count < std::max(record.next_try, first_try)) return false;
+  if (i.cap >= kForever || j.cap >= kForever) return false;
+  record.next_try = 2 * record.count;
+  for (const std::size_t side : {0U, 1U}) {
+    search_.bans(side).clear();
+    loaded_[side].clear();
   }
-  record.next_try = record.collisions + 1;
-  i.cap += raise - 1;
-  const Cost raise_j = search_.refuted_raise(j, i, max_raise(j.agent), kMaxPairs);
-  j.cap += std::max<Cost>(raise_j, 1) - 1;
-  if (getenv("QDBG")) fprintf(stderr, "PP %zu +%lld %zu +%lld: effort %lld\n", i.agent.index(), (long long)(i.cap - model_.free_cost(i.agent)), j.agent.index(), (long long)(j.cap - model_.free_cost(j.agent)), (long long)search_.effort());
-  const sat::Lit clause[] = {model_.at_least(i.agent, i.cap + 1, writer),
-                             model_.at_least(j.agent, j.cap + 1, writer)};
-  writer.add({sat::LemmaKind::collision, clause, {}, false});
+  const bool is_open = std::any_of(record.open.begin(), record.open.end(), [&](const auto& caps) {
+    return i.cap >= caps.first && j.cap >= caps.second;
+  });
+  if (is_open || !is_refuted(i, j)) {
+    if (!is_open) record.open.emplace_back(i.cap, j.cap);
+    load(i, j.agent, 0);
+    load(j, i.agent, 1);
+    bool r = is_refuted(i, j);
+    if (getenv("QDBG")) fprintf(stderr, "P? %zu %zu n %d act %zu %zu caps +%lld +%lld: %d\n", i.agent.index(), j.agent.index(),  record.count, i.active.size(), j.active.size(), (long long)(i.cap - model_.free_cost(i.agent)), (long long)(j.cap - model_.free_cost(j.agent)), r);
+    if (!r) return false;
+    reduce(i, j);
+  }
+  record.next_try = record.count + 1;
+  add_clause(i, j, writer);
   return true;
+}
+
+bool PairLemmas::is_refuted(const Party& i, const Party& j) {
+  return search_.refuted_raise({i.agent, i.cap}, {j.agent, j.cap}, 0, kMaxPairsInReduction) > 0;
+}
+
+void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
+  for (const ObstacleId id : party.active) {
+    const Obstacle& obstacle = model_.obstacles()[id];
+    const auto& partners = obstacle.partners;
+    if (std::find(partners.begin(), partners.end(), other) != partners.end()) continue;
+    loaded_[side].push_back(id);
+    search_.bans(side).add(obstacle.bans);
+  }
+}
+
+void PairLemmas::reduce(const Party& i, const Party& j) {
+  struct Slot {
+    std::size_t side, slot;
+  };
+  std::vector<Slot> slots;
+  for (const std::size_t side : {0U, 1U})
+    for (std::size_t slot = 0; slot < loaded_[side].size(); ++slot) slots.push_back({side, slot});
+  const auto enable = [&](std::size_t from, std::size_t to, bool on) {
+    for (std::size_t k = from; k < to; ++k) search_.bans(slots[k].side).enable(slots[k].slot, on);
+  };
+  for (std::size_t chunk = std::max<std::size_t>(slots.size() / 2, 1); !slots.empty(); chunk /= 2) {
+    for (std::size_t at = 0; at < slots.size();) {
+      const std::size_t end = std::min(at + chunk, slots.size());
+      enable(at, end, false);
+      if (is_refuted(i, j)) {
+        slots.erase(slots.begin() + static_cast<std::ptrdiff_t>(at),
+                    slots.begin() + static_cast<std::ptrdiff_t>(end));
+      } else {
+        enable(at, end, true);
+        at = end;
+      }
+    }
+    if (chunk == 1) break;
+  }
+}
+
+void PairLemmas::add_clause(const Party& i, const Party& j, FormulaWriter& writer) {
+  PairSearch::Party first{i.agent, i.cap}, second{j.agent, j.cap};
+  first.cap +=
+      std::max<Cost>(search_.refuted_raise(first, second, max_raise(i.agent), kMaxPairs), 1) - 1;
+  search_.swap_bans();
+  second.cap +=
+      std::max<Cost>(search_.refuted_raise(second, first, max_raise(j.agent), kMaxPairs), 1) - 1;
+  search_.swap_bans();
+  std::vector<sat::Lit> clause{model_.at_least(i.agent, first.cap + 1, writer),
+                               model_.at_least(j.agent, second.cap + 1, writer)};
+  std::vector<sat::Usage> usages;
+  for (const std::size_t side : {0U, 1U})
+    for (std::size_t slot = 0; slot < loaded_[side].size(); ++slot) {
+      if (!search_.bans(side).is_enabled(slot)) continue;
+      const Obstacle& obstacle = model_.obstacles()[loaded_[side][slot]];
+      usages.push_back({obstacle.agent, loaded_[side][slot].value()});
+      if (std::find(clause.begin(), clause.end(), obstacle.allowed) == clause.end())
+        clause.push_back(obstacle.allowed);
+    }
+  if (getenv("QDBG")) {fprintf(stderr, "PP %zu +%lld %zu +%lld: effort %lld:", i.agent.index(), (long long)(first.cap - model_.free_cost(i.agent)), j.agent.index(), (long long)(second.cap - model_.free_cost(j.agent)), (long long)search_.effort());
+  for (auto u : usages) fprintf(stderr, " %zu", u.resource);
+  fprintf(stderr, "\n"); }
+  writer.add({sat::LemmaKind::collision, clause, usages, false});
 }
 
 /// About one move, as a way round it often costs as much.

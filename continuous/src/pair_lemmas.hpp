@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,22 +16,37 @@ class PairLemmas {
  public:
   explicit PairLemmas(Model& model) : model_(model), search_(model) {}
 
-  using Party = PairSearch::Party;
-  /// To be told of each collision of two agents with i.agent < j.agent, and of the caps of the
-  /// moment. True: a clause was added that says that one of the caps is not kept.
-  bool note_collision(Party i, Party j, FormulaWriter& writer);
+  struct Party {
+    AgentId agent;
+    Cost cap = 0;                          ///< kForever: none.
+    std::span<const ObstacleId> active = {};  ///< Obstacles whose literals are false.
+  };
+  /// To be told of each collision of two agents with i.agent < j.agent. True: a clause was added
+  /// that says that one of the caps is not kept, or that some active obstacle is allowed.
+  bool note_collision(const Party& i, const Party& j, FormulaWriter& writer);
+  /// To be told when obstacles, of which several are due to j, keep i from meeting its cap.
+  /// `i.active`: only these. True as above.
+  bool note_explanation(const Party& i, const Party& j, FormulaWriter& writer);
 
  private:
   struct Record {
-    int collisions = 0;
-    int next_try = 3;
-    std::vector<std::pair<Cost, Cost>> open;  // caps that no clause can be made for
+    int count = 0;
+    int next_try = 0;
+    std::vector<std::pair<Cost, Cost>> open;  // caps that other agents have to join in to refute
   };
+  bool note(Record& record, int first_try, const Party& i, const Party& j, FormulaWriter& writer);
+  [[nodiscard]] bool is_refuted(const Party& i, const Party& j);
+  /// Makes obstacles that the two do not owe to each other slots of the search.
+  void load(const Party& party, AgentId other, std::size_t side);
+  /// Switches slots off as long as the caps are refuted.
+  void reduce(const Party& i, const Party& j);
+  void add_clause(const Party& i, const Party& j, FormulaWriter& writer);
   [[nodiscard]] Cost max_raise(AgentId i) const;
 
   Model& model_;
   PairSearch search_;
-  std::map<std::pair<AgentId, AgentId>, Record> records_;
+  std::map<std::pair<AgentId, AgentId>, Record> collisions_, explanations_;
+  std::vector<ObstacleId> loaded_[2];  // by side, slot
 };
 
 }  // namespace quadrille::continuous

@@ -148,6 +148,47 @@ void PairSearch::find_contacts(Side& x, Side& y) {
   }
 }
 
+void PairSearch::list_allowed(const Side& side, const TimedEdge& e) {
+  BanTable& bans = *side.bans;
+  const Edge& edge = model_.instance().roadmap().edge(e.edge);
+  forbidden_.clear();
+  if (const auto place = bans.starts_of(e.edge); place != BanTable::kFree)
+    forbidden_ = bans.forbidden_starts(place);
+  // Who is at a vertex strictly between begin and end breaks the ban: so does who sets out then, or
+  // arrives.
+  const auto add_stays = [&](VertexId v, Ticks after) {
+    const auto place = bans.stays_of(v);
+    if (place == BanTable::kFree) return;
+    for (const BanTable::Entry& entry : bans.entries(place))
+      if (bans.is_enabled(entry.slot) && entry.begin + 1 < entry.end)
+        forbidden_.push_back({entry.begin + 1 - after, entry.end - after});
+  };
+  add_stays(edge.from, 0);
+  add_stays(edge.to, model_.instance().duration(side.c, e.edge));
+  std::sort(forbidden_.begin(), forbidden_.end(),
+            [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  allowed_.clear();
+  Ticks from = e.first;
+  for (const BanTable::Span& span : forbidden_) {
+    if (span.begin > from) allowed_.push_back({from, std::min(span.begin - 1, e.last)});
+    from = std::max(from, span.end);
+    if (from > e.last) return;
+  }
+  allowed_.push_back({from, e.last});
+}
+
+// As no allowed move arrives or sets out during a ban, a stay breaks one only if it lasts from before
+// until after it; and that is the same for all starts of the two elements.
+bool PairSearch::breaks_ban(const Side& side, const Element& from, const Element& to) {
+  const auto place = side.bans->stays_of(from.to);
+  if (place == BanTable::kFree) return false;
+  const auto& entries = side.bans->entries(place);
+  return std::any_of(entries.begin(), entries.end(), [&](const BanTable::Entry& entry) {
+    return side.bans->is_enabled(entry.slot) && from.end + from.duration <= entry.begin &&
+           to.begin >= entry.end;
+  });
+}
+
 void PairSearch::make_elements(Side& side) {
   const Instance& instance = model_.instance();
   const Roadmap& roadmap = instance.roadmap();
@@ -165,10 +206,12 @@ void PairSearch::make_elements(Side& side) {
       const bool stay_matters = side.stay_matters[to.index()] != 0;
       e.matters = e.matters || stay_matters || side.stay_matters[v.index()] != 0;
       const Ticks duration = instance.duration(side.c, e.edge);
+      list_allowed(side, e);
       // The earliest start is by itself.
-      for (Ticks begin = e.first, end = e.first; begin <= e.last;
-           begin = end + 1, end = std::min(begin + side.width - 1, e.last))
-        side.elements.push_back({true, e.matters, stay_matters, e.edge, to, begin, end, duration,
+      for (const BanTable::Span& span : allowed_)
+        for (Ticks begin = span.begin, end = span.begin; begin <= span.end;
+             begin = end + 1, end = std::min(begin + side.width - 1, span.end))
+          side.elements.push_back({true, e.matters, stay_matters, e.edge, to, begin, end, duration,
                                  e.last_without_raise});
       if (e.matters && side.may_matter_later[v.index()] == 0) {
         side.may_matter_later[v.index()] = 1;
@@ -220,7 +263,7 @@ const PairSearch::Next& PairSearch::next_of(Side& side, std::uint32_t element) {
     const auto v = from.to.index();
     for (auto k = side.first_element[v]; k < side.end_element[v]; ++k) {
       const Element& to = side.elements[k];
-      if (side.stamp[k] != stamp && to.end >= from.arrive_from())
+      if (side.stamp[k] != stamp && to.end >= from.arrive_from() && !breaks_ban(side, from, to))
         push(k, std::max(raise, raise_for_end(to, std::max(to.begin, from.arrive_from()))));
     }
   };
@@ -351,6 +394,8 @@ bool PairSearch::next_raise() {
 Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
                                std::size_t max_pairs) {
   Side &first = sides_[0], &second = sides_[1];
+  first.bans = &bans_[0];
+  second.bans = &bans_[1];
   if (!collect_edges(i, max_raise, j, 0, first) || !collect_edges(j, 0, i, max_raise, second))
     return 0;
   find_contacts(first, second);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "model.hpp"
@@ -23,7 +24,9 @@ namespace quadrille::continuous {
 /// order of the caps that they need, and so finds the highest cap for which it fails.
 class PairSearch {
  public:
-  explicit PairSearch(Model& model) : model_(model) {}
+  explicit PairSearch(Model& model)
+      : model_(model), bans_{BanTable(model.instance().roadmap()),
+                             BanTable(model.instance().roadmap())} {}
 
   struct Party {
     AgentId agent;
@@ -33,6 +36,10 @@ class PairSearch {
   /// Visits at most about `max_pairs` pairs of elements.
   [[nodiscard]] Cost refuted_raise(const Party& i, const Party& j, Cost max_raise,
                                    std::size_t max_pairs);
+
+  /// Bans that agent i (0) and agent j (1) obey; none at first.
+  [[nodiscard]] BanTable& bans(std::size_t side) { return bans_[side]; }
+  void swap_bans() { std::swap(bans_[0], bans_[1]); }
 
   /// Pairs of elements visited so far by all searches.
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
@@ -78,6 +85,7 @@ class PairSearch {
   struct Side {
     ClassId c;
     AgentId agent;
+    BanTable* bans = nullptr;
     Ticks width = 1;               // of the intervals
     std::vector<TimedEdge> edges;  // in the order of their tails
     std::vector<Element> elements;
@@ -112,6 +120,10 @@ class PairSearch {
   [[nodiscard]] Ticks leave_by(const Side& side, VertexId v) const;
   void find_contacts(Side& x, Side& y);
   void make_elements(Side& side);
+  /// Starts of `e` that obey the bans, as far as these depend on the one move.
+  void list_allowed(const Side& side, const TimedEdge& e);
+  /// Whether the stay between the two moves breaks a ban.
+  [[nodiscard]] static bool breaks_ban(const Side& side, const Element& from, const Element& to);
   [[nodiscard]] const Next& next_of(Side& side, std::uint32_t element);
   /// Visits the pairs that follow when the agent of `x` begins its next move.
   void advance(Side& x, std::uint32_t at_x, Side& y, std::uint32_t at_y, bool is_first);
@@ -124,6 +136,8 @@ class PairSearch {
   [[nodiscard]] Contacts::Window window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach);
 
   Model& model_;
+  BanTable bans_[2];
+  std::vector<BanTable::Span> forbidden_, allowed_;
   Side sides_[2];
   KeySet visited_;
   struct Pending {

@@ -2,6 +2,7 @@
 #include "theory.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "quadrille/core/contract.hpp"
@@ -249,10 +250,28 @@ void ContinuousTheory::explain_bound(AgentId i, Cost bound, FormulaWriter& write
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
   if (getenv("QDBG")) {
-    fprintf(stderr, "L %zu b %lld slots %zu of %zu cap %lld free %lld:", i.index(), (long long)bound, slots.size(), agent.active.size(), (long long)agent.cap, (long long)model_.free_cost(i));
-    for (auto x : slots) fprintf(stderr, " %zu(%zu)", agent.active[x].index(), model_.obstacles()[agent.active[x]].bans.size());
+    fprintf(stderr, "L %zu b %lld slots %zu of %zu cap +%lld:", i.index(), (long long)(bound- model_.free_cost(i)), slots.size(), agent.active.size(), (long long)(agent.cap - model_.free_cost(i)));
+    for (auto x : slots) { fprintf(stderr, " %zu(%zu)", agent.active[x].index(), model_.obstacles()[agent.active[x]].bans.size());
+     for (auto p : model_.obstacles()[agent.active[x]].partners) fprintf(stderr, "/%zu", p.index());}
     fprintf(stderr, "\n");
   }
+  blame_pairs(i, bound, slots, writer);
+}
+
+void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const std::vector<std::size_t>& slots,
+                                   FormulaWriter& writer) {
+  if (bound >= kForever) return;
+  std::vector<ObstacleId> obstacles;
+  std::map<AgentId, int> due_to;
+  for (const std::size_t slot : slots) {
+    obstacles.push_back(agents_[i].active[slot]);
+    for (const AgentId j : model_.obstacles()[obstacles.back()].partners) ++due_to[j];
+  }
+  for (const auto& [j, count] : due_to)
+    if (count >= 2 &&
+        pair_lemmas_.note_explanation({i, std::min(bound - 1, agents_[i].cap), obstacles},
+                                      {j, agents_[j].cap, agents_[j].active}, writer))
+      return;
 }
 
 // The costs of some agents alone are too much: so they are in every plan that costs them as much.
@@ -353,9 +372,10 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
       return;
     }
     for (const Encounter& e : found) {
-      if (pair_lemmas_.note_collision({e.first, agents_[e.first].cap},
-                                      {e.second, agents_[e.second].cap}, writer))
-        continue;
+      const auto party = [&](AgentId i) {
+        return PairLemmas::Party{i, agents_[i].cap, agents_[i].active};
+      };
+      if (pair_lemmas_.note_collision(party(e.first), party(e.second), writer)) continue;
       const auto final_from = [&](AgentId i) {
         return std::max(agents_[i].path.arrival, agents_[i].floor);
       };
