@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMaxPairs = 3'000'000;
 /// Of searches with obstacles, of which many are made.
-constexpr std::size_t kMaxPairsInReduction = 100'000;
+constexpr std::size_t kMaxPairsInReduction = 10'000'000;
 
 constexpr int kFirstCollision = 3, kFirstExplanation = 6;
 
@@ -39,7 +39,7 @@ bool PairLemmas::note(Record& record, int first_try, const Party& i, const Party
     load(i, j.agent, 0);
     load(j, i.agent, 1);
     bool r = is_refuted(i, j);
-    if (getenv("QDBG")) fprintf(stderr, "P? %zu %zu n %d act %zu %zu caps +%lld +%lld: %d\n", i.agent.index(), j.agent.index(),  record.count, i.active.size(), j.active.size(), (long long)(i.cap - model_.free_cost(i.agent)), (long long)(j.cap - model_.free_cost(j.agent)), r);
+    if (getenv("QDBG")) fprintf(stderr, "P? %zu %zu n %d act %zu %zu caps +%lld +%lld: %d eff %lld\n", i.agent.index(), j.agent.index(),  record.count, i.active.size(), j.active.size(), (long long)(i.cap - model_.free_cost(i.agent)), (long long)(j.cap - model_.free_cost(j.agent)), r, (long long)search_.effort());
     if (!r) return false;
     reduce(i, j);
   }

@@ -10,7 +10,7 @@ namespace {
 
 /// Starts of one move that are not the earliest are split into so many intervals for the largest
 /// slack.
-constexpr Ticks kPieces = 4;
+constexpr Ticks kPieces = 2;
 constexpr std::size_t kMaxEdges = 50'000;
 
 std::uint64_t key(std::uint32_t x, std::uint32_t y) {
@@ -19,28 +19,40 @@ std::uint64_t key(std::uint32_t x, std::uint32_t y) {
 
 }  // namespace
 
-void PairSearch::KeySet::clear() {
-  slots_.assign(1024, 0);
+void PairSearch::Reached::clear() {
+  slots_.assign(1024, {0, {}});
   size_ = 0;
 }
 
-bool PairSearch::KeySet::insert(std::uint64_t key) {
-  if (2 * (size_ + 1) > slots_.size()) grow();
+std::size_t PairSearch::Reached::find(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 20) & mask;
-  for (; slots_[at] != 0; at = (at + 1) & mask)
-    if (slots_[at] == key + 1) return false;
-  slots_[at] = key + 1;
-  ++size_;
+  while (slots_[at].key != 0 && slots_[at].key != key + 1) at = (at + 1) & mask;
+  return at;
+}
+
+const PairSearch::Starts& PairSearch::Reached::at(std::uint64_t key) const {
+  return slots_[find(key)].starts;
+}
+
+bool PairSearch::Reached::widen(std::uint64_t key, const Starts& starts) {
+  if (2 * (size_ + 1) > slots_.size()) grow();
+  Slot& slot = slots_[find(key)];
+  if (slot.key == 0) {
+    slot = {key + 1, starts};
+    ++size_;
+    return true;
+  }
+  if (slot.starts.x <= starts.x && slot.starts.y <= starts.y) return false;
+  slot.starts = {std::min(slot.starts.x, starts.x), std::min(slot.starts.y, starts.y)};
   return true;
 }
 
-void PairSearch::KeySet::grow() {
-  std::vector<std::uint64_t> old(4 * slots_.size(), 0);
+void PairSearch::Reached::grow() {
+  std::vector<Slot> old(4 * slots_.size(), {0, {}});
   old.swap(slots_);
-  size_ = 0;
-  for (const std::uint64_t slot : old)
-    if (slot != 0) insert(slot - 1);
+  for (const Slot& slot : old)
+    if (slot.key != 0) slots_[find(slot.key - 1)] = slot;
 }
 
 // ---- what an agent can do within its cap ---------------------------------------------------------
@@ -313,82 +325,106 @@ Contacts::Window PairSearch::window(ClassId a, EdgeId e, ClassId b, VertexId v, 
 // that matters is followed by a move that matters: so until s, b's agent stays at the end of its
 // move, if that matters, and x's agent before `next`. Each test below says what it takes that not
 // all of what the elements stand for collides.
-Cost PairSearch::needed_raise(const Side& x, const Element& a, const Element& next, const Side& y,
-                              const Element& b, const Next& after_b) {
+PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start_a,
+                                    const Element& next, Ticks first_s, const Side& y,
+                                    const Element& b, Ticks first_t, const Next& after_b) {
   const Instance& instance = model_.instance();
   const Length reach = instance.radius(x.c) + instance.radius(y.c);
-  const Ticks first_s = std::max({next.begin, a.arrive_from(), b.begin}), first_t = b.begin;
-  Cost needed = std::max(raise_for_end(next, first_s), after_b.raise_for_begin(first_s));
+  const auto raise_for_start = [&](Ticks tick) {
+    return std::max(raise_for_end(next, tick), after_b.raise_for_begin(tick));
+  };
+  Cost both = raise_for_start(first_s);
+  Steps result{{kForever, 0, 0}, {0, first_s, first_t}};
   if (b.is_move) {
     const Edge& edge = instance.roadmap().edge(b.edge);
     if (!are_far(next.edge, edge.from, edge.to, reach)) {
       const auto offsets = model_.contacts().offsets(x.c, next.edge, y.c, b.edge);
       if (offsets && offsets->lo <= 0) {
         // t - s < lo or t - s > hi
-        const Ticks late = first_t - offsets->lo + 1;
-        const Cost by_s = std::max(raise_for_end(next, late), after_b.raise_for_begin(late));
-        const Cost by_t =
-            offsets->hi >= 0 ? kForever : raise_for_end(b, first_s + offsets->hi + 1);
-        needed = std::max(needed, std::min(by_s, by_t));
+        const Ticks late_s = std::max(first_s, first_t - offsets->lo + 1);
+        const Ticks late_t = std::max(first_t, first_s + offsets->hi + 1);
+        result.late = {raise_for_start(late_s), late_s, first_t};
+        result.early = {offsets->hi >= 0 ? kForever : raise_for_end(b, late_t), first_s, late_t};
       }
     }
     // x's stay before `next` and b's move: x comes late, or leaves early.
     if (a.stay_matters)
       if (const auto w = window(y.c, b.edge, x.c, a.to, reach))
-        needed = std::max(needed, std::min(raise_for_end(a, first_t + w->last - a.duration),
-                                           raise_for_end(b, first_s - w->first)));
+        both = std::max(both, std::min(raise_for_end(a, first_t + w->last - a.duration),
+                                       raise_for_end(b, first_s - w->first)));
   }
-  if (!b.stay_matters) return needed;
-  // `next` sets out where b stands in its way: b comes late.
-  if (const auto w = window(x.c, next.edge, y.c, b.to, reach); w && w->first < 0)
-    needed = std::max(needed, raise_for_end(b, first_s + w->last - b.duration));
-  // a's move passed where b stands: b comes late.
-  if (a.is_move)
-    if (const auto w = window(x.c, a.edge, y.c, b.to, reach);
-        w && w->first < a.duration)
-      needed = std::max(needed, raise_for_end(b, a.begin + w->last - b.duration));
-  return needed;
+  if (b.stay_matters) {
+    // `next` sets out where b stands in its way: b comes late.
+    if (const auto w = window(x.c, next.edge, y.c, b.to, reach); w && w->first < 0)
+      both = std::max(both, raise_for_end(b, first_s + w->last - b.duration));
+    // a's move passed where b stands: b comes late.
+    if (a.is_move)
+      if (const auto w = window(x.c, a.edge, y.c, b.to, reach); w && w->first < a.duration)
+        both = std::max(both, raise_for_end(b, start_a + w->last - b.duration));
+  }
+  result.late.raise = std::max(result.late.raise, both);
+  result.early.raise = std::max(result.early.raise, both);
+  return result;
 }
 
 bool PairSearch::is_dearer(const Pending& a, const Pending& b) {
   return a.raise != b.raise ? a.raise > b.raise : a.pair > b.pair;
 }
 
-void PairSearch::advance(Side& x, std::uint32_t at_x, Side& y, std::uint32_t at_y, bool is_first) {
+bool PairSearch::is_later(const Open& a, const Open& b) {
+  return a.time != b.time ? a.time > b.time : a.pair > b.pair;
+}
+
+void PairSearch::reach(std::uint64_t pair, const Starts& starts) {
+  if (!reached_.widen(pair, starts)) return;
+  open_.push_back({std::max(starts.x, starts.y), pair});
+  std::push_heap(open_.begin(), open_.end(), is_later);
+}
+
+void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, std::uint32_t at_y,
+                         Ticks start_y, bool is_first) {
   if (at_x == kDone) return;
   const Element &a = x.elements[at_x], &b = y.elements[at_y];
-  const auto visit = [&](std::uint32_t k, Cost raise) {
+  const auto visit = [&](std::uint32_t k, Cost raise, Ticks start, Ticks other_start) {
     if (raise > max_raise_) return;
     const std::uint64_t pair = is_first ? key(k, at_y) : key(at_y, k);
+    const Starts starts = is_first ? Starts{start, other_start} : Starts{other_start, start};
     if (raise <= raise_) {
-      if (visited_.insert(pair)) open_.push_back(pair);
+      reach(pair, starts);
     } else {
-      pending_.push_back({raise, pair});
+      pending_.push_back({raise, pair, starts});
       std::push_heap(pending_.begin(), pending_.end(), is_dearer);
     }
   };
   const Next& next = next_of(x, at_x);
-  if (next.done_raise < kForever) visit(kDone, next.done_raise);
+  if (next.done_raise < kForever) visit(kDone, next.done_raise, start_x, start_y);
   const Next* const after_b = at_y == kDone ? nullptr : &next_of(y, at_y);
+  const Ticks arrive = start_x + a.duration, distance = x.from_start[a.to.index()];
+  const Roadmap& roadmap = model_.instance().roadmap();
   for (const Follower& follower : next.followers) {
-    const std::uint32_t k = follower.element;
-    visit(k, after_b == nullptr
-                 ? follower.raise
-                 : std::max(follower.raise, needed_raise(x, a, x.elements[k], y, b, *after_b)));
+    const Element& to = x.elements[follower.element];
+    // How long it takes to get there at least.
+    const Ticks way = x.from_start[roadmap.edge(to.edge).from.index()] - distance;
+    const Ticks first = std::max({to.begin, arrive + std::max<Ticks>(way, 0), start_y});
+    if (after_b == nullptr) {
+      visit(follower.element, std::max(follower.raise, raise_for_end(to, first)), first, start_y);
+      continue;
+    }
+    const Steps s = steps(x, a, start_x, to, first, y, b, start_y, *after_b);
+    for (const Step& step : {s.late, s.early})
+      visit(follower.element, std::max(follower.raise, step.raise), step.start, step.other_start);
   }
 }
 
 bool PairSearch::next_raise() {
-  while (!pending_.empty()) {
+  while (open_.empty() && !pending_.empty()) {
     std::pop_heap(pending_.begin(), pending_.end(), is_dearer);
     const Pending next = pending_.back();
     pending_.pop_back();
-    if (!visited_.insert(next.pair)) continue;
     raise_ = next.raise;
-    open_.push_back(next.pair);
-    return true;
+    reach(next.pair, next.starts);
   }
-  return false;
+  return !open_.empty();
 }
 
 Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
@@ -402,20 +438,22 @@ Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
   find_contacts(second, first);
   make_elements(first);
   make_elements(second);
-  visited_.clear();
+  reached_.clear();
   pending_.clear();
+  open_.clear();
   raise_ = 0;
   max_raise_ = max_raise;
-  open_.assign(1, key(kStart, kStart));
-  static_cast<void>(visited_.insert(open_.front()));
-  while (!open_.empty() || next_raise()) {
-    const std::uint64_t pair = open_.back();
+  reach(key(kStart, kStart), {});
+  for (std::size_t count = 0; next_raise(); ++count) {
+    std::pop_heap(open_.begin(), open_.end(), is_later);
+    const std::uint64_t pair = open_.back().pair;
     open_.pop_back();
     ++effort_;
     const auto x = static_cast<std::uint32_t>(pair >> 32), y = static_cast<std::uint32_t>(pair);
-    if ((x == kDone && y == kDone) || visited_.size() > max_pairs) return raise_;
-    advance(first, x, second, y, true);
-    advance(second, y, first, x, false);
+    if ((x == kDone && y == kDone) || count > max_pairs) return raise_;
+    const Starts starts = reached_.at(pair);
+    advance(first, x, starts.x, second, y, starts.y, true);
+    advance(second, y, starts.y, first, x, starts.x, false);
   }
   return max_raise + 1;
 }

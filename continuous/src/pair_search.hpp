@@ -99,17 +99,26 @@ class PairSearch {
     std::vector<std::uint32_t> stamp;  // by element
     std::uint32_t last_stamp = 0;
   };
-  /// Open addressing; there is no need to take keys out.
-  class KeySet {
+  /// What is known of the starts of a pair of elements: no earlier ones need to be considered.
+  struct Starts {
+    Ticks x = 0, y = 0;
+  };
+  /// The pairs reached. Open addressing; there is no need to take keys out.
+  class Reached {
    public:
     void clear();
-    /// Whether it is new.
-    bool insert(std::uint64_t key);
-    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// Widens what is known of the pair. Whether that makes a difference.
+    bool widen(std::uint64_t key, const Starts& starts);
+    [[nodiscard]] const Starts& at(std::uint64_t key) const;
 
    private:
+    struct Slot {
+      std::uint64_t key;  // + 1; 0: none
+      Starts starts;
+    };
+    [[nodiscard]] std::size_t find(std::uint64_t key) const;
     void grow();
-    std::vector<std::uint64_t> slots_;  // key + 1; 0: none
+    std::vector<Slot> slots_;
     std::size_t size_ = 0;
   };
 
@@ -126,10 +135,22 @@ class PairSearch {
   [[nodiscard]] static bool breaks_ban(const Side& side, const Element& from, const Element& to);
   [[nodiscard]] const Next& next_of(Side& side, std::uint32_t element);
   /// Visits the pairs that follow when the agent of `x` begins its next move.
-  void advance(Side& x, std::uint32_t at_x, Side& y, std::uint32_t at_y, bool is_first);
-  /// The raise that x needs at least to go from a to `next` while y has not gone beyond `b`.
-  [[nodiscard]] Cost needed_raise(const Side& x, const Element& a, const Element& next,
-                                  const Side& y, const Element& b, const Next& after_b);
+  void advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, std::uint32_t at_y,
+               Ticks start_y, bool is_first);
+  /// What x needs at least to go from a to `next` while y has not gone beyond `b`.
+  /// What it takes to go on, and the earliest starts of `next` and of b's move after that.
+  struct Step {
+    Cost raise = kForever;
+    Ticks start = 0, other_start = 0;
+  };
+  /// The ways in which x can go from a to `next` while y has not gone beyond `b`: `next` is late,
+  /// or b is.
+  struct Steps {
+    Step late, early;
+  };
+  [[nodiscard]] Steps steps(const Side& x, const Element& a, Ticks start_a, const Element& next,
+                            Ticks first_s, const Side& y, const Element& b, Ticks first_t,
+                            const Next& after_b);
   /// What `element` needs to end at `tick` or later.
   [[nodiscard]] static Cost raise_for_end(const Element& element, Ticks tick);
   [[nodiscard]] bool are_far(EdgeId e, VertexId from, VertexId to, Length reach) const;
@@ -139,18 +160,25 @@ class PairSearch {
   BanTable bans_[2];
   std::vector<BanTable::Span> forbidden_, allowed_;
   Side sides_[2];
-  KeySet visited_;
+  Reached reached_;
+  struct Open {
+    Ticks time;
+    std::uint64_t pair;
+  };
   struct Pending {
     Cost raise;
     std::uint64_t pair;
+    Starts starts;
   };
+  static bool is_later(const Open& a, const Open& b);
+  void reach(std::uint64_t pair, const Starts& starts);
   static bool is_dearer(const Pending& a, const Pending& b);
   /// Goes on with the least raise that is pending. False: there is none.
   bool next_raise();
 
   Cost max_raise_ = 0;
   Cost raise_ = 0;                   // up to which steps have been taken
-  std::vector<std::uint64_t> open_;  // to be visited
+  std::vector<Open> open_;           // a heap, the earliest first: to be visited
   std::vector<Pending> pending_;     // a heap, the least raise first: to be visited later
   std::vector<Follower> followers_;  // likewise
   std::vector<std::uint32_t> stack_;
