@@ -10,6 +10,7 @@ constexpr std::size_t kMaxPairs = 3'000'000;
 /// Of searches with obstacles, of which many are made.
 constexpr std::size_t kMaxPairsInReduction = 10'000'000;
 
+constexpr Cost kSmallPart = 64;
 constexpr int kFirstCollision = 3, kFirstExplanation = 6;
 
 }  // namespace
@@ -44,7 +45,7 @@ bool PairLemmas::note(Record& record, int first_try, const Party& i, const Party
     reduce(i, j);
   }
   record.next_try = record.count + 1;
-  add_clause(i, j, writer);
+  add_clauses(i, j, writer);
   return true;
 }
 
@@ -88,16 +89,30 @@ void PairLemmas::reduce(const Party& i, const Party& j) {
   }
 }
 
-void PairLemmas::add_clause(const Party& i, const Party& j, FormulaWriter& writer) {
+// Raising one cap may leave no room for the other: then a second clause raises the other one first.
+void PairLemmas::add_clauses(const Party& i, const Party& j, FormulaWriter& writer) {
   PairSearch::Party first{i.agent, i.cap}, second{j.agent, j.cap};
-  first.cap +=
-      std::max<Cost>(search_.refuted_raise(first, second, max_raise(i.agent), kMaxPairs), 1) - 1;
-  search_.swap_bans();
-  second.cap +=
-      std::max<Cost>(search_.refuted_raise(second, first, max_raise(j.agent), kMaxPairs), 1) - 1;
-  search_.swap_bans();
-  std::vector<sat::Lit> clause{model_.at_least(i.agent, first.cap + 1, writer),
-                               model_.at_least(j.agent, second.cap + 1, writer)};
+  raise(first, second, false);
+  raise(second, first, true);
+  add_clause(first, second, writer);
+  if (second.cap - j.cap >= max_raise(j.agent) / kSmallPart) return;
+  PairSearch::Party other_first{i.agent, i.cap}, other_second{j.agent, j.cap};
+  raise(other_second, other_first, true);
+  raise(other_first, other_second, false);
+  if (other_second.cap > second.cap) add_clause(other_first, other_second, writer);
+}
+
+void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second) {
+  if (is_second) search_.swap_bans();
+  const Cost raise = search_.refuted_raise(party, other, max_raise(party.agent), kMaxPairs);
+  if (is_second) search_.swap_bans();
+  party.cap += std::max<Cost>(raise, 1) - 1;
+}
+
+void PairLemmas::add_clause(const PairSearch::Party& i, const PairSearch::Party& j,
+                            FormulaWriter& writer) {
+  std::vector<sat::Lit> clause{model_.at_least(i.agent, i.cap + 1, writer),
+                               model_.at_least(j.agent, j.cap + 1, writer)};
   std::vector<sat::Usage> usages;
   for (const std::size_t side : {0U, 1U})
     for (std::size_t slot = 0; slot < loaded_[side].size(); ++slot) {
@@ -107,7 +122,7 @@ void PairLemmas::add_clause(const Party& i, const Party& j, FormulaWriter& write
       if (std::find(clause.begin(), clause.end(), obstacle.allowed) == clause.end())
         clause.push_back(obstacle.allowed);
     }
-  if (getenv("QDBG")) {fprintf(stderr, "PP %zu +%lld %zu +%lld: effort %lld:", i.agent.index(), (long long)(first.cap - model_.free_cost(i.agent)), j.agent.index(), (long long)(second.cap - model_.free_cost(j.agent)), (long long)search_.effort());
+  if (getenv("QDBG")) {fprintf(stderr, "PP %zu +%lld %zu +%lld: effort %lld:", i.agent.index(), (long long)(i.cap - model_.free_cost(i.agent)), j.agent.index(), (long long)(j.cap - model_.free_cost(j.agent)), (long long)search_.effort());
   for (auto u : usages) fprintf(stderr, " %zu", u.resource);
   fprintf(stderr, "\n"); }
   writer.add({sat::LemmaKind::collision, clause, usages, false});

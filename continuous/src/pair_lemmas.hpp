@@ -40,7 +40,9 @@ class PairLemmas {
   void load(const Party& party, AgentId other, std::size_t side);
   /// Switches slots off as long as the caps are refuted.
   void reduce(const Party& i, const Party& j);
-  void add_clause(const Party& i, const Party& j, FormulaWriter& writer);
+  void add_clauses(const Party& i, const Party& j, FormulaWriter& writer);
+  void raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second);
+  void add_clause(const PairSearch::Party& i, const PairSearch::Party& j, FormulaWriter& writer);
   [[nodiscard]] Cost max_raise(AgentId i) const;
 
   Model& model_;

@@ -201,6 +201,12 @@ bool PairSearch::breaks_ban(const Side& side, const Element& from, const Element
   });
 }
 
+bool PairSearch::is_banned(const BanTable& bans, EdgeId e) const {
+  const Edge& edge = model_.instance().roadmap().edge(e);
+  return bans.starts_of(e) != BanTable::kFree || bans.stays_of(edge.from) != BanTable::kFree ||
+         bans.stays_of(edge.to) != BanTable::kFree;
+}
+
 void PairSearch::make_elements(Side& side) {
   const Instance& instance = model_.instance();
   const Roadmap& roadmap = instance.roadmap();
@@ -216,7 +222,8 @@ void PairSearch::make_elements(Side& side) {
       TimedEdge& e = side.edges[k];
       const VertexId to = roadmap.edge(e.edge).to;
       const bool stay_matters = side.stay_matters[to.index()] != 0;
-      e.matters = e.matters || stay_matters || side.stay_matters[v.index()] != 0;
+      e.matters = e.matters || stay_matters || side.stay_matters[v.index()] != 0 ||
+                  is_banned(*side.bans, e.edge);
       const Ticks duration = instance.duration(side.c, e.edge);
       list_allowed(side, e);
       // The earliest start is by itself.
@@ -389,6 +396,7 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
     if (raise > max_raise_) return;
     const std::uint64_t pair = is_first ? key(k, at_y) : key(at_y, k);
     const Starts starts = is_first ? Starts{start, other_start} : Starts{other_start, start};
+    if (k == kDone && at_y == kDone) max_raise_ = raise;  // more need not be looked at
     if (raise <= raise_) {
       reach(pair, starts);
     } else {

@@ -131,6 +131,7 @@ class PairSearch {
   void make_elements(Side& side);
   /// Starts of `e` that obey the bans, as far as these depend on the one move.
   void list_allowed(const Side& side, const TimedEdge& e);
+  [[nodiscard]] bool is_banned(const BanTable& bans, EdgeId e) const;
   /// Whether the stay between the two moves breaks a ban.
   [[nodiscard]] static bool breaks_ban(const Side& side, const Element& from, const Element& to);
   [[nodiscard]] const Next& next_of(Side& side, std::uint32_t element);
@@ -176,7 +177,7 @@ class PairSearch {
   /// Goes on with the least raise that is pending. False: there is none.
   bool next_raise();
 
-  Cost max_raise_ = 0;
+  Cost max_raise_ = 0;  // or what reaches both ends
   Cost raise_ = 0;                   // up to which steps have been taken
   std::vector<Open> open_;           // a heap, the earliest first: to be visited
   std::vector<Pending> pending_;     // a heap, the least raise first: to be visited later
