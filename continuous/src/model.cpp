@@ -12,7 +12,10 @@ namespace quadrille::continuous {
 using sat::Lit;
 
 Model::Model(const Instance& instance, LimitMonitor& limits)
-    : instance_(instance), contacts_(instance), thresholds_(instance.num_agents()) {
+    : instance_(instance),
+      limits_(limits),
+      contacts_(instance),
+      thresholds_(instance.num_agents()) {
   distances_.reserve(instance.num_agents());
   for (const AgentId i : instance.agent_ids()) {
     if (limits.exhausted_now()) return;

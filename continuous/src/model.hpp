@@ -44,12 +44,13 @@ struct Obstacle {
 /// In lemmas, the resource number of a usage is the index of its obstacle.
 class Model {
  public:
-  /// `instance` outlives the model. If `limits` end the computation of the distances early, the
+  /// Both outlive the model. If `limits` end the computation of the distances early, the
   /// model is not complete and of no use.
   Model(const Instance& instance, LimitMonitor& limits);
   [[nodiscard]] bool is_complete() const { return distances_.size() == instance_.num_agents(); }
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
+  [[nodiscard]] LimitMonitor& limits() noexcept { return limits_; }
   [[nodiscard]] Contacts& contacts() noexcept { return contacts_; }
   [[nodiscard]] PathTask task(AgentId i) const { return {i, distances_[i.index()]}; }
   /// Cost of the cheapest path of an agent that is alone.
@@ -104,6 +105,7 @@ class Model {
   void remember(sat::Lit lit, const Variable& variable);
 
   const Instance& instance_;
+  LimitMonitor& limits_;
   std::vector<GoalDistances> distances_;
   Contacts contacts_;
   IdVector<ObstacleId, Obstacle> obstacles_;

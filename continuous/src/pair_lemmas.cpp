@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMaxPairs = 3'000'000;
 /// Of searches with obstacles, of which many are made.
-constexpr std::size_t kMaxPairsInReduction = 10'000'000;
+constexpr std::size_t kMaxPairsInReduction = 300'000;
 
 constexpr Cost kSmallPart = 64;
 constexpr int kFirstCollision = 3, kFirstExplanation = 6;
@@ -39,9 +39,7 @@ bool PairLemmas::note(Record& record, int first_try, const Party& i, const Party
     if (!is_open) record.open.emplace_back(i.cap, j.cap);
     load(i, j.agent, 0);
     load(j, i.agent, 1);
-    bool r = is_refuted(i, j);
-    if (getenv("QDBG")) fprintf(stderr, "P? %zu %zu n %d act %zu %zu caps +%lld +%lld: %d eff %lld\n", i.agent.index(), j.agent.index(),  record.count, i.active.size(), j.active.size(), (long long)(i.cap - model_.free_cost(i.agent)), (long long)(j.cap - model_.free_cost(j.agent)), r, (long long)search_.effort());
-    if (!r) return false;
+    if (!is_refuted(i, j)) return false;
     reduce(i, j);
   }
   record.next_try = record.count + 1;
@@ -122,9 +120,6 @@ void PairLemmas::add_clause(const PairSearch::Party& i, const PairSearch::Party&
       if (std::find(clause.begin(), clause.end(), obstacle.allowed) == clause.end())
         clause.push_back(obstacle.allowed);
     }
-  if (getenv("QDBG")) {fprintf(stderr, "PP %zu +%lld %zu +%lld: effort %lld:", i.agent.index(), (long long)(i.cap - model_.free_cost(i.agent)), j.agent.index(), (long long)(j.cap - model_.free_cost(j.agent)), (long long)search_.effort());
-  for (auto u : usages) fprintf(stderr, " %zu", u.resource);
-  fprintf(stderr, "\n"); }
   writer.add({sat::LemmaKind::collision, clause, usages, false});
 }
 

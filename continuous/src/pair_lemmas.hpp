@@ -18,7 +18,7 @@ class PairLemmas {
 
   struct Party {
     AgentId agent;
-    Cost cap = 0;                          ///< kForever: none.
+    Cost cap = 0;                             ///< kForever: none.
     std::span<const ObstacleId> active = {};  ///< Obstacles whose literals are false.
   };
   /// To be told of each collision of two agents with i.agent < j.agent. True: a clause was added

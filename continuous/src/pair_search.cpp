@@ -55,14 +55,16 @@ void PairSearch::Reached::grow() {
     if (slot.key != 0) slots_[find(slot.key - 1)] = slot;
 }
 
-// ---- what an agent can do within its cap ---------------------------------------------------------
+// ---- what an agent can do within its cap
+// ---------------------------------------------------------
 
-bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& other,
-                               Cost other_raise, Side& side) {
+bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& other, Cost other_raise,
+                               Side& side) {
   const Instance& instance = model_.instance();
   const Roadmap& roadmap = instance.roadmap();
   side.agent = party.agent;
   side.c = instance.class_of(party.agent);
+  side.cap = party.cap;
   const Ticks slack = party.cap + raise - model_.free_cost(party.agent);
   side.width = std::max<Ticks>((slack + kPieces - 1) / kPieces, 1);
   for (const VertexId v : side.reached) side.from_start[v.index()] = kForever;
@@ -72,6 +74,8 @@ bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& othe
     side.from_start.assign(roadmap.num_vertices(), kForever);
     for (auto* table : {&side.first_edge, &side.end_edge, &side.first_element, &side.end_element})
       table->resize(roadmap.num_vertices());
+    side.distance.assign(roadmap.num_vertices(), kForever);
+    side.next.resize(roadmap.num_vertices());
     side.stay_matters.resize(roadmap.num_vertices());
     side.may_matter_later.resize(roadmap.num_vertices());
   }
@@ -127,7 +131,8 @@ Ticks PairSearch::leave_by(const Side& side, VertexId v) const {
   return last;
 }
 
-// ---- which of it matters --------------------------------------------------------------------------
+// ---- which of it matters
+// --------------------------------------------------------------------------
 
 /// Marks the edges of x and y that could collide, and the edges of x and stays of y.
 void PairSearch::find_contacts(Side& x, Side& y) {
@@ -145,7 +150,8 @@ void PairSearch::find_contacts(Side& x, Side& y) {
         const Ticks least = other.first - e.last, most = other.last - e.first;
         if (least > duration || most < -instance.duration(y.c, f)) continue;
         const auto offsets = model_.contacts().offsets(x.c, e.edge, y.c, f);
-        if (offsets && offsets->lo <= most && least <= offsets->hi) e.matters = other.matters = true;
+        if (offsets && offsets->lo <= most && least <= offsets->hi)
+          e.matters = other.matters = true;
       }
     }
     for (const VertexId v : near.vertices) {
@@ -189,8 +195,8 @@ void PairSearch::list_allowed(const Side& side, const TimedEdge& e) {
   allowed_.push_back({from, e.last});
 }
 
-// As no allowed move arrives or sets out during a ban, a stay breaks one only if it lasts from before
-// until after it; and that is the same for all starts of the two elements.
+// As no allowed move arrives or sets out during a ban, a stay breaks one only if it lasts from
+// before until after it; and that is the same for all starts of the two elements.
 bool PairSearch::breaks_ban(const Side& side, const Element& from, const Element& to) {
   const auto place = side.bans->stays_of(from.to);
   if (place == BanTable::kFree) return false;
@@ -212,10 +218,11 @@ void PairSearch::make_elements(Side& side) {
   const Roadmap& roadmap = instance.roadmap();
   const VertexId start = instance.agent(side.agent).start;
   side.elements.clear();
+  for (const VertexId v : side.reached) side.next[v.index()].is_known = false;
   side.elements.push_back(
       {false, true, side.stay_matters[start.index()] != 0, EdgeId(), start, 0, 0, 0, 0});
-  side.elements.push_back({false, true, false, EdgeId(), instance.agent(side.agent).goal, 0,
-                           kForever, 0, kForever});
+  side.elements.push_back(
+      {false, true, false, EdgeId(), instance.agent(side.agent).goal, 0, kForever, 0, kForever});
   for (const VertexId v : side.reached) {
     side.first_element[v.index()] = static_cast<std::uint32_t>(side.elements.size());
     for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k) {
@@ -231,7 +238,7 @@ void PairSearch::make_elements(Side& side) {
         for (Ticks begin = span.begin, end = span.begin; begin <= span.end;
              begin = end + 1, end = std::min(begin + side.width - 1, span.end))
           side.elements.push_back({true, e.matters, stay_matters, e.edge, to, begin, end, duration,
-                                 e.last_without_raise});
+                                   e.last_without_raise});
       if (e.matters && side.may_matter_later[v.index()] == 0) {
         side.may_matter_later[v.index()] = 1;
         stack_.push_back(v.value());
@@ -249,9 +256,6 @@ void PairSearch::make_elements(Side& side) {
       stack_.push_back(u.value());
     }
   }
-  side.stamp.assign(side.elements.size(), 0);
-  side.last_stamp = 0;
-  side.next.assign(side.elements.size(), {});
 }
 
 Cost PairSearch::raise_for_end(const Element& element, Ticks tick) {
@@ -259,57 +263,65 @@ Cost PairSearch::raise_for_end(const Element& element, Ticks tick) {
   return std::max<Cost>(0, tick - element.end_without_raise);
 }
 
-Cost PairSearch::Next::raise_for_begin(Ticks tick) const {
-  if (tick > begin_by) return done_raise;
-  return std::min(done_raise, std::max<Cost>(0, tick - begin_by_without_raise));
-}
-
-const PairSearch::Next& PairSearch::next_of(Side& side, std::uint32_t element) {
-  Next& next = side.next[element];
+const PairSearch::Next& PairSearch::next_of(Side& side, VertexId from) {
+  Next& next = side.next[from.index()];
   if (next.is_known) return next;
+  next = {};
   next.is_known = true;
-  const std::uint32_t stamp = ++side.last_stamp;
-  const VertexId goal = model_.instance().agent(side.agent).goal;
-  const auto is_dearer = [](const Follower& a, const Follower& b) { return a.raise > b.raise; };
-  const auto push = [&](std::uint32_t k, Cost raise) {
-    followers_.push_back({k, raise});
-    std::push_heap(followers_.begin(), followers_.end(), is_dearer);
+  const Instance& instance = model_.instance();
+  const auto& rest = model_.task(side.agent).distances;
+  using Entry = std::pair<Ticks, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  std::vector<VertexId> seen;
+  const auto reach = [&](VertexId v, Ticks ticks) {
+    Ticks& known = side.distance[v.index()];
+    if (ticks >= known) return;
+    if (known == kForever) seen.push_back(v);
+    known = ticks;
+    queue.emplace(ticks, v);
   };
-  const auto go_on = [&](const Element& from, Cost raise) {
-    const bool is_end = side.may_matter_later[from.to.index()] == 0;
-    if (from.to == goal || is_end) push(kDone, raise);
-    if (is_end) return;
-    const auto v = from.to.index();
-    for (auto k = side.first_element[v]; k < side.end_element[v]; ++k) {
-      const Element& to = side.elements[k];
-      if (side.stamp[k] != stamp && to.end >= from.arrive_from() && !breaks_ban(side, from, to))
-        push(k, std::max(raise, raise_for_end(to, std::max(to.begin, from.arrive_from()))));
-    }
-  };
-  go_on(side.elements[element], 0);
-  while (!followers_.empty()) {
-    std::pop_heap(followers_.begin(), followers_.end(), is_dearer);
-    const Follower follower = followers_.back();
-    followers_.pop_back();
-    if (side.stamp[follower.element] == stamp) continue;
-    side.stamp[follower.element] = stamp;
-    const Element& to = side.elements[follower.element];
-    if (to.matters) {
-      next.followers.push_back(follower);
-      if (follower.element == kDone) {
-        next.done_raise = follower.raise;
-        continue;
+  reach(from, 0);
+  while (!queue.empty()) {
+    const auto [ticks, v] = queue.top();
+    queue.pop();
+    if (ticks > side.distance[v.index()]) continue;
+    const bool is_end = side.may_matter_later[v.index()] == 0;
+    if (is_end || rest[v] == 0) next.done = std::min(next.done, ticks + rest[v]);
+    if (is_end) continue;
+    bool matters = false;
+    for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k) {
+      const TimedEdge& e = side.edges[k];
+      const Ticks start = side.from_start[from.index()] + ticks;
+      if (start > e.last) continue;
+      if (e.matters) {
+        matters = true;
+        next.begin_by = std::max(next.begin_by, e.last);
+        next.begin_by_without_raise = std::max(next.begin_by_without_raise, e.last_without_raise);
+      } else {
+        reach(instance.roadmap().edge(e.edge).to, ticks + instance.duration(side.c, e.edge));
       }
-      next.begin_by = std::max(next.begin_by, to.end);
-      next.begin_by_without_raise = std::max(next.begin_by_without_raise, to.end_without_raise);
-    } else {
-      go_on(to, follower.raise);
     }
+    if (matters) next.ways.push_back({v, ticks});
   }
+  for (const VertexId v : seen) side.distance[v.index()] = kForever;
   return next;
 }
 
-// ---- pairs ---------------------------------------------------------------------------------------
+Cost PairSearch::raise_for_done(const Side& side, const Element& element, Ticks start,
+                                const Next& next) {
+  if (next.done >= kForever) return kForever;
+  return std::max<Cost>(0, start + element.duration + next.done - side.cap);
+}
+
+Cost PairSearch::raise_to_wait(Side& side, const Element& element, Ticks start, Ticks tick) {
+  const Next& next = next_of(side, element.to);
+  const Cost done = raise_for_done(side, element, start, next);
+  if (tick > next.begin_by) return done;
+  return std::min(done, std::max<Cost>(0, tick - next.begin_by_without_raise));
+}
+
+// ---- pairs
+// ---------------------------------------------------------------------------------------
 
 bool PairSearch::are_far(EdgeId e, VertexId from, VertexId to, Length reach) const {
   const Roadmap& roadmap = model_.instance().roadmap();
@@ -333,12 +345,12 @@ Contacts::Window PairSearch::window(ClassId a, EdgeId e, ClassId b, VertexId v, 
 // move, if that matters, and x's agent before `next`. Each test below says what it takes that not
 // all of what the elements stand for collides.
 PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start_a,
-                                    const Element& next, Ticks first_s, const Side& y,
-                                    const Element& b, Ticks first_t, const Next& after_b) {
+                                    const Element& next, Ticks first_s, Side& y, const Element& b,
+                                    Ticks first_t) {
   const Instance& instance = model_.instance();
   const Length reach = instance.radius(x.c) + instance.radius(y.c);
   const auto raise_for_start = [&](Ticks tick) {
-    return std::max(raise_for_end(next, tick), after_b.raise_for_begin(tick));
+    return std::max(raise_for_end(next, tick), raise_to_wait(y, b, first_t, tick));
   };
   Cost both = raise_for_start(first_s);
   Steps result{{kForever, 0, 0}, {0, first_s, first_t}};
@@ -404,23 +416,22 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
       std::push_heap(pending_.begin(), pending_.end(), is_dearer);
     }
   };
-  const Next& next = next_of(x, at_x);
-  if (next.done_raise < kForever) visit(kDone, next.done_raise, start_x, start_y);
-  const Next* const after_b = at_y == kDone ? nullptr : &next_of(y, at_y);
-  const Ticks arrive = start_x + a.duration, distance = x.from_start[a.to.index()];
-  const Roadmap& roadmap = model_.instance().roadmap();
-  for (const Follower& follower : next.followers) {
-    const Element& to = x.elements[follower.element];
-    // How long it takes to get there at least.
-    const Ticks way = x.from_start[roadmap.edge(to.edge).from.index()] - distance;
-    const Ticks first = std::max({to.begin, arrive + std::max<Ticks>(way, 0), start_y});
-    if (after_b == nullptr) {
-      visit(follower.element, std::max(follower.raise, raise_for_end(to, first)), first, start_y);
-      continue;
+  const Next& next = next_of(x, a.to);
+  if (const Cost raise = raise_for_done(x, a, start_x, next); raise < kForever)
+    visit(kDone, raise, start_x, start_y);
+  for (const Way& way : next.ways) {
+    const Ticks arrive = start_x + a.duration + way.ticks;
+    for (auto k = x.first_element[way.vertex.index()]; k < x.end_element[way.vertex.index()]; ++k) {
+      const Element& to = x.elements[k];
+      if (!to.matters || to.end < arrive || (way.ticks == 0 && breaks_ban(x, a, to))) continue;
+      const Ticks first = std::max({to.begin, arrive, start_y});
+      if (at_y == kDone) {
+        visit(k, raise_for_end(to, first), first, start_y);
+        continue;
+      }
+      const Steps s = steps(x, a, start_x, to, first, y, b, start_y);
+      for (const Step& step : {s.late, s.early}) visit(k, step.raise, step.start, step.other_start);
     }
-    const Steps s = steps(x, a, start_x, to, first, y, b, start_y, *after_b);
-    for (const Step& step : {s.late, s.early})
-      visit(follower.element, std::max(follower.raise, step.raise), step.start, step.other_start);
   }
 }
 
@@ -459,6 +470,7 @@ Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
     ++effort_;
     const auto x = static_cast<std::uint32_t>(pair >> 32), y = static_cast<std::uint32_t>(pair);
     if ((x == kDone && y == kDone) || count > max_pairs) return raise_;
+    if (count % 8192 == 8191 && model_.limits().exhausted_now()) return raise_;
     const Starts starts = reached_.at(pair);
     advance(first, x, starts.x, second, y, starts.y, true);
     advance(second, y, starts.y, first, x, starts.x, false);

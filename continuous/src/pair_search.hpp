@@ -25,15 +25,15 @@ namespace quadrille::continuous {
 class PairSearch {
  public:
   explicit PairSearch(Model& model)
-      : model_(model), bans_{BanTable(model.instance().roadmap()),
-                             BanTable(model.instance().roadmap())} {}
+      : model_(model),
+        bans_{BanTable(model.instance().roadmap()), BanTable(model.instance().roadmap())} {}
 
   struct Party {
     AgentId agent;
     Cost cap = 0;  ///< It arrives at this tick or earlier. At least its free cost.
   };
   /// Some r in [0, max_raise + 1]: no plan has both cost(i) < i.cap + r and cost(j) <= j.cap.
-  /// Visits at most about `max_pairs` pairs of elements.
+  /// Visits at most about `max_pairs` pairs of elements, fewer if the limits of the model are met.
   [[nodiscard]] Cost refuted_raise(const Party& i, const Party& j, Cost max_raise,
                                    std::size_t max_pairs);
 
@@ -56,30 +56,26 @@ class PairSearch {
     Ticks begin = 0, end = 0;
     Ticks duration = 0;
     Ticks end_without_raise = 0;  // grows with the raise until it is `end`, or is larger
-    [[nodiscard]] Ticks arrive_from() const { return begin + duration; }
   };
   static constexpr std::uint32_t kStart = 0, kDone = 1;
   struct TimedEdge {
     EdgeId edge;
-    Ticks first = 0, last = 0;  // starts, at the largest raise
+    Ticks first = 0, last = 0;     // starts, at the largest raise
     Ticks last_without_raise = 0;  // grows with the raise until it is `last`
     bool matters = false;
   };
-  /// An element and the raise that it needs.
-  struct Follower {
-    std::uint32_t element;
-    Cost raise;
+  /// How an agent goes on from a vertex by edges that do not matter.
+  struct Way {
+    VertexId vertex;  // from which edges that matter go on
+    Ticks ticks = 0;
   };
-  /// The elements that may come next and matter.
   struct Next {
     bool is_known = false;
-    std::vector<Follower> followers;
-    // The last start of one of them is `begin_by` or, if that is less, `begin_by_without_raise` and
-    // the raise; without limit if that is at least `done_raise`.
+    std::vector<Way> ways;
+    Ticks done = kForever;  // how long it takes to the goal if nothing more matters
+    // The last start that matters is `begin_by` or, if that is less, `begin_by_without_raise` and
+    // the raise.
     Ticks begin_by = -1, begin_by_without_raise = -1;
-    Cost done_raise = kForever;
-    /// What a start at `tick` or later needs.
-    [[nodiscard]] Cost raise_for_begin(Ticks tick) const;
   };
   /// The elements of one agent.
   struct Side {
@@ -89,15 +85,15 @@ class PairSearch {
     Ticks width = 1;               // of the intervals
     std::vector<TimedEdge> edges;  // in the order of their tails
     std::vector<Element> elements;
-    std::vector<Next> next;  // by element
+    std::vector<Next> next;  // by vertex
+    Cost cap = 0;            // without raise
     // By vertex:
-    std::vector<Ticks> from_start;                // kForever: not reached within the cap
+    std::vector<Ticks> from_start;                    // kForever: not reached within the cap
     std::vector<std::uint32_t> first_edge, end_edge;  // that leave it
     std::vector<std::uint32_t> first_element, end_element;
     std::vector<char> stay_matters, may_matter_later;
     std::vector<VertexId> reached;
-    std::vector<std::uint32_t> stamp;  // by element
-    std::uint32_t last_stamp = 0;
+    std::vector<Ticks> distance;  // kForever between uses
   };
   /// What is known of the starts of a pair of elements: no earlier ones need to be considered.
   struct Starts {
@@ -134,7 +130,11 @@ class PairSearch {
   [[nodiscard]] bool is_banned(const BanTable& bans, EdgeId e) const;
   /// Whether the stay between the two moves breaks a ban.
   [[nodiscard]] static bool breaks_ban(const Side& side, const Element& from, const Element& to);
-  [[nodiscard]] const Next& next_of(Side& side, std::uint32_t element);
+  [[nodiscard]] const Next& next_of(Side& side, VertexId v);
+  /// What a next start at `tick` or later needs, or none that matters, after a start at `start`.
+  [[nodiscard]] Cost raise_to_wait(Side& side, const Element& element, Ticks start, Ticks tick);
+  [[nodiscard]] static Cost raise_for_done(const Side& side, const Element& element, Ticks start,
+                                           const Next& next);
   /// Visits the pairs that follow when the agent of `x` begins its next move.
   void advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, std::uint32_t at_y,
                Ticks start_y, bool is_first);
@@ -150,8 +150,7 @@ class PairSearch {
     Step late, early;
   };
   [[nodiscard]] Steps steps(const Side& x, const Element& a, Ticks start_a, const Element& next,
-                            Ticks first_s, const Side& y, const Element& b, Ticks first_t,
-                            const Next& after_b);
+                            Ticks first_s, Side& y, const Element& b, Ticks first_t);
   /// What `element` needs to end at `tick` or later.
   [[nodiscard]] static Cost raise_for_end(const Element& element, Ticks tick);
   [[nodiscard]] bool are_far(EdgeId e, VertexId from, VertexId to, Length reach) const;
@@ -177,11 +176,10 @@ class PairSearch {
   /// Goes on with the least raise that is pending. False: there is none.
   bool next_raise();
 
-  Cost max_raise_ = 0;  // or what reaches both ends
-  Cost raise_ = 0;                   // up to which steps have been taken
-  std::vector<Open> open_;           // a heap, the earliest first: to be visited
-  std::vector<Pending> pending_;     // a heap, the least raise first: to be visited later
-  std::vector<Follower> followers_;  // likewise
+  Cost max_raise_ = 0;            // or what reaches both ends
+  Cost raise_ = 0;                // up to which steps have been taken
+  std::vector<Open> open_;        // a heap, the earliest first: to be visited
+  std::vector<Pending> pending_;  // a heap, the least raise first: to be visited later
   std::vector<std::uint32_t> stack_;
   std::int64_t effort_ = 0;
 };

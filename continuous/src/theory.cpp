@@ -249,16 +249,6 @@ void ContinuousTheory::explain_bound(AgentId i, Cost bound, FormulaWriter& write
     if (std::find(clause.begin(), clause.end(), allowed) == clause.end()) clause.push_back(allowed);
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
-  if (getenv("QDBG")) {
-    fprintf(stderr, "L %zu b %lld slots %zu of %zu cap +%lld:", i.index(), (long long)(bound- model_.free_cost(i)), slots.size(), agent.active.size(), (long long)(agent.cap - model_.free_cost(i)));
-    for (auto x : slots) { fprintf(stderr, " %zu(%zu)", agent.active[x].index(), model_.obstacles()[agent.active[x]].bans.size());
-     for (auto p : model_.obstacles()[agent.active[x]].partners) fprintf(stderr, "/%zu", p.index());}
-    fprintf(stderr, "\n");
-    for (auto x : slots) if (agent.active[x].index()==15) for (auto& bb : model_.obstacles()[agent.active[x]].bans) {
-       if (bb.kind==Ban::Kind::start) fprintf(stderr, "15: edge e %u (from H %lld) [%lld,%lld) lastfree %lld\n", bb.place, (long long)model_.task(i).distances[model_.instance().roadmap().edge(EdgeId(bb.place)).from], (long long)bb.begin, (long long)bb.end, (long long)(agent.cap-model_.task(i).distances[model_.instance().roadmap().edge(EdgeId(bb.place)).from]));
-       else  fprintf(stderr, "15: stay v %u H %lld [%lld,%lld)\n", bb.place, (long long)model_.task(i).distances[VertexId(bb.place)], (long long)bb.begin, (long long)bb.end);
-    }
-  }
   blame_pairs(i, bound, slots, writer);
 }
 
