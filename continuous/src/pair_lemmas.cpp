@@ -11,23 +11,35 @@ constexpr std::size_t kMaxPairs = 3'000'000;
 constexpr std::size_t kMaxPairsInReduction = 300'000;
 
 constexpr Cost kSmallPart = 64;
-constexpr int kFirstCollision = 3, kFirstExplanation = 6;
+/// Most pairs need no such search: the clauses do as well, and for less.
+constexpr int kFirstTry = 24;
+/// Visits of pairs of elements to begin with, and per call. A search that finds nothing is paid for.
+constexpr std::int64_t kFirstCredit = 300'000, kCreditPerCall = 300;
 
 }  // namespace
 
 bool PairLemmas::note_collision(const Party& i, const Party& j, FormulaWriter& writer) {
-  return note(collisions_[{i.agent, j.agent}], kFirstCollision, i, j, writer);
+  return note(collisions_[{i.agent, j.agent}], i, j, writer);
 }
 
 bool PairLemmas::note_explanation(const Party& i, const Party& j, FormulaWriter& writer) {
-  return note(explanations_[{i.agent, j.agent}], kFirstExplanation, i, j, writer);
+  return note(explanations_[{i.agent, j.agent}], i, j, writer);
 }
 
-bool PairLemmas::note(Record& record, int first_try, const Party& i, const Party& j,
-                      FormulaWriter& writer) {
-  if (++record.count < std::max(record.next_try, first_try)) return false;
-  if (i.cap >= kForever || j.cap >= kForever) return false;
+bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
+  credit_ += kCreditPerCall;
+  if (++record.count < std::max(record.next_try, kFirstTry)) return false;
+  if (i.cap >= kForever || j.cap >= kForever || kFirstCredit + credit_ < 0) return false;
   record.next_try = 2 * record.count;
+  const std::int64_t before = search_.effort();
+  const bool is_added = try_pair(record, i, j, writer);
+  const std::int64_t cost = search_.effort() - before;
+  credit_ -= is_added ? cost / 4 : cost;
+  if (is_added) record.next_try = record.count + 1;
+  return is_added;
+}
+
+bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
   for (const std::size_t side : {0U, 1U}) {
     search_.bans(side).clear();
     loaded_[side].clear();
@@ -42,7 +54,6 @@ bool PairLemmas::note(Record& record, int first_try, const Party& i, const Party
     if (!is_refuted(i, j)) return false;
     reduce(i, j);
   }
-  record.next_try = record.count + 1;
   add_clauses(i, j, writer);
   return true;
 }

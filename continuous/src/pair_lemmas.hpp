@@ -34,7 +34,8 @@ class PairLemmas {
     int next_try = 0;
     std::vector<std::pair<Cost, Cost>> open;  // caps that other agents have to join in to refute
   };
-  bool note(Record& record, int first_try, const Party& i, const Party& j, FormulaWriter& writer);
+  bool note(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
+  bool try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
   [[nodiscard]] bool is_refuted(const Party& i, const Party& j);
   /// Makes obstacles that the two do not owe to each other slots of the search.
   void load(const Party& party, AgentId other, std::size_t side);
@@ -48,6 +49,7 @@ class PairLemmas {
   Model& model_;
   PairSearch search_;
   std::map<std::pair<AgentId, AgentId>, Record> collisions_, explanations_;
+  std::int64_t credit_ = 0;
   std::vector<ObstacleId> loaded_[2];  // by side, slot
 };
 

@@ -453,6 +453,7 @@ Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
   second.bans = &bans_[1];
   if (!collect_edges(i, max_raise, j, 0, first) || !collect_edges(j, 0, i, max_raise, second))
     return 0;
+  effort_ += static_cast<std::int64_t>(first.edges.size() + second.edges.size());
   find_contacts(first, second);
   find_contacts(second, first);
   make_elements(first);
