@@ -2,6 +2,7 @@
 #include "cover_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "level_cover.hpp"
 #include "quadrille/core/contract.hpp"
@@ -87,12 +88,15 @@ class CoreShrinker {
 
 class CoverSearch {
  public:
-  CoverSearch(CostProblem& problem, LimitMonitor& limits, Statistics& statistics)
+  CoverSearch(CostProblem& problem, std::optional<Plan> some_plan, LimitMonitor& limits,
+              Statistics& statistics)
       : problem_(problem),
         limits_(limits),
         statistics_(statistics),
         cover_(free_costs()),
-        shrinker_(problem, limits) {}
+        shrinker_(problem, limits) {
+    report_.plan = std::move(some_plan);
+  }
 
   CostReport run(const sat::BoundListener& on_bound) {
     while (true) {
@@ -209,19 +213,26 @@ class CoverSearch {
 
 }  // namespace
 
-CostReport search_by_covers(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
+CostReport search_by_covers(CostProblem& problem, std::optional<Plan> some_plan,
+                            LimitMonitor& limits, Statistics& statistics,
                             const sat::BoundListener& on_bound) {
-  return CoverSearch(problem, limits, statistics).run(on_bound);
+  return CoverSearch(problem, std::move(some_plan), limits, statistics).run(on_bound);
 }
 
-CostReport search_makespan(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
+CostReport search_makespan(CostProblem& problem, std::optional<Plan> some_plan,
+                           LimitMonitor& limits, Statistics& statistics,
                            const sat::BoundListener& on_bound) {
   CostReport report;
+  report.plan = std::move(some_plan);
   const Model& model = problem.model();
   for (const AgentId i : model.instance().agent_ids())
     report.lower_bound = std::max(report.lower_bound, model.free_cost(i));
   while (true) {
     if (on_bound) on_bound(report.lower_bound);
+    if (report.plan && cost(*report.plan, Objective::makespan) <= report.lower_bound) {
+      report.end = End::found;
+      return report;
+    }
     if (limits.exhausted_now()) return report;
     const IdVector<AgentId, Cost> caps(model.instance().num_agents(), report.lower_bound);
     Verdict verdict = problem.solve(caps, limits);

@@ -18,15 +18,16 @@ struct CostReport {
 /// them, or there is a new core. Where cores are many, turns with bounds on the sum of
 /// all costs take place. Integer costs may be as large as they like.
 /// Ends by itself if the clauses allow no plan at all, which need not happen where none exists.
+/// `some_plan`: one of any cost, if known.
 /// Deterministic as long as no limit is met. Adds to `statistics.cores`.
-[[nodiscard]] CostReport search_by_covers(CostProblem& problem, LimitMonitor& limits,
-                                          Statistics& statistics,
+[[nodiscard]] CostReport search_by_covers(CostProblem& problem, std::optional<Plan> some_plan,
+                                          LimitMonitor& limits, Statistics& statistics,
                                           const sat::BoundListener& on_bound);
 
 /// Finds a plan of least makespan from below: all agents are capped by the bound under test, and a
 /// core moves it on to the next cost that one of its agents can have.
-[[nodiscard]] CostReport search_makespan(CostProblem& problem, LimitMonitor& limits,
-                                         Statistics& statistics,
+[[nodiscard]] CostReport search_makespan(CostProblem& problem, std::optional<Plan> some_plan,
+                                         LimitMonitor& limits, Statistics& statistics,
                                          const sat::BoundListener& on_bound);
 
 }  // namespace quadrille::continuous

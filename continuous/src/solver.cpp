@@ -2,10 +2,14 @@
 #include "quadrille/continuous/solver.hpp"
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cost_problem.hpp"
 #include "cover_search.hpp"
+#include "feasibility.hpp"
+#include "first_plan.hpp"
 #include "known_plan_auditor.hpp"
 #include "model.hpp"
 #include "quadrille/continuous/verify.hpp"
@@ -22,10 +26,27 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   return std::nullopt;
 }
 
+std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_agents) {
+  if (blocked.size() == num_agents) return "the agents cannot all reach their goals";
+  std::string text = "agents";
+  for (const AgentId i : blocked)
+    text += (i == blocked.front() ? " " : " and ") + std::to_string(i.index());
+  return text + " cannot both reach their goals, even without the others";
+}
+
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
                SolveOutcome& outcome) {
   Model model(instance, limits);
   if (!model.is_complete()) return;
+  std::optional<Plan> some_plan = find_first_plan(model, options.objective);
+  if (!some_plan) {
+    const std::vector<AgentId> blocked = find_blocked_agents(model);
+    if (!blocked.empty()) {
+      outcome.status = Status::infeasible;
+      outcome.explanation = blocked_text(blocked, instance.num_agents());
+      return;
+    }
+  }
   ContinuousTheory theory(model);
   std::optional<KnownPlanAuditor> auditor;
   if (options.known_plan) auditor.emplace(model, *options.known_plan);
@@ -42,8 +63,10 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   });
   const auto on_bound = [&](Cost bound) { outcome.lower_bound = bound; };
   const auto report = options.objective == Objective::sum_of_costs
-                          ? search_by_covers(problem, limits, outcome.statistics, on_bound)
-                          : search_makespan(problem, limits, outcome.statistics, on_bound);
+                          ? search_by_covers(problem, std::move(some_plan), limits,
+                                             outcome.statistics, on_bound)
+                          : search_makespan(problem, std::move(some_plan), limits,
+                                            outcome.statistics, on_bound);
   outcome.lower_bound = report.lower_bound;
   engine.add_statistics(outcome.statistics);
   outcome.statistics.checks = theory.num_checks();

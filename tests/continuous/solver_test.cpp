@@ -86,16 +86,58 @@ INSTANTIATE_TEST_SUITE_P(Systems, ContinuousSolver, testing::Values(System::dpll
                            return std::string(param.param == System::dpll ? "Dpll" : "SmtCbs");
                          });
 
-TEST(ContinuousSolverLimits, LowerBoundIsKnownWhenALimitEndsTheSearch) {
-  // Two agents that would have to pass each other on a line.
-  const auto roadmap = two_way({{0, 0}, {1000, 0}}, {{0, 1}});
-  const auto instance = Instance::make(roadmap, {agent(0, 1, 100), agent(1, 0, 100)}).value();
+TEST(ContinuousSolverInfeasible, TwoAgentsThatHaveToPassOnALine) {
+  for (const int length : {1, 2, 6}) {
+    std::vector<Point> points{{0, 0}};
+    std::vector<std::pair<int, int>> roads;
+    for (int v = 1; v <= length; ++v) {
+      points.push_back({1000 * v, 0});
+      roads.emplace_back(v - 1, v);
+    }
+    const auto roadmap = two_way(points, roads);
+    const auto end = static_cast<std::size_t>(length);
+    const auto instance = Instance::make(roadmap, {agent(0, end, 100), agent(end, 0, 100)}).value();
+    SolveOptions options;
+    options.limits.cpu_s = 20;
+    const SolveOutcome outcome = solve(instance, options);
+    EXPECT_EQ(outcome.status, Status::infeasible);
+    EXPECT_EQ(outcome.statistics.conflicts, 0);
+    EXPECT_FALSE(outcome.explanation.empty());
+  }
+}
+
+TEST(ContinuousSolverInfeasible, ThreeAgentsWithRoomForTwo) {
+  // The first two can pass each other by way of the alcove as long as the third is not in it.
+  const auto roadmap =
+      two_way({{0, 0}, {1000, 0}, {2000, 0}, {1000, 800}}, {{0, 1}, {1, 2}, {1, 3}});
   SolveOptions options;
-  options.limits.cpu_s = 0.05;
-  const SolveOutcome outcome = solve(instance, options);
-  EXPECT_TRUE(outcome.status == Status::unknown || outcome.status == Status::infeasible);
-  EXPECT_GE(outcome.lower_bound, 2000);
-  EXPECT_FALSE(outcome.internal_error);
+  options.limits.cpu_s = 20;
+  const auto instance =
+      Instance::make(roadmap, {agent(0, 2, 300), agent(2, 0, 300), agent(3, 3, 300)}).value();
+  EXPECT_EQ(solve(instance, options).status, Status::infeasible);
+}
+
+/// Two agents that pass each other by way of an alcove, which the first plan leaves to be improved.
+Instance alcove() {
+  const auto roadmap =
+      two_way({{0, 0}, {1000, 0}, {2000, 0}, {1000, 800}}, {{0, 1}, {1, 2}, {1, 3}});
+  return Instance::make(roadmap, {agent(0, 2, 300), agent(2, 0, 300)}).value();
+}
+
+TEST(ContinuousSolverLimits, APlanAndABoundAreKnownWhenALimitEndsTheSearch) {
+  SolveOptions options;
+  options.limits.conflicts = 1;
+  const SolveOutcome outcome = solve(alcove(), options);
+  ASSERT_EQ(outcome.status, Status::feasible);
+  EXPECT_TRUE(verify(alcove(), *outcome.plan).valid());
+  EXPECT_GE(outcome.lower_bound, 4000);
+  EXPECT_GT(*outcome.cost, outcome.lower_bound);
+}
+
+TEST(ContinuousSolverLimits, CongestionTakesFewConflicts) {
+  SolveOptions options;
+  options.limits.conflicts = 200;
+  EXPECT_EQ(solve(alcove(), options).status, Status::optimal);
 }
 
 }  // namespace
