@@ -178,6 +178,19 @@ TEST_F(RoadmapTest, InfoDescribesRoadmapAndAgents) {
   EXPECT_THAT(alone.out, Not(HasSubstr("distances")));
 }
 
+TEST_F(RoadmapTest, TwoAgentsThatCannotPassAreInfeasible) {
+  const std::string discs_json = read("discs.json");
+  write("narrow.json", std::string(discs_json).replace(discs_json.find("0.8]"), 4, "0.54]"));
+  const Finished finished = run({"solve", "--instance", path("narrow.json"), "--json", "-"});
+  EXPECT_EQ(finished.code, 20) << finished.err;
+  const json result = json::parse(finished.out);
+  EXPECT_EQ(result["status"], "infeasible");
+  EXPECT_TRUE(result["lower_bound"].is_null());
+  EXPECT_TRUE(result["lower_bound_ticks"].is_null());
+  EXPECT_TRUE(result["plan"].is_null());
+  EXPECT_THAT(result["explanation"], HasSubstr("reach their goals"));
+}
+
 TEST_F(RoadmapTest, GeneratedRoadmapsAreTheSameForASeedAndAreSolved) {
   const std::vector<std::string> generate = {
       "generate", "--kind", "roadmap",  "--vertices", "20",      "--agents", "6",
