@@ -83,9 +83,8 @@ std::optional<Plan> find_first_plan(Model& model, Objective objective) {
   const Instance& instance = model.instance();
   std::vector<AgentId> order;
   for (const AgentId i : instance.agent_ids()) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](AgentId a, AgentId b) {
-    return model.free_cost(a) > model.free_cost(b);
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](AgentId a, AgentId b) { return model.free_cost(a) > model.free_cost(b); });
   if (order.empty()) return Plan{};
   OneByOne planner(model);
   std::optional<Plan> best;

@@ -13,7 +13,8 @@ constexpr std::size_t kMaxPairsInReduction = 300'000;
 constexpr Cost kSmallPart = 64;
 /// Most pairs need no such search: the clauses do as well, and for less.
 constexpr int kFirstTry = 24;
-/// Visits of pairs of elements to begin with, and per call. A search that finds nothing is paid for.
+/// Visits of pairs of elements to begin with, and per call. A search that finds nothing is paid
+/// for.
 constexpr std::int64_t kFirstCredit = 300'000, kCreditPerCall = 300;
 
 }  // namespace

@@ -62,11 +62,10 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
       options.on_progress({outcome.lower_bound, limits.elapsed_wall(), limits.conflicts()});
   });
   const auto on_bound = [&](Cost bound) { outcome.lower_bound = bound; };
-  const auto report = options.objective == Objective::sum_of_costs
-                          ? search_by_covers(problem, std::move(some_plan), limits,
-                                             outcome.statistics, on_bound)
-                          : search_makespan(problem, std::move(some_plan), limits,
-                                            outcome.statistics, on_bound);
+  const auto report =
+      options.objective == Objective::sum_of_costs
+          ? search_by_covers(problem, std::move(some_plan), limits, outcome.statistics, on_bound)
+          : search_makespan(problem, std::move(some_plan), limits, outcome.statistics, on_bound);
   outcome.lower_bound = report.lower_bound;
   engine.add_statistics(outcome.statistics);
   outcome.statistics.checks = theory.num_checks();
