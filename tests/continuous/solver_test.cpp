@@ -117,27 +117,44 @@ TEST(ContinuousSolverInfeasible, ThreeAgentsWithRoomForTwo) {
   EXPECT_EQ(solve(instance, options).status, Status::infeasible);
 }
 
-/// Two agents that pass each other by way of an alcove, which the first plan leaves to be improved.
+TEST(ContinuousSolverLimits, APlanAndABoundAreKnownWhenALimitEndsTheSearch) {
+  // A grid whose columns are crossed by agents along its rows, in both directions.
+  std::vector<Point> points;
+  std::vector<std::pair<int, int>> roads;
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 6; ++x) {
+      points.push_back({1000 * x, 1000 * y});
+      if (x > 0) roads.emplace_back(6 * y + x - 1, 6 * y + x);
+      if (y > 0) roads.emplace_back(6 * y + x - 6, 6 * y + x);
+    }
+  std::vector<Agent> agents;
+  for (std::size_t k = 1; k < 5; ++k) {
+    agents.push_back(agent(6 * k, 6 * (5 - k) + 5, 400));
+    agents.push_back(agent(30 + k, 5 - k, 400));
+  }
+  const auto instance = Instance::make(two_way(points, roads), agents).value();
+  SolveOptions options;
+  options.limits.conflicts = 1;
+  const SolveOutcome outcome = solve(instance, options);
+  ASSERT_EQ(outcome.status, Status::feasible);
+  EXPECT_TRUE(verify(instance, *outcome.plan).valid());
+  EXPECT_GE(outcome.lower_bound, 8 * 5000);
+  EXPECT_GT(*outcome.cost, outcome.lower_bound);
+}
+
+/// Two agents that pass each other by way of an alcove.
 Instance alcove() {
   const auto roadmap =
       two_way({{0, 0}, {1000, 0}, {2000, 0}, {1000, 800}}, {{0, 1}, {1, 2}, {1, 3}});
   return Instance::make(roadmap, {agent(0, 2, 300), agent(2, 0, 300)}).value();
 }
 
-TEST(ContinuousSolverLimits, APlanAndABoundAreKnownWhenALimitEndsTheSearch) {
-  SolveOptions options;
-  options.limits.conflicts = 1;
-  const SolveOutcome outcome = solve(alcove(), options);
-  ASSERT_EQ(outcome.status, Status::feasible);
-  EXPECT_TRUE(verify(alcove(), *outcome.plan).valid());
-  EXPECT_GE(outcome.lower_bound, 4000);
-  EXPECT_GT(*outcome.cost, outcome.lower_bound);
-}
-
 TEST(ContinuousSolverLimits, CongestionTakesFewConflicts) {
   SolveOptions options;
-  options.limits.conflicts = 200;
-  EXPECT_EQ(solve(alcove(), options).status, Status::optimal);
+  options.limits.conflicts = 600;
+  const SolveOutcome outcome = solve(alcove(), options);
+  EXPECT_EQ(outcome.status, Status::optimal);
+  EXPECT_EQ(outcome.lower_bound, 6547);
 }
 
 }  // namespace
