@@ -233,6 +233,20 @@ TEST_F(RoadmapTest, EveryLimitEndsTheSearchAndIsNamed) {
   }
 }
 
+TEST_F(RoadmapTest, AGapEndsTheSearchWithAPlan) {
+  const Finished wide = run(crowd("solve", {"--gap", "99", "--quiet", "--json", "-"}));
+  EXPECT_EQ(wide.code, 10) << wide.err;
+  const json result = json::parse(wide.out);
+  EXPECT_EQ(result["status"], "feasible");
+  EXPECT_EQ(result["stop_reason"], "gap");
+  EXPECT_EQ(result["options"]["gap"], 99);
+  EXPECT_GT(result["cost_ticks"], result["lower_bound_ticks"]);
+  // Of two discs: one per cent is not reached before the proof.
+  const Finished narrow = run(discs("solve", {"--gap", "0", "--quiet", "--json", "-"}));
+  EXPECT_EQ(narrow.code, 0);
+  EXPECT_EQ(json::parse(narrow.out)["cost_ticks"], 5015);
+}
+
 TEST_F(RoadmapTest, AnInterruptKeepsTheBound) {
   for (const int signal : {SIGINT, SIGTERM}) {
     Process process(folder_, crowd("solve", {"--quiet", "--json", "-"}));

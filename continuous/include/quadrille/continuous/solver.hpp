@@ -26,7 +26,8 @@ enum class System {
 
 /// A look at a running search.
 struct Progress {
-  Cost lower_bound = 0;  ///< Ticks.
+  Cost lower_bound = 0;      ///< Ticks.
+  std::optional<Cost> cost;  ///< Of the best plan so far, in ticks.
   double elapsed_s = 0;
   std::int64_t conflicts = 0;
 };
@@ -35,6 +36,9 @@ struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
   Limits limits;
+  /// Stop when the plan is proved to cost at most this many per cent of its cost too much. Not
+  /// negative.
+  std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
   /// Called on the solving thread, at most a few times a second. May be empty.
   std::function<void(const Progress&)> on_progress;
