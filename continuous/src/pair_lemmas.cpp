@@ -12,7 +12,7 @@ constexpr std::size_t kMaxPairsInReduction = 300'000;
 
 constexpr Cost kSmallPart = 64;
 /// Most pairs need no such search: the clauses do as well, and for less.
-constexpr int kFirstTry = 24;
+constexpr int kFirstTry = 64;
 /// Visits of pairs of elements to begin with, and per call. A search that finds nothing is paid
 /// for.
 constexpr std::int64_t kFirstCredit = 300'000, kCreditPerCall = 300;
@@ -35,7 +35,7 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   const std::int64_t before = search_.effort();
   const bool is_added = try_pair(record, i, j, writer);
   const std::int64_t cost = search_.effort() - before;
-  credit_ -= is_added ? cost / 4 : cost;
+  credit_ -= is_added ? cost / 2 : cost;
   if (is_added) record.next_try = record.count + 1;
   return is_added;
 }

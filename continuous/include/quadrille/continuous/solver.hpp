@@ -60,9 +60,11 @@ struct SolveOutcome {
 };
 
 /// Finds a plan of least cost among all plans whose departures are at whole ticks. `infeasible` is
-/// a proof. A search for a plan where none exists may also go on until a limit ends it: `unknown`
-/// then. Deterministic for the same instance, options and seed as long as no limit is met. Does not
-/// print. Thread-safe.
+/// a proof: found at once for two agents that cannot pass each other, and for all agents of small
+/// instances that cannot, leaving the times out. A search for a plan where none exists for other
+/// reasons may also go on until a limit ends it: `unknown` then. If a limit ends the search and
+/// some plan is known, that is `feasible`. Deterministic for the same instance, options and seed as
+/// long as no limit is met. Does not print. Thread-safe.
 [[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
 
 }  // namespace quadrille::continuous
