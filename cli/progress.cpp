@@ -16,8 +16,9 @@ std::string progress_text(const discrete::Progress& progress) {
 }
 
 std::string progress_text(const continuous::Progress& progress, double resolution) {
-  return fmt::format("cost >= {}, {:.1f} s, {} conflicts",
-                     continuous::in_input_units(progress.lower_bound, resolution),
+  const auto time = [&](Cost ticks) { return continuous::in_input_units(ticks, resolution); };
+  const std::string plan = progress.cost ? fmt::format(", plan {}", time(*progress.cost)) : "";
+  return fmt::format("cost >= {}{}, {:.1f} s, {} conflicts", time(progress.lower_bound), plan,
                      progress.elapsed_s, progress.conflicts);
 }
 

@@ -53,6 +53,7 @@ Json options_json(const RoadmapSolveRequest& request) {
   json["resolution"] = or_null(request.roadmap.resolution);
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
+  json["gap"] = or_null(options.gap_percent);
   json["seed"] = options.seed;
   json["time_limit"] = or_null(options.limits.wall_s);
   json["cpu_limit"] = or_null(options.limits.cpu_s);

@@ -315,7 +315,7 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
   };
   const InputOptions& input = arguments.request.input;
   for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
-                             "--no-first-plan", "--threads", "--race", "--gap", "--audit"})
+                             "--no-first-plan", "--threads", "--race", "--audit"})
     if (app.count(option) > 0) return refuse(std::string(option) + " does not apply to roadmaps");
   std::string wrong = check_roadmap_options(arguments.roadmap, input, Need::tasks);
   if (wrong.empty()) wrong = arguments.plan_format.why_not_continuous("--plan-format");
@@ -341,6 +341,7 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
   request.options.objective = options.objective;
   request.options.system = *system;
   request.options.limits = options.limits;
+  request.options.gap_percent = options.gap_percent;
   if (arguments.memory_mib)
     request.options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (arguments.seed) request.options.seed = static_cast<std::uint32_t>(*arguments.seed);

@@ -2,6 +2,7 @@
 #include "cover_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "level_cover.hpp"
 #include "quadrille/core/contract.hpp"
@@ -87,17 +88,20 @@ class CoreShrinker {
 
 class CoverSearch {
  public:
-  CoverSearch(CostProblem& problem, LimitMonitor& limits, Statistics& statistics)
+  CoverSearch(CostProblem& problem, std::optional<Plan> some_plan, LimitMonitor& limits,
+              Statistics& statistics, const ReportListener& on_report)
       : problem_(problem),
         limits_(limits),
         statistics_(statistics),
+        on_report_(on_report),
         cover_(free_costs()),
-        shrinker_(problem, limits) {}
+        shrinker_(problem, limits) {
+    report_.plan = std::move(some_plan);
+  }
 
-  CostReport run(const sat::BoundListener& on_bound) {
+  CostReport run() {
     while (true) {
       report_.lower_bound = std::max(report_.lower_bound, cover_.total());
-      if (on_bound) on_bound(report_.lower_bound);
       if (is_closed() || limits_.exhausted_now()) return report_;
       const Verdict verdict = problem_.solve(cover_.costs(), limits_);
       if (verdict == Verdict::unknown) return report_;
@@ -117,6 +121,7 @@ class CoverSearch {
 
  private:
   bool is_closed() {
+    if (on_report_) on_report_(report_);
     if (!report_.plan || cost(*report_.plan, Objective::sum_of_costs) > report_.lower_bound)
       return false;
     report_.end = End::found;
@@ -200,6 +205,7 @@ class CoverSearch {
   CostProblem& problem_;
   LimitMonitor& limits_;
   Statistics& statistics_;
+  const ReportListener& on_report_;
   LevelCover cover_;
   CoreShrinker shrinker_;
   CostReport report_;
@@ -209,19 +215,26 @@ class CoverSearch {
 
 }  // namespace
 
-CostReport search_by_covers(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
-                            const sat::BoundListener& on_bound) {
-  return CoverSearch(problem, limits, statistics).run(on_bound);
+CostReport search_by_covers(CostProblem& problem, std::optional<Plan> some_plan,
+                            LimitMonitor& limits, Statistics& statistics,
+                            const ReportListener& on_report) {
+  return CoverSearch(problem, std::move(some_plan), limits, statistics, on_report).run();
 }
 
-CostReport search_makespan(CostProblem& problem, LimitMonitor& limits, Statistics& statistics,
-                           const sat::BoundListener& on_bound) {
+CostReport search_makespan(CostProblem& problem, std::optional<Plan> some_plan,
+                           LimitMonitor& limits, Statistics& statistics,
+                           const ReportListener& on_report) {
   CostReport report;
+  report.plan = std::move(some_plan);
   const Model& model = problem.model();
   for (const AgentId i : model.instance().agent_ids())
     report.lower_bound = std::max(report.lower_bound, model.free_cost(i));
   while (true) {
-    if (on_bound) on_bound(report.lower_bound);
+    if (on_report) on_report(report);
+    if (report.plan && cost(*report.plan, Objective::makespan) <= report.lower_bound) {
+      report.end = End::found;
+      return report;
+    }
     if (limits.exhausted_now()) return report;
     const IdVector<AgentId, Cost> caps(model.instance().num_agents(), report.lower_bound);
     Verdict verdict = problem.solve(caps, limits);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "cost_problem.hpp"
 #include "quadrille/core/statistics.hpp"
 
@@ -13,20 +16,25 @@ struct CostReport {
   std::optional<Plan> plan;  ///< The cheapest one found; of cost `lower_bound` if `end` is found.
 };
 
+/// Hears of the bound and the plan, while the search goes on, each time that one may be better. It
+/// may stop the limits.
+using ReportListener = std::function<void(const CostReport&)>;
+
 /// Finds a plan of least sum of costs by implicit hitting sets (Davies and Bacchus 2011, CP): the
 /// cheapest costs that hit all known cores are the agents' caps; either there is a plan within
 /// them, or there is a new core. Where cores are many, turns with bounds on the sum of
 /// all costs take place. Integer costs may be as large as they like.
 /// Ends by itself if the clauses allow no plan at all, which need not happen where none exists.
+/// `some_plan`: one of any cost, if known.
 /// Deterministic as long as no limit is met. Adds to `statistics.cores`.
-[[nodiscard]] CostReport search_by_covers(CostProblem& problem, LimitMonitor& limits,
-                                          Statistics& statistics,
-                                          const sat::BoundListener& on_bound);
+[[nodiscard]] CostReport search_by_covers(CostProblem& problem, std::optional<Plan> some_plan,
+                                          LimitMonitor& limits, Statistics& statistics,
+                                          const ReportListener& on_report);
 
 /// Finds a plan of least makespan from below: all agents are capped by the bound under test, and a
 /// core moves it on to the next cost that one of its agents can have.
-[[nodiscard]] CostReport search_makespan(CostProblem& problem, LimitMonitor& limits,
-                                         Statistics& statistics,
-                                         const sat::BoundListener& on_bound);
+[[nodiscard]] CostReport search_makespan(CostProblem& problem, std::optional<Plan> some_plan,
+                                         LimitMonitor& limits, Statistics& statistics,
+                                         const ReportListener& on_report);
 
 }  // namespace quadrille::continuous

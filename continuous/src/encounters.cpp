@@ -177,8 +177,8 @@ void EncounterClauses::exclude_stay(Party mover, const Step& move, Party stander
 void EncounterClauses::add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
                                 std::vector<Ban> bans_j, FormulaWriter& writer) {
   bool is_new_i = false, is_new_j = false;
-  const ObstacleId a = model_.usage(i, std::move(bans_i), writer, is_new_i);
-  const ObstacleId b = model_.usage(j, std::move(bans_j), writer, is_new_j);
+  const ObstacleId a = model_.usage(i, std::move(bans_i), j, writer, is_new_i);
+  const ObstacleId b = model_.usage(j, std::move(bans_j), i, writer, is_new_j);
   const sat::Lit clause[] = {~model_.obstacles()[a].allowed, ~model_.obstacles()[b].allowed};
   const sat::Usage usages[] = {{i, a.value()}, {j, b.value()}};
   writer.add({sat::LemmaKind::collision, clause, usages, false});

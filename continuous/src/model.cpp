@@ -12,7 +12,10 @@ namespace quadrille::continuous {
 using sat::Lit;
 
 Model::Model(const Instance& instance, LimitMonitor& limits)
-    : instance_(instance), contacts_(instance), thresholds_(instance.num_agents()) {
+    : instance_(instance),
+      limits_(limits),
+      contacts_(instance),
+      thresholds_(instance.num_agents()) {
   distances_.reserve(instance.num_agents());
   for (const AgentId i : instance.agent_ids()) {
     if (limits.exhausted_now()) return;
@@ -75,7 +78,8 @@ Lit Model::total_above(Cost total, FormulaWriter& writer) {
   return made;
 }
 
-ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, FormulaWriter& writer, bool& is_new) {
+ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
+                        FormulaWriter& writer, bool& is_new) {
   std::sort(bans.begin(), bans.end());
   const auto [at, inserted] = usages_.try_emplace({agent, bans}, obstacles_.next_id());
   is_new = inserted;
@@ -83,8 +87,11 @@ ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, FormulaWriter& wri
     // Variables are false by default in the solver: what is forbidden is the exception.
     const Lit allowed = ~writer.new_lit();
     remember(allowed, {VariableKind::usage, agent, 0, at->second});
-    obstacles_.push_back({agent, allowed, std::move(bans)});
+    obstacles_.push_back({agent, allowed, std::move(bans), {}});
   }
+  auto& partners = obstacles_[at->second].partners;
+  if (std::find(partners.begin(), partners.end(), partner) == partners.end())
+    partners.push_back(partner);
   return at->second;
 }
 
@@ -108,7 +115,7 @@ ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, For
       bans.push_back(Ban::start(e, tick - window->last, kForever));
   for (const VertexId v : near.vertices)
     if (contacts_.overlap(a, v, b, goal)) bans.push_back(Ban::stay(v, tick - 1, kForever));
-  obstacles_.push_back({agent, later, std::move(bans)});
+  obstacles_.push_back({agent, later, std::move(bans), {resident}});
   return at->second;
 }
 

@@ -29,6 +29,7 @@ struct Obstacle {
   AgentId agent;
   sat::Lit allowed;
   std::vector<Ban> bans;
+  std::vector<AgentId> partners;  ///< Agents whose moves and stays these bans keep clear of.
 };
 
 /// The literals and what they mean.
@@ -43,12 +44,13 @@ struct Obstacle {
 /// In lemmas, the resource number of a usage is the index of its obstacle.
 class Model {
  public:
-  /// `instance` outlives the model. If `limits` end the computation of the distances early, the
+  /// Both outlive the model. If `limits` end the computation of the distances early, the
   /// model is not complete and of no use.
   Model(const Instance& instance, LimitMonitor& limits);
   [[nodiscard]] bool is_complete() const { return distances_.size() == instance_.num_agents(); }
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
+  [[nodiscard]] LimitMonitor& limits() noexcept { return limits_; }
   [[nodiscard]] Contacts& contacts() noexcept { return contacts_; }
   [[nodiscard]] PathTask task(AgentId i) const { return {i, distances_[i.index()]}; }
   /// Cost of the cheapest path of an agent that is alone.
@@ -78,9 +80,10 @@ class Model {
   /// The literal "the sum of all costs is more than `total`".
   [[nodiscard]] sat::Lit total_above(Cost total, FormulaWriter& writer);
 
-  /// The obstacle with these bans, made at the first call. `is_new` tells.
-  [[nodiscard]] ObstacleId usage(AgentId agent, std::vector<Ban> bans, FormulaWriter& writer,
-                                 bool& is_new);
+  /// The obstacle with these bans, made at the first call. `is_new` tells. `partner` joins its
+  /// partners.
+  [[nodiscard]] ObstacleId usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
+                                 FormulaWriter& writer, bool& is_new);
   /// Keeps `agent` away from the goal of `resident` from `tick` on while that costs less.
   [[nodiscard]] ObstacleId keep_off_goal(AgentId agent, AgentId resident, Ticks tick,
                                          FormulaWriter& writer, bool& is_new);
@@ -102,6 +105,7 @@ class Model {
   void remember(sat::Lit lit, const Variable& variable);
 
   const Instance& instance_;
+  LimitMonitor& limits_;
   std::vector<GoalDistances> distances_;
   Contacts contacts_;
   IdVector<ObstacleId, Obstacle> obstacles_;

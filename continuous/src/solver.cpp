@@ -2,10 +2,14 @@
 #include "quadrille/continuous/solver.hpp"
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "cost_problem.hpp"
 #include "cover_search.hpp"
+#include "feasibility.hpp"
+#include "first_plan.hpp"
 #include "known_plan_auditor.hpp"
 #include "model.hpp"
 #include "quadrille/continuous/verify.hpp"
@@ -17,15 +21,41 @@ namespace {
 std::optional<Error> check_options(const Instance& instance, const SolveOptions& options) {
   if (options.seed > 2'000'000'000)
     return Error{ErrorCode::out_of_range, "the seed is larger than 2000000000", {}};
+  if (options.gap_percent && !(*options.gap_percent >= 0))
+    return Error{ErrorCode::out_of_range, "the gap is not a number of at least 0", {}};
   if (options.known_plan && !verify(instance, *options.known_plan).valid())
     return Error{ErrorCode::invalid_plan, "the known plan is not a plan of this instance", {}};
   return std::nullopt;
+}
+
+/// Whether the gap that is left is as small as was asked for, and no proof of optimality.
+bool is_close(const SolveOptions& options, Cost cost, Cost bound) {
+  return options.gap_percent && cost > bound &&
+         static_cast<double>(cost - bound) * 100 <=
+             *options.gap_percent * static_cast<double>(cost);
+}
+
+std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_agents) {
+  if (blocked.size() == num_agents) return "the agents cannot all reach their goals";
+  std::string text = "agents";
+  for (const AgentId i : blocked)
+    text += (i == blocked.front() ? " " : " and ") + std::to_string(i.index());
+  return text + " cannot both reach their goals, even without the others";
 }
 
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
                SolveOutcome& outcome) {
   Model model(instance, limits);
   if (!model.is_complete()) return;
+  std::optional<Plan> some_plan = find_first_plan(model, options.objective);
+  if (!some_plan) {
+    const std::vector<AgentId> blocked = find_blocked_agents(model);
+    if (!blocked.empty()) {
+      outcome.status = Status::infeasible;
+      outcome.explanation = blocked_text(blocked, instance.num_agents());
+      return;
+    }
+  }
   ContinuousTheory theory(model);
   std::optional<KnownPlanAuditor> auditor;
   if (options.known_plan) auditor.emplace(model, *options.known_plan);
@@ -36,14 +66,21 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   sat::Engine engine(in_search ? &theory : nullptr, engine_options);
   CostProblem problem(model, engine, theory, in_search);
 
+  std::optional<Cost> best;
   limits.set_ticker(0.25, [&] {
     if (options.on_progress)
-      options.on_progress({outcome.lower_bound, limits.elapsed_wall(), limits.conflicts()});
+      options.on_progress({outcome.lower_bound, best, limits.elapsed_wall(), limits.conflicts()});
   });
-  const auto on_bound = [&](Cost bound) { outcome.lower_bound = bound; };
-  const auto report = options.objective == Objective::sum_of_costs
-                          ? search_by_covers(problem, limits, outcome.statistics, on_bound)
-                          : search_makespan(problem, limits, outcome.statistics, on_bound);
+  const auto on_report = [&](const CostReport& report) {
+    outcome.lower_bound = report.lower_bound;
+    if (!report.plan) return;
+    best = cost(*report.plan, options.objective);
+    if (is_close(options, *best, report.lower_bound)) limits.stop(StopReason::gap);
+  };
+  const auto report =
+      options.objective == Objective::sum_of_costs
+          ? search_by_covers(problem, std::move(some_plan), limits, outcome.statistics, on_report)
+          : search_makespan(problem, std::move(some_plan), limits, outcome.statistics, on_report);
   outcome.lower_bound = report.lower_bound;
   engine.add_statistics(outcome.statistics);
   outcome.statistics.checks = theory.num_checks();
@@ -105,7 +142,9 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
     outcome.explanation = outcome.internal_error->message;
   } else if (outcome.status == Status::unknown || outcome.status == Status::feasible) {
     outcome.stop = limits.reason();
-    outcome.explanation = "stopped by a limit: " + std::string(to_string(outcome.stop));
+    outcome.explanation = outcome.stop == StopReason::gap
+                              ? "the gap is as small as was asked for"
+                              : "stopped by a limit: " + std::string(to_string(outcome.stop));
   }
   outcome.statistics.cpu_s = limits.elapsed_cpu();
   outcome.statistics.wall_s = limits.elapsed_wall();

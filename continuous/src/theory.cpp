@@ -2,6 +2,7 @@
 #include "theory.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "quadrille/core/contract.hpp"
@@ -51,6 +52,7 @@ ContinuousTheory::ContinuousTheory(Model& model)
       bans_(model.instance().roadmap()),
       explainer_(finder_),
       clauses_(model, finder_, bans_),
+      pair_lemmas_(model),
       agents_(model.instance().num_agents()),
       apart_(agents_.size() * agents_.size()) {
   for (const AgentId i : model.instance().agent_ids()) {
@@ -247,6 +249,23 @@ void ContinuousTheory::explain_bound(AgentId i, Cost bound, FormulaWriter& write
     if (std::find(clause.begin(), clause.end(), allowed) == clause.end()) clause.push_back(allowed);
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
+  blame_pairs(i, bound, slots, writer);
+}
+
+void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const std::vector<std::size_t>& slots,
+                                   FormulaWriter& writer) {
+  if (bound >= kForever) return;
+  std::vector<ObstacleId> obstacles;
+  std::map<AgentId, int> due_to;
+  for (const std::size_t slot : slots) {
+    obstacles.push_back(agents_[i].active[slot]);
+    for (const AgentId j : model_.obstacles()[obstacles.back()].partners) ++due_to[j];
+  }
+  for (const auto& [j, count] : due_to)
+    if (count >= 2 &&
+        pair_lemmas_.note_explanation({i, std::min(bound - 1, agents_[i].cap), obstacles},
+                                      {j, agents_[j].cap, agents_[j].active}, writer))
+      return;
 }
 
 // The costs of some agents alone are too much: so they are in every plan that costs them as much.
@@ -347,6 +366,10 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
       return;
     }
     for (const Encounter& e : found) {
+      const auto party = [&](AgentId i) {
+        return PairLemmas::Party{i, agents_[i].cap, agents_[i].active};
+      };
+      if (pair_lemmas_.note_collision(party(e.first), party(e.second), writer)) continue;
       const auto final_from = [&](AgentId i) {
         return std::max(agents_[i].path.arrival, agents_[i].floor);
       };

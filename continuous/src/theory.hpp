@@ -8,6 +8,7 @@
 #include "encounters.hpp"
 #include "explanation.hpp"
 #include "model.hpp"
+#include "pair_lemmas.hpp"
 #include "quadrille/sat/theory.hpp"
 
 namespace quadrille::continuous {
@@ -84,6 +85,9 @@ class ContinuousTheory final : public sat::Theory {
   void load_bans(AgentId i);
   /// Adds "i costs `bound` or more, or one of these usages is allowed"; i's bans are loaded.
   void explain_bound(AgentId i, Cost bound, FormulaWriter& writer);
+  /// Tries to find a stronger lemma of two agents for one that explains a bound by `slots`.
+  void blame_pairs(AgentId i, Cost bound, const std::vector<std::size_t>& slots,
+                   FormulaWriter& writer);
   void set_path(AgentId i, TimedPath path);
   /// False if the paths cost more than the budget; lemmas say so then.
   bool check_budget(FormulaWriter& writer);
@@ -98,6 +102,7 @@ class ContinuousTheory final : public sat::Theory {
   BanTable bans_;
   Explainer explainer_;
   EncounterClauses clauses_;
+  PairLemmas pair_lemmas_;
   Mode mode_ = Mode::always;
   Cost budget_ = kForever;
   sat::Lit above_budget_;

@@ -46,7 +46,6 @@ TEST_F(RoadmapInputTest, OptionsThatMeanNothingForRoadmapsAreRefused) {
                                              {"--no-first-plan"},
                                              {"--threads", "2"},
                                              {"--race"},
-                                             {"--gap", "5"},
                                              {"--audit"}})
     for (const auto& command : {discs("solve", option), xml("solve", option)}) {
       SCOPED_TRACE(testing::PrintToString(command));

@@ -178,6 +178,19 @@ TEST_F(RoadmapTest, InfoDescribesRoadmapAndAgents) {
   EXPECT_THAT(alone.out, Not(HasSubstr("distances")));
 }
 
+TEST_F(RoadmapTest, TwoAgentsThatCannotPassAreInfeasible) {
+  const std::string discs_json = read("discs.json");
+  write("narrow.json", std::string(discs_json).replace(discs_json.find("0.8]"), 4, "0.54]"));
+  const Finished finished = run({"solve", "--instance", path("narrow.json"), "--json", "-"});
+  EXPECT_EQ(finished.code, 20) << finished.err;
+  const json result = json::parse(finished.out);
+  EXPECT_EQ(result["status"], "infeasible");
+  EXPECT_TRUE(result["lower_bound"].is_null());
+  EXPECT_TRUE(result["lower_bound_ticks"].is_null());
+  EXPECT_TRUE(result["plan"].is_null());
+  EXPECT_THAT(result["explanation"], HasSubstr("reach their goals"));
+}
+
 TEST_F(RoadmapTest, GeneratedRoadmapsAreTheSameForASeedAndAreSolved) {
   const std::vector<std::string> generate = {
       "generate", "--kind", "roadmap",  "--vertices", "20",      "--agents", "6",
@@ -218,6 +231,20 @@ TEST_F(RoadmapTest, EveryLimitEndsTheSearchAndIsNamed) {
     EXPECT_EQ(result["stop_reason"], c.reason);
     EXPECT_TRUE(result["lower_bound_ticks"].is_number_integer());
   }
+}
+
+TEST_F(RoadmapTest, AGapEndsTheSearchWithAPlan) {
+  const Finished wide = run(crowd("solve", {"--gap", "99", "--quiet", "--json", "-"}));
+  EXPECT_EQ(wide.code, 10) << wide.err;
+  const json result = json::parse(wide.out);
+  EXPECT_EQ(result["status"], "feasible");
+  EXPECT_EQ(result["stop_reason"], "gap");
+  EXPECT_EQ(result["options"]["gap"], 99);
+  EXPECT_GT(result["cost_ticks"], result["lower_bound_ticks"]);
+  // Of two discs: one per cent is not reached before the proof.
+  const Finished narrow = run(discs("solve", {"--gap", "0", "--quiet", "--json", "-"}));
+  EXPECT_EQ(narrow.code, 0);
+  EXPECT_EQ(json::parse(narrow.out)["cost_ticks"], 5015);
 }
 
 TEST_F(RoadmapTest, AnInterruptKeepsTheBound) {

@@ -106,6 +106,21 @@ TEST_P(KnownValue, CrossingInTheMiddleOfTwoEdges) {
   EXPECT_GT(least(map, {agent(0, 1, 224), agent(2, 3, 224, 2 * kUnitSpeed)}), 2'000 + 1'000);
 }
 
+TEST_P(KnownValue, ASidingThatIsNotDeepEnoughMakesItInfeasible) {
+  // Agents of radius 400 and more than 400 cannot pass each other at a distance of 800.
+  for (const Length radius : {400, 401}) {
+    const auto map =
+        roadmap({{0, 0}, {1'000, 0}, {2'000, 0}, {1'000, 800}}, {{0, 1}, {1, 2}, {1, 3}});
+    const Instance instance = Instance::make(map, {agent(0, 2, radius), agent(2, 0, 400)}).value();
+    SolveOptions options;
+    options.system = GetParam();
+    options.limits.cpu_s = 20;
+    const SolveOutcome outcome = solve(instance, options);
+    EXPECT_EQ(outcome.status, radius == 400 ? Status::optimal : Status::infeasible);
+    EXPECT_EQ(outcome.explanation.empty(), radius == 400) << outcome.explanation;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Systems, KnownValue, testing::Values(System::dpll, System::smt_cbs),
                          [](const auto& param) {
                            return std::string(param.param == System::dpll ? "Dpll" : "SmtCbs");

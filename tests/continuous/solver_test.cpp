@@ -86,16 +86,75 @@ INSTANTIATE_TEST_SUITE_P(Systems, ContinuousSolver, testing::Values(System::dpll
                            return std::string(param.param == System::dpll ? "Dpll" : "SmtCbs");
                          });
 
-TEST(ContinuousSolverLimits, LowerBoundIsKnownWhenALimitEndsTheSearch) {
-  // Two agents that would have to pass each other on a line.
-  const auto roadmap = two_way({{0, 0}, {1000, 0}}, {{0, 1}});
-  const auto instance = Instance::make(roadmap, {agent(0, 1, 100), agent(1, 0, 100)}).value();
+TEST(ContinuousSolverInfeasible, TwoAgentsThatHaveToPassOnALine) {
+  for (const int length : {1, 2, 6}) {
+    std::vector<Point> points{{0, 0}};
+    std::vector<std::pair<int, int>> roads;
+    for (int v = 1; v <= length; ++v) {
+      points.push_back({1000 * v, 0});
+      roads.emplace_back(v - 1, v);
+    }
+    const auto roadmap = two_way(points, roads);
+    const auto end = static_cast<std::size_t>(length);
+    const auto instance = Instance::make(roadmap, {agent(0, end, 100), agent(end, 0, 100)}).value();
+    SolveOptions options;
+    options.limits.cpu_s = 20;
+    const SolveOutcome outcome = solve(instance, options);
+    EXPECT_EQ(outcome.status, Status::infeasible);
+    EXPECT_EQ(outcome.statistics.conflicts, 0);
+    EXPECT_FALSE(outcome.explanation.empty());
+  }
+}
+
+TEST(ContinuousSolverInfeasible, ThreeAgentsWithRoomForTwo) {
+  // The first two can pass each other by way of the alcove as long as the third is not in it.
+  const auto roadmap =
+      two_way({{0, 0}, {1000, 0}, {2000, 0}, {1000, 800}}, {{0, 1}, {1, 2}, {1, 3}});
   SolveOptions options;
-  options.limits.cpu_s = 0.05;
+  options.limits.cpu_s = 20;
+  const auto instance =
+      Instance::make(roadmap, {agent(0, 2, 300), agent(2, 0, 300), agent(3, 3, 300)}).value();
+  EXPECT_EQ(solve(instance, options).status, Status::infeasible);
+}
+
+TEST(ContinuousSolverLimits, APlanAndABoundAreKnownWhenALimitEndsTheSearch) {
+  // A grid whose columns are crossed by agents along its rows, in both directions.
+  std::vector<Point> points;
+  std::vector<std::pair<int, int>> roads;
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 6; ++x) {
+      points.push_back({1000 * x, 1000 * y});
+      if (x > 0) roads.emplace_back(6 * y + x - 1, 6 * y + x);
+      if (y > 0) roads.emplace_back(6 * y + x - 6, 6 * y + x);
+    }
+  std::vector<Agent> agents;
+  for (std::size_t k = 1; k < 5; ++k) {
+    agents.push_back(agent(6 * k, 6 * (5 - k) + 5, 400));
+    agents.push_back(agent(30 + k, 5 - k, 400));
+  }
+  const auto instance = Instance::make(two_way(points, roads), agents).value();
+  SolveOptions options;
+  options.limits.conflicts = 1;
   const SolveOutcome outcome = solve(instance, options);
-  EXPECT_TRUE(outcome.status == Status::unknown || outcome.status == Status::infeasible);
-  EXPECT_GE(outcome.lower_bound, 2000);
-  EXPECT_FALSE(outcome.internal_error);
+  ASSERT_EQ(outcome.status, Status::feasible);
+  EXPECT_TRUE(verify(instance, *outcome.plan).valid());
+  EXPECT_GE(outcome.lower_bound, 8 * 5000);
+  EXPECT_GT(*outcome.cost, outcome.lower_bound);
+}
+
+/// Two agents that pass each other by way of an alcove.
+Instance alcove() {
+  const auto roadmap =
+      two_way({{0, 0}, {1000, 0}, {2000, 0}, {1000, 800}}, {{0, 1}, {1, 2}, {1, 3}});
+  return Instance::make(roadmap, {agent(0, 2, 300), agent(2, 0, 300)}).value();
+}
+
+TEST(ContinuousSolverLimits, CongestionTakesFewConflicts) {
+  SolveOptions options;
+  options.limits.conflicts = 600;
+  const SolveOutcome outcome = solve(alcove(), options);
+  EXPECT_EQ(outcome.status, Status::optimal);
+  EXPECT_EQ(outcome.lower_bound, 6547);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ enum class System {
 
 /// A look at a running search.
 struct Progress {
-  Cost lower_bound = 0;  ///< Ticks.
+  Cost lower_bound = 0;      ///< Ticks.
+  std::optional<Cost> cost;  ///< Of the best plan so far, in ticks.
   double elapsed_s = 0;
   std::int64_t conflicts = 0;
 };
@@ -35,6 +36,9 @@ struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
   Limits limits;
+  /// Stop when the plan is proved to cost at most this many per cent of its cost too much. Not
+  /// negative.
+  std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
   /// Called on the solving thread, at most a few times a second. May be empty.
   std::function<void(const Progress&)> on_progress;
@@ -56,9 +60,11 @@ struct SolveOutcome {
 };
 
 /// Finds a plan of least cost among all plans whose departures are at whole ticks. `infeasible` is
-/// a proof. A search for a plan where none exists may also go on until a limit ends it: `unknown`
-/// then. Deterministic for the same instance, options and seed as long as no limit is met. Does not
-/// print. Thread-safe.
+/// a proof: found at once for two agents that cannot pass each other, and for all agents of small
+/// instances that cannot, leaving the times out. A search for a plan where none exists for other
+/// reasons may also go on until a limit ends it: `unknown` then. If a limit ends the search and
+/// some plan is known, that is `feasible`. Deterministic for the same instance, options and seed as
+/// long as no limit is met. Does not print. Thread-safe.
 [[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
 
 }  // namespace quadrille::continuous

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "first_plan.hpp"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "encounters.hpp"
+#include "quadrille/continuous/verify.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+constexpr int kMaxOrders = 60;
+/// Orders tried after a plan is known.
+constexpr int kMaxImprovements = 2;
+
+class OneByOne {
+ public:
+  explicit OneByOne(Model& model)
+      : model_(model), finder_(model.instance()), bans_(model.instance().roadmap()) {}
+
+  /// The agent that found no path, if one did not.
+  std::optional<std::size_t> try_order(const std::vector<AgentId>& order) {
+    std::vector<std::vector<Step>> steps;
+    paths_.assign(order.size(), {});
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if (model_.limits().exhausted()) return k;
+      const AgentId i = order[k];
+      bans_.clear();
+      for (std::size_t before = 0; before < k; ++before)
+        keep_clear(i, order[before], steps[before]);
+      TimedPath path;
+      if (!finder_.find(model_.task(i), bans_, kForever, &path)) return k;
+      steps.emplace_back();
+      list_steps(model_.instance(), i, path, steps.back());
+      paths_[i.index()] = with_stops(model_.instance(), i, path);
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] Plan plan() const {
+    Plan plan;
+    for (const Path& path : paths_) plan.paths.push_back(path);
+    return plan;
+  }
+
+ private:
+  void keep_clear(AgentId i, AgentId other, const std::vector<Step>& steps) {
+    const Instance& instance = model_.instance();
+    Contacts& contacts = model_.contacts();
+    const ClassId a = instance.class_of(i), b = instance.class_of(other);
+    std::vector<Ban> bans;
+    for (const Step& step : steps) {
+      if (step.is_move) {
+        const auto& near = contacts.near_edge(b, step.edge, a);
+        for (const EdgeId e : near.edges)
+          if (const auto offsets = contacts.offsets(b, step.edge, a, e))
+            bans.push_back(Ban::start(e, step.begin + offsets->lo, step.begin + offsets->hi + 1));
+        for (const VertexId v : near.vertices)
+          if (const auto w = contacts.window(b, step.edge, a, v))
+            bans.push_back(Ban::stay(v, step.begin + w->first, step.begin + w->last));
+      } else {
+        // A move that begins at s meets the stay if begin < s + last and end > s + first.
+        for (const EdgeId e : contacts.near_vertex(b, step.vertex, a).edges)
+          if (const auto w = contacts.window(a, e, b, step.vertex))
+            bans.push_back(Ban::start(e, step.begin - w->last + 1,
+                                      step.end >= kForever ? kForever : step.end - w->first));
+      }
+    }
+    bans_.add(bans);
+  }
+
+  Model& model_;
+  PathFinder finder_;
+  BanTable bans_;
+  std::vector<Path> paths_;
+};
+
+}  // namespace
+
+std::optional<Plan> find_first_plan(Model& model, Objective objective) {
+  const Instance& instance = model.instance();
+  std::vector<AgentId> order;
+  for (const AgentId i : instance.agent_ids()) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](AgentId a, AgentId b) { return model.free_cost(a) > model.free_cost(b); });
+  if (order.empty()) return Plan{};
+  OneByOne planner(model);
+  std::optional<Plan> best;
+  std::mt19937 random(1);
+  int improvements = 0;
+  for (int round = 0; round < kMaxOrders && improvements <= kMaxImprovements; ++round) {
+    if (model.limits().exhausted_now()) break;
+    if (best) ++improvements;
+    if (const auto failed = planner.try_order(order)) {
+      // Who found no path goes first; now and then somebody else is let before it.
+      const auto at = order.begin() + static_cast<std::ptrdiff_t>(*failed);
+      std::rotate(order.begin(), at, at + 1);
+      if (round % 8 == 7) std::swap(order[random() % order.size()], order[0]);
+      continue;
+    }
+    Plan plan = planner.plan();
+    const bool is_better = !best || cost(plan, objective) < cost(*best, objective);
+    if (is_better && verify(instance, plan).valid()) best = std::move(plan);
+    std::swap(order[random() % order.size()], order[random() % order.size()]);
+  }
+  return best;
+}
+
+}  // namespace quadrille::continuous
