@@ -33,7 +33,7 @@ class RoadmapCliTest : public CliTest {
   }
 
   void copy(const std::string& from, const std::string& to) const {
-    std::ifstream in(std::string(QUADRILLE_SOURCE_DIR "/tests/data/valid/") + from);
+    std::ifstream in(std::string(QUADRILLE_SOURCE_DIR "/tests/data/roadmaps/") + from);
     std::ostringstream text;
     text << in.rdbuf();
     ASSERT_FALSE(text.str().empty());

@@ -11,9 +11,9 @@
 
 namespace quadrille::continuous::test {
 
-/// The name of a file in tests/data/valid.
+/// The name of a file in tests/data/roadmaps.
 inline std::string data(const std::string& name) {
-  return std::string(QUADRILLE_TEST_DATA "/valid/") + name;
+  return std::string(QUADRILLE_TEST_DATA "/roadmaps/") + name;
 }
 
 inline std::string contents(const std::string& path) {

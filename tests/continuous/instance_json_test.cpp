@@ -34,7 +34,8 @@ TEST(RoadmapJson, ReadsTheExample) {
 
 TEST(RoadmapJson, IsToldFromOtherInstances) {
   EXPECT_TRUE(is_roadmap_json(test::contents(test::data("discs.json"))));
-  EXPECT_FALSE(is_roadmap_json(test::contents(test::data("graph.json"))));
+  EXPECT_FALSE(
+      is_roadmap_json(test::contents(std::string(QUADRILLE_TEST_DATA "/valid/graph.json"))));
   EXPECT_FALSE(is_roadmap_json("{\"quadrille\": \"roadmap\"}"));
   EXPECT_FALSE(is_roadmap_json("[\"roadmap\"]"));
   EXPECT_FALSE(is_roadmap_json("{\"agents\": {\"roadmap\": 1}}"));
