@@ -234,14 +234,18 @@ TEST_F(RoadmapTest, EveryLimitEndsTheSearchAndIsNamed) {
 }
 
 TEST_F(RoadmapTest, AGapEndsTheSearchWithAPlan) {
-  const Finished wide = run(crowd("solve", {"--gap", "99", "--quiet", "--json", "-"}));
+  ASSERT_EQ(run({"generate", "--kind", "roadmap", "--vertices", "40", "--agents", "25", "--width",
+                 "9", "--height", "9", "--seed", "1", "--instance-output", path("some.json")})
+                .code,
+            0);
+  const Finished wide = run({"solve", "--instance", path("some.json"), "--gap", "99", "--quiet",
+                             "--cpu-limit", "20", "--json", "-"});
   EXPECT_EQ(wide.code, 10) << wide.err;
   const json result = json::parse(wide.out);
   EXPECT_EQ(result["status"], "feasible");
   EXPECT_EQ(result["stop_reason"], "gap");
   EXPECT_EQ(result["options"]["gap"], 99);
   EXPECT_GT(result["cost_ticks"], result["lower_bound_ticks"]);
-  // Of two discs: one per cent is not reached before the proof.
   const Finished narrow = run(discs("solve", {"--gap", "0", "--quiet", "--json", "-"}));
   EXPECT_EQ(narrow.code, 0);
   EXPECT_EQ(json::parse(narrow.out)["cost_ticks"], 5015);

@@ -23,6 +23,7 @@ std::uint32_t number_from_environment(const char* name, std::uint32_t by_default
 
 struct Tally {
   int optimal = 0, infeasible = 0, unknown = 0;
+  int solvable = 0;  // says the oracle
 };
 
 bool has_long_path(const Plan& plan, std::size_t max_moves) {
@@ -36,6 +37,7 @@ void check(const Instance& instance, const OrderSearch& oracle, std::size_t max_
   const SolveOutcome outcome = solve(instance, options);
   ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
   if (oracle.best) {
+    ++tally.solvable;
     ASSERT_LE(outcome.lower_bound, *oracle.best);
   }
   switch (outcome.status) {
@@ -88,7 +90,7 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     options.objective = objective;
     options.system = system;
     options.limits.conflicts = 3000;
-    options.limits.cpu_s = 0.1;  // for infeasible ones without conflicts
+    options.limits.cpu_s = 0.3;  // for infeasible ones without conflicts
     if (!oracle.some_plans.empty())
       options.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
     check(instance, oracle, max_moves, options, tally);
@@ -97,7 +99,8 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
   RecordProperty("optimal", tally.optimal);
   RecordProperty("infeasible", tally.infeasible);
   RecordProperty("unknown", tally.unknown);
-  EXPECT_GT(tally.optimal, static_cast<int>(count) / 2);
+  RecordProperty("solvable", tally.solvable);
+  EXPECT_GE(10 * tally.optimal, 8 * tally.solvable);
 }
 
 std::string name(const testing::TestParamInfo<SolverRandom::ParamType>& param) {
