@@ -103,6 +103,9 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   app.add_flag("--forbid-first", options.forbid_first,
                "dpll: try first to forbid usages; faster on some hard instances, slower on others")
       ->group(group);
+  app.add_flag("--chronological", options.chronological,
+               "dpll: backtrack chronologically; faster on open maps, slower in rooms and mazes")
+      ->group(group);
   app.add_flag("!--no-first-plan", options.first_plan,
                "Do not look for a plan of any cost before and beside the proof")
       ->group(group);
@@ -314,8 +317,9 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
     return Error{ErrorCode::out_of_range, std::move(message), {}};
   };
   const InputOptions& input = arguments.request.input;
-  for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
-                             "--no-first-plan", "--threads", "--race", "--audit"})
+  for (const char* option :
+       {"--check", "--cost-search", "--mdd-growth", "--forbid-first", "--chronological",
+        "--no-first-plan", "--threads", "--race", "--audit"})
     if (app.count(option) > 0) return refuse(std::string(option) + " does not apply to roadmaps");
   std::string wrong = check_roadmap_options(arguments.roadmap, input, Need::tasks);
   if (wrong.empty()) wrong = arguments.plan_format.why_not_continuous("--plan-format");

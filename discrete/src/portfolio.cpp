@@ -98,7 +98,7 @@ class WorkerCompanion final : public Companion {
   std::size_t worker_;
 };
 
-/// What another worker does: the lazy model with the other phase first, then the MDD model.
+/// What another worker does: the lazy model with the other way to backtrack, then the MDD model.
 SolveOptions options_of(const SolveOptions& options, std::size_t worker) {
   if (worker == 0) return options;
   using Kind = CheckSchedule::Kind;
@@ -109,7 +109,7 @@ SolveOptions options_of(const SolveOptions& options, std::size_t worker) {
   other.mdd_growth = MddGrowth::on_demand;
   const std::size_t variant = (worker - 1) % 4;
   if (variant == 0) {
-    other.forbid_first = options.system == System::dpll && !options.forbid_first;
+    other.chronological = options.system == System::dpll && !options.chronological;
     other.system = System::dpll;
   } else {
     other.system = System::dpll_mdd;

@@ -21,6 +21,7 @@ sat::EngineOptions engine_options(const SolveOptions& options, sat::ClauseObserv
   engine_options.seed = options.seed;
   // Usages are negated variables.
   engine_options.initial_phase = options.forbid_first && options.system == System::dpll;
+  engine_options.chronological = options.chronological || options.system != System::dpll;
   engine_options.observer = observer;
   return engine_options;
 }

@@ -63,7 +63,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     set("phase", options.initial_phase ? 1 : 0);  // 0: few of the many usages happen
     set("exteagerreasons", 0);
     set("exteagerrecalc", 0);
-    set("chrono", 1);
+    set("chrono", options.chronological ? 1 : 0);
     set("chronolevelim", 20);
     are_reasons_forgettable = true;
     solver_.connect_terminator(this);

@@ -9,6 +9,7 @@
 #include "explanation.hpp"
 #include "explicit_paths.hpp"
 #include "lazy_model.hpp"
+#include "path_cache.hpp"
 #include "path_finder.hpp"
 #include "path_index.hpp"
 #include "quadrille/core/limits.hpp"
@@ -54,7 +55,7 @@ class LazyTheory final : public sat::Theory {
   struct Agent {
     std::vector<ObstacleId> active;
     Timestep cap = kForever;
-    bool is_violated = false;  // the path may be hit or dearer than the cap
+    bool is_violated = false;  // the path may be hit or dearer than the cap: in violated_
   };
   /// What a literal on the stack brought about.
   struct Change {
@@ -72,12 +73,18 @@ class LazyTheory final : public sat::Theory {
   void activate(ObstacleId id);
   void lower_cap(AgentId i, Timestep cap);
   void undo(const Change& change);
-  [[nodiscard]] bool is_path_bad(AgentId i) const;
+  /// True if the path does what an active obstacle of the agent forbids.
+  [[nodiscard]] bool is_hit(AgentId i, const Path& path) const;
 
+  void mark_violated(AgentId i);
   /// Replaces violated paths of present agents. False if a lemma says that one has none, or if a
   /// limit was met.
   bool replan_all(ContextWriter& writer);
   bool replan(AgentId i, FormulaWriter& writer);
+  /// The remembered path with the fewest collisions that a search could have found as well: within
+  /// the cap, around the active obstacles, and so cheap that it leaves no bound to refute. Null if
+  /// there is none.
+  [[nodiscard]] const Path* find_remembered(AgentId i) const;
   /// Adds "i costs more than `cost`, or one of these usages is allowed". The searches' state is
   /// that of the last find_cheapest for i.
   void explain_bound(AgentId i, Timestep cost, FormulaWriter& writer);
@@ -103,8 +110,10 @@ class LazyTheory final : public sat::Theory {
   PathFinder finder_;
   Explainer explainer_;
   ExplicitPaths explicit_paths_;
+  PathCache cache_;
 
   IdVector<AgentId, Agent> agents_;
+  std::vector<AgentId> violated_;
   std::vector<sat::Lit> stack_;
   std::vector<std::size_t> changes_before_;  // by stack place: size of changes_ when it was pushed
   std::vector<Change> changes_;

@@ -77,6 +77,15 @@ TEST(PathIndex, ListsAllCollisionsWhateverWasReplacedBefore) {
           EXPECT_LE(index.cost(e.first), e.timestep);
         }
       }
+      for (const AgentId i : instance.agents()) {
+        EXPECT_EQ(index.num_collisions(i, index.path(i)), index.num_collisions(i));
+        // Of a path that is not there yet.
+        const Path other = random_walk(graph, tasks[i.index()], random);
+        int collisions = 0;
+        for (const AgentId j : instance.agents())
+          if (j != i) collisions += static_cast<int>(collide(other, index.path(j)).size());
+        EXPECT_EQ(index.num_collisions(i, other), collisions);
+      }
       std::sort(expected.begin(), expected.end());
       std::sort(found.begin(), found.end());
       ASSERT_EQ(found, expected);

@@ -83,6 +83,9 @@ struct SolveOptions {
   /// Of dpll: try first to forbid usages instead of allowing them. Much faster on some hard
   /// instances, slower on others.
   bool forbid_first = false;
+  /// Of dpll: backtrack chronologically, so that lemmas about the past leave later decisions alone.
+  /// Faster where agents are many and conflicts few, slower at the hard end of rooms and mazes.
+  bool chronological = false;
   Limits limits;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.

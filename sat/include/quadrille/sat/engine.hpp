@@ -19,7 +19,10 @@ enum class Verdict { sat, unsat, unknown };
 struct EngineOptions {
   std::uint32_t seed = 0;      ///< Of the solver's random choices, 0 .. 2'000'000'000.
   bool initial_phase = false;  ///< The value that the solver tries first for a variable.
-  bool inprocessing = false;   ///< Let the solver rewrite the formula between conflicts.
+  /// Let clauses that imply something at an earlier level leave later decisions alone, and long
+  /// jumps back be short. Otherwise the solver goes back to where each clause takes effect.
+  bool chronological = true;
+  bool inprocessing = false;  ///< Let the solver rewrite the formula between conflicts.
   /// Hears every clause; null: nobody. Must outlive the engine.
   ClauseObserver* observer = nullptr;
 };
