@@ -70,7 +70,7 @@ class Recorder final : public sat::TheoryContext {
 
 struct Count {
   std::size_t silent = 0, conflicts = 0, accepted = 0, rejected = 0, decisions = 0, stops = 0,
-              dead = 0;
+              dead = 0, told = 0;
 };
 
 /// The theory between the host and a judge.
@@ -103,10 +103,14 @@ class WatchedTheory final : public sat::Theory {
   }
   void check(sat::Effort effort, sat::TheoryContext& context) override {
     Recorder said(context);
+    std::vector<Path> before;
+    for (const AgentId i : model_.instance().agents()) before.push_back(theory_.path(i));
     theory_.check(effort, said);
     const Situation now(model_, stack_);
     if (effort == sat::Effort::partial) {
       judge_partial(said, now);
+      for (const AgentId i : model_.instance().agents())
+        if (theory_.path(i) != before[i.index()]) expect_bound_told(i, said, now);
       if (has_retracted_ && stack_.size() % 4 == 0) compare_with_fresh(context, now);
       has_retracted_ = false;
     } else {
@@ -141,6 +145,25 @@ class WatchedTheory final : public sat::Theory {
       expect_good_paths(theory_, now);
     }
     ++(is_feasible ? count_.silent : count_.conflicts);
+  }
+  /// A new path that is dearer than a bound which nobody has spoken of comes with a lemma that
+  /// refutes the bound: the search that found the path has proved it.
+  void expect_bound_told(AgentId i, const Recorder& said, const Situation& now) {
+    const auto cost = static_cast<Timestep>(theory_.path(i).size()) - 1;
+    Lit open;  // the largest one; ordered literals imply the others
+    for (const auto& literal : model_.cost_literals(i))
+      if (literal.cost < cost && !now.is_assigned(literal.above)) open = literal.above;
+    if (!open.valid()) return;
+    ++count_.told;
+    EXPECT_TRUE(std::any_of(said.lemmas.begin(), said.lemmas.end(),
+                            [&](const auto& clause) {
+                              return std::find(clause.begin(), clause.end(), open) !=
+                                         clause.end() &&
+                                     std::all_of(clause.begin(), clause.end(), [&](Lit lit) {
+                                       return lit == open || now.is_false(lit);
+                                     });
+                            }))
+        << "agent " << i.value();
   }
   void judge_full(const Recorder& said, const Situation& now) {
     if (said.made_literal || said.has_conflict(now)) {
@@ -384,6 +407,7 @@ TEST_P(LazyTheoryCallbacks, AgreeWithARecomputation) {
   EXPECT_GT(count.rejected, sequences / 20);
   EXPECT_GT(count.decisions, sequences / 50);
   EXPECT_GT(count.stops, sequences / 4);
+  EXPECT_GT(count.told, sequences / 20);
   EXPECT_LT(count.dead, sequences / 2);
   EXPECT_GT(num_explicit, 0u);
 }
