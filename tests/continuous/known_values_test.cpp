@@ -7,27 +7,10 @@
 
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "roads.hpp"
 
-namespace quadrille::continuous {
+namespace quadrille::continuous::test {
 namespace {
-
-using Roads = std::vector<std::pair<std::size_t, std::size_t>>;
-
-std::shared_ptr<const Roadmap> roadmap(std::vector<Point> points, const Roads& both_ways,
-                                       const Roads& one_way = {}) {
-  std::vector<Edge> edges;
-  for (const auto& [u, v] : both_ways) {
-    edges.push_back({VertexId(u), VertexId(v), std::nullopt});
-    edges.push_back({VertexId(v), VertexId(u), std::nullopt});
-  }
-  for (const auto& [u, v] : one_way) edges.push_back({VertexId(u), VertexId(v), std::nullopt});
-  return std::make_shared<const Roadmap>(
-      Roadmap::make(std::move(points), std::move(edges)).value());
-}
-
-Agent agent(std::size_t start, std::size_t goal, Length radius, Speed speed = kUnitSpeed) {
-  return {VertexId(start), VertexId(goal), radius, speed};
-}
 
 class KnownValue : public testing::TestWithParam<System> {
  protected:
@@ -127,4 +110,4 @@ INSTANTIATE_TEST_SUITE_P(Systems, KnownValue, testing::Values(System::dpll, Syst
                          });
 
 }  // namespace
-}  // namespace quadrille::continuous
+}  // namespace quadrille::continuous::test
