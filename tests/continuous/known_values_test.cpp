@@ -5,8 +5,8 @@
 
 #include <memory>
 
+#include "least_cost.hpp"
 #include "quadrille/continuous/solver.hpp"
-#include "quadrille/continuous/verify.hpp"
 #include "roads.hpp"
 
 namespace quadrille::continuous::test {
@@ -16,16 +16,8 @@ class KnownValue : public testing::TestWithParam<System> {
  protected:
   Cost least(std::shared_ptr<const Roadmap> map, std::vector<Agent> agents,
              Objective objective = Objective::sum_of_costs) {
-    const Instance instance = Instance::make(std::move(map), std::move(agents)).value();
-    SolveOptions options;
-    options.system = GetParam();
-    options.objective = objective;
-    options.limits.cpu_s = 20;
-    const SolveOutcome outcome = solve(instance, options);
-    EXPECT_EQ(outcome.status, Status::optimal) << outcome.explanation;
-    if (!outcome.plan) return -1;
-    EXPECT_TRUE(verify(instance, *outcome.plan).valid());
-    return *outcome.cost;
+    return least_cost(Instance::make(std::move(map), std::move(agents)).value(), GetParam(),
+                      objective);
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "least_cost.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "roads.hpp"
 
@@ -19,15 +20,7 @@ std::shared_ptr<const Roadmap> alcove() {
 class ContinuousSolver : public testing::TestWithParam<System> {
  protected:
   Cost least(const Instance& instance, Objective objective = Objective::sum_of_costs) {
-    SolveOptions options;
-    options.system = GetParam();
-    options.objective = objective;
-    options.limits.cpu_s = 20;
-    const SolveOutcome outcome = solve(instance, options);
-    EXPECT_EQ(outcome.status, Status::optimal) << outcome.explanation;
-    if (!outcome.plan) return -1;
-    EXPECT_TRUE(verify(instance, *outcome.plan).valid());
-    return *outcome.cost;
+    return least_cost(instance, GetParam(), objective);
   }
 };
 
