@@ -1,16 +1,53 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "quadrille/core/ids.hpp"
 #include "quadrille/core/outcome.hpp"
-#include "quadrille/discrete/instance.hpp"
-#include "quadrille/discrete/solver.hpp"
-#include "quadrille/discrete/verify.hpp"
+#include "quadrille/core/result.hpp"
 
 namespace quadrille::cli {
 
-/// Replays the plan of an outcome and holds its claims against the replay. A claim that fails turns
-/// the outcome into `unknown` with an internal error, without plan, cost and lower bound.
-discrete::VerifyReport check_outcome(const discrete::Instance& instance, Objective objective,
-                                     discrete::SolveOutcome& outcome);
+/// What a solver says, of either domain.
+struct Claim {
+  Status status = Status::unknown;
+  bool has_plan = false;
+  std::optional<Cost> cost;
+  Cost lower_bound = 0;
+};
+/// What a replay of its plan says; of no account without one.
+struct Replay {
+  std::size_t num_violations = 0;
+  std::string first_violation;
+  Cost cost = 0;
+};
+/// What is wrong with the claim; empty if nothing is.
+[[nodiscard]] std::string find_false_claim(const Claim& claim, const Replay& replay);
+
+/// Replays the plan of an outcome with the `verify` of its domain and holds its claims against the
+/// replay, which is returned. A claim that fails turns the outcome into `unknown` with an internal
+/// error, without plan, cost and lower bound.
+template <class Instance, class Outcome>
+auto check_outcome(const Instance& instance, Objective objective, Outcome& outcome) {
+  decltype(verify(instance, *outcome.plan)) report;
+  if (outcome.plan) report = verify(instance, *outcome.plan);
+  if (!outcome.internal_error) {
+    const std::string wrong = find_false_claim(
+        {outcome.status, outcome.plan.has_value(), outcome.cost, outcome.lower_bound},
+        {report.violations.size(), report.valid() ? "" : report.violations.front().message,
+         objective == Objective::makespan ? report.makespan : report.sum_of_costs});
+    if (!wrong.empty()) outcome.internal_error = Error{ErrorCode::internal, wrong, {}};
+  }
+  if (outcome.internal_error) {
+    outcome.status = Status::unknown;
+    outcome.plan.reset();
+    outcome.cost.reset();
+    outcome.lower_bound = 0;
+  }
+  return report;
+}
 
 }  // namespace quadrille::cli

@@ -22,11 +22,6 @@ struct RoadmapSolveRequest {
   bool quiet = false;
 };
 
-/// Replays the plan of an outcome and holds its claims against the replay. A claim that fails turns
-/// the outcome into `unknown` with an internal error, without plan, cost and lower bound.
-continuous::VerifyReport check_outcome(const continuous::Instance& instance, Objective objective,
-                                       continuous::SolveOutcome& outcome);
-
 [[nodiscard]] ExitCode exit_code(const continuous::SolveOutcome& outcome);
 
 /// The result as JSON, documented in docs/cli.md. `check`: the replay of the plan, if there is one.

@@ -14,6 +14,7 @@
 #include "output.hpp"
 #include "picture.hpp"
 #include "progress.hpp"
+#include "quadrille/discrete/verify.hpp"
 #include "report.hpp"
 #include "signals.hpp"
 #include "solve_roadmap.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "delivery.hpp"
+#include "outcome_check.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 

@@ -2,12 +2,12 @@
 #include "first_plan.hpp"
 
 #include <algorithm>
-#include <random>
 #include <utility>
 #include <vector>
 
 #include "encounters.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "quadrille/core/random.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -88,7 +88,10 @@ std::optional<Plan> find_first_plan(Model& model, Objective objective) {
   if (order.empty()) return Plan{};
   OneByOne planner(model);
   std::optional<Plan> best;
-  std::mt19937 random(1);
+  Random random(1);
+  const auto someone = [&]() -> AgentId& {
+    return order[static_cast<std::size_t>(random.below(order.size()))];
+  };
   int improvements = 0;
   for (int round = 0; round < kMaxOrders && improvements <= kMaxImprovements; ++round) {
     if (model.limits().exhausted_now()) break;
@@ -97,13 +100,14 @@ std::optional<Plan> find_first_plan(Model& model, Objective objective) {
       // Who found no path goes first; now and then somebody else is let before it.
       const auto at = order.begin() + static_cast<std::ptrdiff_t>(*failed);
       std::rotate(order.begin(), at, at + 1);
-      if (round % 8 == 7) std::swap(order[random() % order.size()], order[0]);
+      if (round % 8 == 7) std::swap(someone(), order[0]);
       continue;
     }
     Plan plan = planner.plan();
     const bool is_better = !best || cost(plan, objective) < cost(*best, objective);
     if (is_better && verify(instance, plan).valid()) best = std::move(plan);
-    std::swap(order[random() % order.size()], order[random() % order.size()]);
+    AgentId& first = someone();
+    std::swap(first, someone());
   }
   return best;
 }

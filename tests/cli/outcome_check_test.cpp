@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "quadrille/discrete/solver.hpp"
+#include "quadrille/discrete/verify.hpp"
+
 namespace quadrille::cli {
 namespace {
 

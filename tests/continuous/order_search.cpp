@@ -4,200 +4,160 @@
 #include <algorithm>
 #include <functional>
 
-#include "quadrille/geometry/body_pair.hpp"
+#include "route_orders.hpp"
 
 namespace quadrille::continuous::test {
 namespace {
 
-using Route = std::vector<EdgeId>;
+constexpr std::size_t kSomePlans = 10;
 
+/// All of at most `max_moves` moves.
 std::vector<Route> routes(const Instance& instance, AgentId i, std::size_t max_moves) {
   std::vector<Route> found;
   Route route;
   const std::function<void(VertexId)> walk = [&](VertexId v) {
     if (v == instance.agent(i).goal) found.push_back(route);
-    if (route.size() == max_moves) return;
+    if (route.edges.size() == max_moves) return;
     for (const EdgeId e : instance.roadmap().out_edges(v)) {
-      route.push_back(e);
+      const Ticks duration = instance.duration(instance.class_of(i), e);
+      route.edges.push_back(e);
+      route.duration += duration;
       walk(instance.roadmap().edge(e).to);
-      route.pop_back();
+      route.duration -= duration;
+      route.edges.pop_back();
     }
   };
   walk(instance.agent(i).start);
   return found;
 }
 
-/// time[to] >= time[from] + gap. Variable 0 is tick 0, the others are starts of moves.
-struct Constraint {
-  std::size_t from, to;
-  Ticks gap;
-};
-
-/// Earliest times, or nothing if they contradict each other.
-std::optional<std::vector<Ticks>> earliest(std::size_t size, const std::vector<Constraint>& all) {
-  std::vector<Ticks> time(size, 0);
-  for (std::size_t round = 0; round <= size; ++round) {
-    bool has_changed = false;
-    for (const Constraint& c : all)
-      if (time[c.to] < time[c.from] + c.gap) {
-        if (c.to == 0) return std::nullopt;
-        time[c.to] = time[c.from] + c.gap;
-        has_changed = true;
-      }
-    if (!has_changed) return time;
-  }
-  return std::nullopt;
-}
-
-/// One of two constraints has to hold; the second one may be impossible.
-struct Choice {
-  Constraint first;
-  std::optional<Constraint> second;
-};
-
-class RouteOrders {
+/// One route per agent: all combinations, until some plans are known, and then those that may be
+/// cheaper. What two agents cannot do, or not cheaply enough, is left out whatever the others do.
+class Combinations {
  public:
-  RouteOrders(const Instance& instance, Objective objective, const std::vector<Route>& routes,
-              OrderSearch& result)
-      : instance_(instance), objective_(objective), routes_(routes), result_(result) {
-    for (std::size_t i = 0; i < routes_.size(); ++i) {
-      first_.push_back(size_);
-      for (std::size_t k = 0; k < routes_[i].size(); ++k) {
-        const std::size_t before = k == 0 ? 0 : size_ - 1;
-        fixed_.push_back({before, size_++, k == 0 ? 0 : duration(i, k - 1)});
-      }
+  Combinations(const Instance& instance, Objective objective, std::size_t max_moves)
+      : meetings_(instance), objective_(objective) {
+    for (const AgentId i : instance.agent_ids()) {
+      routes_.push_back(routes(instance, i, max_moves));
+      pairs_.emplace_back();
+      for (std::size_t j = 0; j < i.index(); ++j) pairs_.back().emplace_back();
     }
-    for (std::size_t i = 0; i < routes_.size(); ++i)
-      for (std::size_t j = 0; j < routes_.size(); ++j) {
-        if (i < j) add_moves(i, j);
-        if (i != j) add_stays(i, j);
-      }
   }
 
-  void search() {
-    std::vector<Constraint> all = fixed_;
-    branch(all);
+  OrderSearch search() {
+    for (const auto& routes : routes_)
+      if (routes.empty()) return result_;
+    choose({});
+    if (result_.some_plans.size() < kSomePlans) return result_;  // these are all
+    for (auto& routes : routes_)
+      std::stable_sort(routes.begin(), routes.end(),
+                       [](const Route& a, const Route& b) { return a.duration < b.duration; });
+    for (auto& of_agent : pairs_)
+      for (auto& pairs : of_agent) pairs.clear();
+    limit_ = *result_.best;
+    choose({});
+    return result_;
   }
 
  private:
-  ClassId class_of(std::size_t i) const { return instance_.class_of(AgentId(i)); }
-  Ticks duration(std::size_t i, std::size_t k) const {
-    return instance_.duration(class_of(i), routes_[i][k]);
-  }
-  geometry::BodyPair pair(std::size_t i, std::size_t j) const {
-    return {geometry::Disc{instance_.agent(AgentId(i)).radius},
-            geometry::Disc{instance_.agent(AgentId(j)).radius}};
-  }
+  struct Chosen {
+    std::vector<std::size_t> routes;  // by agent, of the first ones
+    Cost durations = 0;               // sum or maximum
+    Cost pairs = 0;                   // sum or maximum of what each two of them cost
+  };
 
-  void add_moves(std::size_t i, std::size_t j) {
-    for (std::size_t k = 0; k < routes_[i].size(); ++k)
-      for (std::size_t l = 0; l < routes_[j].size(); ++l)
-        if (const auto unsafe =
-                pair(i, j).unsafe_offsets(instance_.motion(class_of(i), routes_[i][k]),
-                                          instance_.motion(class_of(j), routes_[j][l])))
-          choices_.push_back({Constraint{first_[i] + k, first_[j] + l, unsafe->hi + 1},
-                              Constraint{first_[j] + l, first_[i] + k, -(unsafe->lo - 1)}});
+  [[nodiscard]] Cost joined(Cost a, Cost b) const {
+    return objective_ == Objective::sum_of_costs ? a + b : std::max(a, b);
   }
-
-  // Stay number l of agent j is before its move number l.
-  void add_stays(std::size_t i, std::size_t j) {
-    for (std::size_t k = 0; k < routes_[i].size(); ++k)
-      for (std::size_t l = 0; l <= routes_[j].size(); ++l) {
-        const VertexId at = l == 0 ? instance_.agent(AgentId(j)).start
-                                   : instance_.roadmap().edge(routes_[j][l - 1]).to;
-        const auto window = pair(i, j).contact_window(instance_.motion(class_of(i), routes_[i][k]),
-                                                      instance_.roadmap().position(at));
-        if (!window) continue;
-        const std::size_t move = first_[i] + k;
-        // It arrives late enough, or leaves early enough.
-        const std::size_t arrival = l == 0 ? 0 : first_[j] + l - 1;
-        const Ticks travel = l == 0 ? 0 : duration(j, l - 1);
-        Choice choice{{move, arrival, window->last - travel}, std::nullopt};
-        if (l < routes_[j].size()) choice.second = Constraint{first_[j] + l, move, -window->first};
-        choices_.push_back(choice);
-      }
-  }
-
-  void branch(std::vector<Constraint>& all) {
-    const auto time = earliest(size_, all);
-    if (!time) return;
-    const Cost cost = cost_of(*time);
-    if (result_.best && cost >= *result_.best && result_.some_plans.size() >= 10) return;
-    const auto holds = [&](const Constraint& c) {
-      return (*time)[c.to] >= (*time)[c.from] + c.gap;
-    };
-    for (const Choice& choice : choices_) {
-      if (holds(choice.first) || (choice.second && holds(*choice.second))) continue;
-      all.push_back(choice.first);
-      branch(all);
-      all.pop_back();
-      if (choice.second) {
-        all.push_back(*choice.second);
-        branch(all);
-        all.pop_back();
-      }
-      return;
-    }
-    keep(*time, cost);
-  }
-
-  Cost cost_of(const std::vector<Ticks>& time) const {
+  /// What the agents from this one on cost at least.
+  [[nodiscard]] Cost rest(std::size_t agent) const {
     Cost total = 0;
-    for (std::size_t i = 0; i < routes_.size(); ++i) {
-      const std::size_t moves = routes_[i].size();
-      const Cost own = moves == 0 ? 0 : time[first_[i] + moves - 1] + duration(i, moves - 1);
-      total = objective_ == Objective::sum_of_costs ? total + own : std::max(total, own);
+    for (; agent < routes_.size(); ++agent) {
+      Cost least = RouteOrders::kNoLimit;
+      for (const Route& route : routes_[agent]) least = std::min(least, route.duration);
+      total = joined(total, least);
     }
     return total;
   }
 
-  void keep(const std::vector<Ticks>& time, Cost cost) {
-    Plan plan;
-    for (std::size_t i = 0; i < routes_.size(); ++i) {
-      Path path{{instance_.agent(AgentId(i)).start, 0, 0}};
-      for (std::size_t k = 0; k < routes_[i].size(); ++k) {
-        path.back().depart = time[first_[i] + k];
-        const Ticks arrive = path.back().depart + duration(i, k);
-        path.push_back({instance_.roadmap().edge(routes_[i][k]).to, arrive, arrive});
-      }
-      plan.paths.push_back(path);
+  void choose(const Chosen& chosen) {
+    const std::size_t agent = chosen.routes.size();
+    if (agent == routes_.size()) return find_orders(chosen);
+    const Cost rest_cost = rest(agent + 1);
+    for (std::size_t r = 0; r < routes_[agent].size(); ++r) {
+      Chosen next = chosen;
+      next.routes.push_back(r);
+      next.durations = joined(chosen.durations, routes_[agent][r].duration);
+      if (joined(next.durations, rest_cost) >= limit_) continue;
+      if (add_pairs(next, rest_cost)) choose(next);
     }
-    if (result_.some_plans.size() < 10) result_.some_plans.push_back(plan);
-    if (result_.best && *result_.best <= cost) return;
-    result_.best = cost;
-    result_.best_plan = plan;
   }
 
-  const Instance& instance_;
+  /// For the agent chosen last; false if the choice is no good.
+  bool add_pairs(Chosen& chosen, Cost rest_cost) {
+    if (routes_.size() == 2) return true;  // would do the work twice
+    const std::size_t agent = chosen.routes.size() - 1;
+    for (std::size_t other = 0; other < agent; ++other) {
+      const auto cost = pair_cost(other, chosen.routes[other], agent, chosen.routes[agent]);
+      if (!cost) return false;
+      chosen.pairs = joined(chosen.pairs, *cost);
+    }
+    // A sum has the cost of each of them once per other agent.
+    const bool is_sum = objective_ == Objective::sum_of_costs;
+    if (agent == 0 || limit_ == RouteOrders::kNoLimit) return true;
+    if (!is_sum) return chosen.pairs < limit_;
+    return chosen.pairs < (limit_ - rest_cost) * static_cast<Cost>(agent);
+  }
+
+  std::optional<Cost> pair_cost(std::size_t i, std::size_t route_i, std::size_t j,
+                                std::size_t route_j) {
+    const auto [place, is_new] = pairs_[j][i].try_emplace({route_i, route_j});
+    if (is_new) {
+      RouteOrders orders(meetings_, objective_);
+      orders.add(AgentId(i), routes_[i][route_i]);
+      orders.add(AgentId(j), routes_[j][route_j]);
+      place->second = orders.least(RouteOrders::kNoLimit);
+    }
+    return place->second;
+  }
+
+  void find_orders(const Chosen& chosen) {
+    RouteOrders orders(meetings_, objective_);
+    for (std::size_t i = 0; i < routes_.size(); ++i)
+      orders.add(AgentId(i), routes_[i][chosen.routes[i]]);
+    orders.visit(limit_, [&](const std::vector<Ticks>& times, Cost cost) {
+      keep(orders.plan(times), cost);
+      return limit_;
+    });
+  }
+
+  void keep(const Plan& plan, Cost cost) {
+    if (!result_.best || cost < *result_.best) {
+      result_.best = cost;
+      result_.best_plan = plan;
+    }
+    if (limit_ != RouteOrders::kNoLimit) {
+      limit_ = *result_.best;
+    } else {
+      result_.some_plans.push_back(plan);
+      if (result_.some_plans.size() == kSomePlans) limit_ = 0;  // enough of that
+    }
+  }
+
+  Meetings meetings_;
   const Objective objective_;
-  const std::vector<Route>& routes_;
-  OrderSearch& result_;
-  std::size_t size_ = 1;
-  std::vector<std::size_t> first_;  // by agent: the variable of its first move
-  std::vector<Constraint> fixed_;
-  std::vector<Choice> choices_;
+  std::vector<std::vector<Route>> routes_;  // by agent
+  /// By agent, by one before it, by their routes.
+  std::vector<std::vector<std::map<std::pair<std::size_t, std::size_t>, std::optional<Cost>>>>
+      pairs_;
+  Cost limit_ = RouteOrders::kNoLimit;
+  OrderSearch result_;
 };
 
 }  // namespace
 
 OrderSearch search_orders(const Instance& instance, Objective objective, std::size_t max_moves) {
-  OrderSearch result;
-  std::vector<std::vector<Route>> all;
-  for (const AgentId i : instance.agent_ids()) all.push_back(routes(instance, i, max_moves));
-  std::vector<Route> chosen;
-  const std::function<void()> choose = [&] {
-    if (chosen.size() == all.size()) {
-      RouteOrders(instance, objective, chosen, result).search();
-      return;
-    }
-    for (const Route& route : all[chosen.size()]) {
-      chosen.push_back(route);
-      choose();
-      chosen.pop_back();
-    }
-  };
-  choose();
-  return result;
+  return Combinations(instance, objective, max_moves).search();
 }
 
 }  // namespace quadrille::continuous::test

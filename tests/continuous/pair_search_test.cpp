@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "feasibility.hpp"
 #include "order_search.hpp"
 #include "random_instance.hpp"
@@ -17,18 +15,6 @@ namespace quadrille::continuous::test {
 namespace {
 
 constexpr std::size_t kManyPairs = 100'000;
-
-class Draw {
- public:
-  explicit Draw(std::uint32_t seed) : engine_(seed) {}
-  /// Of [low, high].
-  std::int64_t number(std::int64_t low, std::int64_t high) {
-    return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 Instance two_agents(std::uint32_t seed) {
   RandomOptions random;

@@ -1,24 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "random_instance.hpp"
 
-#include <random>
 #include <utility>
 
 namespace quadrille::continuous::test {
 namespace {
-
-class Draw {
- public:
-  explicit Draw(std::uint32_t seed) : engine_(seed) {}
-  /// Of [low, high].
-  std::int64_t number(std::int64_t low, std::int64_t high) {
-    return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  bool chance(int percent) { return number(0, 99) < percent; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 Result<Roadmap> draw_roadmap(Draw& draw, const RandomOptions& options) {
   std::vector<Point> points;

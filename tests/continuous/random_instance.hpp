@@ -2,11 +2,26 @@
 #pragma once
 
 #include <cstdint>
+#include <random>
 #include <string>
 
 #include "quadrille/continuous/instance.hpp"
 
 namespace quadrille::continuous::test {
+
+/// Draws for tests, the same on every platform.
+class Draw {
+ public:
+  explicit Draw(std::uint32_t seed) : engine_(seed) {}
+  /// Of [low, high].
+  std::int64_t number(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  bool chance(int percent) { return number(0, 99) < percent; }
+
+ private:
+  std::mt19937_64 engine_;
+};
 
 /// What random roadmaps look like. Lengths are small numbers of units, so that rounding, touching
 /// and coincidences occur all the time.

@@ -2,62 +2,16 @@
 // Random instances against the oracle, others for each objective and system.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 
-#include "order_search.hpp"
-#include "quadrille/continuous/solver.hpp"
+#include "oracle_check.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "random_instance.hpp"
 #include "support/environment.hpp"
 
 namespace quadrille::continuous::test {
 namespace {
-
-struct Tally {
-  int optimal = 0, infeasible = 0, unknown = 0;
-  int solvable = 0;  // says the oracle
-};
-
-bool has_long_path(const Plan& plan, std::size_t max_moves) {
-  return std::any_of(plan.paths.begin(), plan.paths.end(),
-                     [&](const Path& path) { return path.size() > max_moves + 1; });
-}
-
-/// Whatever the solver says has to agree with the oracle.
-void check(const Instance& instance, const OrderSearch& oracle, std::size_t max_moves,
-           const SolveOptions& options, Tally& tally) {
-  const SolveOutcome outcome = solve(instance, options);
-  ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
-  if (oracle.best) {
-    ++tally.solvable;
-    ASSERT_LE(outcome.lower_bound, *oracle.best);
-  }
-  switch (outcome.status) {
-    case Status::optimal:
-      ++tally.optimal;
-      ASSERT_TRUE(verify(instance, *outcome.plan).valid());
-      ASSERT_EQ(cost(*outcome.plan, options.objective), outcome.lower_bound);
-      if (!has_long_path(*outcome.plan, max_moves)) {
-        ASSERT_TRUE(oracle.best) << "the oracle found no plan";
-        ASSERT_EQ(outcome.lower_bound, *oracle.best);
-      }
-      break;
-    case Status::infeasible:
-      ++tally.infeasible;
-      ASSERT_FALSE(oracle.best);
-      break;
-    case Status::unknown:
-      ++tally.unknown;
-      break;
-    case Status::feasible:
-      ++tally.unknown;
-      ASSERT_TRUE(verify(instance, *outcome.plan).valid());
-      ASSERT_GT(cost(*outcome.plan, options.objective), outcome.lower_bound);
-      break;
-  }
-}
 
 class SolverRandom : public testing::TestWithParam<std::tuple<Objective, System>> {};
 
@@ -67,6 +21,7 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
   const std::uint32_t part = 2 * static_cast<std::uint32_t>(objective == Objective::makespan) +
                              static_cast<std::uint32_t>(system == System::smt_cbs);
   const std::uint32_t first = part * 1'000'000;
+  constexpr std::size_t max_moves = 4;
   Tally tally;
   for (std::uint32_t seed = first; seed < first + count; ++seed) {
     RandomOptions random;
@@ -74,7 +29,6 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     random.num_vertices = 4 + seed / 2 % 4;
     random.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
     const Instance instance = random_instance(seed, random);
-    const std::size_t max_moves = random.num_agents == 2 ? 4 : 3;
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
     const OrderSearch oracle = search_orders(instance, objective, max_moves);
     if (oracle.best) {
@@ -88,7 +42,7 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     options.limits.cpu_s = oracle.best ? 2 : 0.1;
     if (!oracle.some_plans.empty())
       options.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
-    check(instance, oracle, max_moves, options, tally);
+    check_against(oracle, max_moves, instance, options, tally);
     if (HasFatalFailure()) return;
   }
   RecordProperty("optimal", tally.optimal);
