@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/continuous/solver.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "known_plan_auditor.hpp"
 #include "model.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "route_search.hpp"
 #include "theory.hpp"
 
 namespace quadrille::continuous {
@@ -47,7 +49,19 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
                SolveOutcome& outcome) {
   Model model(instance, limits);
   if (!model.is_complete()) return;
-  std::optional<Plan> some_plan = find_first_plan(model, options.objective);
+  Cost floor = 0;
+  std::optional<Plan> some_plan;
+  if (options.route_work > 0 && instance.num_agents() <= kMaxRouteAgents) {
+    auto routes = search_routes(model, options.objective, options.route_work);
+    floor = outcome.lower_bound = routes.lower_bound;
+    some_plan = std::move(routes.plan);
+    if (some_plan && cost(*some_plan, options.objective) == floor) {
+      outcome.plan = std::move(some_plan);
+      outcome.status = Status::optimal;
+      return;
+    }
+  }
+  if (!some_plan) some_plan = find_first_plan(model, options.objective);
   if (!some_plan) {
     const std::vector<AgentId> blocked = find_blocked_agents(model);
     if (!blocked.empty()) {
@@ -72,16 +86,16 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
       options.on_progress({outcome.lower_bound, best, limits.elapsed_wall(), limits.conflicts()});
   });
   const auto on_report = [&](const CostReport& report) {
-    outcome.lower_bound = report.lower_bound;
+    outcome.lower_bound = std::max(floor, report.lower_bound);
     if (!report.plan) return;
     best = cost(*report.plan, options.objective);
-    if (is_close(options, *best, report.lower_bound)) limits.stop(StopReason::gap);
+    if (is_close(options, *best, outcome.lower_bound)) limits.stop(StopReason::gap);
   };
   const auto report =
       options.objective == Objective::sum_of_costs
           ? search_by_covers(problem, std::move(some_plan), limits, outcome.statistics, on_report)
           : search_makespan(problem, std::move(some_plan), limits, outcome.statistics, on_report);
-  outcome.lower_bound = report.lower_bound;
+  outcome.lower_bound = std::max(floor, report.lower_bound);
   engine.add_statistics(outcome.statistics);
   outcome.statistics.checks = theory.num_checks();
   if (auditor && auditor->complaint()) {
@@ -91,8 +105,9 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     outcome.explanation = "every combination of paths collides";
   } else if (report.plan) {
     outcome.plan = report.plan;
-    outcome.status =
-        report.end == sat::SearchReport::End::found ? Status::optimal : Status::feasible;
+    const bool is_proved = report.end == sat::SearchReport::End::found ||
+                           cost(*report.plan, options.objective) == outcome.lower_bound;
+    outcome.status = is_proved ? Status::optimal : Status::feasible;
   }
 }
 

@@ -3,6 +3,7 @@
 // Four agents on eleven vertices who have to wait for each other and to make way.
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -114,8 +115,8 @@ Instance instance_of(const Case& c) {
 
 class Congestion : public testing::TestWithParam<std::tuple<Objective, Case>> {
  protected:
-  /// What the solver may say after so many conflicts.
-  Tally answer(std::int64_t conflicts) {
+  /// What the solver says after so many conflicts; `route_work` as in SolveOptions.
+  Tally answer(std::int64_t conflicts, std::initializer_list<std::int64_t> route_work) {
     const auto& [objective, entry] = GetParam();
     const Instance instance = instance_of(entry);
     const OrderSearch oracle = search_orders(instance, objective, kMaxMoves);
@@ -124,7 +125,10 @@ class Congestion : public testing::TestWithParam<std::tuple<Objective, Case>> {
     SolveOptions options;
     options.objective = objective;
     options.limits.conflicts = conflicts;
-    check_against(oracle, kMaxMoves, instance, options, tally);
+    for (const std::int64_t work : route_work) {
+      options.route_work = work;
+      check_against(oracle, kMaxMoves, instance, options, tally);
+    }
     return tally;
   }
 };
@@ -138,7 +142,7 @@ using CongestionSolved = Congestion;
 
 TEST_P(CongestionSolved, WithinAFewThousandConflicts) {
   // Measured: 0 to 700, LadderWide 4,800 and StarOneWay 10,200 for the makespan.
-  EXPECT_EQ(answer(20'000).optimal, 1);
+  EXPECT_EQ(answer(20'000, {0}).optimal, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -162,8 +166,23 @@ INSTANTIATE_TEST_SUITE_P(
 
 using CongestionHard = Congestion;
 
-// Not solved within a second. What is claimed on the way has to be true.
-TEST_P(CongestionHard, BoundsHoldWhereALimitEndsTheSearch) { answer(2'000); }
+// Not solved within a second without the search of routes. What is claimed on the way has to be
+// true.
+TEST_P(CongestionHard, BoundsHoldWhereALimitEndsTheSearch) { answer(2'000, {0}); }
+
+TEST_P(CongestionSolved, ByTheSearchOfRoutesAlone) {
+  EXPECT_EQ(answer(1, {SolveOptions().route_work}).optimal, 1);
+}
+
+TEST_P(CongestionHard, BoundsHoldWhereTheSearchOfRoutesEnds) { answer(1, {10'000, 1'000'000}); }
+
+TEST_P(CongestionHard, MostAreSolvedByTheSearchOfRoutes) {
+  const auto& [objective, entry] = GetParam();
+  const std::string name = entry.name;
+  const bool has_many_routes =
+      objective == Objective::sum_of_costs && (name == "SidingsMakeWay" || name == "RoomsQueue");
+  EXPECT_EQ(answer(1, {SolveOptions().route_work}).optimal, has_many_routes ? 0 : 1);
+}
 
 INSTANTIATE_TEST_SUITE_P(
     All, CongestionHard,
@@ -193,6 +212,7 @@ TEST(CongestionRandom, AgreesWithTheOracle) {
     const OrderSearch oracle = search_orders(instance, Objective::sum_of_costs, 5);
     SolveOptions options;
     options.limits.conflicts = 10'000;
+    options.route_work = 0;
     options.limits.cpu_s = 2;
     check_against(oracle, 5, instance, options, tally);
     if (HasFatalFailure()) return;

@@ -32,6 +32,9 @@ struct Progress {
   std::int64_t conflicts = 0;
 };
 
+/// See SolveOptions::route_work.
+inline constexpr std::size_t kMaxRouteAgents = 6;
+
 struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
@@ -40,6 +43,9 @@ struct SolveOptions {
   /// negative.
   std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
+  /// Effort, in comparisons of times, for looking at all routes of at most kMaxRouteAgents agents
+  /// before the search; about 10^8 take a second. 0: none.
+  std::int64_t route_work = 50'000'000;
   /// Called on the solving thread, at most a few times a second. May be empty.
   std::function<void(const Progress&)> on_progress;
   /// Debugging: a valid plan. Every clause is checked to allow it; no clause may exclude a valid
