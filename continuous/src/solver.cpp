@@ -51,7 +51,8 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   if (!model.is_complete()) return;
   Cost floor = 0;
   std::optional<Plan> some_plan;
-  if (options.route_work > 0 && instance.num_agents() <= kMaxRouteAgents) {
+  if (options.route_work > 0 && options.system == System::dpll &&
+      instance.num_agents() <= kMaxRouteAgents) {
     auto routes = search_routes(model, options.objective, options.route_work);
     floor = outcome.lower_bound = routes.lower_bound;
     some_plan = std::move(routes.plan);

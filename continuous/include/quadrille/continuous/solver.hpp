@@ -43,8 +43,8 @@ struct SolveOptions {
   /// negative.
   std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
-  /// Effort, in comparisons of times, for looking at all routes of at most kMaxRouteAgents agents
-  /// before the search; about 10^8 take a second. 0: none.
+  /// Of dpll: effort, in comparisons of times, for looking at all routes of at most kMaxRouteAgents
+  /// agents before the search; about 10^8 take a second. 0: none.
   std::int64_t route_work = 50'000'000;
   /// Called on the solving thread, at most a few times a second. May be empty.
   std::function<void(const Progress&)> on_progress;
