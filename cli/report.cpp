@@ -28,7 +28,9 @@ Json options_json(const SolveRequest& request) {
   json["cost_search"] = options.cost_search ? Json(to_string(*options.cost_search)) : Json(nullptr);
   json["mdd_growth"] = to_string(options.mdd_growth);
   json["forbid_first"] = options.forbid_first;
-  json["chronological"] = options.chronological;
+  json["backtracking"] = Json(nullptr);
+  if (options.chronological)
+    json["backtracking"] = *options.chronological ? "chronological" : "jump";
   json["first_plan"] = options.first_plan;
   json["gap"] = or_null(options.gap_percent);
   json["threads"] = options.threads;

@@ -71,6 +71,12 @@ std::optional<std::optional<CostSearch>> choose_cost_search(std::string_view tex
   return std::optional(search);
 }
 
+std::optional<std::optional<bool>> choose_backtracking(std::string_view text) {
+  if (text == "chronological") return std::optional(true);
+  if (text == "jump") return std::optional(false);
+  return std::nullopt;
+}
+
 void add_search_options(CLI::App& app, SolveArguments& arguments) {
   const std::string group = "Search";
   discrete::SolveOptions& options = arguments.request.options;
@@ -104,8 +110,10 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   app.add_flag("--forbid-first", options.forbid_first,
                "dpll: try first to forbid usages; faster on some hard instances, slower on others")
       ->group(group);
-  app.add_flag("--chronological", options.chronological,
-               "dpll: backtrack chronologically; faster on open maps, slower in rooms and mazes")
+  add_choice<std::optional<bool>>(
+      app, "--backtracking", options.chronological, "chronological or jump", choose_backtracking,
+      "dpll: backtrack chronologically (default with 175 agents or more) or jump back as\n"
+      "far as each lemma asks")
       ->group(group);
   app.add_flag("!--no-first-plan", options.first_plan,
                "Do not look for a plan of any cost before and beside the proof")
@@ -318,9 +326,8 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
     return Error{ErrorCode::out_of_range, std::move(message), {}};
   };
   const InputOptions& input = arguments.request.input;
-  for (const char* option :
-       {"--check", "--cost-search", "--mdd-growth", "--forbid-first", "--chronological",
-        "--no-first-plan", "--threads", "--race", "--audit"})
+  for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
+                             "--backtracking", "--no-first-plan", "--threads", "--race", "--audit"})
     if (app.count(option) > 0) return refuse(std::string(option) + " does not apply to roadmaps");
   std::string wrong = check_roadmap_options(arguments.roadmap, input, Need::tasks);
   if (wrong.empty()) wrong = arguments.plan_format.why_not_continuous("--plan-format");

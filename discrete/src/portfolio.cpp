@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "run.hpp"
+
 namespace quadrille::discrete {
 namespace {
 
@@ -99,7 +101,7 @@ class WorkerCompanion final : public Companion {
 };
 
 /// What another worker does: the lazy model with the other way to backtrack, then the MDD model.
-SolveOptions options_of(const SolveOptions& options, std::size_t worker) {
+SolveOptions options_of(const Instance& instance, const SolveOptions& options, std::size_t worker) {
   if (worker == 0) return options;
   using Kind = CheckSchedule::Kind;
   SolveOptions other = options;
@@ -109,7 +111,7 @@ SolveOptions options_of(const SolveOptions& options, std::size_t worker) {
   other.mdd_growth = MddGrowth::on_demand;
   const std::size_t variant = (worker - 1) % 4;
   if (variant == 0) {
-    other.chronological = options.system == System::dpll && !options.chronological;
+    other.chronological = options.system == System::dpll && !is_chronological(instance, options);
     other.system = System::dpll;
   } else {
     other.system = System::dpll_mdd;
@@ -128,7 +130,7 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
   const auto work = [&](std::size_t worker) {
     try {
       WorkerCompanion companion(rounds, worker);
-      outcomes[worker] = solve_alone(instance, options_of(options, worker), &companion);
+      outcomes[worker] = solve_alone(instance, options_of(instance, options, worker), &companion);
     } catch (...) {
       failures[worker] = std::current_exception();
     }

@@ -16,12 +16,14 @@
 namespace quadrille::discrete {
 namespace {
 
-sat::EngineOptions engine_options(const SolveOptions& options, sat::ClauseObserver* observer) {
+sat::EngineOptions engine_options(const Instance& instance, const SolveOptions& options,
+                                  sat::ClauseObserver* observer) {
   sat::EngineOptions engine_options;
   engine_options.seed = options.seed;
   // Usages are negated variables.
   engine_options.initial_phase = options.forbid_first && options.system == System::dpll;
-  engine_options.chronological = options.chronological || options.system != System::dpll;
+  if (options.system == System::dpll)
+    engine_options.chronological = is_chronological(instance, options);
   engine_options.observer = observer;
   return engine_options;
 }
@@ -35,7 +37,8 @@ class MddRun final : public Run {
     if (options.system == System::mdd_sat) eager_ = std::make_unique<EagerCollisions>(model_);
     if (options.audit || options.known_plan)
       auditor_ = std::make_unique<LemmaAuditor>(model_, options.audit, options.known_plan);
-    engine_ = std::make_unique<sat::Engine>(theory_.get(), engine_options(options, auditor_.get()));
+    engine_ = std::make_unique<sat::Engine>(theory_.get(),
+                                            engine_options(instance, options, auditor_.get()));
   }
 
   bool prepare(std::shared_ptr<const GoalDistances>, LimitMonitor& limits) override {
@@ -78,8 +81,8 @@ class LazyRun final : public Run {
     if (limits.exhausted_now()) return false;
     if (options_.audit || options_.known_plan)
       auditor_ = std::make_unique<LazyAuditor>(*model_, options_.audit, options_.known_plan);
-    engine_ =
-        std::make_unique<sat::Engine>(theory_.get(), engine_options(options_, auditor_.get()));
+    engine_ = std::make_unique<sat::Engine>(theory_.get(),
+                                            engine_options(instance_, options_, auditor_.get()));
     problem_ = std::make_unique<LazyProblem>(*model_, *engine_, *theory_, options_.objective);
     return true;
   }
@@ -106,6 +109,10 @@ class LazyRun final : public Run {
 };
 
 }  // namespace
+
+bool is_chronological(const Instance& instance, const SolveOptions& options) {
+  return options.chronological.value_or(instance.num_agents() >= kManyAgents);
+}
 
 std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options) {
   if (options.system == System::dpll) return std::make_unique<LazyRun>(instance, options);

@@ -33,6 +33,9 @@ class Run {
   [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
 };
 
+/// Whether the search of the lazy model backtracks chronologically.
+[[nodiscard]] bool is_chronological(const Instance& instance, const SolveOptions& options);
+
 /// `instance` and `options` outlive the run.
 [[nodiscard]] std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options);
 

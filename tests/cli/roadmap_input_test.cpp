@@ -43,7 +43,7 @@ TEST_F(RoadmapInputTest, OptionsThatMeanNothingForRoadmapsAreRefused) {
                                              {"--cost-search", "iterative"},
                                              {"--mdd-growth", "full"},
                                              {"--forbid-first"},
-                                             {"--chronological"},
+                                             {"--backtracking", "jump"},
                                              {"--no-first-plan"},
                                              {"--threads", "2"},
                                              {"--race"},

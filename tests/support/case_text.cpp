@@ -130,8 +130,8 @@ class CaseReader {
       options_->first_plan = false;
     } else if (word == "forbid-first") {
       options_->forbid_first = true;
-    } else if (word == "chronological") {
-      options_->chronological = true;
+    } else if (word == "chronological" || word == "not-chronological") {
+      options_->chronological = word == "chronological";
     } else if (word == "race") {
       options_->race = true;
     } else if (key == "threads" && value.size() == 1 && value[0] >= '1' && value[0] <= '9') {
@@ -250,7 +250,8 @@ std::string options_text(const SolveOptions& options) {
   if (options.threads > 1) text += " threads=" + std::to_string(options.threads);
   if (options.race) text += " race";
   if (options.forbid_first) text += " forbid-first";
-  if (options.chronological) text += " chronological";
+  if (options.chronological)
+    text += *options.chronological ? " chronological" : " not-chronological";
   if (!options.first_plan) text += " no-first-plan";
   if (options.audit) text += " audit";
   if (options.known_plan) text += " known-plan";

@@ -136,7 +136,7 @@ std::vector<SolveOptions> random_systems(Random& random, Objective objective) {
     options.audit = random.percent(30);
     options.first_plan = random.percent(30);
     options.forbid_first = random.percent(30);
-    options.chronological = random.percent(50);
+    if (random.percent(60)) options.chronological = random.percent(50);
     if (random.percent(5)) {
       options.threads = 2 + random.below(2);
       options.race = random.percent(50);

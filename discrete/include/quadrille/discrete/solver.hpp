@@ -71,6 +71,9 @@ struct Progress {
   std::int64_t conflicts = 0;
 };
 
+/// See SolveOptions::chronological. Measured: docs/performance.md.
+inline constexpr std::size_t kManyAgents = 175;
+
 struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
@@ -84,8 +87,9 @@ struct SolveOptions {
   /// instances, slower on others.
   bool forbid_first = false;
   /// Of dpll: backtrack chronologically, so that lemmas about the past leave later decisions alone.
-  /// Faster where agents are many and conflicts few, slower at the hard end of rooms and mazes.
-  bool chronological = false;
+  /// Absent: for kManyAgents or more, for whom decisions that are made again cost more than what is
+  /// gained by fresh ones.
+  std::optional<bool> chronological;
   Limits limits;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
