@@ -25,7 +25,7 @@ std::vector<CostProblem::Level> above(const IdVector<AgentId, Cost>& caps) {
   return levels;
 }
 
-/// Makes cores stronger by looking at the known clauses: smaller, and with higher levels.
+/// Makes cores stronger by short searches: smaller, and with higher levels.
 class CoreShrinker {
  public:
   CoreShrinker(CostProblem& problem, LimitMonitor& limits) : problem_(problem), limits_(limits) {}
@@ -39,7 +39,7 @@ class CoreShrinker {
 
  private:
   [[nodiscard]] bool is_core(const Core& core) {
-    return !limits_.exhausted() && problem_.refute(core, limits_, kTryBudget) == Verdict::unsat;
+    return !limits_.exhausted() && problem_.try_refute(core, limits_, kTryBudget) == Verdict::unsat;
   }
 
   void drop(Core& core) {
