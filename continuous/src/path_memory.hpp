@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "encounters.hpp"
@@ -14,7 +15,8 @@ struct KnownPath {
   TimedPath path;
   PathUses uses;
   std::vector<Step> steps;
-  std::uint64_t version = 0;  ///< No two paths have the same.
+  std::uint64_t version = 0;                 ///< No two paths have the same.
+  mutable std::optional<ObstacleId> breaks;  ///< An obstacle that it was found to run into last.
 };
 using KnownPathRef = std::shared_ptr<const KnownPath>;
 

@@ -139,9 +139,14 @@ void ContinuousTheory::set_floor(AgentId i, Cost floor) {
 // ---- paths --------------------------------------------------------------------------------------
 
 bool ContinuousTheory::obeys(const AgentState& agent, const KnownPath& known) const {
-  return std::none_of(agent.active.begin(), agent.active.end(), [&](ObstacleId id) {
-    return known.uses.breaks(model_.obstacles()[id].bans);
-  });
+  const auto& obstacles = model_.obstacles();
+  if (known.breaks && value(obstacles[*known.breaks].allowed) == Truth::is_false) return false;
+  for (const ObstacleId id : agent.active)
+    if (known.uses.breaks(obstacles[id].bans)) {
+      known.breaks = id;
+      return false;
+    }
+  return true;
 }
 
 void ContinuousTheory::set_path(AgentId i, TimedPath path) {
