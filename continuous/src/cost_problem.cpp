@@ -90,7 +90,11 @@ Verdict CostProblem::try_refute(const std::vector<Level>& below, LimitMonitor& l
                                 const sat::SolveBudget& budget) {
   if (!theory_in_search_) return refute(below, limits, budget);
   theory_.set_budget(kForever, Lit());
-  return solve_with_theory(below, Lit(), limits, budget);
+  // What these tests ask is often hopeless, and a search of a pair would find no answer.
+  theory_.set_pair_lemmas(false);
+  const Verdict verdict = solve_with_theory(below, Lit(), limits, budget);
+  theory_.set_pair_lemmas(true);
+  return verdict;
 }
 
 std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const {

@@ -15,7 +15,7 @@ using End = sat::SearchReport::End;
 using sat::Verdict;
 using Core = std::vector<CostProblem::Level>;
 
-constexpr sat::SolveBudget kTryBudget{200, 400};
+constexpr sat::SolveBudget kTryBudget{200, 700};
 constexpr sat::SolveBudget kNextBudget{1000, {}};
 /// Covers by greed between two exact ones.
 constexpr int kMaxQuickRounds = 50;

@@ -15,7 +15,7 @@ constexpr Cost kSmallPart = 64;
 /// Most pairs need no such search: the clauses do as well, and for less.
 constexpr int kFirstTry = 64;
 /// Steps to begin with, and per call. A search that finds nothing is paid for.
-constexpr std::int64_t kFirstCredit = 3'000'000, kCreditPerCall = 1'000;
+constexpr std::int64_t kFirstCredit = 12'000'000, kCreditPerCall = 1'000;
 
 }  // namespace
 

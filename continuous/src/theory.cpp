@@ -243,7 +243,7 @@ void ContinuousTheory::explain_bound(AgentId i, Cost bound, FormulaWriter& write
 
 void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const std::vector<std::size_t>& slots,
                                    FormulaWriter& writer) {
-  if (bound >= kForever) return;
+  if (bound >= kForever || !uses_pair_lemmas_) return;
   std::vector<ObstacleId> obstacles;
   std::map<AgentId, int> due_to;
   for (const std::size_t slot : slots) {
@@ -359,7 +359,8 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
       const auto party = [&](AgentId i) {
         return PairLemmas::Party{i, agents_[i].cap, agents_[i].active};
       };
-      if (pair_lemmas_.note_collision(party(e.first), party(e.second), writer)) continue;
+      if (uses_pair_lemmas_ && pair_lemmas_.note_collision(party(e.first), party(e.second), writer))
+        continue;
       const auto final_from = [&](AgentId i) {
         return std::max(agents_[i].path->path.arrival, agents_[i].floor);
       };

@@ -37,6 +37,9 @@ class ContinuousTheory final : public sat::Theory {
   enum class Mode { always, complete, never };
   void set_mode(Mode mode) { mode_ = mode; }
 
+  /// Whether agents that collide again and again are searched together.
+  void set_pair_lemmas(bool on) { uses_pair_lemmas_ = on; }
+
   /// From now on, assignments in which the costs of all paths sum up to more than `total` are
   /// refuted by lemmas that contain `above`, the literal that allows it. kForever: none are.
   void set_budget(Cost total, sat::Lit above) {
@@ -110,6 +113,7 @@ class ContinuousTheory final : public sat::Theory {
   EncounterClauses clauses_;
   PairLemmas pair_lemmas_;
   Mode mode_ = Mode::always;
+  bool uses_pair_lemmas_ = true;
   Cost budget_ = kForever;
   sat::Lit above_budget_;
 
