@@ -57,7 +57,10 @@ std::vector<Ban> bans_around(Model& model, ClassId a, ClassId b, const std::vect
 }
 
 PlanImprover::PlanImprover(Model& model)
-    : model_(model), finder_(model.instance()), agents_(model.instance().num_agents()) {}
+    : model_(model),
+      finder_(model.instance()),
+      nothing_(model.instance().roadmap()),
+      agents_(model.instance().num_agents()) {}
 
 void PlanImprover::improve(Plan& plan, std::int64_t effort) {
   const Instance& instance = model_.instance();
@@ -122,9 +125,8 @@ std::vector<AgentId> PlanImprover::choose() {
   const std::size_t size = std::min<std::size_t>(2 + draw(kMaxChosen - 1), instance.num_agents());
   std::vector<AgentId> chosen{choose_delayed()};
   const AgentId late = chosen.front();
-  BanTable nothing(instance.roadmap());
   TimedPath path;
-  static_cast<void>(finder_.find(model_.task(late), nothing, kForever, &path));
+  static_cast<void>(finder_.find(model_.task(late), nothing_, kForever, &path));
   std::vector<Step> steps;
   list_steps(instance, late, path, steps);
   std::vector<AgentId> others, in_way;

@@ -52,6 +52,7 @@ class PlanImprover {
   Model& model_;
   PathFinder finder_;
   std::vector<BanTable> tables_;  // by class
+  BanTable nothing_;
   std::size_t num_slots_ = 0;
   IdVector<AgentId, AgentState> agents_;
   std::mt19937 random_{1};

@@ -20,8 +20,9 @@ class CountingWriter;
 ///
 /// Each agent has a stack of active obstacles, a cap on its cost and a cost from which on its stay
 /// at the goal is final, as the assignment says, and a path. A path that an obstacle is in the way
-/// of, or that is dearer than the cap, is replaced by a cheapest one; if there is none within the
-/// cap, a path lemma says why. On complete assignments the collisions of all paths become clauses.
+/// of, or that is dearer than the cap, is replaced by a known one or by a cheapest one; if there is
+/// none within the cap, a path lemma says why. On complete assignments the collisions of all paths
+/// become clauses.
 class ContinuousTheory final : public sat::Theory {
  public:
   /// `model` outlives the theory.
