@@ -16,6 +16,7 @@ _quadrille() {
     --system) values="dpll dpll-mdd smt-cbs mdd-sat" ;;
     --check) values="watch propagate 1/2 2/3 1/3,2/3 1/2,3/4" ;;
     --cost-search) values="iterative core-guided" ;;
+    --backtracking) values="chronological jump" ;;
     --mdd-growth) values="on-demand full" ;;
     --plan-format | --from | --to) values="json cbsh2 visualizer yaml ccbs" ;;
     --kind) values="empty random maze room warehouse roadmap" ;;
@@ -41,8 +42,8 @@ _quadrille() {
   local options=
   case $command in
     solve)
-      options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first --no-first-plan
-        --threads --race --gap --seed --time-limit --cpu-limit
+      options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
+        --backtracking --no-first-plan --threads --race --gap --seed --time-limit --cpu-limit
         --memory-limit --conflict-limit --plan --plan-format --json --quiet --audit --known-plan"
       ;;
     verify) options="$instance --plan-format --quiet" ;;

@@ -18,11 +18,16 @@ void PathUses::assign(const Instance& instance, AgentId agent, const TimedPath& 
     since = move.start + instance.duration(c, move.edge);
   }
   stays_.push_back({at.value(), since, kForever});
+  edges_.reset();
+  vertices_.reset();
+  for (const Start& start : starts_) edges_.set(start.edge % kBits);
+  for (const Stay& stay : stays_) vertices_.set(stay.vertex % kBits);
   std::sort(starts_.begin(), starts_.end());
   std::sort(stays_.begin(), stays_.end());
 }
 
 bool PathUses::breaks(const Ban& ban) const {
+  if (!(ban.kind == Ban::Kind::start ? edges_ : vertices_)[ban.place % kBits]) return false;
   if (ban.kind == Ban::Kind::start) {
     const auto at = std::lower_bound(starts_.begin(), starts_.end(), Start{ban.place, ban.begin});
     return at != starts_.end() && at->edge == ban.place && at->tick < ban.end;

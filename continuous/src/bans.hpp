@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bitset>
 #include <compare>
 #include <cstdint>
 #include <span>
@@ -53,6 +54,9 @@ class PathUses {
   };
   std::vector<Start> starts_;
   std::vector<Stay> stays_;
+  // Which edges and vertices occur, by their last bits: most bans are about others.
+  static constexpr std::size_t kBits = 1024;
+  std::bitset<kBits> edges_, vertices_;
 };
 
 /// The bans of one agent at work, by place. Each ban belongs to a *slot*, and slots can be switched

@@ -86,6 +86,17 @@ Verdict CostProblem::refute(const std::vector<Level>& below, LimitMonitor& limit
   return solve_assuming(below, Lit(), limits, budget);
 }
 
+Verdict CostProblem::try_refute(const std::vector<Level>& below, LimitMonitor& limits,
+                                const sat::SolveBudget& budget) {
+  if (!theory_in_search_) return refute(below, limits, budget);
+  theory_.set_budget(kForever, Lit());
+  // What these tests ask is often hopeless, and a search of a pair would find no answer.
+  theory_.set_pair_lemmas(false);
+  const Verdict verdict = solve_with_theory(below, Lit(), limits, budget);
+  theory_.set_pair_lemmas(true);
+  return verdict;
+}
+
 std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const {
   const auto& known = model_.thresholds(agent);
   const auto at = std::find_if(known.begin(), known.end(), [&](const Model::Threshold& t) {

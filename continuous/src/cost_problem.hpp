@@ -53,6 +53,10 @@ class CostProblem {
   [[nodiscard]] sat::Verdict refute(const std::vector<Level>& below, LimitMonitor& limits,
                                     const sat::SolveBudget& budget = {});
 
+  /// As refute, but the theory may look for new clauses during the search.
+  [[nodiscard]] sat::Verdict try_refute(const std::vector<Level>& below, LimitMonitor& limits,
+                                        const sat::SolveBudget& budget);
+
   /// The smallest natural threshold (see Model) above `cost`.
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;
   /// Tells the engine that one of the levels is reached in every plan.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "level_cover.hpp"
+#include "plan_improver.hpp"
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::continuous {
@@ -14,10 +15,12 @@ using End = sat::SearchReport::End;
 using sat::Verdict;
 using Core = std::vector<CostProblem::Level>;
 
-constexpr sat::SolveBudget kTryBudget{200, 400};
+constexpr sat::SolveBudget kTryBudget{200, 700};
 constexpr sat::SolveBudget kNextBudget{1000, {}};
 /// Covers by greed between two exact ones.
 constexpr int kMaxQuickRounds = 50;
+/// Visits of the path search for a better plan, at the first turn and at each later one.
+constexpr std::int64_t kFirstEffort = 200'000, kEffort = 30'000;
 
 std::vector<CostProblem::Level> above(const IdVector<AgentId, Cost>& caps) {
   std::vector<CostProblem::Level> levels;
@@ -25,7 +28,7 @@ std::vector<CostProblem::Level> above(const IdVector<AgentId, Cost>& caps) {
   return levels;
 }
 
-/// Makes cores stronger by looking at the known clauses: smaller, and with higher levels.
+/// Makes cores stronger by short searches: smaller, and with higher levels.
 class CoreShrinker {
  public:
   CoreShrinker(CostProblem& problem, LimitMonitor& limits) : problem_(problem), limits_(limits) {}
@@ -39,7 +42,7 @@ class CoreShrinker {
 
  private:
   [[nodiscard]] bool is_core(const Core& core) {
-    return !limits_.exhausted() && problem_.refute(core, limits_, kTryBudget) == Verdict::unsat;
+    return !limits_.exhausted() && problem_.try_refute(core, limits_, kTryBudget) == Verdict::unsat;
   }
 
   void drop(Core& core) {
@@ -95,7 +98,8 @@ class CoverSearch {
         statistics_(statistics),
         on_report_(on_report),
         cover_(free_costs()),
-        shrinker_(problem, limits) {
+        shrinker_(problem, limits),
+        improver_(problem.model()) {
     report_.plan = std::move(some_plan);
   }
 
@@ -131,6 +135,8 @@ class CoverSearch {
   /// Closes in on the least cost from both sides by bounds on the sum of costs, as far as some
   /// conflicts go. True if that ended the search.
   bool take_turn_with_sums() {
+    if (report_.plan)
+      improver_.improve(*report_.plan, turn_conflicts_ == 0 ? kFirstEffort : kEffort);
     next_turn_ = statistics_.cores + std::max<std::int64_t>(statistics_.cores / 4, 1);
     // Half as many conflicts as the search with covers has had, and some to begin with.
     const std::int64_t before = limits_.conflicts();
@@ -208,6 +214,7 @@ class CoverSearch {
   const ReportListener& on_report_;
   LevelCover cover_;
   CoreShrinker shrinker_;
+  PlanImprover improver_;
   CostReport report_;
   std::int64_t next_turn_ = 30, turn_conflicts_ = 0;
   Cost step_ = 0;  // between the proven bound and the next sum to be tried

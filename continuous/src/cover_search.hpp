@@ -22,8 +22,8 @@ using ReportListener = std::function<void(const CostReport&)>;
 
 /// Finds a plan of least sum of costs by implicit hitting sets (Davies and Bacchus 2011, CP): the
 /// cheapest costs that hit all known cores are the agents' caps; either there is a plan within
-/// them, or there is a new core. Where cores are many, turns with bounds on the sum of
-/// all costs take place. Integer costs may be as large as they like.
+/// them, or there is a new core. Where cores are many, turns take place that look for better plans
+/// and try bounds on the sum of all costs. Integer costs may be as large as they like.
 /// Ends by itself if the clauses allow no plan at all, which need not happen where none exists.
 /// `some_plan`: one of any cost, if known.
 /// Deterministic as long as no limit is met. Adds to `statistics.cores`.

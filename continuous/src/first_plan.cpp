@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "encounters.hpp"
+#include "plan_improver.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/core/random.hpp"
 
@@ -48,27 +48,7 @@ class OneByOne {
  private:
   void keep_clear(AgentId i, AgentId other, const std::vector<Step>& steps) {
     const Instance& instance = model_.instance();
-    Contacts& contacts = model_.contacts();
-    const ClassId a = instance.class_of(i), b = instance.class_of(other);
-    std::vector<Ban> bans;
-    for (const Step& step : steps) {
-      if (step.is_move) {
-        const auto& near = contacts.near_edge(b, step.edge, a);
-        for (const EdgeId e : near.edges)
-          if (const auto offsets = contacts.offsets(b, step.edge, a, e))
-            bans.push_back(Ban::start(e, step.begin + offsets->lo, step.begin + offsets->hi + 1));
-        for (const VertexId v : near.vertices)
-          if (const auto w = contacts.window(b, step.edge, a, v))
-            bans.push_back(Ban::stay(v, step.begin + w->first, step.begin + w->last));
-      } else {
-        // A move that begins at s meets the stay if begin < s + last and end > s + first.
-        for (const EdgeId e : contacts.near_vertex(b, step.vertex, a).edges)
-          if (const auto w = contacts.window(a, e, b, step.vertex))
-            bans.push_back(Ban::start(e, step.begin - w->last + 1,
-                                      step.end >= kForever ? kForever : step.end - w->first));
-      }
-    }
-    bans_.add(bans);
+    bans_.add(bans_around(model_, instance.class_of(i), instance.class_of(other), steps));
   }
 
   Model& model_;

@@ -2,24 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <optional>
-#include <span>
 #include <vector>
 
+#include "leaf_program.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/limits.hpp"
 
 namespace quadrille::continuous {
-
-/// "The agent costs `cost` or more."
-struct Level {
-  AgentId agent;
-  Cost cost = 0;
-  friend auto operator<=>(const Level&, const Level&) = default;
-};
-/// One of its levels is reached in every plan. By agent; no agent twice.
-using LevelCore = std::vector<Level>;
 
 /// The hitting set problem of the cost search: costs of the agents, none below its free cost, such
 /// that each core has an agent that reaches its level, and that the sum of the costs is least.
@@ -48,33 +37,21 @@ class LevelCover {
   [[nodiscard]] std::int64_t num_programs() const noexcept { return num_programs_; }
 
  private:
-  /// Costs that are at least `low` and less than `high`, where given.
-  struct Leaf {
-    Cost bound = 0;  // on what the agents of the group pay above their free costs
-    std::map<AgentId, Cost> low, high;
-  };
   struct Group {
     std::vector<AgentId> agents;
     std::vector<const LevelCore*> cores;
-    std::vector<Leaf> open;  // a heap, the least bound first
+    CoreTable table;              // of the cores
+    std::vector<CoverLeaf> open;  // a heap, the least bound first
     IdVector<AgentId, Cost> best;
     Cost cost = 0;  // what its agents pay above their free costs in `best`
   };
-  /// What a linear program says about a leaf.
-  struct Relaxation {
-    bool is_empty = false;  // the leaf contains no solution
-    Cost bound = 0;
-    std::optional<Level> branch;                   // to split the leaf at
-    std::optional<IdVector<AgentId, Cost>> costs;  // hit all cores of the group
-  };
-  class LeafProgram;
-  using Cores = std::vector<const LevelCore*>;
 
   [[nodiscard]] AgentId root(AgentId i) const;
   [[nodiscard]] std::vector<Group> make_groups() const;
   [[nodiscard]] bool solve(Group& group, LimitMonitor& limits);
-  /// Raises levels by greed until all cores are hit, then lowers what need not be that high.
-  void complete(const Cores& cores, IdVector<AgentId, Cost>& costs) const;
+  /// Solves the leaf's linear program. False: the leaf contains no solution.
+  [[nodiscard]] bool relax(Group& group, CoverLeaf& leaf);
+  [[nodiscard]] Cost price(const Group& group, const IdVector<AgentId, Cost>& costs) const;
 
   IdVector<AgentId, Cost> free_costs_;
   IdVector<AgentId, AgentId> parent_;  // agents that ever shared a core have the same root
@@ -82,6 +59,7 @@ class LevelCover {
   std::vector<Group> groups_;  // of the last solve, for their trees
   IdVector<AgentId, Cost> costs_;
   Cost total_ = 0;
+  LeafProgram program_;
   std::int64_t num_programs_ = 0;
 };
 

@@ -15,7 +15,7 @@ class Tableau {
  public:
   explicit Tableau(const Packing& packing)
       : rows_(packing.capacity.size()),
-        columns_(packing.columns.size()),
+        columns_(packing.num_columns()),
         width_(columns_ + 1),
         cells_((rows_ + 1) * width_, 0.0),
         basic_(rows_),
@@ -29,7 +29,7 @@ class Tableau {
       basic_[r] = columns_ + r;
     }
     for (std::size_t c = 0; c < columns_; ++c) {
-      for (const std::size_t r : packing.columns[c]) at(r, c) = 1;
+      for (const std::uint32_t r : packing.rows_of(c)) at(r, c) = 1;
       at(rows_, c) = -1;
       other_[c] = c;
     }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace quadrille::continuous {
@@ -9,8 +11,15 @@ namespace quadrille::continuous {
 /// A linear program: maximise the sum of u, with u >= 0 and for each row the sum of some of the u
 /// at most `capacity`, which is >= 0.
 struct Packing {
-  std::vector<double> capacity;                   ///< By row.
-  std::vector<std::vector<std::size_t>> columns;  ///< By variable: the rows in which it occurs.
+  std::vector<double> capacity;            ///< By row.
+  std::vector<std::size_t> column_begins;  ///< Into `column_rows`; one more than columns.
+  std::vector<std::uint32_t> column_rows;
+  [[nodiscard]] std::size_t num_columns() const { return column_begins.size() - 1; }
+  /// The rows in which a variable occurs.
+  [[nodiscard]] std::span<const std::uint32_t> rows_of(std::size_t column) const {
+    return {column_rows.data() + column_begins[column],
+            column_rows.data() + column_begins[column + 1]};
+  }
 };
 
 /// An optimal solution in floating point: what it is used for must not depend on its accuracy.

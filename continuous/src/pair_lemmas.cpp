@@ -6,16 +6,16 @@
 namespace quadrille::continuous {
 namespace {
 
-constexpr std::size_t kMaxPairs = 3'000'000;
+/// Steps of one search.
+constexpr std::int64_t kMaxSteps = 30'000'000;
 /// Of searches with obstacles, of which many are made.
-constexpr std::size_t kMaxPairsInReduction = 300'000;
+constexpr std::int64_t kMaxStepsInReduction = 3'000'000;
 
 constexpr Cost kSmallPart = 64;
 /// Most pairs need no such search: the clauses do as well, and for less.
 constexpr int kFirstTry = 64;
-/// Visits of pairs of elements to begin with, and per call. A search that finds nothing is paid
-/// for.
-constexpr std::int64_t kFirstCredit = 300'000, kCreditPerCall = 300;
+/// Steps to begin with, and per call. A search that finds nothing is paid for.
+constexpr std::int64_t kFirstCredit = 12'000'000, kCreditPerCall = 1'000;
 
 }  // namespace
 
@@ -60,7 +60,7 @@ bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, Formul
 }
 
 bool PairLemmas::is_refuted(const Party& i, const Party& j) {
-  return search_.refuted_raise({i.agent, i.cap}, {j.agent, j.cap}, 0, kMaxPairsInReduction) > 0;
+  return search_.refuted_raise({i.agent, i.cap}, {j.agent, j.cap}, 0, kMaxStepsInReduction) > 0;
 }
 
 void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
@@ -114,7 +114,7 @@ void PairLemmas::add_clauses(const Party& i, const Party& j, FormulaWriter& writ
 
 void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second) {
   if (is_second) search_.swap_bans();
-  const Cost raise = search_.refuted_raise(party, other, max_raise(party.agent), kMaxPairs);
+  const Cost raise = search_.refuted_raise(party, other, max_raise(party.agent), kMaxSteps);
   if (is_second) search_.swap_bans();
   party.cap += std::max<Cost>(raise, 1) - 1;
 }

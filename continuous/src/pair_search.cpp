@@ -149,6 +149,7 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
     const Ticks arrive = start_x + a.duration + way.ticks;
     for (auto k = x.first_element[way.vertex.index()]; k < x.end_element[way.vertex.index()]; ++k) {
       const Element& to = x.elements[k];
+      ++effort_;
       if (!to.matters || to.end < arrive || (way.ticks == 0 && breaks_ban(x, a, to))) continue;
       const Ticks first = std::max({to.begin, arrive, start_y});
       if (at_y == kDone) {
@@ -173,7 +174,7 @@ bool PairSearch::next_raise() {
 }
 
 Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
-                               std::size_t max_pairs) {
+                               std::int64_t max_steps) {
   Side &first = sides_[0], &second = sides_[1];
   first.bans = &bans_[0];
   second.bans = &bans_[1];
@@ -190,13 +191,13 @@ Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
   raise_ = 0;
   max_raise_ = max_raise;
   reach(key(kStart, kStart), {});
+  const std::int64_t last = effort_ + max_steps;
   for (std::size_t count = 0; next_raise(); ++count) {
     std::pop_heap(open_.begin(), open_.end(), is_later);
     const std::uint64_t pair = open_.back().pair;
     open_.pop_back();
-    ++effort_;
     const auto x = static_cast<std::uint32_t>(pair >> 32), y = static_cast<std::uint32_t>(pair);
-    if ((x == kDone && y == kDone) || count > max_pairs) return raise_;
+    if ((x == kDone && y == kDone) || effort_ > last) return raise_;
     if (count % 8192 == 8191 && model_.limits().exhausted_now()) return raise_;
     const Starts starts = reached_.at(pair);
     advance(first, x, starts.x, second, y, starts.y, true);

@@ -33,15 +33,15 @@ class PairSearch {
     Cost cap = 0;  ///< It arrives at this tick or earlier. At least its free cost.
   };
   /// Some r in [0, max_raise + 1]: no plan has both cost(i) < i.cap + r and cost(j) <= j.cap.
-  /// Visits at most about `max_pairs` pairs of elements, fewer if the limits of the model are met.
+  /// Tries at most about `max_steps` steps, fewer if the limits of the model are met.
   [[nodiscard]] Cost refuted_raise(const Party& i, const Party& j, Cost max_raise,
-                                   std::size_t max_pairs);
+                                   std::int64_t max_steps);
 
   /// Bans that agent i (0) and agent j (1) obey; none at first.
   [[nodiscard]] BanTable& bans(std::size_t side) { return bans_[side]; }
   void swap_bans() { std::swap(bans_[0], bans_[1]); }
 
-  /// Pairs of elements visited so far by all searches.
+  /// Steps from one pair of elements to another that all searches have tried so far.
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 
  private:
@@ -138,7 +138,6 @@ class PairSearch {
   /// Visits the pairs that follow when the agent of `x` begins its next move.
   void advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, std::uint32_t at_y,
                Ticks start_y, bool is_first);
-  /// What x needs at least to go from a to `next` while y has not gone beyond `b`.
   /// What it takes to go on, and the earliest starts of `next` and of b's move after that.
   struct Step {
     Cost raise = kForever;

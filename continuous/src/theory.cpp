@@ -5,46 +5,13 @@
 #include <map>
 #include <utility>
 
+#include "formula_writers.hpp"
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::continuous {
 
 using sat::Lit;
 using sat::Truth;
-
-/// Passes on and tells whether anything was written.
-class ContinuousTheory::CountingWriter final : public FormulaWriter {
- public:
-  explicit CountingWriter(FormulaWriter& target) : target_(target) {}
-  [[nodiscard]] Lit new_lit() override {
-    has_written_ = true;
-    return target_.new_lit();
-  }
-  void add(const sat::Lemma& lemma) override {
-    has_written_ = true;
-    target_.add(lemma);
-  }
-  [[nodiscard]] bool has_written() const noexcept { return has_written_; }
-
- private:
-  FormulaWriter& target_;
-  bool has_written_ = false;
-};
-
-namespace {
-
-/// Writes to the solver by way of the theory's context.
-class ContextWriter final : public FormulaWriter {
- public:
-  explicit ContextWriter(sat::TheoryContext& context) : context_(context) {}
-  [[nodiscard]] Lit new_lit() override { return context_.new_lit(); }
-  void add(const sat::Lemma& lemma) override { context_.add_lemma(lemma); }
-
- private:
-  sat::TheoryContext& context_;
-};
-
-}  // namespace
 
 ContinuousTheory::ContinuousTheory(Model& model)
     : model_(model),
@@ -126,7 +93,7 @@ void ContinuousTheory::undo(const Change& change) {
       agent.floor = change.cost;
       break;
     case Change::Kind::path:
-      set_path(change.agent, std::move(replaced_paths_.back()));
+      agent.path = std::move(replaced_paths_.back());
       replaced_paths_.pop_back();
       // It was violated when it was replaced, and may still be.
       agent.is_violated = true;
@@ -151,7 +118,7 @@ void ContinuousTheory::activate(ObstacleId id) {
   AgentState& agent = agents_[obstacle.agent];
   agent.active.push_back(id);
   changes_.push_back({Change::Kind::activation, obstacle.agent, id, 0});
-  if (!agent.is_violated && agent.uses.breaks(obstacle.bans)) agent.is_violated = true;
+  if (!agent.is_violated && agent.path->uses.breaks(obstacle.bans)) agent.is_violated = true;
 }
 
 void ContinuousTheory::set_cap(AgentId i, Cost cap) {
@@ -159,7 +126,7 @@ void ContinuousTheory::set_cap(AgentId i, Cost cap) {
   if (cap >= agent.cap) return;
   changes_.push_back({Change::Kind::cap, i, ObstacleId(), agent.cap});
   agent.cap = cap;
-  if (agent.path.arrival > cap) agent.is_violated = true;
+  if (agent.path->path.arrival > cap) agent.is_violated = true;
 }
 
 void ContinuousTheory::set_floor(AgentId i, Cost floor) {
@@ -171,19 +138,42 @@ void ContinuousTheory::set_floor(AgentId i, Cost floor) {
 
 // ---- paths --------------------------------------------------------------------------------------
 
-bool ContinuousTheory::is_path_bad(AgentId i) const {
-  const AgentState& agent = agents_[i];
-  if (agent.path.arrival > agent.cap) return true;
-  return std::any_of(agent.active.begin(), agent.active.end(),
-                     [&](ObstacleId id) { return agent.uses.breaks(model_.obstacles()[id].bans); });
+bool ContinuousTheory::obeys(const AgentState& agent, const KnownPath& known) const {
+  const auto& obstacles = model_.obstacles();
+  if (known.breaks && value(obstacles[*known.breaks].allowed) == Truth::is_false) return false;
+  for (const ObstacleId id : agent.active)
+    if (known.uses.breaks(obstacles[id].bans)) {
+      known.breaks = id;
+      return false;
+    }
+  return true;
 }
 
 void ContinuousTheory::set_path(AgentId i, TimedPath path) {
   AgentState& agent = agents_[i];
+  agent.path = agent.memory.remember(model_.instance(), i, std::move(path), last_version_);
+}
+
+// A dearer path is taken back with what made it necessary; any other one is as good as before.
+void ContinuousTheory::replace_path(AgentId i, KnownPathRef path) {
+  AgentState& agent = agents_[i];
+  agent.is_violated = false;
+  if (path->path.arrival > agent.path->path.arrival) {
+    changes_.push_back({Change::Kind::path, i, ObstacleId(), 0});
+    replaced_paths_.push_back(agent.path);
+  }
   agent.path = std::move(path);
-  agent.uses.assign(model_.instance(), i, agent.path);
-  list_steps(model_.instance(), i, agent.path, agent.steps);
-  agent.version = ++last_version_;
+}
+
+KnownPathRef ContinuousTheory::recall(AgentId i) const {
+  const AgentState& agent = agents_[i];
+  Cost cap = agent.cap;
+  for (const auto& threshold : model_.thresholds(i)) {
+    if (threshold.cost > cap) break;
+    if (threshold.is_natural && value(threshold.at_least) == Truth::unassigned)
+      cap = threshold.cost - 1;
+  }
+  return agent.memory.cheapest(cap, [&](const KnownPath& known) { return obeys(agent, known); });
 }
 
 void ContinuousTheory::load_bans(AgentId i) {
@@ -200,8 +190,13 @@ bool ContinuousTheory::replan_all(FormulaWriter& writer) {
 
 bool ContinuousTheory::replan(AgentId i, FormulaWriter& writer) {
   AgentState& agent = agents_[i];
-  if (!is_path_bad(i)) {  // what was in its way is gone
+  if (agent.path->path.arrival <= agent.cap &&
+      obeys(agent, *agent.path)) {  // what was in its way is gone
     agent.is_violated = false;
+    return true;
+  }
+  if (KnownPathRef known = recall(i)) {
+    replace_path(i, std::move(known));
     return true;
   }
   load_bans(i);
@@ -217,13 +212,7 @@ bool ContinuousTheory::replan(AgentId i, FormulaWriter& writer) {
     explain_bound(i, bound, writer);
     return false;
   }
-  agent.is_violated = false;
-  // A dearer path is taken back with what made it necessary; any other one is as good as before.
-  if (path.arrival > agent.path.arrival) {
-    changes_.push_back({Change::Kind::path, i, ObstacleId(), 0});
-    replaced_paths_.push_back(agent.path);
-  }
-  set_path(i, std::move(path));
+  replace_path(i, agent.memory.remember(model_.instance(), i, std::move(path), last_version_));
   Cost refuted = 0;  // the largest open natural threshold that this search refutes
   for (const auto& threshold : model_.thresholds(i)) {
     if (threshold.cost > *arrival) break;
@@ -254,7 +243,7 @@ void ContinuousTheory::explain_bound(AgentId i, Cost bound, FormulaWriter& write
 
 void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const std::vector<std::size_t>& slots,
                                    FormulaWriter& writer) {
-  if (bound >= kForever) return;
+  if (bound >= kForever || !uses_pair_lemmas_) return;
   std::vector<ObstacleId> obstacles;
   std::map<AgentId, int> due_to;
   for (const std::size_t slot : slots) {
@@ -272,7 +261,7 @@ void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const std::vector<std:
 bool ContinuousTheory::check_budget(FormulaWriter& writer) {
   if (budget_ >= kForever) return true;
   const auto delay = [&](AgentId i) {
-    return std::max(agents_[i].path.arrival, agents_[i].floor) - model_.free_cost(i);
+    return std::max(agents_[i].path->path.arrival, agents_[i].floor) - model_.free_cost(i);
   };
   Cost slack = -budget_ - 1;
   std::vector<AgentId> delayed;
@@ -300,7 +289,7 @@ bool ContinuousTheory::check_budget(FormulaWriter& writer) {
 
 Lit ContinuousTheory::claim_cost(AgentId i, FormulaWriter& writer) {
   const AgentState& agent = agents_[i];
-  const Cost cost = std::max(agent.path.arrival, agent.floor);
+  const Cost cost = std::max(agent.path->path.arrival, agent.floor);
   const Lit claim = model_.at_least(i, cost, writer);
   // No path is cheaper as long as paths are changed only when they have to be; but what is not so
   // must not be claimed.
@@ -341,9 +330,10 @@ std::vector<Encounter> ContinuousTheory::encounters() {
   for (const AgentId i : model_.instance().agent_ids()) {
     for (AgentId j(i.index() + 1); j.index() < agents_.size(); j = AgentId(j.index() + 1)) {
       auto& apart = apart_[i.index() * agents_.size() + j.index()];
-      const std::pair versions{agents_[i].version, agents_[j].version};
+      const std::pair versions{agents_[i].path->version, agents_[j].path->version};
       if (apart == versions) continue;
-      if (auto encounter = first_encounter(model_, i, agents_[i].steps, j, agents_[j].steps))
+      if (auto encounter =
+              first_encounter(model_, i, agents_[i].path->steps, j, agents_[j].path->steps))
         found.push_back(*encounter);
       else
         apart = versions;
@@ -362,16 +352,17 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
     if (found.empty()) {
       accepted_.emplace();
       for (const AgentId i : model_.instance().agent_ids())
-        accepted_->paths.push_back(with_stops(model_.instance(), i, agents_[i].path));
+        accepted_->paths.push_back(with_stops(model_.instance(), i, agents_[i].path->path));
       return;
     }
     for (const Encounter& e : found) {
       const auto party = [&](AgentId i) {
         return PairLemmas::Party{i, agents_[i].cap, agents_[i].active};
       };
-      if (pair_lemmas_.note_collision(party(e.first), party(e.second), writer)) continue;
+      if (uses_pair_lemmas_ && pair_lemmas_.note_collision(party(e.first), party(e.second), writer))
+        continue;
       const auto final_from = [&](AgentId i) {
-        return std::max(agents_[i].path.arrival, agents_[i].floor);
+        return std::max(agents_[i].path->path.arrival, agents_[i].floor);
       };
       clauses_.exclude(e, final_from(e.first), final_from(e.second), writer);
     }

@@ -9,16 +9,20 @@
 #include "explanation.hpp"
 #include "model.hpp"
 #include "pair_lemmas.hpp"
+#include "path_memory.hpp"
 #include "quadrille/sat/theory.hpp"
 
 namespace quadrille::continuous {
+
+class CountingWriter;
 
 /// Keeps one current path per agent: the theory of MAPF_R.
 ///
 /// Each agent has a stack of active obstacles, a cap on its cost and a cost from which on its stay
 /// at the goal is final, as the assignment says, and a path. A path that an obstacle is in the way
-/// of, or that is dearer than the cap, is replaced by a cheapest one; if there is none within the
-/// cap, a path lemma says why. On complete assignments the collisions of all paths become clauses.
+/// of, or that is dearer than the cap, is replaced by a known one or by a cheapest one; if there is
+/// none within the cap, a path lemma says why. On complete assignments the collisions of all paths
+/// become clauses.
 class ContinuousTheory final : public sat::Theory {
  public:
   /// `model` outlives the theory.
@@ -33,6 +37,9 @@ class ContinuousTheory final : public sat::Theory {
   /// Looks at complete assignments only, or not even at those, which leaves plain SAT solving.
   enum class Mode { always, complete, never };
   void set_mode(Mode mode) { mode_ = mode; }
+
+  /// Whether agents that collide again and again are searched together.
+  void set_pair_lemmas(bool on) { uses_pair_lemmas_ = on; }
 
   /// From now on, assignments in which the costs of all paths sum up to more than `total` are
   /// refuted by lemmas that contain `above`, the literal that allows it. kForever: none are.
@@ -55,11 +62,9 @@ class ContinuousTheory final : public sat::Theory {
     std::vector<ObstacleId> active;
     Cost cap = kForever;
     Cost floor = 0;  // the cost that literals claim: its stay at the goal is final from then on
-    TimedPath path;
-    PathUses uses;
-    std::vector<Step> steps;
-    std::uint64_t version = 0;  // of the path
-    bool is_violated = false;   // the path may be hindered or dearer than the cap
+    KnownPathRef path;
+    PathMemory memory;
+    bool is_violated = false;  // the path may be hindered or dearer than the cap
   };
   /// What a literal on the stack brought about.
   struct Change {
@@ -69,7 +74,6 @@ class ContinuousTheory final : public sat::Theory {
     ObstacleId obstacle;  // activation
     Cost cost = 0;        // cap and floor: the one before
   };
-  class CountingWriter;
 
   [[nodiscard]] sat::Truth value(sat::Lit lit) const;
   void notice_new_obstacles();
@@ -77,7 +81,8 @@ class ContinuousTheory final : public sat::Theory {
   void set_cap(AgentId i, Cost cap);
   void set_floor(AgentId i, Cost floor);
   void undo(const Change& change);
-  [[nodiscard]] bool is_path_bad(AgentId i) const;
+  /// Whether the path keeps clear of all active obstacles.
+  [[nodiscard]] bool obeys(const AgentState& agent, const KnownPath& known) const;
 
   /// Replaces violated paths. False if lemmas say that some agent has none.
   bool replan_all(FormulaWriter& writer);
@@ -88,7 +93,12 @@ class ContinuousTheory final : public sat::Theory {
   /// Tries to find a stronger lemma of two agents for one that explains a bound by `slots`.
   void blame_pairs(AgentId i, Cost bound, const std::vector<std::size_t>& slots,
                    FormulaWriter& writer);
+  /// A known path that obeys all active bans and the cap, if no lemma about a cost would be found
+  /// by looking for a cheapest one. Null: none.
+  [[nodiscard]] KnownPathRef recall(AgentId i) const;
   void set_path(AgentId i, TimedPath path);
+  /// As set_path, if the path was violated: a dearer path is taken back later.
+  void replace_path(AgentId i, KnownPathRef path);
   /// False if the paths cost more than the budget; lemmas say so then.
   bool check_budget(FormulaWriter& writer);
   /// The literal that i costs as much as its path, after explaining why. No literal if the path was
@@ -104,6 +114,7 @@ class ContinuousTheory final : public sat::Theory {
   EncounterClauses clauses_;
   PairLemmas pair_lemmas_;
   Mode mode_ = Mode::always;
+  bool uses_pair_lemmas_ = true;
   Cost budget_ = kForever;
   sat::Lit above_budget_;
 
@@ -111,7 +122,7 @@ class ContinuousTheory final : public sat::Theory {
   std::vector<sat::Lit> stack_;
   std::vector<std::size_t> changes_before_;  // by stack place: size of changes_ when it was pushed
   std::vector<Change> changes_;
-  std::vector<TimedPath> replaced_paths_;          // of the path changes
+  std::vector<KnownPathRef> replaced_paths_;       // of the path changes
   std::vector<sat::Truth> values_;                 // by variable
   std::vector<std::vector<ObstacleId>> watchers_;  // by variable: obstacles that it controls
   std::size_t num_noticed_ = 0;                    // obstacles that are in watchers_

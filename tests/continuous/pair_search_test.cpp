@@ -14,7 +14,7 @@
 namespace quadrille::continuous::test {
 namespace {
 
-constexpr std::size_t kManyPairs = 100'000;
+constexpr std::int64_t kManySteps = 1'000'000;
 
 Instance two_agents(std::uint32_t seed) {
   RandomOptions random;
@@ -87,7 +87,7 @@ void check(Model& model, const Plan& plan, bool has_bans, Draw& draw, Count& cou
       const Cost cap_i = draw.number(model.free_cost(i), cost_i);
       const Cost cap_j = cost_j + draw.number(0, 2);
       const Cost raise =
-          search.refuted_raise({i, cap_i}, {j, cap_j}, draw.number(0, 60), kManyPairs);
+          search.refuted_raise({i, cap_i}, {j, cap_j}, draw.number(0, 60), kManySteps);
       ASSERT_GE(raise, 0);
       // No plan has cost(i) < cap_i + raise and cost(j) <= cap_j: this one has.
       if (raise > 0) {
