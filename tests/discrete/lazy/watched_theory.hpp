@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "discrete/lazy/situation.hpp"
+#include "lazy/lazy_theory.hpp"
+#include "support/joint_search.hpp"
+
+// The lazy path theory between its host and a judge.
+namespace quadrille::discrete::support {
+
+using sat::Lit;
+using sat::Truth;
+using VariableKind = LazyModel::VariableKind;
+
+/// Passes everything on, and remembers what the theory said.
+class Recorder final : public sat::TheoryContext {
+ public:
+  explicit Recorder(sat::TheoryContext& context) : context_(context) {}
+
+  std::vector<std::vector<Lit>> lemmas;
+  bool made_literal = false, stopped = false;
+
+  [[nodiscard]] bool has_conflict(const Situation& now) const {
+    return std::any_of(lemmas.begin(), lemmas.end(),
+                       [&](const auto& clause) { return now.is_false(clause); });
+  }
+
+  [[nodiscard]] Truth value(Lit lit) const override { return context_.value(lit); }
+  [[nodiscard]] std::size_t level(Lit lit) const override { return context_.level(lit); }
+  [[nodiscard]] std::size_t num_assigned() const override { return context_.num_assigned(); }
+  [[nodiscard]] std::size_t num_variables() const override { return context_.num_variables(); }
+  void add_lemma(const sat::Lemma& lemma) override {
+    lemmas.emplace_back(lemma.clause.begin(), lemma.clause.end());
+    if (!is_trial) context_.add_lemma(lemma);
+  }
+  void propagate(Lit implied) override { context_.propagate(implied); }
+  [[nodiscard]] Lit new_lit() override {
+    made_literal = true;
+    EXPECT_FALSE(is_trial) << "a literal for something that is known already";
+    return context_.new_lit();
+  }
+  void stop() override {
+    stopped = true;
+    context_.stop();
+  }
+
+  bool is_trial = false;  // lemmas stay here
+
+ private:
+  sat::TheoryContext& context_;
+};
+
+struct Count {
+  std::size_t silent = 0, conflicts = 0, accepted = 0, rejected = 0, decisions = 0, stops = 0,
+              dead = 0, told = 0;
+};
+
+/// The theory between the host and a judge.
+class WatchedTheory final : public sat::Theory {
+ public:
+  WatchedTheory(LazyModel& model, Count& count)
+      : model_(model), theory_(model, limits_), count_(count) {}
+
+  void on_solve(bool all_present) {
+    is_part_ = !all_present;
+    theory_.on_solve(all_present);
+  }
+  void on_assign(std::span<const Lit> newly_true) override {
+    ASSERT_FALSE(newly_true.empty());
+    stack_.insert(stack_.end(), newly_true.begin(), newly_true.end());
+    theory_.on_assign(newly_true);
+  }
+  void on_retract(std::size_t kept) override {
+    stack_.resize(kept);
+    theory_.on_retract(kept);
+    has_retracted_ = true;
+  }
+  /// The end of a solver.
+  void forget() {
+    if (!stack_.empty()) on_retract(0);
+  }
+  sat::Lemma explain(Lit implied, std::vector<Lit>& clause) override {
+    ADD_FAILURE() << "asked for the reason of something that was never propagated";
+    return theory_.explain(implied, clause);
+  }
+  void check(sat::Effort effort, sat::TheoryContext& context) override {
+    Recorder said(context);
+    std::vector<Path> before;
+    for (const AgentId i : model_.instance().agents()) before.push_back(theory_.path(i));
+    theory_.check(effort, said);
+    const Situation now(model_, stack_);
+    if (effort == sat::Effort::partial) {
+      judge_partial(said, now);
+      for (const AgentId i : model_.instance().agents())
+        if (theory_.path(i) != before[i.index()]) expect_bound_told(i, said, now);
+      if (has_retracted_ && stack_.size() % 4 == 0) compare_with_fresh(context, now);
+      has_retracted_ = false;
+    } else {
+      judge_full(said, now);
+    }
+  }
+  [[nodiscard]] Lit decide(sat::TheoryContext& context) override {
+    Recorder said(context);
+    const Lit choice = theory_.decide(said);
+    const Situation now(model_, stack_);
+    EXPECT_TRUE(!choice.valid() || !now.is_assigned(choice));
+    EXPECT_TRUE(!choice.valid() || model_.variable(choice).kind != VariableKind::auxiliary);
+    if (!is_part_) {
+      EXPECT_TRUE(!choice.valid() && !said.stopped && said.lemmas.empty());
+    }
+    if (said.stopped) {
+      EXPECT_FALSE(choice.valid());
+      expect_good_paths(theory_, now);
+      expect_no_collision(now);
+      ++count_.stops;
+    }
+    count_.decisions += choice.valid() ? 1 : 0;
+    return choice;
+  }
+
+ private:
+  void judge_partial(const Recorder& said, const Situation& now) {
+    const bool is_feasible = has_all_paths(now);
+    if (!is_feasible) {
+      EXPECT_TRUE(said.has_conflict(now)) << "an agent without a path went unnoticed";
+    } else if (!said.has_conflict(now)) {
+      expect_good_paths(theory_, now);
+    }
+    ++(is_feasible ? count_.silent : count_.conflicts);
+  }
+  /// A new path that is dearer than a bound which nobody has spoken of comes with a lemma that
+  /// refutes the bound: the search that found the path has proved it.
+  void expect_bound_told(AgentId i, const Recorder& said, const Situation& now) {
+    const auto cost = static_cast<Timestep>(theory_.path(i).size()) - 1;
+    Lit open;  // the largest one; ordered literals imply the others
+    for (const auto& literal : model_.cost_literals(i))
+      if (literal.cost < cost && !now.is_assigned(literal.above)) open = literal.above;
+    if (!open.valid()) return;
+    ++count_.told;
+    EXPECT_TRUE(std::any_of(said.lemmas.begin(), said.lemmas.end(),
+                            [&](const auto& clause) {
+                              return std::find(clause.begin(), clause.end(), open) !=
+                                         clause.end() &&
+                                     std::all_of(clause.begin(), clause.end(), [&](Lit lit) {
+                                       return lit == open || now.is_false(lit);
+                                     });
+                            }))
+        << "agent " << i.value();
+  }
+  void judge_full(const Recorder& said, const Situation& now) {
+    if (said.made_literal || said.has_conflict(now)) {
+      ++count_.rejected;
+      return;
+    }
+    // A lemma that is true does not complain about the assignment.
+    ++count_.accepted;
+    EXPECT_TRUE(has_all_paths(now));
+    expect_good_paths(theory_, now);
+    expect_no_collision(now);
+    ASSERT_EQ(theory_.accepted().has_value(), now.all_present());
+    if (!now.all_present()) return;
+    EXPECT_EQ(support::replay(model_.instance(), *theory_.accepted()), "");
+    for (const AgentId i : model_.instance().agents())
+      EXPECT_EQ(theory_.accepted()->paths[i], theory_.path(i));
+  }
+  /// A theory that has never seen anything else than this stack finds the same.
+  void compare_with_fresh(sat::TheoryContext& context, const Situation& now) {
+    LimitMonitor limits{Limits{}};
+    LazyTheory fresh(model_, limits);
+    if (!stack_.empty()) fresh.on_assign(stack_);
+    Recorder said(context);
+    said.is_trial = true;
+    fresh.check(sat::Effort::partial, said);
+    EXPECT_EQ(said.has_conflict(now), !has_all_paths(now));
+    if (said.has_conflict(now)) return;
+    expect_good_paths(fresh, now);
+  }
+
+  [[nodiscard]] bool has_all_paths(const Situation& now) const {
+    for (const AgentId i : model_.instance().agents())
+      if (now.is_present(i) && !now.has_path(i)) return false;
+    return true;
+  }
+  static void expect_good_paths(const LazyTheory& theory, const Situation& now) {
+    for (const AgentId i : now.model.instance().agents()) {
+      const std::string fault = now.is_present(i) ? now.find_fault(i, theory.path(i)) : "";
+      EXPECT_EQ(fault, "") << "the path of agent " << i.value();
+    }
+  }
+  void expect_no_collision(const Situation& now) const {
+    for (const AgentId i : model_.instance().agents())
+      for (const AgentId j : model_.instance().agents()) {
+        const bool matters = i < j && now.is_present(i) && now.is_present(j);
+        EXPECT_FALSE(matters && support::collide(theory_.path(i), theory_.path(j)));
+      }
+  }
+
+  LazyModel& model_;
+  LimitMonitor limits_{Limits{}};
+  LazyTheory theory_;
+  Count& count_;
+  std::vector<Lit> stack_;
+  bool is_part_ = false, has_retracted_ = false;
+};
+
+}  // namespace quadrille::discrete::support
