@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contacts.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace quadrille::continuous {
@@ -10,33 +11,34 @@ geometry::Disc disc(const Instance& instance, ClassId c) {
   return geometry::Disc{instance.radius(c)};
 }
 
-std::uint64_t key(std::uint32_t first, std::uint32_t second) {
-  return static_cast<std::uint64_t>(first) << 32 | second;
-}
-
 }  // namespace
 
 Contacts::Contacts(const Instance& instance) : instance_(instance) {
   const IdRange<ClassId> classes(instance.num_classes());
+  const std::size_t num_edges = instance.roadmap().num_edges();
   for (const ClassId a : classes)
     for (const ClassId b : classes)
-      pairs_.push_back({geometry::BodyPair(disc(instance, a), disc(instance, b)), {}, {}, {}, {}});
+      pairs_.push_back({geometry::BodyPair(disc(instance, a), disc(instance, b)),
+                        PairTable<Offsets>(num_edges, std::max<std::size_t>(num_edges, 1)),
+                        PairTable<Window>(
+                            num_edges, std::max<std::size_t>(instance.roadmap().num_vertices(), 1)),
+                        {},
+                        {}});
   volumes_.resize(instance.num_classes());
 }
 
-Contacts::Offsets Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
+const Contacts::Offsets& Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
   Pair& p = pair(a, b);
-  const auto [at, is_new] = p.offsets.try_emplace(key(e.value(), f.value()));
-  if (is_new) at->second = p.bodies.unsafe_offsets(instance_.motion(a, e), instance_.motion(b, f));
-  return at->second;
+  return p.offsets.get(e.index(), f.index(), [&] {
+    return p.bodies.unsafe_offsets(instance_.motion(a, e), instance_.motion(b, f));
+  });
 }
 
-Contacts::Window Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
+const Contacts::Window& Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
   Pair& p = pair(a, b);
-  const auto [at, is_new] = p.windows.try_emplace(key(e.value(), v.value()));
-  if (is_new)
-    at->second = p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().position(v));
-  return at->second;
+  return p.windows.get(e.index(), v.index(), [&] {
+    return p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().position(v));
+  });
 }
 
 bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {

@@ -12,8 +12,37 @@
 
 namespace quadrille::continuous {
 
+/// A value for each of `rows` times `columns` keys, computed when it is first asked for. A plain
+/// table if it is small, because hashing costs more than anything else in searches on small
+/// roadmaps.
+template <typename Value>
+class PairTable {
+ public:
+  PairTable(std::size_t rows, std::size_t columns)
+      : columns_(columns), size_(rows <= kMaxSize / columns ? rows * columns : 0) {}
+
+  template <typename Compute>
+  [[nodiscard]] const Value& get(std::size_t row, std::size_t column, const Compute& compute) {
+    const std::size_t key = row * columns_ + column;
+    if (size_ == 0) {
+      const auto [at, is_new] = hashed_.try_emplace(key);
+      if (is_new) at->second = compute();
+      return at->second;
+    }
+    if (plain_.empty()) plain_.resize(size_);
+    if (!plain_[key]) plain_[key] = compute();
+    return *plain_[key];
+  }
+
+ private:
+  static constexpr std::size_t kMaxSize = std::size_t{1} << 14;
+  std::size_t columns_, size_;
+  std::vector<std::optional<Value>> plain_;
+  std::unordered_map<std::size_t, Value> hashed_;
+};
+
 /// Which moves and stays of agents of two classes are in each other's way, and when. Answers are
-/// computed when they are first asked for, and kept.
+/// computed when they are first asked for, and kept; references to them stay valid.
 class Contacts {
  public:
   /// `instance` outlives this.
@@ -22,11 +51,11 @@ class Contacts {
   /// Offsets d = start of f - start of e, both ends included, at which an agent of class a on edge
   /// e and one of class b on edge f collide.
   using Offsets = std::optional<geometry::OffsetInterval>;
-  [[nodiscard]] Offsets offsets(ClassId a, EdgeId e, ClassId b, EdgeId f);
+  [[nodiscard]] const Offsets& offsets(ClassId a, EdgeId e, ClassId b, EdgeId f);
 
   /// When an agent of class b that stands at `v` is in the way of one of class a on edge e.
   using Window = std::optional<geometry::ContactWindow>;
-  [[nodiscard]] Window window(ClassId a, EdgeId e, ClassId b, VertexId v);
+  [[nodiscard]] const Window& window(ClassId a, EdgeId e, ClassId b, VertexId v);
 
   /// Whether two standing agents collide.
   [[nodiscard]] bool overlap(ClassId a, VertexId v, ClassId b, VertexId w) const;
@@ -43,8 +72,8 @@ class Contacts {
  private:
   struct Pair {
     geometry::BodyPair bodies;
-    std::unordered_map<std::uint64_t, Offsets> offsets;
-    std::unordered_map<std::uint64_t, Window> windows;
+    PairTable<Offsets> offsets;
+    PairTable<Window> windows;
     std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>> near_edges, near_vertices;
   };
   [[nodiscard]] Pair& pair(ClassId a, ClassId b) {

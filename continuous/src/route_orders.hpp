@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,6 +25,8 @@ class RouteOrders {
   RouteOrders(Contacts& contacts, const Instance& instance, Objective objective, std::int64_t& work)
       : contacts_(contacts), instance_(instance), objective_(objective), work_(work) {}
 
+  /// Without agents again.
+  void clear();
   /// `route` outlives this. Agents are added in any order, each once.
   void add(AgentId agent, const Route& route);
   /// The least cost, if it is below `limit`. To be trusted if `work` is not below 0 then.
@@ -50,26 +50,30 @@ class RouteOrders {
     const Route* route;
     std::size_t first;  // the variable of its first move
   };
+  using Times = std::vector<Ticks>;
+
   [[nodiscard]] ClassId class_of(const Traveller& t) const { return instance_.class_of(t.agent); }
   [[nodiscard]] Ticks duration(const Traveller& t, std::size_t move) const {
     return instance_.duration(class_of(t), t.route->edges[move]);
   }
   void add_moves(const Traveller& i, const Traveller& j);
   void add_stays(const Traveller& mover, const Traveller& stander);
-  bool tighten(std::vector<Ticks>& times);
-  void branch(std::vector<Ticks> times);
-  [[nodiscard]] Cost cost_of(const std::vector<Ticks>& times) const;
+  bool enforce(const Constraint& added, Times& times);
+  void branch(std::size_t depth);
+  [[nodiscard]] Cost cost_of(const Times& times) const;
 
   Contacts& contacts_;
   const Instance& instance_;
   const Objective objective_;
   std::int64_t& work_;
-  std::size_t size_ = 1;
   std::vector<Traveller> travellers_;
-  std::vector<Constraint> constraints_;
+  std::vector<Ticks> chain_{0};  // by variable: how long its move takes; 0: it is an agent's last
   std::vector<Choice> choices_;
+  std::vector<Constraint> chosen_;
+  std::vector<Times> stack_;            // by number of chosen constraints
+  std::vector<std::size_t> to_follow_;  // variables that were raised
   Cost limit_ = 0;
-  std::optional<std::vector<Ticks>> best_;
+  std::optional<Times> best_;
 };
 
 }  // namespace quadrille::continuous
