@@ -69,9 +69,9 @@ ExitCode exit_code(const SolveOutcome& outcome) {
   return outcome.internal_error ? ExitCode::internal : exit_code(outcome.status);
 }
 
-std::string result_json(const Instance& instance, const RoadmapSolveRequest& request,
+std::string result_json(const Instance* instance, const RoadmapSolveRequest& request,
                         const SolveOutcome& outcome, const VerifyReport& check) {
-  const double resolution = instance.resolution();
+  const double resolution = instance != nullptr ? instance->resolution() : 1;
   const bool infeasible = outcome.status == Status::infeasible;
   const auto time = [&](Cost ticks) { return Json(in_input_units(ticks, resolution)); };
   std::string text = "{";
@@ -85,16 +85,19 @@ std::string result_json(const Instance& instance, const RoadmapSolveRequest& req
   add("cost_ticks", dump(or_null(outcome.cost)));
   add("lower_bound", infeasible ? "null" : dump(time(outcome.lower_bound)));
   add("lower_bound_ticks", infeasible ? "null" : dump(outcome.lower_bound));
-  add("resolution", dump(resolution));
+  add("resolution", instance != nullptr ? dump(resolution) : "null");
   add("claim", dump(fmt::format("{} {}", kClaim[0], kClaim[1])));
   add("stop_reason", dump(to_string(outcome.stop)));
   add("explanation", dump(outcome.explanation));
   add("internal_error",
       outcome.internal_error ? dump(outcome.internal_error->to_string()) : "null");
-  add("agents", dump(instance.num_agents()));
-  Json radii = Json::array();
-  for (const continuous::Agent& agent : instance.agents())
-    radii.push_back(in_input_units(agent.radius, resolution));
+  Json radii;  // null
+  if (instance != nullptr) {
+    radii = Json::array();
+    for (const continuous::Agent& agent : instance->agents())
+      radii.push_back(in_input_units(agent.radius, resolution));
+  }
+  add("agents", instance != nullptr ? dump(instance->num_agents()) : "null");
   add("radii", dump(radii));
   const auto clearance = least_clearance(check);
   add("least_clearance",
@@ -103,7 +106,7 @@ std::string result_json(const Instance& instance, const RoadmapSolveRequest& req
   add("version", dump(QUADRILLE_VERSION));
   add("seed", dump(request.options.seed));
   add("options", dump(options_json(request)));
-  add("plan", outcome.plan ? plan_to_json(instance, *outcome.plan) : "null");
+  add("plan", outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");
   return text + "\n}\n";
 }
 
@@ -147,6 +150,11 @@ std::string describe_outcome(const Instance& instance, const RoadmapSolveRequest
   if (outcome.plan || outcome.status == Status::infeasible)
     text += fmt::format("claim      {}\n           {}\n", kClaim[0], kClaim[1]);
   return text;
+}
+
+std::string describe_refused(const SolveOutcome& outcome) {
+  return fmt::format("result     {}\nwhy        {}\n", to_string(outcome.status),
+                     outcome.explanation);
 }
 
 std::string list_paths(const Instance& instance, const continuous::Plan& plan) {

@@ -24,8 +24,9 @@ struct RoadmapSolveRequest {
 
 [[nodiscard]] ExitCode exit_code(const continuous::SolveOutcome& outcome);
 
-/// The result as JSON, documented in docs/cli.md. `check`: the replay of the plan, if there is one.
-[[nodiscard]] std::string result_json(const continuous::Instance& instance,
+/// The result as JSON, documented in docs/cli.md. `instance`: null if it was refused, which takes
+/// an outcome without a plan. `check`: the replay of the plan, if there is one.
+[[nodiscard]] std::string result_json(const continuous::Instance* instance,
                                       const RoadmapSolveRequest& request,
                                       const continuous::SolveOutcome& outcome,
                                       const continuous::VerifyReport& check);
@@ -35,6 +36,9 @@ struct RoadmapSolveRequest {
                                            const RoadmapSolveRequest& request,
                                            const continuous::SolveOutcome& outcome,
                                            const continuous::VerifyReport& check);
+
+/// The lines "result" and "why" for an instance that was refused because it has no plan.
+[[nodiscard]] std::string describe_refused(const continuous::SolveOutcome& outcome);
 
 /// The line "verified" of a valid plan.
 [[nodiscard]] std::string describe_check(const continuous::Instance& instance,

@@ -58,11 +58,25 @@ Result<std::string> plan_text(const RoadmapInput& input, const continuous::Plan&
   return text.str();
 }
 
+/// What cannot have a plan, as can be seen without a search.
+ExitCode report_refused(const Error& error, const RoadmapSolveRequest& request) {
+  SolveOutcome outcome;
+  outcome.status = Status::infeasible;
+  outcome.explanation = error.to_string();
+  Delivery delivery(request.quiet, request.plan, request.json);
+  if (!delivery.probe()) return ExitCode::output;
+  delivery.write_plan(std::nullopt);
+  if (delivery.has_json_file()) delivery.write_json(result_json(nullptr, request, outcome, {}));
+  delivery.print_summary(describe_refused(outcome), "");
+  return delivery.finish(exit_code(outcome));
+}
+
 }  // namespace
 
 ExitCode solve_roadmap(RoadmapSolveRequest request) {
   const auto input = load_roadmap_input(request.roadmap, request.input);
   if (!input) {
+    if (input.error().code == ErrorCode::no_plan) return report_refused(input.error(), request);
     report_error(input.error());
     return ExitCode::bad_input;
   }
@@ -89,7 +103,7 @@ ExitCode solve_roadmap(RoadmapSolveRequest request) {
     plan = plan_text(*input, *outcome.plan, request.plan_format);
   delivery.write_plan(plan);
   if (delivery.has_json_file())
-    delivery.write_json(result_json(instance, request, outcome, replay));
+    delivery.write_json(result_json(&instance, request, outcome, replay));
   const bool list = outcome.plan && request.plan.empty();
   delivery.print_summary(describe_outcome(instance, request, outcome, replay),
                          list ? list_paths(instance, *outcome.plan) : "");

@@ -22,6 +22,7 @@ Wide squared_distance(const Point& a, const Point& b) {
 std::string name(std::size_t agent) { return "agent " + std::to_string(agent); }
 
 Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+Error no_plan(const std::string& message) { return {ErrorCode::no_plan, message, {}}; }
 
 std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& agents,
                            std::size_t index) {
@@ -49,7 +50,7 @@ std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent
   for (std::size_t i = 0; i < j; ++i)
     if (squared_distance(roadmap.position(agents[i].*place), roadmap.position(agents[j].*place)) <
         square(agents[i].radius + agents[j].radius))
-      return invalid("the " + what + " of agents " + std::to_string(i) + " and " +
+      return no_plan("the " + what + " of agents " + std::to_string(i) + " and " +
                      std::to_string(j) + " overlap");
   return std::nullopt;
 }
@@ -85,7 +86,7 @@ std::optional<Error> check_reachable(const Roadmap& roadmap, const std::vector<A
                                      std::size_t i) {
   const Agent& agent = agents[i];
   if (can_reach(roadmap, agent.start, agent.goal)) return std::nullopt;
-  return invalid(name(i) + " cannot reach its goal: there is no way from vertex " +
+  return no_plan(name(i) + " cannot reach its goal: there is no way from vertex " +
                  std::to_string(agent.start.index()) + " to vertex " +
                  std::to_string(agent.goal.index()));
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "cli/roadmap_support.hpp"
 
@@ -22,6 +23,21 @@ class RoadmapInputTest : public RoadmapCliTest {
     EXPECT_THAT(finished.err, HasSubstr(reason));
     // One reason, one line.
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1);
+  }
+  /// As a person reads it and as JSON.
+  void expect_no_plan(std::vector<std::string> arguments, const std::string& reason) {
+    const Finished finished = run(arguments);
+    SCOPED_TRACE(testing::PrintToString(arguments) + "\n" + finished.err);
+    EXPECT_EQ(finished.code, 20);
+    EXPECT_EQ(finished.err, "");
+    EXPECT_THAT(finished.out, HasSubstr("result     infeasible\nwhy        "));
+    EXPECT_THAT(finished.out, HasSubstr(reason + "\n"));
+    arguments.insert(arguments.end(), {"--quiet", "--json", "-"});
+    const auto json = nlohmann::json::parse(run(arguments).out);
+    EXPECT_EQ(json.at("status"), "infeasible");
+    EXPECT_THAT(std::string(json.at("explanation")), HasSubstr(reason));
+    for (const char* key : {"plan", "cost", "lower_bound", "agents", "radii", "resolution"})
+      EXPECT_TRUE(json.at(key).is_null()) << key;
   }
   /// The roadmap of map.xml with another task.
   std::vector<std::string> with_task(const std::string& rows, const std::string& agents = "2") {
@@ -144,19 +160,34 @@ TEST_F(RoadmapInputTest, RoadmapsAndTasksNameFileLineAndReason) {
   expect_refused(with_task("<agent start_id=\"0\"/>\n", "1"), "bad.xml:2: an <agent> has start_id");
   expect_refused(with_task("<agent start_id=\"0\" goal_id=\"1\"/>\n"),
                  "bad.xml: 2 agents are asked for, but there are 1");
-  expect_refused(with_task("<agent start_id=\"0\" goal_id=\"1\"/>\n"
-                           "<agent start_id=\"0\" goal_id=\"3\"/>\n"),
-                 "bad.xml:3: the starts of agents 0 and 1 overlap");
-  expect_refused(with_task("<agent start_id=\"0\" goal_id=\"1\"/>\n"
-                           "<agent start_id=\"2\" goal_id=\"1\"/>\n"),
-                 "bad.xml:3: the goals of agents 0 and 1 overlap");
-  expect_refused(with_task("<agent start_id=\"0\" goal_id=\"1\"/>\n"
-                           "<agent start_id=\"2\" goal_id=\"0\"/>\n"),
-                 "bad.xml:3: agent 1 cannot reach its goal: there is no way from vertex 2 to "
-                 "vertex 0");
   expect_refused(xml("solve", {"--neighbourhood", "3"}),
                  "map.xml: --neighbourhood is for grids, and this is a roadmap");
   expect_refused(xml("solve", {"--resolution", "1e-12"}), "map.xml:5: node n1 is too far away");
+}
+
+// To look for a plan of these is to prove that there is none; nothing else can be done with them.
+TEST_F(RoadmapInputTest, WhatCannotHaveAPlanIsInfeasible) {
+  const std::string first = "<agent start_id=\"0\" goal_id=\"1\"/>\n";
+  const struct {
+    std::string second, reason;
+  } cases[] = {
+      {"<agent start_id=\"0\" goal_id=\"3\"/>\n", "the starts of agents 0 and 1 overlap"},
+      {"<agent start_id=\"2\" goal_id=\"1\"/>\n", "the goals of agents 0 and 1 overlap"},
+      {"<agent start_id=\"2\" goal_id=\"0\"/>\n",
+       "agent 1 cannot reach its goal: there is no way from vertex 2 to vertex 0"},
+  };
+  for (const auto& c : cases) {
+    std::vector<std::string> arguments = with_task(first + c.second);
+    expect_no_plan(arguments, "bad.xml:3: " + c.reason);
+    arguments.front() = "info";
+    expect_refused(arguments, "bad.xml:3: " + c.reason);
+  }
+  std::string text = read("discs.json");
+  const std::string goal = "\"goal\": 0";
+  ASSERT_NE(text.find(goal), std::string::npos);
+  text.replace(text.find(goal), goal.size(), "\"goal\": 2");
+  expect_no_plan({"solve", "--instance", write("bad.json", text)},
+                 "bad.json:11: the goals of agents 0 and 1 overlap");
 }
 
 TEST_F(RoadmapInputTest, MapsAndScenariosOfMovingAiToo) {
@@ -180,8 +211,6 @@ TEST_F(RoadmapInputTest, InstancesNameFileLineAndReason) {
     text.replace(text.find(from), from.size(), to);
     return std::vector<std::string>{"solve", "--instance", write("bad.json", text)};
   };
-  expect_refused(with("\"goal\": 0", "\"goal\": 2"),
-                 "bad.json:11: the goals of agents 0 and 1 overlap");
   expect_refused(with("\"radius\": 0.3", "\"radius\": -0.3"),
                  "bad.json:10: /agents/0/radius: the radius is less than one length unit");
   expect_refused(with("[3, 1, 1.5]", "[3, 4]"),

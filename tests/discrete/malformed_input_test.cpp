@@ -50,6 +50,8 @@ std::string name_of(ErrorCode code) {
       return "syntax";
     case ErrorCode::invalid_instance:
       return "invalid_instance";
+    case ErrorCode::no_plan:
+      return "no_plan";
     case ErrorCode::out_of_range:
       return "out_of_range";
     case ErrorCode::invalid_plan:

@@ -40,9 +40,9 @@ class Instance {
   /// Durations that the roadmap does not give are length / speed, rounded to the nearest tick.
   /// Errors: out_of_range for a radius outside [1, geometry::kMaxLength], a speed outside
   /// [1, kMaxSpeed], a duration outside [1, geometry::kMaxDuration], a resolution that is not
-  /// positive and finite; invalid_instance for vertices that do not exist, overlapping starts,
-  /// overlapping goals (interiors) and goals that cannot be reached. Agents are named by index.
-  /// `places`: where each agent comes from, for errors about it; none, or one per agent.
+  /// positive and finite; invalid_instance for vertices that do not exist; no_plan for overlapping
+  /// starts, overlapping goals (interiors) and goals that cannot be reached. Agents are named by
+  /// index. `places`: where each agent comes from, for errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents,
                                              double resolution = kDefaultResolution,

@@ -13,6 +13,7 @@ enum class ErrorCode {
   io,                ///< A file cannot be opened, read or written.
   syntax,            ///< A file does not follow its format.
   invalid_instance,  ///< The parts are well-formed but contradict each other.
+  no_plan,           ///< An instance is well-formed, but it can be seen that no plan exists.
   out_of_range,      ///< A number is outside what the program supports.
   invalid_plan,      ///< A plan does not fit its instance.
   internal,          ///< A check of the program's own work failed.
