@@ -275,4 +275,14 @@ OrderSearch search_orders(const Instance& instance, Objective objective, std::si
   return Oracle(instance, objective, max_moves).search();
 }
 
+std::vector<Plan> known_plans(const Instance& instance, std::size_t max_moves) {
+  std::vector<Plan> plans;
+  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan}) {
+    const OrderSearch found = search_orders(instance, objective, max_moves);
+    plans.insert(plans.end(), found.some_plans.begin(), found.some_plans.end());
+    if (found.best) plans.push_back(found.best_plan);
+  }
+  return plans;
+}
+
 }  // namespace quadrille::continuous::test

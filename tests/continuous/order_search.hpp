@@ -22,4 +22,7 @@ struct OrderSearch {
 [[nodiscard]] OrderSearch search_orders(const Instance& instance, Objective objective,
                                         std::size_t max_moves);
 
+/// Some valid plans, the best ones for both objectives among them.
+[[nodiscard]] std::vector<Plan> known_plans(const Instance& instance, std::size_t max_moves);
+
 }  // namespace quadrille::continuous::test
