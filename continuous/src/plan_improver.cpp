@@ -69,7 +69,7 @@ void PlanImprover::improve(Plan& plan, std::int64_t effort) {
   const std::int64_t end = finder_.num_visits() + effort;
   while (finder_.num_visits() < end && !model_.limits().exhausted()) {
     if (num_slots_ > kMaxSlotsPerAgent * agents_.size()) load();
-    static_cast<void>(replan(choose()));
+    replan(choose());
   }
   Plan improved;
   for (const AgentId i : instance.agent_ids())
@@ -146,7 +146,7 @@ std::vector<AgentId> PlanImprover::choose() {
   return chosen;
 }
 
-bool PlanImprover::replan(const std::vector<AgentId>& chosen) {
+void PlanImprover::replan(const std::vector<AgentId>& chosen) {
   const Instance& instance = model_.instance();
   Cost left = 0;  // what may be spent above the free costs
   for (const AgentId i : chosen) {
@@ -173,7 +173,6 @@ bool PlanImprover::replan(const std::vector<AgentId>& chosen) {
   }
   if (!is_done)
     for (const AgentState& state : fresh) enable(state.slot, false);
-  return is_done;
 }
 
 }  // namespace quadrille::continuous

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include "encounters.hpp"
 #include "model.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/random.hpp"
 
 namespace quadrille::continuous {
 
@@ -45,9 +45,11 @@ class PlanImprover {
   }
   [[nodiscard]] std::vector<AgentId> choose();
   [[nodiscard]] AgentId choose_delayed();
-  /// Whether they found paths that cost less, or as much in sum.
-  bool replan(const std::vector<AgentId>& chosen);
-  [[nodiscard]] std::size_t draw(std::size_t count) { return random_() % count; }
+  /// They get new paths, if these cost less, or as much in sum.
+  void replan(const std::vector<AgentId>& chosen);
+  [[nodiscard]] std::size_t draw(std::size_t count) {
+    return static_cast<std::size_t>(random_.below(count));
+  }
 
   Model& model_;
   PathFinder finder_;
@@ -55,7 +57,7 @@ class PlanImprover {
   BanTable nothing_;
   std::size_t num_slots_ = 0;
   IdVector<AgentId, AgentState> agents_;
-  std::mt19937 random_{1};
+  Random random_{1};
 };
 
 }  // namespace quadrille::continuous

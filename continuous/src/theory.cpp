@@ -151,7 +151,7 @@ bool ContinuousTheory::obeys(const AgentState& agent, const KnownPath& known) co
 
 void ContinuousTheory::set_path(AgentId i, TimedPath path) {
   AgentState& agent = agents_[i];
-  agent.path = agent.memory.remember(model_.instance(), i, std::move(path), last_version_);
+  agent.path = agent.cache.remember(model_.instance(), i, std::move(path), last_version_);
 }
 
 // A dearer path is taken back with what made it necessary; any other one is as good as before.
@@ -173,7 +173,7 @@ KnownPathRef ContinuousTheory::recall(AgentId i) const {
     if (threshold.is_natural && value(threshold.at_least) == Truth::unassigned)
       cap = threshold.cost - 1;
   }
-  return agent.memory.cheapest(cap, [&](const KnownPath& known) { return obeys(agent, known); });
+  return agent.cache.cheapest(cap, [&](const KnownPath& known) { return obeys(agent, known); });
 }
 
 void ContinuousTheory::load_bans(AgentId i) {
@@ -212,7 +212,7 @@ bool ContinuousTheory::replan(AgentId i, FormulaWriter& writer) {
     explain_bound(i, bound, writer);
     return false;
   }
-  replace_path(i, agent.memory.remember(model_.instance(), i, std::move(path), last_version_));
+  replace_path(i, agent.cache.remember(model_.instance(), i, std::move(path), last_version_));
   Cost refuted = 0;  // the largest open natural threshold that this search refutes
   for (const auto& threshold : model_.thresholds(i)) {
     if (threshold.cost > *arrival) break;

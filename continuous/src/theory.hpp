@@ -9,7 +9,7 @@
 #include "explanation.hpp"
 #include "model.hpp"
 #include "pair_lemmas.hpp"
-#include "path_memory.hpp"
+#include "path_cache.hpp"
 #include "quadrille/sat/theory.hpp"
 
 namespace quadrille::continuous {
@@ -63,7 +63,7 @@ class ContinuousTheory final : public sat::Theory {
     Cost cap = kForever;
     Cost floor = 0;  // the cost that literals claim: its stay at the goal is final from then on
     KnownPathRef path;
-    PathMemory memory;
+    PathCache cache;
     bool is_violated = false;  // the path may be hindered or dearer than the cap
   };
   /// What a literal on the stack brought about.

@@ -25,7 +25,7 @@ struct TimedPath {
   friend bool operator==(const TimedPath&, const TimedPath&) = default;
 };
 
-/// The path with its stops. `c`: the agent's class.
+/// The path with its stops.
 [[nodiscard]] Path with_stops(const Instance& instance, AgentId agent, const TimedPath& path);
 
 }  // namespace quadrille::continuous

@@ -3,6 +3,7 @@
 // Instances whose least costs follow from a few lines of arithmetic.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 
 #include "least_cost.hpp"
@@ -90,9 +91,12 @@ TEST_P(KnownValue, ASidingThatIsNotDeepEnoughMakesItInfeasible) {
     SolveOptions options;
     options.system = GetParam();
     options.limits.cpu_s = 20;
-    const SolveOutcome outcome = solve(instance, options);
-    EXPECT_EQ(outcome.status, radius == 400 ? Status::optimal : Status::infeasible);
-    EXPECT_EQ(outcome.explanation.empty(), radius == 400) << outcome.explanation;
+    for (const std::int64_t route_work : {SolveOptions().route_work, std::int64_t{0}}) {
+      options.route_work = route_work;
+      const SolveOutcome outcome = solve(instance, options);
+      EXPECT_EQ(outcome.status, radius == 400 ? Status::optimal : Status::infeasible);
+      EXPECT_EQ(outcome.explanation.empty(), radius == 400) << outcome.explanation;
+    }
   }
 }
 

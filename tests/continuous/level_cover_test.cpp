@@ -66,6 +66,49 @@ TEST(LevelCover, IsOptimalAfterEachCore) {
   }
 }
 
+/// Hits the first core that is not hit, in each way; `limit` is what is known already.
+Cost least_by_cores(const std::vector<Cost>& costs, const std::vector<LevelCore>& cores,
+                    Cost limit) {
+  Cost total = 0;
+  for (const Cost c : costs) total += c;
+  if (total >= limit) return limit;
+  const auto open = std::find_if(cores.begin(), cores.end(),
+                                 [&](const LevelCore& core) { return !hit(costs, core); });
+  if (open == cores.end()) return total;
+  for (const Level& level : *open) {
+    std::vector<Cost> raised = costs;
+    raised[level.agent.index()] = level.cost;
+    limit = least_by_cores(raised, cores, limit);
+  }
+  return limit;
+}
+
+// Many small cores with low levels, of which linear programs take halves.
+TEST(LevelCover, IsOptimalWhereHalvesAreCheaper) {
+  LimitMonitor limits({});
+  for (unsigned seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const std::size_t num_agents = 9 + random() % 6;
+    const Cost num_levels = 1 + static_cast<Cost>(seed % 4);
+    LevelCover cover(IdVector<AgentId, Cost>(num_agents, 0));
+    std::vector<LevelCore> cores;
+    for (int k = 0; k < 36; ++k) {
+      LevelCore core;
+      for (const AgentId i : IdRange<AgentId>(num_agents))
+        if (random() % num_agents < 2)
+          core.push_back({i, 1 + static_cast<Cost>(random()) % num_levels});
+      if (core.size() < 2) continue;
+      cores.push_back(core);
+      cover.add(core);
+      ASSERT_TRUE(cover.solve(limits));
+      for (const LevelCore& c : cores) ASSERT_TRUE(hit(cover.costs().items(), c));
+      ASSERT_EQ(cover.total(), least_by_cores(std::vector<Cost>(num_agents, 0), cores,
+                                              std::numeric_limits<Cost>::max()));
+    }
+  }
+}
+
 TEST(LevelCover, NeedsBranching) {
   // Three agents, each pair of which has a core: the linear program says 1.5.
   LimitMonitor limits({});

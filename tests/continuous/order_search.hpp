@@ -9,9 +9,11 @@
 
 namespace quadrille::continuous::test {
 
-/// The oracle: for every combination of routes of at most `max_moves` moves each, and every order
-/// in which moves and stays that are in each other's way can happen, the earliest times are the
-/// longest paths of a system of difference constraints.
+/// The oracle: all combinations of routes of at most `max_moves` moves each. For each two of them,
+/// all ways in which their agents get past each other are listed, which says of every move, and of
+/// every stay that it could run into, who is first; then one way per pair is chosen, and a closed
+/// matrix of least differences between moments says whether that is possible, and when at best.
+/// Shares only instances and plans with the library.
 struct OrderSearch {
   std::optional<Cost> best;  ///< Least cost; nullopt: no plan with such routes.
   Plan best_plan;
@@ -19,5 +21,8 @@ struct OrderSearch {
 };
 [[nodiscard]] OrderSearch search_orders(const Instance& instance, Objective objective,
                                         std::size_t max_moves);
+
+/// Some valid plans, the best ones for both objectives among them.
+[[nodiscard]] std::vector<Plan> known_plans(const Instance& instance, std::size_t max_moves);
 
 }  // namespace quadrille::continuous::test

@@ -16,24 +16,6 @@ namespace {
 
 constexpr std::int64_t kManySteps = 1'000'000;
 
-Instance two_agents(std::uint32_t seed) {
-  RandomOptions random;
-  random.num_agents = 2;
-  random.num_vertices = 4 + seed % 4;
-  random.edge_percent = 30 + static_cast<int>(seed / 4 % 3) * 15;
-  return random_instance(seed, random);
-}
-
-std::vector<Plan> plans_of(const Instance& instance) {
-  std::vector<Plan> plans;
-  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan}) {
-    const OrderSearch found = search_orders(instance, objective, 4);
-    plans.insert(plans.end(), found.some_plans.begin(), found.some_plans.end());
-    if (found.best) plans.push_back(found.best_plan);
-  }
-  return plans;
-}
-
 TimedPath moves_of(const Instance& instance, AgentId agent, const Path& path) {
   TimedPath moves{{}, cost(path)};
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
@@ -102,12 +84,12 @@ void check(Model& model, const Plan& plan, bool has_bans, Draw& draw, Count& cou
 
 void check_instances(bool has_bans, Count& count) {
   for (std::uint32_t seed = 0; seed < support::scaled(250); ++seed) {
-    const Instance instance = two_agents(5'000'000 + seed);
+    const Instance instance = random_pair(5'000'000 + seed);
     SCOPED_TRACE("seed " + std::to_string(5'000'000 + seed) + ": " + describe(instance));
     LimitMonitor limits({});
     Model model(instance, limits);
     Draw draw(seed);
-    for (const Plan& plan : plans_of(instance)) {
+    for (const Plan& plan : known_plans(instance, 4)) {
       check(model, plan, has_bans, draw, count);
       if (testing::Test::HasFatalFailure()) return;
     }
@@ -132,11 +114,11 @@ TEST(PairSearch, RefutesNoPlanThatObeysTheBans) {
 TEST(BlockedAgents, HaveNoPlan) {
   int solvable = 0, blocked = 0;
   for (std::uint32_t seed = 0; seed < support::scaled(500); ++seed) {
-    const Instance instance = two_agents(6'000'000 + seed);
+    const Instance instance = random_pair(6'000'000 + seed);
     LimitMonitor limits({});
     Model model(instance, limits);
     const bool is_blocked = !find_blocked_agents(model).empty();
-    const bool is_solvable = !plans_of(instance).empty();
+    const bool is_solvable = !known_plans(instance, 4).empty();
     ASSERT_FALSE(is_blocked && is_solvable)
         << "seed " << 6'000'000 + seed << ": " << describe(instance);
     solvable += is_solvable ? 1 : 0;

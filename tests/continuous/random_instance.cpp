@@ -57,6 +57,14 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
   }
 }
 
+Instance random_pair(std::uint32_t seed) {
+  RandomOptions random;
+  random.num_agents = 2;
+  random.num_vertices = 4 + seed % 4;
+  random.edge_percent = 30 + static_cast<int>(seed / 4 % 3) * 15;
+  return random_instance(seed, random);
+}
+
 std::string describe(const Instance& instance) {
   std::string text = "vertices";
   for (const Point& p : instance.roadmap().positions())

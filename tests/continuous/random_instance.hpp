@@ -38,6 +38,9 @@ struct RandomOptions {
 /// The same for the same seed. Tries until the instance is valid.
 [[nodiscard]] Instance random_instance(std::uint32_t seed, const RandomOptions& options);
 
+/// Two agents on a roadmap of some size, few edges or many.
+[[nodiscard]] Instance random_pair(std::uint32_t seed);
+
 /// For messages of failing tests.
 [[nodiscard]] std::string describe(const Instance& instance);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,13 +21,16 @@ struct KnownPath {
 };
 using KnownPathRef = std::shared_ptr<const KnownPath>;
 
-/// Some paths of one agent, the one that was used last first.
-class PathMemory {
+/// The last different paths of one agent, the one that was used last first.
+class PathCache {
  public:
+  static constexpr std::size_t kCapacity = 16;
+
   /// The known path that equals `path`; otherwise it becomes one, with the next version.
   [[nodiscard]] KnownPathRef remember(const Instance& instance, AgentId agent, TimedPath path,
                                       std::uint64_t& last_version);
-  /// A cheapest path of those that arrive by `cap` and of which `is_good` is true. Null: none.
+  /// A cheapest path, the one used last, of those that arrive by `cap` and of which `is_good` is
+  /// true. Null: none.
   template <class Predicate>
   [[nodiscard]] KnownPathRef cheapest(Cost cap, const Predicate& is_good) const {
     KnownPathRef best;

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "path_memory.hpp"
+#include "path_cache.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace quadrille::continuous {
-namespace {
 
-constexpr std::size_t kMaxPaths = 16;
-
-}  // namespace
-
-KnownPathRef PathMemory::remember(const Instance& instance, AgentId agent, TimedPath path,
-                                  std::uint64_t& last_version) {
+KnownPathRef PathCache::remember(const Instance& instance, AgentId agent, TimedPath path,
+                                 std::uint64_t& last_version) {
   auto at = std::find_if(paths_.begin(), paths_.end(),
                          [&](const KnownPathRef& known) { return known->path == path; });
   if (at == paths_.end()) {
@@ -21,7 +16,7 @@ KnownPathRef PathMemory::remember(const Instance& instance, AgentId agent, Timed
     list_steps(instance, agent, path, fresh->steps);
     fresh->path = std::move(path);
     fresh->version = ++last_version;
-    if (paths_.size() == kMaxPaths) paths_.pop_back();
+    if (paths_.size() == kCapacity) paths_.pop_back();
     at = paths_.insert(paths_.end(), std::move(fresh));
   }
   std::rotate(paths_.begin(), at, at + 1);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// When discs meet, for the oracle: one predicate over given moments, in exact arithmetic of its
+// own. Everything else is found by trying moments.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "quadrille/continuous/instance.hpp"
+
+namespace quadrille::continuous::test {
+
+/// What a disc does for a while, both ends included: a move, or a stay if the places are the same.
+struct Element {
+  Point from, to;
+  Ticks begin = 0, end = 0;
+};
+
+/// Whether discs whose radii sum up to `reach` overlap at some moment that the elements share.
+[[nodiscard]] bool meet(const Element& a, const Element& b, Length reach);
+
+/// Whole ticks from the first to the last.
+struct Run {
+  Ticks first = 0, last = 0;
+};
+
+/// By how much `b` can be put off if the moves are to meet; b may also begin earlier.
+[[nodiscard]] std::optional<Run> meeting_starts(const Element& a, const Element& b, Length reach);
+
+/// What keeps a move clear of a stay: either of these.
+struct Clearance {
+  Ticks after_leaving = 0;   ///< It begins so long after the end of the stay, at least.
+  Ticks before_arrival = 0;  ///< The stay begins so long after the begin of the move, at least.
+};
+/// Nothing if the move passes the place at a distance.
+[[nodiscard]] std::optional<Clearance> clearance(const Element& move, Point place, Length reach);
+
+/// The answers for an instance, each computed when it is first asked for.
+class Meetings {
+ public:
+  explicit Meetings(const Instance& instance);
+  [[nodiscard]] const std::optional<Run>& moves(ClassId a, EdgeId e, ClassId b, EdgeId f);
+  [[nodiscard]] const std::optional<Clearance>& stay(ClassId a, EdgeId e, ClassId b, VertexId v);
+
+ private:
+  template <class T>
+  struct Known {
+    bool is_known = false;
+    std::optional<T> value;
+  };
+  [[nodiscard]] Element element(ClassId c, EdgeId e) const;
+  [[nodiscard]] Length reach(ClassId a, ClassId b) const {
+    return instance_.radius(a) + instance_.radius(b);
+  }
+
+  const Instance& instance_;
+  std::vector<Known<Run>> moves_;
+  std::vector<Known<Clearance>> stays_;
+};
+
+}  // namespace quadrille::continuous::test
