@@ -30,6 +30,7 @@ std::optional<Error> read_known_plan(const RoadmapInput& input, RoadmapSolveRequ
                  "not a valid plan: " + replay.violations.front().message,
                  {request.known_plan, 0}};
   request.options.known_plan = std::move(file.value().plan);
+  request.options.route_work = 0;  // the search of routes makes no clauses that could be checked
   return std::nullopt;
 }
 

@@ -86,14 +86,21 @@ Verdict CostProblem::refute(const std::vector<Level>& below, LimitMonitor& limit
   return solve_assuming(below, Lit(), limits, budget);
 }
 
-Verdict CostProblem::try_refute(const std::vector<Level>& below, LimitMonitor& limits,
+Verdict CostProblem::try_refute(const std::vector<Level>& below,
+                                const IdVector<AgentId, Cost>& ceilings, LimitMonitor& limits,
                                 const sat::SolveBudget& budget) {
   if (!theory_in_search_) return refute(below, limits, budget);
+  std::vector<Level> all = below;
+  IdVector<AgentId, bool> is_in(ceilings.size(), false);
+  for (const Level& level : below) is_in[level.agent] = true;
+  for (const AgentId i : model_.instance().agent_ids())
+    if (!is_in[i] && ceilings[i] < kForever) all.push_back({i, ceilings[i] + 1});
   theory_.set_budget(kForever, Lit());
   // What these tests ask is often hopeless, and a search of a pair would find no answer.
   theory_.set_pair_lemmas(false);
-  const Verdict verdict = solve_with_theory(below, Lit(), limits, budget);
+  const Verdict verdict = solve_with_theory(all, Lit(), limits, budget);
   theory_.set_pair_lemmas(true);
+  std::erase_if(core_, [&](const Level& level) { return !is_in[level.agent]; });
   return verdict;
 }
 

@@ -53,9 +53,11 @@ class CostProblem {
   [[nodiscard]] sat::Verdict refute(const std::vector<Level>& below, LimitMonitor& limits,
                                     const sat::SolveBudget& budget = {});
 
-  /// As refute, but the theory may look for new clauses during the search.
-  [[nodiscard]] sat::Verdict try_refute(const std::vector<Level>& below, LimitMonitor& limits,
-                                        const sat::SolveBudget& budget);
+  /// As refute, but the theory may look for new clauses during the search, and only plans count in
+  /// which agents that are not in `below` cost at most their ceilings (kForever: anything).
+  [[nodiscard]] sat::Verdict try_refute(const std::vector<Level>& below,
+                                        const IdVector<AgentId, Cost>& ceilings,
+                                        LimitMonitor& limits, const sat::SolveBudget& budget);
 
   /// The smallest natural threshold (see Model) above `cost`.
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;

@@ -33,8 +33,9 @@ class CoreShrinker {
  public:
   CoreShrinker(CostProblem& problem, LimitMonitor& limits) : problem_(problem), limits_(limits) {}
 
-  /// Empty: there is no plan.
-  [[nodiscard]] Core shrink(Core core) {
+  /// The result holds for plans in which nobody costs more than its ceiling. Empty: there is none.
+  [[nodiscard]] Core shrink(Core core, const IdVector<AgentId, Cost>& ceilings) {
+    ceilings_ = &ceilings;
     drop(core);
     for (std::size_t at = 0; at < core.size(); ++at) raise(core, at);
     return core;
@@ -42,7 +43,8 @@ class CoreShrinker {
 
  private:
   [[nodiscard]] bool is_core(const Core& core) {
-    return !limits_.exhausted() && problem_.try_refute(core, limits_, kTryBudget) == Verdict::unsat;
+    return !limits_.exhausted() &&
+           problem_.try_refute(core, *ceilings_, limits_, kTryBudget) == Verdict::unsat;
   }
 
   void drop(Core& core) {
@@ -87,13 +89,15 @@ class CoreShrinker {
 
   CostProblem& problem_;
   LimitMonitor& limits_;
+  const IdVector<AgentId, Cost>* ceilings_ = nullptr;
 };
 
 class CoverSearch {
  public:
-  CoverSearch(CostProblem& problem, std::optional<Plan> some_plan, LimitMonitor& limits,
-              Statistics& statistics, const ReportListener& on_report)
+  CoverSearch(CostProblem& problem, std::optional<Plan> some_plan, Cost spared,
+              LimitMonitor& limits, Statistics& statistics, const ReportListener& on_report)
       : problem_(problem),
+        spared_(spared),
         limits_(limits),
         statistics_(statistics),
         on_report_(on_report),
@@ -105,7 +109,7 @@ class CoverSearch {
 
   CostReport run() {
     while (true) {
-      report_.lower_bound = std::max(report_.lower_bound, cover_.total());
+      raise_bound(cover_.total());
       if (is_closed() || limits_.exhausted_now()) return report_;
       const Verdict verdict = problem_.solve(cover_.costs(), limits_);
       if (verdict == Verdict::unknown) return report_;
@@ -115,7 +119,8 @@ class CoverSearch {
         return report_;
       }
       if (!learn_cores()) {
-        report_.end = End::exhausted;
+        report_.end = report_.plan ? End::found : End::exhausted;
+        if (report_.plan) raise_bound(kForever);
         return report_;
       }
       if (!cover_.solve(limits_)) return report_;
@@ -177,6 +182,25 @@ class CoverSearch {
     return costs;
   }
 
+  /// Cores say nothing about plans that are no cheaper than the known one.
+  void raise_bound(Cost bound) {
+    if (report_.plan) bound = std::min(bound, cost(*report_.plan, Objective::sum_of_costs));
+    report_.lower_bound = std::max(report_.lower_bound, bound);
+  }
+
+  /// What each agent costs at most in plans that are cheaper than the known one. With those, cores
+  /// are smaller: the others may not go any way round that they like.
+  [[nodiscard]] IdVector<AgentId, Cost> ceilings() const {
+    IdVector<AgentId, Cost> ceilings = free_costs();
+    Cost rest = kForever;
+    if (report_.plan) {
+      rest = std::max(cost(*report_.plan, Objective::sum_of_costs) - 1, spared_);
+      for (const Cost cost : ceilings) rest -= cost;
+    }
+    for (Cost& ceiling : ceilings) ceiling = std::min(ceiling + rest, kForever);
+    return ceilings;
+  }
+
   /// After a refuted solve: its core and others that the known clauses give. False: one is empty.
   bool learn_cores() {
     Core below = above(cover_.costs());
@@ -191,7 +215,7 @@ class CoverSearch {
   /// After a refutation of `below`: cores without common agents, as long as some are found.
   bool learn_disjoint_cores(Core below) {
     while (true) {
-      const Core core = shrinker_.shrink(problem_.core());
+      const Core core = shrinker_.shrink(problem_.core(), ceilings());
       if (core.empty()) return false;
       ++statistics_.cores;
       LevelCore levels;
@@ -209,6 +233,7 @@ class CoverSearch {
   }
 
   CostProblem& problem_;
+  const Cost spared_;
   LimitMonitor& limits_;
   Statistics& statistics_;
   const ReportListener& on_report_;
@@ -222,10 +247,10 @@ class CoverSearch {
 
 }  // namespace
 
-CostReport search_by_covers(CostProblem& problem, std::optional<Plan> some_plan,
+CostReport search_by_covers(CostProblem& problem, std::optional<Plan> some_plan, Cost spared,
                             LimitMonitor& limits, Statistics& statistics,
                             const ReportListener& on_report) {
-  return CoverSearch(problem, std::move(some_plan), limits, statistics, on_report).run();
+  return CoverSearch(problem, std::move(some_plan), spared, limits, statistics, on_report).run();
 }
 
 CostReport search_makespan(CostProblem& problem, std::optional<Plan> some_plan,

@@ -25,10 +25,11 @@ using ReportListener = std::function<void(const CostReport&)>;
 /// them, or there is a new core. Where cores are many, turns take place that look for better plans
 /// and try bounds on the sum of all costs. Integer costs may be as large as they like.
 /// Ends by itself if the clauses allow no plan at all, which need not happen where none exists.
-/// `some_plan`: one of any cost, if known.
-/// Deterministic as long as no limit is met. Adds to `statistics.cores`.
+/// `some_plan`: one of any cost, if known. Plans that cost no more than `spared` satisfy every
+/// clause that is made, even if a cheaper one is known. Deterministic as long as no limit is met.
+/// Adds to `statistics.cores`.
 [[nodiscard]] CostReport search_by_covers(CostProblem& problem, std::optional<Plan> some_plan,
-                                          LimitMonitor& limits, Statistics& statistics,
+                                          Cost spared, LimitMonitor& limits, Statistics& statistics,
                                           const ReportListener& on_report);
 
 /// Finds a plan of least makespan from below: all agents are capped by the bound under test, and a

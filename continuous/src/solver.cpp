@@ -94,7 +94,9 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   };
   const auto report =
       options.objective == Objective::sum_of_costs
-          ? search_by_covers(problem, std::move(some_plan), limits, outcome.statistics, on_report)
+          ? search_by_covers(problem, std::move(some_plan),
+                             options.known_plan ? cost(*options.known_plan, options.objective) : 0,
+                             limits, outcome.statistics, on_report)
           : search_makespan(problem, std::move(some_plan), limits, outcome.statistics, on_report);
   outcome.lower_bound = std::max(floor, report.lower_bound);
   engine.add_statistics(outcome.statistics);
@@ -110,6 +112,19 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
                            cost(*report.plan, options.objective) == outcome.lower_bound;
     outcome.status = is_proved ? Status::optimal : Status::feasible;
   }
+}
+
+/// What is claimed must not contradict the known plan.
+void check_known_plan(const SolveOptions& options, SolveOutcome& outcome) {
+  const Cost known = cost(*options.known_plan, options.objective);
+  if (outcome.status == Status::infeasible)
+    outcome.internal_error = Error{ErrorCode::internal, "infeasible, but a plan is known", {}};
+  else if (known < outcome.lower_bound)
+    outcome.internal_error =
+        Error{ErrorCode::internal,
+              "the known plan costs " + std::to_string(known) + " and the proven bound is " +
+                  std::to_string(outcome.lower_bound),
+              {}};
 }
 
 /// The plan has to pass `verify` and to cost what was proved.
@@ -150,7 +165,8 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
     outcome.internal_error = std::move(error);
   else
     find_plan(instance, options, limits, outcome);
-  if (outcome.plan) check_plan(instance, options, outcome);
+  if (options.known_plan && !outcome.internal_error) check_known_plan(options, outcome);
+  if (outcome.plan && !outcome.internal_error) check_plan(instance, options, outcome);
   if (outcome.internal_error) {
     outcome.status = Status::unknown;
     outcome.plan.reset();
