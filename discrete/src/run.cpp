@@ -91,6 +91,11 @@ class LazyRun final : public Run {
   sat::BoundedProblem& bounded_problem() override { return *problem_; }
   sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
   const Plan& plan() const override { return problem_->plan(); }
+  Plan draft() const override {
+    Plan draft;
+    for (const AgentId i : instance_.agents()) draft.paths.push_back(theory_->path(i));
+    return draft;
+  }
   std::int64_t effort() const override { return theory_->effort(); }
   std::int64_t num_checks() const override { return theory_->num_checks(); }
   std::int64_t num_rejected() const override { return 0; }

@@ -26,6 +26,8 @@ class Run {
   [[nodiscard]] virtual sat::BoundedProblem& bounded_problem() = 0;
   [[nodiscard]] virtual sat::AgentCostProblem& agent_cost_problem() = 0;
   [[nodiscard]] virtual const Plan& plan() const = 0;
+  /// The agents' paths as the search has them now, which may collide; empty if it has none.
+  [[nodiscard]] virtual Plan draft() const { return {}; }
   /// Elementary steps of the theory so far, of less than a microsecond each.
   [[nodiscard]] virtual std::int64_t effort() const = 0;
   [[nodiscard]] virtual std::int64_t num_checks() const = 0;

@@ -84,7 +84,9 @@ class Search {
     if (run_ == nullptr) return;
     const std::int64_t effort = limits_.conflicts() * kEffortOfConflict + run_->effort();
     if (companion_ != nullptr) companion_->on_effort(effort);
-    if (upper_ && upper_->advance(effort, limits_)) consider_stop();
+    if (upper_ && upper_->advance(
+                      effort, [this] { return run_->draft(); }, limits_))
+      consider_stop();
   }
 
   /// Ends the search when the bounds meet, or are as close as was asked for.
