@@ -176,7 +176,8 @@ class Oracle {
   const std::vector<Passing>& passings(std::size_t i, std::size_t walk_i, std::size_t j,
                                        std::size_t walk_j) {
     const auto [place, is_new] = passings_[i * walks_.size() + j].try_emplace({walk_i, walk_j});
-    if (!is_new) return place->second;
+    std::vector<Passing>& ways = place->second;
+    if (!is_new) return ways;
     Differences times(walk(i, walk_i).edges.size() + walk(j, walk_j).edges.size() + 1);
     const std::vector<std::size_t> starts_i = append(times, walk(i, walk_i));
     const std::vector<std::size_t> starts_j = append(times, walk(j, walk_j));
@@ -190,7 +191,7 @@ class Oracle {
           way.cost = joined(arrival(known, walk(i, walk_i), starts_i),
                             arrival(known, walk(j, walk_j), starts_j));
           if (with_others(way.cost, 0, i, j) >= limit_) return;
-          if (question == questions.size()) return place->second.push_back(way);
+          if (question == questions.size()) return ways.push_back(way);
           for (const Order& order : questions[question]) {
             Differences next = known;
             if (!ask(next, order, starts_i, starts_j)) continue;
@@ -200,7 +201,7 @@ class Oracle {
           }
         };
     answer(0, times);
-    return place->second;
+    return ways;
   }
 
   [[nodiscard]] ClassId class_of(std::size_t agent) const {
