@@ -56,7 +56,8 @@ TEST(PlanRepair, MakesPlansOfPathsThatCollide) {
     ASSERT_EQ(repair.repair(*plan, limits), plan);
   }
   EXPECT_GE(num_colliding, scaled(300));
-  EXPECT_GE(num_plans, num_colliding / 4);
+  // Measured: 248 of 715.
+  EXPECT_GE(num_plans, num_colliding / 6);
 }
 
 TEST(PlanRepair, KeepsMostPathsWhereThereIsRoom) {
