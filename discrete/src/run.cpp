@@ -12,6 +12,7 @@
 #include "lemma_auditor.hpp"
 #include "mdd_model.hpp"
 #include "mdd_problem.hpp"
+#include "open_maps.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -22,8 +23,10 @@ sat::EngineOptions engine_options(const Instance& instance, const SolveOptions& 
   engine_options.seed = options.seed;
   // Usages are negated variables.
   engine_options.initial_phase = options.forbid_first && options.system == System::dpll;
-  if (options.system == System::dpll)
+  if (options.system == System::dpll) {
     engine_options.chronological = is_chronological(instance, options);
+    engine_options.bump_reasons = !is_open(instance.graph());
+  }
   engine_options.observer = observer;
   return engine_options;
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <list>
 #include <map>
+#include <optional>
 #include <vector>
 
+#include "descent.hpp"
 #include "quadrille/core/contract.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
@@ -16,13 +18,19 @@ namespace {
 constexpr SolveBudget kTryBudget{60, 1000};
 /// Conflicts spent on minimising may exceed those of the search by so many.
 constexpr std::int64_t kFreeConflicts = 200;
+/// Turns of the searches from below and from above grow, up to so many conflicts.
+constexpr std::int64_t kLongestTurn = 1 << 28;
 
 /// The softs of OLL: literals that each cost one unit when true, and what comes after them.
 class CoreGuidedSearch {
  public:
   CoreGuidedSearch(Engine& engine, AgentCostProblem& problem, const CoreGuidedOptions& options,
                    LimitMonitor& limits)
-      : engine_(engine), problem_(problem), options_(options), limits_(limits) {}
+      : engine_(engine),
+        problem_(problem),
+        options_(options),
+        limits_(limits),
+        turn_(options.first_turn) {}
 
   SearchReport run(Statistics& statistics, const BoundListener& on_bound) {
     const IdRange<AgentId> agents(problem_.num_agents());
@@ -30,11 +38,17 @@ class CoreGuidedSearch {
     for (const AgentId i : agents) report_.lower_bound += problem_.free_cost(i);
     for (const AgentId i : agents)
       if (!add_agent_soft(i, problem_.free_cost(i))) return report_;
+    cores_bound_ = report_.lower_bound;
     while (true) {
+      report_.lower_bound = std::max(report_.lower_bound, cores_bound_);
       if (on_bound) on_bound(report_.lower_bound);
       if (limits_.exhausted_now()) return report_;
       const Verdict verdict = solve_main();
-      if (verdict == Verdict::unknown) return report_;
+      if (verdict == Verdict::unknown) {
+        if (options_.plans == nullptr || limits_.exhausted_now()) return report_;
+        descend();
+        continue;
+      }
       if (verdict == Verdict::sat) {
         report_.end = SearchReport::End::found;
         return report_;
@@ -50,7 +64,7 @@ class CoreGuidedSearch {
         return report_;
       }
       ++statistics.cores;
-      ++report_.lower_bound;
+      ++cores_bound_;
       if (!relax(core)) return report_;
     }
   }
@@ -79,12 +93,35 @@ class CoreGuidedSearch {
     std::vector<Lit> assumptions;
     for (const auto& [lit, soft] : softs_) assumptions.push_back(~lit);
     const std::int64_t before = limits_.conflicts();
+    SolveBudget budget;
+    if (options_.plans != nullptr) budget.conflicts = static_cast<int>(turn_);
     problem_.on_solve(true);
-    Verdict verdict = engine_.solve(assumptions, limits_);
+    Verdict verdict = engine_.solve(assumptions, limits_, budget);
     while (verdict == Verdict::sat && !problem_.accept_model())
-      verdict = engine_.solve(assumptions, limits_);
+      verdict = engine_.solve(assumptions, limits_, budget);
     main_conflicts_ += limits_.conflicts() - before;
     return verdict;
+  }
+
+  /// Gives the search from above its turn.
+  void descend() {
+    if (!descent_) {
+      std::vector<Soft> items;
+      for (const auto& [lit, soft] : softs_) items.push_back(soft);
+      const auto excess = [this, items](std::size_t input, int k) {
+        const Soft& soft = items[input];
+        const Cost beyond = soft.bound + k;
+        if (soft.counter == nullptr) return *problem_.cost_above(soft.agent, beyond - 1, limits_);
+        if (beyond > static_cast<Cost>(soft.counter->num_inputs())) return Lit();
+        return soft.counter->at_least(static_cast<int>(beyond));
+      };
+      descent_.emplace(engine_, problem_, *options_.plans, limits_, cores_bound_, items.size(),
+                       excess);
+    }
+    report_.lower_bound =
+        std::max(report_.lower_bound,
+                 descent_->advance(report_.lower_bound, options_.descent_share * turn_));
+    turn_ = std::max(turn_, std::min(2 * turn_, kLongestTurn));
   }
 
   /// Tries to refute a part of a core's assumptions: `unsat` with a smaller core at best.
@@ -153,6 +190,9 @@ class CoreGuidedSearch {
   SearchReport report_;
   std::map<Lit, Soft> softs_;
   std::list<Totalizer> counters_;
+  std::optional<Descent> descent_;
+  Cost cores_bound_ = 0;  // what the cores have been paid for
+  std::int64_t turn_;     // conflicts
   std::int64_t main_conflicts_ = 0, minimising_conflicts_ = 0;
 };
 

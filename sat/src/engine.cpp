@@ -65,6 +65,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     set("exteagerrecalc", 0);
     set("chrono", options.chronological ? 1 : 0);
     set("chronolevelim", 20);
+    set("bumpreason", options.bump_reasons ? 1 : 0);
     are_reasons_forgettable = true;
     solver_.connect_terminator(this);
     solver_.connect_learner(this);

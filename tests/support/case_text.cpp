@@ -155,6 +155,9 @@ class CaseReader {
     } else if (key == "seed" && !value.empty() &&
                value.find_first_not_of("0123456789") == std::string::npos) {
       options_->seed = static_cast<std::uint32_t>(std::stoul(value));
+    } else if (key == "descend-after" && !value.empty() && value.size() < 10 &&
+               value.find_first_not_of("0123456789") == std::string::npos) {
+      options_->descend_after = std::stol(value);
     } else {
       fail("unknown option '" + word + "'");
     }
@@ -252,6 +255,8 @@ std::string options_text(const SolveOptions& options) {
   if (options.forbid_first) text += " forbid-first";
   if (options.chronological)
     text += *options.chronological ? " chronological" : " not-chronological";
+  if (options.descend_after != SolveOptions().descend_after)
+    text += " descend-after=" + std::to_string(options.descend_after);
   if (!options.first_plan) text += " no-first-plan";
   if (options.audit) text += " audit";
   if (options.known_plan) text += " known-plan";

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "open_maps.hpp"
+
 namespace quadrille::discrete {
 
 using sat::Lit;
@@ -14,7 +16,13 @@ constexpr std::int64_t kFirstLook = 64;
 /// How many variables of explicit paths are worth a path lemma. Measured: 1 leaves agents in mazes
 /// with twice the conflicts, 64 makes the formulas of large maps too large.
 constexpr std::int64_t kVariablesPerLemma = 8;
+
 }  // namespace
+
+ExplicitPaths::ExplicitPaths(LazyModel& model)
+    : model_(model),
+      enabled_(!is_open(model.instance().graph())),
+      agents_(model.instance().num_agents()) {}
 
 class ExplicitPaths::AgentFormula final : public MddPaths::Formula {
  public:
@@ -51,7 +59,7 @@ std::int64_t ExplicitPaths::size(AgentId agent, Timestep max_delay) const {
 
 void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer) {
   Agent& a = agents_[agent];
-  if (++a.num_lemmas < std::max(kFirstLook, a.next_look)) return;
+  if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || !enabled_ || cap == kForever) return;
   const Timestep delay = cap - model_.distances(agent).free_cost();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;
   if (delay <= old_cap) return;

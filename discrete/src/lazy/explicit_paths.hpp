@@ -16,12 +16,12 @@ namespace quadrille::discrete {
 /// short proofs.
 ///
 /// X(v,t) implies all usage literals of obstacles that (v,t) is part of, so the explicit paths keep
-/// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
+/// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant. On
+/// open maps, where they do harm, there are none.
 class ExplicitPaths {
  public:
   /// `model` outlives this.
-  explicit ExplicitPaths(LazyModel& model)
-      : model_(model), agents_(model.instance().num_agents()) {}
+  explicit ExplicitPaths(LazyModel& model);
 
   /// To be called for each path lemma, with the largest cost that the agent may have at present.
   void on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer);
@@ -42,6 +42,7 @@ class ExplicitPaths {
   void link(AgentId agent, ObstacleId id, Timestep old_cap, FormulaWriter& writer);
 
   LazyModel& model_;
+  const bool enabled_;  // not on open maps
   IdVector<AgentId, Agent> agents_;
   std::size_t num_linked_ = 0;  // obstacles
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "quadrille/core/ids.hpp"
@@ -32,14 +33,34 @@ class AgentCostProblem {
   [[nodiscard]] virtual bool accept_model() = 0;
 };
 
+/// Where a search from below gets plans from, and brings those to that it finds on its way.
+class PlanStore {
+ public:
+  virtual ~PlanStore() = default;
+  /// Cost of the best plan; nullopt if there is none.
+  [[nodiscard]] virtual std::optional<Cost> best_cost() const = 0;
+  /// Takes the plan of the model that the problem has accepted last.
+  virtual void take_accepted() = 0;
+};
+
 struct CoreGuidedOptions {
   bool minimise_cores = true;  ///< Drop what a core does not need, under a budget.
+  /// Where plans are looked for from above too, once cores take long; null: nowhere. For problems
+  /// whose `cost_above` adds little. Must outlive the search.
+  PlanStore* plans = nullptr;
+  std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
+  /// So many conflicts from above for each one from below. At least 1.
+  std::int64_t descent_share = 1;
 };
 
 /// Finds a plan of least sum of costs from below: assumes that nobody costs more than its share of
 /// the lower bound, and relaxes the bounds that a core names by one unit in all (OLL: Andres et al.
-/// 2012, ICLP; Morgado et al. 2014, CP). Never ends by itself if no plan exists. Deterministic as
-/// long as no limit is met. Adds to `statistics.cores`.
+/// 2012, ICLP; Morgado et al. 2014, CP). With `options.plans` and hard cores it takes turns with a
+/// search from above, which asks for plans that are cheaper than the best one by a bound on the sum
+/// of what the cores have left open (core-boosted search: Berg et al. 2019, CPAIOR). That may raise
+/// the lower bound to the cost of the best plan: then it ends, `stopped`, and the best plan is
+/// optimal. Never ends by itself if no plan exists. Deterministic as long as no limit is met. Adds
+/// to `statistics.cores`.
 [[nodiscard]] SearchReport search_by_cores(Engine& engine, AgentCostProblem& problem,
                                            const CoreGuidedOptions& options, LimitMonitor& limits,
                                            Statistics& statistics, const BoundListener& on_bound);

@@ -22,6 +22,8 @@ struct EngineOptions {
   /// Let clauses that imply something at an earlier level leave later decisions alone, and long
   /// jumps back be short. Otherwise the solver goes back to where each clause takes effect.
   bool chronological = true;
+  /// Let the variables that implied those of a learned clause count as active, too.
+  bool bump_reasons = true;
   bool inprocessing = false;  ///< Let the solver rewrite the formula between conflicts.
   /// Hears every clause; null: nobody. Must outlive the engine.
   ClauseObserver* observer = nullptr;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "quadrille/sat/core_guided_search.hpp"
+#include "quadrille/sat/totalizer.hpp"
+
+namespace quadrille::sat {
+
+/// The search from above of a core-guided search (core-boosted linear search: Berg et al. 2019,
+/// CPAIOR): bounds the sum of what the cores found so far leave open, and lowers that bound with
+/// each plan. Its only assumption is the bound, so what is learned stays true for the search from
+/// below and the other way round.
+class Descent {
+ public:
+  /// A plan costs `base` and the sum of the inputs of `excess` (see Totalizer), every agent's cost
+  /// among them. All must outlive the descent.
+  Descent(Engine& engine, AgentCostProblem& problem, PlanStore& plans, LimitMonitor& limits,
+          Cost base, std::size_t num_inputs, Totalizer::Input excess);
+
+  /// Goes on for so many conflicts, or until no plan can be cheaper than the best one. Requires the
+  /// proven lower bound and returns what it is after that.
+  [[nodiscard]] Cost advance(Cost lower_bound, std::int64_t conflicts);
+
+ private:
+  Engine& engine_;
+  AgentCostProblem& problem_;
+  PlanStore& plans_;
+  LimitMonitor& limits_;
+  const Cost base_;
+  Totalizer excess_;
+  Cost max_step_;  // how far above the lower bound a plan is asked for
+};
+
+}  // namespace quadrille::sat

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/sat/core_guided_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "quadrille/core/random.hpp"
+
+namespace quadrille::sat {
+namespace {
+
+constexpr std::size_t kAgents = 6;
+constexpr int kMaxCost = 3;
+
+/// Some agent of `dear` costs more than the number beside it, or one of `cheap` does not.
+struct Rule {
+  std::vector<std::pair<std::size_t, int>> dear, cheap;
+};
+
+/// Rules that hold when everybody costs as much as possible.
+std::vector<Rule> random_rules(Random& random) {
+  std::vector<Rule> rules(10 + random.below(10));
+  const auto some = [&] {
+    return std::pair(random.below(kAgents), static_cast<int>(random.below(kMaxCost)));
+  };
+  for (Rule& rule : rules) {
+    for (std::size_t k = 1 + random.below(2); k > 0; --k) rule.dear.push_back(some());
+    for (std::size_t k = random.below(3); k > 0; --k) rule.cheap.push_back(some());
+  }
+  return rules;
+}
+
+Cost cheapest_by_enumeration(const std::vector<Rule>& rules) {
+  Cost best = kAgents * kMaxCost;
+  std::vector<int> cost(kAgents, 0);
+  while (true) {
+    const bool works = std::all_of(rules.begin(), rules.end(), [&](const Rule& rule) {
+      return std::any_of(rule.dear.begin(), rule.dear.end(),
+                         [&](const auto& d) { return cost[d.first] > d.second; }) ||
+             std::any_of(rule.cheap.begin(), rule.cheap.end(),
+                         [&](const auto& c) { return cost[c.first] <= c.second; });
+    });
+    Cost sum = 0;
+    for (const int c : cost) sum += c;
+    if (works) best = std::min(best, sum);
+    std::size_t i = 0;
+    while (i < kAgents && cost[i] == kMaxCost) cost[i++] = 0;
+    if (i == kAgents) return best;
+    ++cost[i];
+  }
+}
+
+/// The rules as clauses, and the plans that are their models.
+class RulesProblem final : public AgentCostProblem, public PlanStore {
+ public:
+  RulesProblem(Engine& engine, const std::vector<Rule>& rules) : engine_(engine), above_(kAgents) {
+    for (std::vector<Lit>& lits : above_)
+      while (lits.size() <= kMaxCost) add_literal(lits);
+    for (const Rule& rule : rules) {
+      std::vector<Lit> clause;
+      for (const auto& [agent, cost] : rule.dear) clause.push_back(above(agent, cost));
+      for (const auto& [agent, cost] : rule.cheap) clause.push_back(~above(agent, cost));
+      engine_.add_clause({LemmaKind::collision, clause, {}, false});
+    }
+  }
+
+  std::size_t num_agents() const override { return kAgents; }
+  Cost free_cost(AgentId) const override { return 0; }
+  std::optional<Lit> cost_above(AgentId agent, Cost cost, LimitMonitor&) override {
+    while (above_[agent.index()].size() <= static_cast<std::size_t>(cost))
+      add_literal(above_[agent.index()]);
+    return above(agent.index(), static_cast<int>(cost));
+  }
+  void on_solve(bool) override {}
+  bool accept_model() override {
+    accepted_ = 0;
+    for (const std::vector<Lit>& lits : above_)
+      for (std::size_t c = 0; c < kMaxCost; ++c) accepted_ += engine_.model_value(lits[c]) ? 1 : 0;
+    return true;
+  }
+
+  std::optional<Cost> best_cost() const override { return best_; }
+  void take_accepted() override {
+    EXPECT_TRUE(!best_ || accepted_ < *best_) << "a plan from above is cheaper than all before";
+    best_ = accepted_;
+    ++num_taken;
+  }
+  Cost accepted() const { return accepted_; }
+  int num_taken = 0;
+
+ private:
+  Lit above(std::size_t agent, int cost) const {
+    return above_[agent][static_cast<std::size_t>(cost)];
+  }
+  void add_literal(std::vector<Lit>& lits) {
+    lits.push_back(engine_.new_lit());
+    const std::vector<Lit> never{~lits.back()};
+    if (lits.size() > kMaxCost) engine_.add_clause({LemmaKind::order, never, {}, false});
+    if (lits.size() < 2) return;
+    const std::vector<Lit> order{~lits.back(), lits[lits.size() - 2]};
+    engine_.add_clause({LemmaKind::order, order, {}, false});
+  }
+
+  Engine& engine_;
+  std::vector<std::vector<Lit>> above_;
+  Cost accepted_ = 0;
+  std::optional<Cost> best_;
+};
+
+struct Answer {
+  Cost cost = 0, lower_bound = 0;
+  int num_taken = 0;
+};
+
+Answer solve_rules(const std::vector<Rule>& rules, bool from_above, std::int64_t share) {
+  Engine engine(nullptr);
+  RulesProblem problem(engine, rules);
+  LimitMonitor limits{Limits{}};
+  Statistics statistics;
+  CoreGuidedOptions options;
+  if (from_above) options.plans = &problem;
+  options.first_turn = 1;
+  options.descent_share = share;
+  Cost last = 0;
+  const auto on_bound = [&](Cost bound) {
+    EXPECT_GE(bound, last) << "bounds do not fall";
+    last = bound;
+    if (problem.best_cost() == bound) limits.stop(StopReason::gap);
+  };
+  const auto report = search_by_cores(engine, problem, options, limits, statistics, on_bound);
+  const bool found = report.end == SearchReport::End::found;
+  EXPECT_TRUE(found || problem.best_cost() == report.lower_bound) << "the search ends with a proof";
+  return {found ? problem.accepted() : problem.best_cost().value_or(-1), report.lower_bound,
+          problem.num_taken};
+}
+
+TEST(CoreGuidedSearch, FindsTheLeastCostFromBelowAndFromAbove) {
+  Random random(1);
+  int num_from_above = 0;
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE(round);
+    const std::vector<Rule> rules = random_rules(random);
+    const Cost least = cheapest_by_enumeration(rules);
+    for (const std::int64_t share : {0, 1, 5}) {
+      const Answer answer = solve_rules(rules, share > 0, std::max<std::int64_t>(1, share));
+      EXPECT_EQ(answer.cost, least);
+      EXPECT_EQ(answer.lower_bound, least);
+      if (share > 0 && answer.num_taken > 0) ++num_from_above;
+    }
+  }
+  EXPECT_GE(num_from_above, 30) << "plans come from above as well";
+}
+
+}  // namespace
+}  // namespace quadrille::sat
