@@ -8,6 +8,7 @@
 #include <random>
 
 #include "quadrille/discrete/solver.hpp"
+#include "support/generators.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -77,6 +78,33 @@ TEST_P(LazySolver, AgreesWithTheMddModelAndPassesItsAudit) {
     ++solved;
   }
   EXPECT_GT(solved, 150);
+}
+
+// Larger and denser, so that the first plan is mostly not the best one: the search from above has
+// the first word in each hard core.
+TEST(LazySolverFromAbove, AgreesWithCoresAlone) {
+  quadrille::support::Random random(1);
+  int solved = 0, hard = 0;
+  for (int round = 0; round < 40; ++round) {
+    SCOPED_TRACE(round);
+    const Instance instance = support::random_grid(random, {6, 8, 15, 12, 18});
+    SolveOptions options;
+    options.limits.conflicts = 4000;
+    options.first_plan = false;
+    const SolveOutcome expected = solve(instance, options);
+    if (expected.status != Status::optimal) continue;
+    options.limits = {};
+    options.first_plan = true;
+    options.descend_after = 1;
+    options.known_plan = expected.plan;
+    const SolveOutcome outcome = solve(instance, options);
+    ASSERT_EQ(outcome.status, Status::optimal) << outcome.explanation;
+    ASSERT_EQ(outcome.cost, expected.cost);
+    ++solved;
+    if (expected.statistics.conflicts >= 20) ++hard;
+  }
+  EXPECT_GE(solved, 20);
+  EXPECT_GE(hard, 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Objectives, LazySolver,
