@@ -200,7 +200,7 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   if (options.threads < 1 || options.threads > 64)
     return refuse(ErrorCode::out_of_range, "the number of threads is not from 1 to 64");
   if (options.descend_after < 1 || options.descend_after > INT32_MAX)
-    return refuse(ErrorCode::out_of_range, "the first turn is not from 1 to 2147483647 conflicts");
+    return refuse(ErrorCode::out_of_range, "descend_after is not from 1 to 2147483647");
   if (options.seed > 2'000'000'000)
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
   if (options.known_plan && !verify(instance, *options.known_plan).valid())

@@ -20,6 +20,8 @@ constexpr SolveBudget kTryBudget{60, 1000};
 constexpr std::int64_t kFreeConflicts = 200;
 /// Turns of the searches from below and from above grow, up to so many conflicts.
 constexpr std::int64_t kLongestTurn = 1 << 28;
+/// After so many more cores the search from above starts again from what they have left open.
+constexpr Cost kStaleCores = 8;
 
 /// The softs of OLL: literals that each cost one unit when true, and what comes after them.
 class CoreGuidedSearch {
@@ -42,7 +44,7 @@ class CoreGuidedSearch {
     while (true) {
       report_.lower_bound = std::max(report_.lower_bound, cores_bound_);
       if (on_bound) on_bound(report_.lower_bound);
-      if (limits_.exhausted_now()) return report_;
+      if (limits_.exhausted_now() || best_is_optimal()) return report_;
       const Verdict verdict = solve_main();
       if (verdict == Verdict::unknown) {
         if (options_.plans == nullptr || limits_.exhausted_now()) return report_;
@@ -103,15 +105,23 @@ class CoreGuidedSearch {
     return verdict;
   }
 
+  [[nodiscard]] bool best_is_optimal() const {
+    return options_.plans != nullptr && options_.plans->best_cost() == report_.lower_bound;
+  }
+
   /// Gives the search from above its turn.
   void descend() {
-    if (!descent_) {
+    if (!descent_ || cores_bound_ >= descent_->base() + kStaleCores) {
       std::vector<Soft> items;
       for (const auto& [lit, soft] : softs_) items.push_back(soft);
       const auto excess = [this, items](std::size_t input, int k) {
         const Soft& soft = items[input];
         const Cost beyond = soft.bound + k;
-        if (soft.counter == nullptr) return *problem_.cost_above(soft.agent, beyond - 1, limits_);
+        if (soft.counter == nullptr) {
+          const auto lit = problem_.cost_above(soft.agent, beyond - 1, limits_);
+          QUADRILLE_REQUIRE(lit.has_value(), "see CoreGuidedOptions::plans");
+          return *lit;
+        }
         if (beyond > static_cast<Cost>(soft.counter->num_inputs())) return Lit();
         return soft.counter->at_least(static_cast<int>(beyond));
       };

@@ -20,8 +20,10 @@ class Descent {
   Descent(Engine& engine, AgentCostProblem& problem, PlanStore& plans, LimitMonitor& limits,
           Cost base, std::size_t num_inputs, Totalizer::Input excess);
 
+  [[nodiscard]] Cost base() const noexcept { return base_; }
   /// Goes on for so many conflicts, or until no plan can be cheaper than the best one. Requires the
-  /// proven lower bound and returns what it is after that.
+  /// proven lower bound and returns what it is after that. Asks for nothing far above the base:
+  /// adds about a million clauses at most.
   [[nodiscard]] Cost advance(Cost lower_bound, std::int64_t conflicts);
 
  private:
@@ -30,6 +32,7 @@ class Descent {
   PlanStore& plans_;
   LimitMonitor& limits_;
   const Cost base_;
+  const Cost max_excess_;  // more would make the counter too large
   Totalizer excess_;
   Cost max_step_;  // how far above the lower bound a plan is asked for
 };

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "open_maps.hpp"
+
 namespace quadrille::discrete {
 namespace {
 
@@ -21,6 +25,17 @@ TEST(Graph, RefusesWhatIsNoSimpleGraph) {
   EXPECT_FALSE(Graph::make(2, {{a, c}}).has_value());
   EXPECT_FALSE(Graph::make(2, {{a, a}}).has_value());
   EXPECT_FALSE(Graph::make(2, {{a, b}, {b, a}}).has_value());
+}
+
+TEST(Graph, IsOpenWithoutWallsUnlessItIsSmall) {
+  const auto empty = [](std::int32_t side) {
+    return Graph::grid(side, side, std::vector<bool>(static_cast<std::size_t>(side * side), true));
+  };
+  EXPECT_FALSE(is_open(empty(10)));  // 3.6 neighbours on average: not more
+  EXPECT_TRUE(is_open(empty(11)));
+  std::vector<bool> one_in_five(400, true);
+  for (std::size_t c = 0; c < one_in_five.size(); c += 5) one_in_five[c] = false;
+  EXPECT_FALSE(is_open(Graph::grid(20, 20, one_in_five)));
 }
 
 }  // namespace

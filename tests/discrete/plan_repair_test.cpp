@@ -56,8 +56,8 @@ TEST(PlanRepair, MakesPlansOfPathsThatCollide) {
     ASSERT_EQ(repair.repair(*plan, limits), plan);
   }
   EXPECT_GE(num_colliding, scaled(300));
-  // Measured: 248 of 715.
-  EXPECT_GE(num_plans, num_colliding / 6);
+  // Measured: 248 of 715, and 26 of 108 when a tenth of the instances is drawn.
+  EXPECT_GE(num_plans + 2, num_colliding / 4);
 }
 
 TEST(PlanRepair, KeepsMostPathsWhereThereIsRoom) {

@@ -128,7 +128,6 @@ Answer solve_rules(const std::vector<Rule>& rules, bool from_above, std::int64_t
   const auto on_bound = [&](Cost bound) {
     EXPECT_GE(bound, last) << "bounds do not fall";
     last = bound;
-    if (problem.best_cost() == bound) limits.stop(StopReason::gap);
   };
   const auto report = search_by_cores(engine, problem, options, limits, statistics, on_bound);
   const bool found = report.end == SearchReport::End::found;

@@ -16,7 +16,6 @@ constexpr std::int64_t kFirstLook = 64;
 /// How many variables of explicit paths are worth a path lemma. Measured: 1 leaves agents in mazes
 /// with twice the conflicts, 64 makes the formulas of large maps too large.
 constexpr std::int64_t kVariablesPerLemma = 8;
-
 }  // namespace
 
 ExplicitPaths::ExplicitPaths(LazyModel& model)
@@ -58,8 +57,9 @@ std::int64_t ExplicitPaths::size(AgentId agent, Timestep max_delay) const {
 }
 
 void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer) {
+  if (!enabled_) return;
   Agent& a = agents_[agent];
-  if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || !enabled_ || cap == kForever) return;
+  if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
   const Timestep delay = cap - model_.distances(agent).free_cost();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;
   if (delay <= old_cap) return;
@@ -78,6 +78,7 @@ void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& wr
 }
 
 void ExplicitPaths::link_new_obstacles(FormulaWriter& writer) {
+  if (!enabled_) return;
   for (; num_linked_ < model_.obstacles().size(); ++num_linked_) {
     const ObstacleId id(num_linked_);
     const AgentId agent = model_.obstacles()[id].agent;

@@ -84,7 +84,7 @@ TEST_P(LazySolver, AgreesWithTheMddModelAndPassesItsAudit) {
 // the first word in each hard core.
 TEST(LazySolverFromAbove, AgreesWithCoresAlone) {
   quadrille::support::Random random(1);
-  int solved = 0, hard = 0;
+  int solved = 0, hard = 0, different = 0;
   for (int round = 0; round < 40; ++round) {
     SCOPED_TRACE(round);
     const Instance instance = support::random_grid(random, {6, 8, 15, 12, 18});
@@ -102,9 +102,12 @@ TEST(LazySolverFromAbove, AgreesWithCoresAlone) {
     ASSERT_EQ(outcome.cost, expected.cost);
     ++solved;
     if (expected.statistics.conflicts >= 20) ++hard;
+    options.descend_after = INT32_MAX;
+    if (solve(instance, options).statistics.sat_calls != outcome.statistics.sat_calls) ++different;
   }
   EXPECT_GE(solved, 20);
   EXPECT_GE(hard, 10);
+  EXPECT_GE(different, 10) << "there are turns from above";
 }
 
 INSTANTIATE_TEST_SUITE_P(Objectives, LazySolver,

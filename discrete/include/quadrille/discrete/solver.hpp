@@ -91,7 +91,8 @@ struct SolveOptions {
   /// gained by fresh ones.
   std::optional<bool> chronological;
   /// Of the core-guided dpll with `first_plan`: a core that takes more conflicts makes the search
-  /// look for cheaper plans as well, in turns (sat/core_guided_search.hpp). At least 1.
+  /// look for cheaper plans as well, in turns (quadrille/sat/core_guided_search.hpp). 1 .. 2^31
+  /// - 1.
   std::int64_t descend_after = 8000;
   Limits limits;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/

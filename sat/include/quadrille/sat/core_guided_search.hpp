@@ -26,14 +26,15 @@ class AgentCostProblem {
   /// early. Not during solve.
   [[nodiscard]] virtual std::optional<Lit> cost_above(AgentId agent, Cost cost,
                                                       LimitMonitor& limits) = 0;
-  /// Called before each solve. `all_present`: every agent has a bound among the assumptions.
+  /// Called before each solve. `all_present`: the assumptions bound every agent's cost, one by one
+  /// or all together.
   virtual void on_solve(bool all_present) = 0;
   /// Looks at the engine's model for all agents. False: it is no plan, clauses that exclude it were
   /// added.
   [[nodiscard]] virtual bool accept_model() = 0;
 };
 
-/// Where a search from below gets plans from, and brings those to that it finds on its way.
+/// Keeps the best plan that is known, whoever found it, while a search from below goes on.
 class PlanStore {
  public:
   virtual ~PlanStore() = default;
@@ -45,8 +46,8 @@ class PlanStore {
 
 struct CoreGuidedOptions {
   bool minimise_cores = true;  ///< Drop what a core does not need, under a budget.
-  /// Where plans are looked for from above too, once cores take long; null: nowhere. For problems
-  /// whose `cost_above` adds little. Must outlive the search.
+  /// For whom plans are looked for from above too, once cores take long; null: nobody. Only for
+  /// problems whose `cost_above` adds little and never fails. Must outlive the search.
   PlanStore* plans = nullptr;
   std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
   /// So many conflicts from above for each one from below. At least 1.
@@ -57,10 +58,10 @@ struct CoreGuidedOptions {
 /// the lower bound, and relaxes the bounds that a core names by one unit in all (OLL: Andres et al.
 /// 2012, ICLP; Morgado et al. 2014, CP). With `options.plans` and hard cores it takes turns with a
 /// search from above, which asks for plans that are cheaper than the best one by a bound on the sum
-/// of what the cores have left open (core-boosted search: Berg et al. 2019, CPAIOR). That may raise
-/// the lower bound to the cost of the best plan: then it ends, `stopped`, and the best plan is
-/// optimal. Never ends by itself if no plan exists. Deterministic as long as no limit is met. Adds
-/// to `statistics.cores`.
+/// of what the cores have left open (core-boosted search: Berg et al. 2019, CPAIOR). When the lower
+/// bound comes to the cost of the best plan, it ends, `stopped`: that plan is optimal. Never ends
+/// by itself if no plan exists. Deterministic as long as no limit is met. Adds to
+/// `statistics.cores`.
 [[nodiscard]] SearchReport search_by_cores(Engine& engine, AgentCostProblem& problem,
                                            const CoreGuidedOptions& options, LimitMonitor& limits,
                                            Statistics& statistics, const BoundListener& on_bound);

@@ -33,7 +33,7 @@ class BoundedProblem {
 struct SearchReport {
   enum class End {
     found,      ///< The accepted model costs `lower_bound`, which is optimal.
-    stopped,    ///< A limit ended the search.
+    stopped,    ///< A limit, or another plan that is proved optimal, ended the search.
     exhausted,  ///< The clauses allow no plan, whatever its cost.
   };
   End end = End::stopped;
