@@ -2,14 +2,13 @@
 #include "quadrille/sat/core_guided_search.hpp"
 
 #include <algorithm>
-#include <list>
-#include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "descent.hpp"
 #include "quadrille/core/contract.hpp"
-#include "quadrille/sat/totalizer.hpp"
+#include "relaxation.hpp"
 
 namespace quadrille::sat {
 namespace {
@@ -23,7 +22,6 @@ constexpr std::int64_t kLongestTurn = 1 << 28;
 /// After so many more cores the search from above starts again from what they have left open.
 constexpr Cost kStaleCores = 8;
 
-/// The softs of OLL: literals that each cost one unit when true, and what comes after them.
 class CoreGuidedSearch {
  public:
   CoreGuidedSearch(Engine& engine, AgentCostProblem& problem, const CoreGuidedOptions& options,
@@ -35,20 +33,24 @@ class CoreGuidedSearch {
         turn_(options.first_turn) {}
 
   SearchReport run(Statistics& statistics, const BoundListener& on_bound) {
-    const IdRange<AgentId> agents(problem_.num_agents());
     // First, because a limit may end the search while the softs are made.
-    for (const AgentId i : agents) report_.lower_bound += problem_.free_cost(i);
-    for (const AgentId i : agents)
-      if (!add_agent_soft(i, problem_.free_cost(i))) return report_;
-    cores_bound_ = report_.lower_bound;
+    for (const AgentId i : IdRange<AgentId>(problem_.num_agents()))
+      report_.lower_bound += problem_.free_cost(i);
+    if (!start_pass()) return report_;
     while (true) {
-      report_.lower_bound = std::max(report_.lower_bound, cores_bound_);
+      report_.lower_bound = std::max(report_.lower_bound, softs_->bound());
       if (on_bound) on_bound(report_.lower_bound);
       if (limits_.exhausted_now() || best_is_optimal()) return report_;
       const Verdict verdict = solve_main();
       if (verdict == Verdict::unknown) {
-        if (options_.plans == nullptr || limits_.exhausted_now()) return report_;
-        descend();
+        if (limits_.exhausted_now()) return report_;
+        if (pass_ < options_.passes) {
+          if (!end_pass()) return report_;
+        } else if (options_.plans != nullptr) {
+          descend();
+        } else {
+          return report_;
+        }
         continue;
       }
       if (verdict == Verdict::sat) {
@@ -56,47 +58,25 @@ class CoreGuidedSearch {
         return report_;
       }
       std::vector<Lit> core = engine_.core();
-      if (core.empty()) {
-        report_.end = SearchReport::End::exhausted;
-        return report_;
-      }
-      if (options_.minimise_cores) core = minimise(std::move(core));
+      if (options_.minimise_cores && !core.empty()) core = minimise(std::move(core));
       if (core.empty()) {
         report_.end = SearchReport::End::exhausted;
         return report_;
       }
       ++statistics.cores;
-      ++cores_bound_;
-      if (!relax(core)) return report_;
+      if (!softs_->relax(core)) return report_;
     }
   }
 
  private:
-  /// Violated when the agent costs more than `bound`, or more than `bound` inputs of a counter are
-  /// true.
-  struct Soft {
-    Totalizer* counter;  // null: of an agent
-    AgentId agent;
-    Cost bound;
-  };
-
-  bool add_agent_soft(AgentId agent, Cost bound) {
-    const auto lit = problem_.cost_above(agent, bound, limits_);
-    if (!lit) return false;
-    softs_.emplace(*lit, Soft{nullptr, agent, bound});
-    return true;
-  }
-
-  void add_counter_soft(Totalizer& counter, Cost bound) {
-    softs_.emplace(counter.at_least(static_cast<int>(bound) + 1), Soft{&counter, AgentId(), bound});
-  }
-
   Verdict solve_main() {
-    std::vector<Lit> assumptions;
-    for (const auto& [lit, soft] : softs_) assumptions.push_back(~lit);
+    const std::vector<Lit> assumptions = softs_->assumptions();
     const std::int64_t before = limits_.conflicts();
     SolveBudget budget;
-    if (options_.plans != nullptr) budget.conflicts = static_cast<int>(turn_);
+    if (pass_ < options_.passes)
+      budget.conflicts = static_cast<int>(pass_ == 0 ? options_.first_turn : later_pass_turn());
+    else if (options_.plans != nullptr)
+      budget.conflicts = static_cast<int>(turn_);
     problem_.on_solve(true);
     Verdict verdict = engine_.solve(assumptions, limits_, budget);
     while (verdict == Verdict::sat && !problem_.accept_model())
@@ -105,29 +85,38 @@ class CoreGuidedSearch {
     return verdict;
   }
 
+  [[nodiscard]] std::int64_t later_pass_turn() const { return options_.first_turn / 2 + 1; }
+
   [[nodiscard]] bool best_is_optimal() const {
     return options_.plans != nullptr && options_.plans->best_cost() == report_.lower_bound;
   }
 
+  [[nodiscard]] bool start_pass() {
+    softs_ = std::make_unique<Relaxation>(engine_, problem_, limits_);
+    pass_begin_ = main_conflicts_;
+    return softs_->start();
+  }
+
+  /// Goes back to the start with what was learned, or, after the last pass, to the best of all.
+  [[nodiscard]] bool end_pass() {
+    const std::int64_t conflicts = main_conflicts_ - pass_begin_;
+    const bool is_best = !best_softs_ || softs_->bound() > best_softs_->bound() ||
+                         (softs_->bound() == best_softs_->bound() && conflicts < best_conflicts_);
+    if (is_best) {
+      best_softs_.swap(softs_);
+      best_conflicts_ = conflicts;
+    }
+    if (softs_) softs_->retire();
+    if (++pass_ < options_.passes) return start_pass();
+    softs_ = std::move(best_softs_);
+    return true;
+  }
+
   /// Gives the search from above its turn.
   void descend() {
-    if (!descent_ || cores_bound_ >= descent_->base() + kStaleCores) {
-      std::vector<Soft> items;
-      for (const auto& [lit, soft] : softs_) items.push_back(soft);
-      const auto excess = [this, items](std::size_t input, int k) {
-        const Soft& soft = items[input];
-        const Cost beyond = soft.bound + k;
-        if (soft.counter == nullptr) {
-          const auto lit = problem_.cost_above(soft.agent, beyond - 1, limits_);
-          QUADRILLE_REQUIRE(lit.has_value(), "see CoreGuidedOptions::plans");
-          return *lit;
-        }
-        if (beyond > static_cast<Cost>(soft.counter->num_inputs())) return Lit();
-        return soft.counter->at_least(static_cast<int>(beyond));
-      };
-      descent_.emplace(engine_, problem_, *options_.plans, limits_, cores_bound_, items.size(),
-                       excess);
-    }
+    if (!descent_ || softs_->bound() >= descent_->base() + kStaleCores)
+      descent_.emplace(engine_, problem_, *options_.plans, limits_, softs_->bound(),
+                       softs_->num_softs(), softs_->excess());
     report_.lower_bound =
         std::max(report_.lower_bound,
                  descent_->advance(report_.lower_bound, options_.descent_share * turn_));
@@ -165,44 +154,16 @@ class CoreGuidedSearch {
     return core;
   }
 
-  /// One of the core's softs is violated in every plan: pays for one, and watches for a second one
-  /// and for the next unit of each.
-  bool relax(const std::vector<Lit>& core) {
-    std::vector<Lit> violated;
-    for (const Lit assumption : core) violated.push_back(~assumption);
-    engine_.add_clause({LemmaKind::core, violated, {}, false});
-    for (const Lit lit : violated) {
-      const auto found = softs_.find(lit);
-      QUADRILLE_REQUIRE(found != softs_.end(), "cores consist of softs");
-      const Soft soft = found->second;
-      softs_.erase(found);
-      if (soft.counter != nullptr) {
-        if (soft.bound + 1 < static_cast<Cost>(soft.counter->num_inputs()))
-          add_counter_soft(*soft.counter, soft.bound + 1);
-      } else if (!add_agent_soft(soft.agent, soft.bound + 1)) {
-        return false;
-      }
-    }
-    if (violated.size() > 1) {
-      // The inputs are literals: numbers of 0 or 1.
-      counters_.emplace_back(engine_, violated.size(), [violated](std::size_t input, int k) {
-        return k == 1 ? violated[input] : Lit();
-      });
-      add_counter_soft(counters_.back(), 1);
-    }
-    return true;
-  }
-
   Engine& engine_;
   AgentCostProblem& problem_;
   const CoreGuidedOptions options_;
   LimitMonitor& limits_;
   SearchReport report_;
-  std::map<Lit, Soft> softs_;
-  std::list<Totalizer> counters_;
+  int pass_ = 0;
+  std::unique_ptr<Relaxation> softs_, best_softs_;
+  std::int64_t pass_begin_ = 0, best_conflicts_ = 0;
   std::optional<Descent> descent_;
-  Cost cores_bound_ = 0;  // what the cores have been paid for
-  std::int64_t turn_;     // conflicts
+  std::int64_t turn_;  // conflicts
   std::int64_t main_conflicts_ = 0, minimising_conflicts_ = 0;
 };
 

@@ -65,4 +65,16 @@ Lit Totalizer::at_least(int k) {
   return adders_.back().sums[static_cast<std::size_t>(k) - 1];
 }
 
+// Only "inputs imply outputs" is encoded, so outputs that are all true fit any inputs. What others
+// imply comes first: no clause is false on the way.
+void Totalizer::retire() {
+  std::vector<Lit> clause(1);
+  for (auto adder = adders_.rbegin(); adder != adders_.rend(); ++adder)
+    for (const Lit sum : adder->sums) {
+      if (!sum.valid()) continue;
+      clause[0] = sum;
+      add(clause);
+    }
+}
+
 }  // namespace quadrille::sat

@@ -115,7 +115,8 @@ struct Answer {
   int num_taken = 0;
 };
 
-Answer solve_rules(const std::vector<Rule>& rules, bool from_above, std::int64_t share) {
+Answer solve_rules(const std::vector<Rule>& rules, int passes, bool from_above,
+                   std::int64_t share) {
   Engine engine(nullptr);
   RulesProblem problem(engine, rules);
   LimitMonitor limits{Limits{}};
@@ -123,6 +124,7 @@ Answer solve_rules(const std::vector<Rule>& rules, bool from_above, std::int64_t
   CoreGuidedOptions options;
   if (from_above) options.plans = &problem;
   options.first_turn = 1;
+  options.passes = passes;
   options.descent_share = share;
   Cost last = 0;
   const auto on_bound = [&](Cost bound) {
@@ -143,12 +145,14 @@ TEST(CoreGuidedSearch, FindsTheLeastCostFromBelowAndFromAbove) {
     SCOPED_TRACE(round);
     const std::vector<Rule> rules = random_rules(random);
     const Cost least = cheapest_by_enumeration(rules);
-    for (const std::int64_t share : {0, 1, 5}) {
-      const Answer answer = solve_rules(rules, share > 0, std::max<std::int64_t>(1, share));
-      EXPECT_EQ(answer.cost, least);
-      EXPECT_EQ(answer.lower_bound, least);
-      if (share > 0 && answer.num_taken > 0) ++num_from_above;
-    }
+    for (const int passes : {1, 2, 5})
+      for (const std::int64_t share : {0, 1, 5}) {
+        const Answer answer =
+            solve_rules(rules, passes, share > 0, std::max<std::int64_t>(1, share));
+        EXPECT_EQ(answer.cost, least);
+        EXPECT_EQ(answer.lower_bound, least);
+        if (passes == 1 && share > 0 && answer.num_taken > 0) ++num_from_above;
+      }
   }
   EXPECT_GE(num_from_above, 30) << "plans come from above as well";
 }

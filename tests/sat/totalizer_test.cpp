@@ -59,5 +59,32 @@ TEST(Totalizer, BoundsTheSumExactly) {
   }
 }
 
+TEST(Totalizer, AllowsAnySumOnceItIsRetired) {
+  constexpr int kMax = 2;
+  Engine engine(nullptr);
+  Numbers numbers(engine, 3, kMax);
+  Totalizer total(engine, 3, [&](std::size_t input, int k) {
+    return k <= kMax ? numbers.digits[input][static_cast<std::size_t>(k) - 1] : Lit();
+  });
+  // An input of the next one, as counters of cores are.
+  const Lit many = total.at_least(3);
+  Totalizer next(engine, 2, [&](std::size_t input, int k) {
+    if (k > 1) return Lit();
+    return input == 0 ? many : numbers.digits[0][0];
+  });
+  const Lit both = next.at_least(2);
+  std::vector<Lit> all;
+  for (const auto& number : numbers.digits) all.push_back(number.back());
+  LimitMonitor limits{Limits{}};
+  std::vector<Lit> assumptions = all;
+  assumptions.push_back(~both);
+  ASSERT_EQ(engine.solve(assumptions, limits), Verdict::unsat);
+  next.retire();
+  total.retire();
+  EXPECT_EQ(engine.solve(all, limits), Verdict::sat);
+  for (Lit& lit : all) lit = ~lit;
+  EXPECT_EQ(engine.solve(all, limits), Verdict::sat);
+}
+
 }  // namespace
 }  // namespace quadrille::sat

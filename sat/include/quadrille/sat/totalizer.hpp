@@ -27,6 +27,10 @@ class Totalizer {
   /// bounds the sum. Invalid if the sum is never that large. Adds the clauses for all sums up to
   /// `k` that are missing: O(num_inputs * k^2) in all. Not during solve.
   [[nodiscard]] Lit at_least(int k);
+  /// Ends its use, for good: makes all its literals true, which satisfies its clauses, so that they
+  /// cost no time any more. What was learned of the inputs stays valid. Not during solve; must not
+  /// be followed by `at_least`.
+  void retire();
 
  private:
   struct Adder {
