@@ -101,6 +101,9 @@ class Search final : private sat::PlanStore {
 
   // sat::PlanStore
   [[nodiscard]] std::optional<Cost> best_cost() const override { return upper_->cost(); }
+  [[nodiscard]] Cost best_cost_of(AgentId agent) const override {
+    return arrival(upper_->plan().paths[agent]);
+  }
   void take_accepted() override {
     upper_->take(run_->plan());
     consider_stop();

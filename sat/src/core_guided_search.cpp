@@ -85,7 +85,8 @@ class CoreGuidedSearch {
     return verdict;
   }
 
-  [[nodiscard]] std::int64_t later_pass_turn() const { return options_.first_turn / 2 + 1; }
+  /// Short: what was learned makes all cores but the last ones easy.
+  [[nodiscard]] std::int64_t later_pass_turn() const { return options_.first_turn / 4 + 1; }
 
   [[nodiscard]] bool best_is_optimal() const {
     return options_.plans != nullptr && options_.plans->best_cost() == report_.lower_bound;

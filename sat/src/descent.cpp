@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "quadrille/core/contract.hpp"
 
@@ -14,6 +15,10 @@ namespace {
 /// Measured on open maps: plans at the optimum are found as fast as plans well above it. A bound
 /// that is too low costs a turn or, at best, raises the lower bound.
 constexpr Cost kFirstStep = 8;
+/// Of one neighbourhood. Measured: 100 and 1000 are slower.
+constexpr std::int64_t kTryConflicts = 300;
+/// So many neighbourhoods without a cheaper plan end their turn.
+constexpr int kPatience = 64;
 
 /// A totalizer of n inputs that counts up to k has about n k^2 / 2 clauses, and nothing interrupts
 /// it while it grows.
@@ -35,10 +40,59 @@ Descent::Descent(Engine& engine, AgentCostProblem& problem, PlanStore& plans, Li
       base_(base),
       max_excess_(largest_excess(num_inputs)),
       excess_(engine, num_inputs, std::move(excess)),
+      num_free_(problem.num_agents() / 5 + 1),
       max_step_(kFirstStep) {}
+
+Verdict Descent::look(std::span<const Lit> assumptions, std::int64_t conflicts) {
+  const std::int64_t end = limits_.conflicts() + conflicts;
+  problem_.on_solve(true);
+  Verdict verdict;
+  do {
+    const std::int64_t rest =
+        std::clamp<std::int64_t>(end - limits_.conflicts(), 1, std::numeric_limits<int>::max());
+    verdict = engine_.solve(assumptions, limits_, {static_cast<int>(rest), {}});
+  } while (verdict == Verdict::sat && !problem_.accept_model());
+  if (verdict == Verdict::sat) plans_.take_accepted();
+  return verdict;
+}
 
 Cost Descent::advance(Cost lower_bound, std::int64_t conflicts) {
   const std::int64_t end = limits_.conflicts() + conflicts;
+  return try_all(try_neighbourhoods(lower_bound, end), end);
+}
+
+Cost Descent::try_neighbourhoods(Cost lower_bound, std::int64_t end) {
+  std::vector<AgentId> agents;
+  for (const AgentId i : IdRange<AgentId>(problem_.num_agents())) agents.push_back(i);
+  int failures = 0;
+  while (failures < kPatience && limits_.conflicts() < end && !limits_.exhausted_now()) {
+    const auto best = plans_.best_cost();
+    if (!best || *best <= lower_bound || *best - base_ > max_excess_) break;
+    random_.shuffle_front(agents, agents.size());
+    std::vector<Lit> assumptions;
+    for (std::size_t at = num_free_; at < agents.size(); ++at) {
+      const Cost cost = plans_.best_cost_of(agents[at]);
+      const auto dearer = problem_.cost_above(agents[at], cost, limits_);
+      QUADRILLE_REQUIRE(dearer.has_value(), "see CoreGuidedOptions::plans");
+      assumptions.push_back(~*dearer);
+    }
+    // Last: with the others in front, most agents have their caps before it says anything.
+    const Lit not_cheaper = excess_.at_least(static_cast<int>(*best - base_));
+    QUADRILLE_REQUIRE(not_cheaper.valid(), "an agent's cost has no end");
+    assumptions.push_back(~not_cheaper);
+    const Verdict verdict = look(assumptions, std::min(kTryConflicts, end - limits_.conflicts()));
+    failures = verdict == Verdict::sat ? 0 : failures + 1;
+    if (verdict == Verdict::unsat) {
+      if (assumptions.size() == 1) return *best;  // all agents were free
+      num_free_ = std::min(agents.size(), num_free_ + num_free_ / 20 + 1);
+    } else if (verdict == Verdict::unknown) {
+      num_free_ = std::max<std::size_t>(1, num_free_ - num_free_ / 14);
+    }
+  }
+  return lower_bound;
+}
+
+Cost Descent::try_all(Cost lower_bound, std::int64_t end) {
   while (limits_.conflicts() < end && !limits_.exhausted_now()) {
     Cost target = std::min(lower_bound + max_step_, base_ + max_excess_);
     if (const auto best = plans_.best_cost()) target = std::min(target, *best - 1);
@@ -46,18 +100,9 @@ Cost Descent::advance(Cost lower_bound, std::int64_t conflicts) {
     const Lit dearer = excess_.at_least(static_cast<int>(target - base_) + 1);
     QUADRILLE_REQUIRE(dearer.valid(), "an agent's cost has no end");
     const std::array assumptions{~dearer};
-    problem_.on_solve(true);
-    Verdict verdict;
-    do {
-      const std::int64_t rest =
-          std::clamp<std::int64_t>(end - limits_.conflicts(), 1, std::numeric_limits<int>::max());
-      verdict = engine_.solve(assumptions, limits_, {static_cast<int>(rest), {}});
-    } while (verdict == Verdict::sat && !problem_.accept_model());
-    if (verdict == Verdict::sat) {
-      plans_.take_accepted();
-    } else if (verdict == Verdict::unsat) {
-      lower_bound = target + 1;
-    } else {
+    const Verdict verdict = look(assumptions, end - limits_.conflicts());
+    if (verdict == Verdict::unsat) lower_bound = target + 1;
+    if (verdict == Verdict::unknown) {
       max_step_ *= 2;
       break;
     }

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "quadrille/core/random.hpp"
 #include "quadrille/sat/core_guided_search.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
@@ -11,8 +13,9 @@ namespace quadrille::sat {
 
 /// The search from above of a core-guided search (core-boosted linear search: Berg et al. 2019,
 /// CPAIOR): bounds the sum of what the cores found so far leave open, and lowers that bound with
-/// each plan. Its only assumption is the bound, so what is learned stays true for the search from
-/// below and the other way round.
+/// each plan. First it tries to improve the best plan by large neighbourhoods of costs, not of
+/// paths: all but some agents may cost what they cost there. Its only assumptions are bounds of
+/// costs, so what is learned stays true for the search from below and the other way round.
 class Descent {
  public:
   /// A plan costs `base` and the sum of the inputs of `excess` (see Totalizer), every agent's cost
@@ -27,6 +30,13 @@ class Descent {
   [[nodiscard]] Cost advance(Cost lower_bound, std::int64_t conflicts);
 
  private:
+  /// Asks for a plan with these assumptions and takes it.
+  [[nodiscard]] Verdict look(std::span<const Lit> assumptions, std::int64_t conflicts);
+  /// Until conflicts end or neighbourhoods seem to hold no cheaper plan.
+  [[nodiscard]] Cost try_neighbourhoods(Cost lower_bound, std::int64_t end);
+  /// Bounds the sum alone.
+  [[nodiscard]] Cost try_all(Cost lower_bound, std::int64_t end);
+
   Engine& engine_;
   AgentCostProblem& problem_;
   PlanStore& plans_;
@@ -34,7 +44,9 @@ class Descent {
   const Cost base_;
   const Cost max_excess_;  // more would make the counter too large
   Totalizer excess_;
-  Cost max_step_;  // how far above the lower bound a plan is asked for
+  Random random_{1};
+  std::size_t num_free_;  // agents of a neighbourhood that may cost anything
+  Cost max_step_;         // how far above the lower bound a plan is asked for
 };
 
 }  // namespace quadrille::sat

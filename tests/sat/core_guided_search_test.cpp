@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -76,19 +77,24 @@ class RulesProblem final : public AgentCostProblem, public PlanStore {
   }
   void on_solve(bool) override {}
   bool accept_model() override {
-    accepted_ = 0;
-    for (const std::vector<Lit>& lits : above_)
-      for (std::size_t c = 0; c < kMaxCost; ++c) accepted_ += engine_.model_value(lits[c]) ? 1 : 0;
+    accepted_.assign(kAgents, 0);
+    for (std::size_t i = 0; i < kAgents; ++i)
+      for (std::size_t c = 0; c < kMaxCost; ++c)
+        accepted_[i] += engine_.model_value(above_[i][c]) ? 1 : 0;
     return true;
   }
 
-  std::optional<Cost> best_cost() const override { return best_; }
+  std::optional<Cost> best_cost() const override {
+    if (best_.empty()) return std::nullopt;
+    return std::accumulate(best_.begin(), best_.end(), Cost{0});
+  }
+  Cost best_cost_of(AgentId agent) const override { return best_[agent.index()]; }
   void take_accepted() override {
-    EXPECT_TRUE(!best_ || accepted_ < *best_) << "a plan from above is cheaper than all before";
+    EXPECT_TRUE(best_.empty() || accepted() < best_cost()) << "a plan from above is cheaper";
     best_ = accepted_;
     ++num_taken;
   }
-  Cost accepted() const { return accepted_; }
+  Cost accepted() const { return std::accumulate(accepted_.begin(), accepted_.end(), Cost{0}); }
   int num_taken = 0;
 
  private:
@@ -106,8 +112,7 @@ class RulesProblem final : public AgentCostProblem, public PlanStore {
 
   Engine& engine_;
   std::vector<std::vector<Lit>> above_;
-  Cost accepted_ = 0;
-  std::optional<Cost> best_;
+  std::vector<Cost> accepted_, best_;
 };
 
 struct Answer {

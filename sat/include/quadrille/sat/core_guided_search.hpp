@@ -40,6 +40,8 @@ class PlanStore {
   virtual ~PlanStore() = default;
   /// Cost of the best plan; nullopt if there is none.
   [[nodiscard]] virtual std::optional<Cost> best_cost() const = 0;
+  /// What an agent costs in that plan. Requires one.
+  [[nodiscard]] virtual Cost best_cost_of(AgentId agent) const = 0;
   /// Takes the plan of the model that the problem has accepted last.
   virtual void take_accepted() = 0;
 };
@@ -50,10 +52,10 @@ struct CoreGuidedOptions {
   /// problems whose `cost_above` adds little and never fails. Must outlive the search.
   PlanStore* plans = nullptr;
   std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
-  /// When a core is hard, so many times in all, cores are extracted again from the start, with all
-  /// that was learned: earlier and smaller ones. At least 1. Measured: 3 to 12 make little
-  /// difference, one is up to five times as slow.
-  int passes = 6;
+  /// How often cores are extracted from the start: again when a core is hard, with all that was
+  /// learned, which makes for smaller ones. At least 1. Measured: 2 to 6 make little difference,
+  /// one is up to four times as slow.
+  int passes = 3;
   /// So many conflicts from above for each one from below. At least 1.
   std::int64_t descent_share = 1;
 };
