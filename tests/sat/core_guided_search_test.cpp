@@ -94,6 +94,8 @@ class RulesProblem final : public AgentCostProblem, public PlanStore {
     best_ = accepted_;
     ++num_taken;
   }
+  /// The rules allow it.
+  void take_dearest() { best_.assign(kAgents, kMaxCost); }
   Cost accepted() const { return std::accumulate(accepted_.begin(), accepted_.end(), Cost{0}); }
   int num_taken = 0;
 
@@ -120,17 +122,20 @@ struct Answer {
   int num_taken = 0;
 };
 
-Answer solve_rules(const std::vector<Rule>& rules, int passes, bool from_above,
-                   std::int64_t share) {
+/// Share 0: from below only. `has_plan`: the search starts with a dear one.
+Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t share, bool has_plan) {
   Engine engine(nullptr);
   RulesProblem problem(engine, rules);
   LimitMonitor limits{Limits{}};
   Statistics statistics;
   CoreGuidedOptions options;
-  if (from_above) options.plans = &problem;
+  if (share > 0) {
+    options.plans = &problem;
+    if (has_plan) problem.take_dearest();
+  }
   options.first_turn = 1;
   options.passes = passes;
-  options.descent_share = share;
+  options.descent_share = std::max<std::int64_t>(1, share);
   Cost last = 0;
   const auto on_bound = [&](Cost bound) {
     EXPECT_GE(bound, last) << "bounds do not fall";
@@ -145,21 +150,22 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, bool from_above,
 
 TEST(CoreGuidedSearch, FindsTheLeastCostFromBelowAndFromAbove) {
   Random random(1);
-  int num_from_above = 0;
+  int num_from_above = 0, num_improved = 0;
   for (int round = 0; round < 300; ++round) {
     SCOPED_TRACE(round);
     const std::vector<Rule> rules = random_rules(random);
     const Cost least = cheapest_by_enumeration(rules);
     for (const int passes : {1, 2, 5})
-      for (const std::int64_t share : {0, 1, 5}) {
-        const Answer answer =
-            solve_rules(rules, passes, share > 0, std::max<std::int64_t>(1, share));
-        EXPECT_EQ(answer.cost, least);
-        EXPECT_EQ(answer.lower_bound, least);
-        if (passes == 1 && share > 0 && answer.num_taken > 0) ++num_from_above;
-      }
+      for (const std::int64_t share : {0, 1, 5})
+        for (const bool has_plan : {false, true}) {
+          const Answer answer = solve_rules(rules, passes, share, has_plan);
+          EXPECT_EQ(answer.cost, least);
+          EXPECT_EQ(answer.lower_bound, least);
+          if (share > 0 && answer.num_taken > 0) ++(has_plan ? num_improved : num_from_above);
+        }
   }
   EXPECT_GE(num_from_above, 30) << "plans come from above as well";
+  EXPECT_GE(num_improved, 30) << "so do better ones than the first";
 }
 
 }  // namespace
