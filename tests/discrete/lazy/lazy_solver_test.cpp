@@ -110,6 +110,18 @@ TEST(LazySolverFromAbove, AgreesWithCoresAlone) {
   EXPECT_GE(different, 10) << "there are turns from above";
 }
 
+TEST(LazySolverFromAbove, RefusesTurnsOfNoOrTooManyConflicts) {
+  quadrille::support::Random random(1);
+  const Instance instance = support::random_grid(random, {3, 3, 0, 2, 2});
+  for (const std::int64_t turn : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{INT32_MAX} + 1}) {
+    SolveOptions options;
+    options.descend_after = turn;
+    const SolveOutcome outcome = solve(instance, options);
+    ASSERT_TRUE(outcome.internal_error.has_value());
+    EXPECT_EQ(outcome.internal_error->code, ErrorCode::out_of_range);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Objectives, LazySolver,
                          testing::Values(Objective::sum_of_costs, Objective::makespan),
                          [](const auto& trial) {

@@ -90,9 +90,9 @@ struct SolveOptions {
   /// Absent: for kManyAgents or more, for whom decisions that are made again cost more than what is
   /// gained by fresh ones.
   std::optional<bool> chronological;
-  /// Of the core-guided dpll with `first_plan`: a core that takes more conflicts makes the search
-  /// look for cheaper plans as well, in turns (quadrille/sat/core_guided_search.hpp). 1 .. 2^31
-  /// - 1.
+  /// Of the core-guided cost search: a core that takes more conflicts makes it start again with
+  /// what it has learned and then, for dpll with `first_plan`, look for cheaper plans in turns. See
+  /// quadrille/sat/core_guided_search.hpp. 1 .. 2^31 - 1.
   std::int64_t descend_after = 8000;
   Limits limits;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
