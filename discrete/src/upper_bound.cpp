@@ -67,25 +67,19 @@ void UpperBound::try_draft(const Plan& draft, LimitMonitor& limits) {
     extra_effort_ += kPasses * static_cast<std::int64_t>(path.size());
   const auto plan = repair_.repair(draft, limits);
   if (!plan) return;
-  give_rival(*plan);
+  if (rival_)
+    rival_->restart_from(*plan);
+  else
+    rival_.emplace(instance_, distances_, objective_, *plan, seed_);
   static_cast<void>(rival_->improve(kSlice, limits));
   if (rival_->cost() < improver_->cost()) improver_->restart_from(rival_->plan());
 }
 
 void UpperBound::take(const Plan& plan) {
-  if (!improver_) {
+  if (!improver_)
     improver_.emplace(instance_, distances_, objective_, plan, seed_);
-    return;
-  }
-  give_rival(plan);
-  if (rival_->cost() < improver_->cost()) improver_->restart_from(plan);
-}
-
-void UpperBound::give_rival(const Plan& plan) {
-  if (rival_)
-    rival_->restart_from(plan);
-  else
-    rival_.emplace(instance_, distances_, objective_, plan, seed_);
+  else if (plan.cost(objective_) < improver_->cost())
+    improver_->restart_from(plan);
 }
 
 }  // namespace quadrille::discrete

@@ -40,8 +40,6 @@ class UpperBound {
   /// Makes a plan of the search's paths, which cost little, and improves it for a while.
   void try_draft(const Plan& draft, LimitMonitor& limits);
   void take_first_plan();
-  /// Makes it the rival's plan.
-  void give_rival(const Plan& plan);
 
   const Instance& instance_;
   const Objective objective_;
@@ -50,7 +48,7 @@ class UpperBound {
   PrimalSearch first_;
   std::optional<PlanImprover> improver_;
   PlanRepair repair_;
-  std::optional<PlanImprover> rival_;  // of plans that come from elsewhere
+  std::optional<PlanImprover> rival_;  // of plans made of drafts
   std::int64_t share_;                 // the search gets so many times the effort of a slice
   std::int64_t due_;                   // search effort
   std::int64_t extra_effort_ = 0;      // of the last slice, for its draft

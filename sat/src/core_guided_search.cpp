@@ -115,7 +115,11 @@ class CoreGuidedSearch {
 
   /// Gives the search from above its turn.
   void descend() {
-    if (!descent_ || softs_->bound() >= descent_->base() + kStaleCores)
+    if (descent_ && softs_->bound() >= descent_->base() + kStaleCores) {
+      descent_->retire();
+      descent_.reset();
+    }
+    if (!descent_)
       descent_.emplace(engine_, problem_, *options_.plans, limits_, softs_->bound(),
                        softs_->num_softs(), softs_->excess());
     report_.lower_bound =

@@ -28,6 +28,8 @@ class Descent {
   /// proven lower bound and returns what it is after that. Asks for nothing far above the base:
   /// adds about a million clauses at most.
   [[nodiscard]] Cost advance(Cost lower_bound, std::int64_t conflicts);
+  /// Ends the use of its counter, for good. Only destruction may follow.
+  void retire() { excess_.retire(); }
 
  private:
   /// Asks for a plan with these assumptions and takes it.
