@@ -26,6 +26,7 @@ sat::EngineOptions engine_options(const Instance& instance, const SolveOptions& 
   if (options.system == System::dpll) {
     engine_options.chronological = is_chronological(instance, options);
     engine_options.bump_reasons = !is_open(instance.graph());
+    engine_options.keep_clauses = searches_from_above(options);
   }
   engine_options.observer = observer;
   return engine_options;

@@ -41,4 +41,12 @@ class Run {
 /// `instance` and `options` outlive the run.
 [[nodiscard]] std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options);
 
+/// Whether the search for the least cost also looks for plans from above. The MDD model would have
+/// to grow for plans far above the lower bound.
+[[nodiscard]] inline bool searches_from_above(const SolveOptions& options) noexcept {
+  return options.system == System::dpll && options.first_plan &&
+         options.objective == Objective::sum_of_costs &&
+         options.cost_search.value_or(CostSearch::core_guided) == CostSearch::core_guided;
+}
+
 }  // namespace quadrille::discrete

@@ -109,13 +109,18 @@ class Search final : private sat::PlanStore {
     consider_stop();
   }
 
-  /// The MDD model would have to grow for plans far above the lower bound. Measured: on open maps
-  /// the search from above closes most of the gap, elsewhere it takes time from the cores.
+  /// Measured: on open maps the search from above closes most of the gap, and smaller cores are
+  /// worth their time; elsewhere both take time from the cores.
   [[nodiscard]] sat::CoreGuidedOptions core_options() {
     sat::CoreGuidedOptions core_options;
-    if (upper_ && options_.system == System::dpll) core_options.plans = this;
     core_options.first_turn = options_.descend_after;
-    core_options.descent_share = is_open(instance_.graph()) ? 3 : 1;
+    if (options_.system != System::dpll) return core_options;
+    if (searches_from_above(options_)) core_options.plans = this;
+    if (is_open(instance_.graph())) {
+      core_options.passes = 6;
+      core_options.core_tries = 10;
+      core_options.descent_share = 3;
+    }
     return core_options;
   }
 

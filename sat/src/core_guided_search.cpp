@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "descent.hpp"
+#include "offline_solver.hpp"
 #include "quadrille/core/contract.hpp"
+#include "quadrille/core/random.hpp"
 #include "relaxation.hpp"
 
 namespace quadrille::sat {
@@ -15,6 +17,8 @@ namespace {
 
 /// A try to drop an assumption from a core ends after so much work; longer tries seldom succeed.
 constexpr SolveBudget kTryBudget{60, 1000};
+/// The same for tries in a random order: there are many of them.
+constexpr SolveBudget kShortTryBudget{20, 200};
 /// Conflicts spent on minimising may exceed those of the search by so many.
 constexpr std::int64_t kFreeConflicts = 200;
 /// Turns of the searches from below and from above grow, up to so many conflicts.
@@ -36,39 +40,45 @@ class CoreGuidedSearch {
     // First, because a limit may end the search while the softs are made.
     for (const AgentId i : IdRange<AgentId>(problem_.num_agents()))
       report_.lower_bound += problem_.free_cost(i);
-    if (!start_pass()) return report_;
+    search(statistics, on_bound);
+    if (offline_) offline_->add_statistics(statistics);
+    return report_;
+  }
+
+ private:
+  void search(Statistics& statistics, const BoundListener& on_bound) {
+    if (!start_pass()) return;
     while (true) {
       report_.lower_bound = std::max(report_.lower_bound, softs_->bound());
       if (on_bound) on_bound(report_.lower_bound);
-      if (limits_.exhausted_now() || best_is_optimal()) return report_;
+      if (limits_.exhausted_now() || best_is_optimal()) return;
       const Verdict verdict = solve_main();
       if (verdict == Verdict::unknown) {
-        if (limits_.exhausted_now()) return report_;
+        if (limits_.exhausted_now()) return;
         if (pass_ < options_.passes) {
-          if (!end_pass()) return report_;
+          if (!end_pass()) return;
         } else if (options_.plans != nullptr) {
           descend();
         } else {
-          return report_;
+          return;
         }
         continue;
       }
       if (verdict == Verdict::sat) {
         report_.end = SearchReport::End::found;
-        return report_;
+        return;
       }
       std::vector<Lit> core = engine_.core();
-      if (options_.minimise_cores && !core.empty()) core = minimise(std::move(core));
+      if (options_.minimise_cores && !core.empty()) core = smallest_core(core);
       if (core.empty()) {
         report_.end = SearchReport::End::exhausted;
-        return report_;
+        return;
       }
       ++statistics.cores;
-      if (!softs_->relax(core)) return report_;
+      if (!softs_->relax(core)) return;
     }
   }
 
- private:
   Verdict solve_main() {
     const std::vector<Lit> assumptions = softs_->assumptions();
     const std::int64_t before = limits_.conflicts();
@@ -119,8 +129,9 @@ class CoreGuidedSearch {
       descent_->retire();
       descent_.reset();
     }
+    if (!offline_) offline_.emplace(engine_);
     if (!descent_)
-      descent_.emplace(engine_, problem_, *options_.plans, limits_, softs_->bound(),
+      descent_.emplace(engine_, *offline_, problem_, *options_.plans, limits_, softs_->bound(),
                        softs_->num_softs(), softs_->excess());
     report_.lower_bound =
         std::max(report_.lower_bound,
@@ -128,23 +139,41 @@ class CoreGuidedSearch {
     turn_ = std::max(turn_, std::min(2 * turn_, kLongestTurn));
   }
 
+  /// The smallest of some minimal parts of a core. Measured: only during the passes, and only where
+  /// SolveOptions says so, is it worth while to look for more than one.
+  std::vector<Lit> smallest_core(const std::vector<Lit>& core) {
+    const bool is_short = options_.core_tries > 0;
+    std::vector<Lit> best = minimise(core, is_short);
+    if (pass_ == options_.passes) return best;
+    const std::int64_t before = minimising_conflicts_;
+    for (int k = 0; k < options_.core_tries && best.size() > 2 && !limits_.exhausted(); ++k) {
+      std::vector<Lit> shuffled = core;
+      random_.shuffle_front(shuffled, shuffled.size());
+      std::vector<Lit> other = minimise(std::move(shuffled), is_short);
+      if (other.size() < best.size()) best = std::move(other);
+    }
+    minimising_conflicts_ = before;
+    return best;
+  }
+
   /// Tries to refute a part of a core's assumptions: `unsat` with a smaller core at best.
-  Verdict solve_part(const std::vector<Lit>& assumptions) {
+  Verdict solve_part(const std::vector<Lit>& assumptions, bool is_short) {
     problem_.on_solve(false);
     const std::int64_t before = limits_.conflicts();
-    const Verdict verdict = engine_.solve(assumptions, limits_, kTryBudget);
+    const Verdict verdict =
+        engine_.solve(assumptions, limits_, is_short ? kShortTryBudget : kTryBudget);
     minimising_conflicts_ += limits_.conflicts() - before;
     return verdict;
   }
 
   /// Deletion-based, each try and all of them under a budget counted in conflicts, so that it is
   /// deterministic. What is learned on the way is kept in any case.
-  std::vector<Lit> minimise(std::vector<Lit> core) {
+  std::vector<Lit> minimise(std::vector<Lit> core, bool is_short) {
     for (std::size_t at = 0; at < core.size() && core.size() > 1;) {
       if (minimising_conflicts_ > main_conflicts_ + kFreeConflicts || limits_.exhausted()) break;
       std::vector<Lit> part = core;
       part.erase(part.begin() + static_cast<std::ptrdiff_t>(at));
-      if (solve_part(part) != Verdict::unsat) {
+      if (solve_part(part, is_short) != Verdict::unsat) {
         ++at;
         continue;
       }
@@ -167,7 +196,9 @@ class CoreGuidedSearch {
   int pass_ = 0;
   std::unique_ptr<Relaxation> softs_, best_softs_;
   std::int64_t pass_begin_ = 0, best_conflicts_ = 0;
+  std::optional<OfflineSolver> offline_;
   std::optional<Descent> descent_;
+  Random random_{1};
   std::int64_t turn_;  // conflicts
   std::int64_t main_conflicts_ = 0, minimising_conflicts_ = 0;
 };

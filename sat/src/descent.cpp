@@ -17,6 +17,12 @@ namespace {
 constexpr Cost kFirstStep = 8;
 /// Of one neighbourhood. Measured: 100 and 1000 are slower.
 constexpr std::int64_t kTryConflicts = 300;
+/// When the bounds are as close as this, it is worth while to look at everything between them.
+constexpr Cost kClose = 8;
+/// Of the engine, for one candidate; those near the lower bound are refuted by three on average.
+constexpr std::int64_t kCandidateConflicts = 1000;
+/// Conflicts of the offline solver in the time of one of the engine.
+constexpr std::int64_t kOfflineSpeed = 8;
 /// So many neighbourhoods without a cheaper plan end their turn.
 constexpr int kPatience = 64;
 
@@ -31,9 +37,11 @@ Cost largest_excess(std::size_t num_inputs) {
 
 }  // namespace
 
-Descent::Descent(Engine& engine, AgentCostProblem& problem, PlanStore& plans, LimitMonitor& limits,
-                 Cost base, std::size_t num_inputs, Totalizer::Input excess)
+Descent::Descent(Engine& engine, OfflineSolver& offline, AgentCostProblem& problem,
+                 PlanStore& plans, LimitMonitor& limits, Cost base, std::size_t num_inputs,
+                 Totalizer::Input excess)
     : engine_(engine),
+      offline_(offline),
       problem_(problem),
       plans_(plans),
       limits_(limits),
@@ -58,7 +66,23 @@ Verdict Descent::look(std::span<const Lit> assumptions, std::int64_t conflicts) 
 
 Cost Descent::advance(Cost lower_bound, std::int64_t conflicts) {
   const std::int64_t end = limits_.conflicts() + conflicts;
-  return try_all(try_neighbourhoods(lower_bound, end), end);
+  lower_bound = try_neighbourhoods(lower_bound, end);
+  const auto best = plans_.best_cost();
+  return best && *best - lower_bound <= kClose && *best - base_ <= max_excess_
+             ? try_candidates(lower_bound, kOfflineSpeed * conflicts)
+             : try_all(lower_bound, end);
+}
+
+Lit Descent::cost_above(AgentId agent, Cost cost) {
+  const auto lit = problem_.cost_above(agent, cost, limits_);
+  QUADRILLE_REQUIRE(lit.has_value(), "see CoreGuidedOptions::plans");
+  return *lit;
+}
+
+Lit Descent::plan_above(Cost cost) {
+  const Lit lit = excess_.at_least(static_cast<int>(cost - base_) + 1);
+  QUADRILLE_REQUIRE(lit.valid(), "an agent's cost has no end");
+  return lit;
 }
 
 Cost Descent::try_neighbourhoods(Cost lower_bound, std::int64_t end) {
@@ -71,15 +95,10 @@ Cost Descent::try_neighbourhoods(Cost lower_bound, std::int64_t end) {
     random_.shuffle_front(agents, agents.size());
     std::vector<Lit> assumptions;
     for (std::size_t at = num_free_; at < agents.size(); ++at) {
-      const Cost cost = plans_.best_cost_of(agents[at]);
-      const auto dearer = problem_.cost_above(agents[at], cost, limits_);
-      QUADRILLE_REQUIRE(dearer.has_value(), "see CoreGuidedOptions::plans");
-      assumptions.push_back(~*dearer);
+      assumptions.push_back(~cost_above(agents[at], plans_.best_cost_of(agents[at])));
     }
     // Last: with the others in front, most agents have their caps before it says anything.
-    const Lit not_cheaper = excess_.at_least(static_cast<int>(*best - base_));
-    QUADRILLE_REQUIRE(not_cheaper.valid(), "an agent's cost has no end");
-    assumptions.push_back(~not_cheaper);
+    assumptions.push_back(~plan_above(*best - 1));
     const Verdict verdict = look(assumptions, std::min(kTryConflicts, end - limits_.conflicts()));
     failures = verdict == Verdict::sat ? 0 : failures + 1;
     if (verdict == Verdict::unsat) {
@@ -97,9 +116,7 @@ Cost Descent::try_all(Cost lower_bound, std::int64_t end) {
     Cost target = std::min(lower_bound + max_step_, base_ + max_excess_);
     if (const auto best = plans_.best_cost()) target = std::min(target, *best - 1);
     if (target < lower_bound) break;
-    const Lit dearer = excess_.at_least(static_cast<int>(target - base_) + 1);
-    QUADRILLE_REQUIRE(dearer.valid(), "an agent's cost has no end");
-    const std::array assumptions{~dearer};
+    const std::array assumptions{~plan_above(target)};
     const Verdict verdict = look(assumptions, end - limits_.conflicts());
     if (verdict == Verdict::unsat) lower_bound = target + 1;
     if (verdict == Verdict::unknown) {
@@ -108,6 +125,44 @@ Cost Descent::try_all(Cost lower_bound, std::int64_t end) {
     }
   }
   return lower_bound;
+}
+
+// The lower bound is at least the base, so that the best plan, which is dearer, is above it.
+Cost Descent::try_candidates(Cost lower_bound, std::int64_t conflicts) {
+  while (conflicts > 0 && !limits_.exhausted_now()) {
+    const auto best = plans_.best_cost();
+    if (*best <= lower_bound) break;
+    const Lit not_cheaper = plan_above(*best - 1);
+    const std::array assumptions{~not_cheaper};
+    const std::int64_t before = limits_.conflicts();
+    const auto budget = std::min<std::int64_t>(conflicts, std::numeric_limits<int>::max());
+    const Verdict verdict = offline_.solve(assumptions, limits_, {static_cast<int>(budget), {}});
+    if (verdict == Verdict::unsat) {
+      const std::array refuted{not_cheaper};
+      engine_.add_clause({LemmaKind::core, refuted, {}, false});
+      return *best;
+    }
+    if (verdict == Verdict::sat &&
+        look(caps_of_candidate(), kCandidateConflicts) == Verdict::unsat) {
+      std::vector<Lit> core = engine_.core();
+      for (Lit& lit : core) lit = ~lit;
+      engine_.add_clause({LemmaKind::core, core, {}, false});
+    }
+    conflicts -= limits_.conflicts() - before + 1;
+  }
+  return lower_bound;
+}
+
+// The counter knows, for each agent, of costs so high that one of them alone is too much. So each
+// agent has a cap in the model, and together they cost what was asked for.
+std::vector<Lit> Descent::caps_of_candidate() {
+  std::vector<Lit> caps;
+  for (const AgentId i : IdRange<AgentId>(problem_.num_agents())) {
+    Cost cost = problem_.free_cost(i);
+    while (offline_.candidate_has(cost_above(i, cost))) ++cost;
+    caps.push_back(~cost_above(i, cost));
+  }
+  return caps;
 }
 
 }  // namespace quadrille::sat

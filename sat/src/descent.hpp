@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "offline_solver.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/sat/core_guided_search.hpp"
 #include "quadrille/sat/totalizer.hpp"
@@ -20,13 +22,14 @@ class Descent {
  public:
   /// A plan costs `base` and the sum of the inputs of `excess` (see Totalizer), every agent's cost
   /// among them. All must outlive the descent.
-  Descent(Engine& engine, AgentCostProblem& problem, PlanStore& plans, LimitMonitor& limits,
-          Cost base, std::size_t num_inputs, Totalizer::Input excess);
+  Descent(Engine& engine, OfflineSolver& offline, AgentCostProblem& problem, PlanStore& plans,
+          LimitMonitor& limits, Cost base, std::size_t num_inputs, Totalizer::Input excess);
 
   [[nodiscard]] Cost base() const noexcept { return base_; }
-  /// Goes on for so many conflicts, or until no plan can be cheaper than the best one. Requires the
-  /// proven lower bound and returns what it is after that. Asks for nothing far above the base:
-  /// adds about a million clauses at most.
+  /// Goes on for so many conflicts of the engine, and then as long with candidates of the offline
+  /// solver, or until no plan can be cheaper than the best one. Requires the proven lower bound and
+  /// returns what it is after that. Asks for nothing far above the base: adds about a million
+  /// clauses at most.
   [[nodiscard]] Cost advance(Cost lower_bound, std::int64_t conflicts);
   /// Ends the use of its counter, for good. Only destruction may follow.
   void retire() { excess_.retire(); }
@@ -38,8 +41,16 @@ class Descent {
   [[nodiscard]] Cost try_neighbourhoods(Cost lower_bound, std::int64_t end);
   /// Bounds the sum alone.
   [[nodiscard]] Cost try_all(Cost lower_bound, std::int64_t end);
+  /// The same, for a plan that is cheaper than the best one, with candidates.
+  [[nodiscard]] Cost try_candidates(Cost lower_bound, std::int64_t conflicts);
+  /// What agents cost at most in the offline solver's model, as assumptions.
+  [[nodiscard]] std::vector<Lit> caps_of_candidate();
+  [[nodiscard]] Lit cost_above(AgentId agent, Cost cost);
+  /// That a plan costs more than `cost`, base <= cost < base + max_excess_.
+  [[nodiscard]] Lit plan_above(Cost cost);
 
   Engine& engine_;
+  OfflineSolver& offline_;
   AgentCostProblem& problem_;
   PlanStore& plans_;
   LimitMonitor& limits_;

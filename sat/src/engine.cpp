@@ -4,6 +4,7 @@
 
 #include <cadical.hpp>
 #include <tracer.hpp>
+#include <utility>
 #include <vector>
 
 #include "quadrille/core/contract.hpp"
@@ -48,6 +49,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
  public:
   Impl(Theory* theory, const EngineOptions& options)
       : observed_(theory != nullptr),
+        keeps_clauses_(options.keep_clauses),
         observer_(options.observer),
         host_(theory != nullptr ? *theory : no_theory_,
               {[this] { return new_lit(); }, [this](const Lemma& lemma) { count(lemma); }}) {
@@ -99,6 +101,9 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     ++num_clauses_;
     if (lemma.kind == LemmaKind::collision) ++num_collision_clauses_;
     if (observer_ != nullptr) observer_->on_lemma(lemma);
+    if (!keeps_clauses_) return;
+    kept_.insert(kept_.end(), lemma.clause.begin(), lemma.clause.end());
+    kept_.push_back(Lit());
   }
 
   void add_clause(const Lemma& lemma) {
@@ -146,6 +151,13 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   const std::vector<Lit>& failed() const {
     QUADRILLE_REQUIRE(last_ == Verdict::unsat, "the last verdict was unsat");
     return failed_;
+  }
+
+  int num_variables() const { return num_variables_; }
+
+  std::vector<Lit> take_clauses() {
+    QUADRILLE_REQUIRE(keeps_clauses_, "the engine keeps its clauses");
+    return std::exchange(kept_, {});
   }
 
   void set_phase(Lit lit) { solver_.phase(lit.dimacs()); }
@@ -198,14 +210,14 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   void learn(int) override {}
 
   NoTheory no_theory_;
-  const bool observed_;
+  const bool observed_, keeps_clauses_;
   ClauseObserver* const observer_;
   TheoryHost host_;
   CaDiCaL::Solver solver_;
   std::unique_ptr<DerivedClauseTracer> tracer_;
   LimitMonitor* limits_ = nullptr;
   int num_variables_ = 0;
-  std::vector<Lit> assumptions_, failed_;
+  std::vector<Lit> assumptions_, failed_, kept_;
   std::vector<bool> model_;
   Verdict last_ = Verdict::unknown;
   std::int64_t num_solves_ = 0, num_conflicts_ = 0, num_clauses_ = 0, num_collision_clauses_ = 0;
@@ -225,6 +237,8 @@ Verdict Engine::solve(std::span<const Lit> assumptions, LimitMonitor& limits,
 }
 bool Engine::model_value(Lit lit) const { return impl_->model_value(lit); }
 std::vector<Lit> Engine::core() const { return impl_->failed(); }
+int Engine::num_variables() const { return impl_->num_variables(); }
+std::vector<Lit> Engine::take_clauses() { return impl_->take_clauses(); }
 void Engine::add_statistics(Statistics& statistics) const { impl_->add_statistics(statistics); }
 
 }  // namespace quadrille::sat

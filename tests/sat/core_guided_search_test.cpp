@@ -124,7 +124,9 @@ struct Answer {
 
 /// Share 0: from below only. `has_plan`: the search starts with a dear one.
 Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t share, bool has_plan) {
-  Engine engine(nullptr);
+  EngineOptions engine_options;
+  engine_options.keep_clauses = true;
+  Engine engine(nullptr, engine_options);
   RulesProblem problem(engine, rules);
   LimitMonitor limits{Limits{}};
   Statistics statistics;

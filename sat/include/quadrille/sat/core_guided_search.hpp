@@ -48,8 +48,11 @@ class PlanStore {
 
 struct CoreGuidedOptions {
   bool minimise_cores = true;  ///< Drop what a core does not need, under a budget.
+  /// How often that is tried again in a random order during the passes, for the smallest core.
+  int core_tries = 0;
   /// For whom plans are looked for from above too, once cores take long; null: nobody. Only for
-  /// problems whose `cost_above` adds little and never fails. Must outlive the search.
+  /// problems whose `cost_above` adds little and never fails, and with an engine that keeps its
+  /// clauses, for nobody else. Must outlive the search.
   PlanStore* plans = nullptr;
   std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
   /// How often cores are extracted from the start: again when a core is hard, with all that was

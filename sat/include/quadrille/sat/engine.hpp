@@ -25,6 +25,7 @@ struct EngineOptions {
   /// Let the variables that implied those of a learned clause count as active, too.
   bool bump_reasons = true;
   bool inprocessing = false;  ///< Let the solver rewrite the formula between conflicts.
+  bool keep_clauses = false;  ///< For Engine::take_clauses.
   /// Hears every clause; null: nobody. Must outlive the engine.
   ClauseObserver* observer = nullptr;
 };
@@ -63,6 +64,12 @@ class Engine {
   /// Requires that the last verdict was unsat. Some of its assumptions that cannot hold together,
   /// in the order in which they were given; empty if the clauses alone are unsatisfiable.
   [[nodiscard]] std::vector<Lit> core() const;
+
+  /// Variables so far: 1 to this number.
+  [[nodiscard]] int num_variables() const;
+  /// All clauses that the engine was given since the last call, lemmas of the theory included, each
+  /// ended by no literal. Requires EngineOptions::keep_clauses. Not during solve.
+  [[nodiscard]] std::vector<Lit> take_clauses();
 
   /// Adds what this engine did to `statistics` (sat_calls, conflicts, decisions, variables,
   /// clauses, collision_clauses, models_checked).
