@@ -2,6 +2,7 @@
 #pragma once
 
 #include "quadrille/discrete/graph.hpp"
+#include "quadrille/discrete/instance.hpp"
 
 namespace quadrille::discrete {
 
@@ -10,6 +11,12 @@ namespace quadrille::discrete {
 /// settings of the search are better the other way round (measured, see docs/performance.md).
 [[nodiscard]] inline bool is_open(const Graph& graph) noexcept {
   return 20 * graph.num_edges() > 36 * graph.num_vertices();
+}
+
+/// Whether there is an agent for every eight vertices: then very many agents hinder each other, and
+/// it matters how the cost of that is told apart.
+[[nodiscard]] inline bool is_crowded(const Instance& instance) noexcept {
+  return 8 * instance.num_agents() > instance.graph().num_vertices();
 }
 
 }  // namespace quadrille::discrete

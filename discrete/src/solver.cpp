@@ -109,17 +109,21 @@ class Search final : private sat::PlanStore {
     consider_stop();
   }
 
-  /// Measured: on open maps the search from above closes most of the gap, and smaller cores are
-  /// worth their time; elsewhere both take time from the cores.
+  /// Measured: on open maps the search from above closes most of the gap, and if they are crowded,
+  /// smaller cores are worth their time; elsewhere both take time from the cores.
   [[nodiscard]] sat::CoreGuidedOptions core_options() {
     sat::CoreGuidedOptions core_options;
     core_options.first_turn = options_.descend_after;
     if (options_.system != System::dpll) return core_options;
     if (searches_from_above(options_)) core_options.plans = this;
     if (is_open(instance_.graph())) {
-      core_options.passes = 6;
-      core_options.core_tries = 10;
       core_options.descent_share = 3;
+      core_options.candidates_within = 3;
+      if (is_crowded(instance_)) {
+        core_options.first_turn = std::max<std::int64_t>(1, options_.descend_after / 2);
+        core_options.passes = 6;
+        core_options.core_tries = 10;
+      }
     }
     return core_options;
   }

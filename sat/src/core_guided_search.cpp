@@ -96,7 +96,9 @@ class CoreGuidedSearch {
   }
 
   /// Short: what was learned makes all cores but the last ones easy.
-  [[nodiscard]] std::int64_t later_pass_turn() const { return options_.first_turn / 4 + 1; }
+  [[nodiscard]] std::int64_t later_pass_turn() const {
+    return std::max<std::int64_t>(1, options_.first_turn / 4);
+  }
 
   [[nodiscard]] bool best_is_optimal() const {
     return options_.plans != nullptr && options_.plans->best_cost() == report_.lower_bound;
@@ -132,7 +134,7 @@ class CoreGuidedSearch {
     if (!offline_) offline_.emplace(engine_);
     if (!descent_)
       descent_.emplace(engine_, *offline_, problem_, *options_.plans, limits_, softs_->bound(),
-                       softs_->num_softs(), softs_->excess());
+                       softs_->num_softs(), softs_->excess(), options_.candidates_within);
     report_.lower_bound =
         std::max(report_.lower_bound,
                  descent_->advance(report_.lower_bound, options_.descent_share * turn_));

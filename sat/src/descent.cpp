@@ -17,12 +17,10 @@ namespace {
 constexpr Cost kFirstStep = 8;
 /// Of one neighbourhood. Measured: 100 and 1000 are slower.
 constexpr std::int64_t kTryConflicts = 300;
-/// When the bounds are as close as this, it is worth while to look at everything between them.
-constexpr Cost kClose = 8;
 /// Of the engine, for one candidate; those near the lower bound are refuted by three on average.
 constexpr std::int64_t kCandidateConflicts = 1000;
-/// Conflicts of the offline solver in the time of one of the engine.
-constexpr std::int64_t kOfflineSpeed = 8;
+/// Conflicts of the offline solver for each of the engine, which take an eighth of the time each.
+constexpr std::int64_t kOfflineShare = 16;
 /// So many neighbourhoods without a cheaper plan end their turn.
 constexpr int kPatience = 64;
 
@@ -39,13 +37,14 @@ Cost largest_excess(std::size_t num_inputs) {
 
 Descent::Descent(Engine& engine, OfflineSolver& offline, AgentCostProblem& problem,
                  PlanStore& plans, LimitMonitor& limits, Cost base, std::size_t num_inputs,
-                 Totalizer::Input excess)
+                 Totalizer::Input excess, Cost max_gap)
     : engine_(engine),
       offline_(offline),
       problem_(problem),
       plans_(plans),
       limits_(limits),
       base_(base),
+      max_gap_(max_gap),
       max_excess_(largest_excess(num_inputs)),
       excess_(engine, num_inputs, std::move(excess)),
       num_free_(problem.num_agents() / 5 + 1),
@@ -68,8 +67,8 @@ Cost Descent::advance(Cost lower_bound, std::int64_t conflicts) {
   const std::int64_t end = limits_.conflicts() + conflicts;
   lower_bound = try_neighbourhoods(lower_bound, end);
   const auto best = plans_.best_cost();
-  return best && *best - lower_bound <= kClose && *best - base_ <= max_excess_
-             ? try_candidates(lower_bound, kOfflineSpeed * conflicts)
+  return best && *best - lower_bound <= max_gap_ && *best - base_ <= max_excess_
+             ? try_candidates(lower_bound, kOfflineShare * conflicts)
              : try_all(lower_bound, end);
 }
 

@@ -21,15 +21,17 @@ namespace quadrille::sat {
 class Descent {
  public:
   /// A plan costs `base` and the sum of the inputs of `excess` (see Totalizer), every agent's cost
-  /// among them. All must outlive the descent.
+  /// among them. All must outlive the descent. `max_gap`: how close the bounds have to be before
+  /// the offline solver looks at everything between them.
   Descent(Engine& engine, OfflineSolver& offline, AgentCostProblem& problem, PlanStore& plans,
-          LimitMonitor& limits, Cost base, std::size_t num_inputs, Totalizer::Input excess);
+          LimitMonitor& limits, Cost base, std::size_t num_inputs, Totalizer::Input excess,
+          Cost max_gap);
 
   [[nodiscard]] Cost base() const noexcept { return base_; }
-  /// Goes on for so many conflicts of the engine, and then as long with candidates of the offline
-  /// solver, or until no plan can be cheaper than the best one. Requires the proven lower bound and
-  /// returns what it is after that. Asks for nothing far above the base: adds about a million
-  /// clauses at most.
+  /// Goes on for so many conflicts of the engine, and, if the bounds are close, as long again with
+  /// candidates of the offline solver, or until no plan can be cheaper than the best one. Requires
+  /// the proven lower bound and returns what it is after that. Asks for nothing far above the base:
+  /// adds about a million clauses at most.
   [[nodiscard]] Cost advance(Cost lower_bound, std::int64_t conflicts);
   /// Ends the use of its counter, for good. Only destruction may follow.
   void retire() { excess_.retire(); }
@@ -55,6 +57,7 @@ class Descent {
   PlanStore& plans_;
   LimitMonitor& limits_;
   const Cost base_;
+  const Cost max_gap_;
   const Cost max_excess_;  // more would make the counter too large
   Totalizer excess_;
   Random random_{1};

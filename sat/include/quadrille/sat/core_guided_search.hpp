@@ -61,6 +61,9 @@ struct CoreGuidedOptions {
   int passes = 3;
   /// So many conflicts from above for each one from below. At least 1.
   std::int64_t descent_share = 1;
+  /// How close the best plan has to be to the lower bound before an offline solver, without the
+  /// theory, chooses costs for the engine to look at.
+  Cost candidates_within = 8;
 };
 
 /// Finds a plan of least sum of costs from below: assumes that nobody costs more than its share of
