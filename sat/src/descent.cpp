@@ -16,13 +16,13 @@ namespace {
 /// that is too low costs a turn or, at best, raises the lower bound.
 constexpr Cost kFirstStep = 8;
 /// Of one neighbourhood. Measured: 100 and 1000 are slower.
-constexpr std::int64_t kTryConflicts = 300;
+constexpr std::int64_t kTryConflicts = 200;
 /// Of the engine, for one candidate; those near the lower bound are refuted by three on average.
 constexpr std::int64_t kCandidateConflicts = 1000;
 /// Conflicts of the offline solver for each of the engine, which take an eighth of the time each.
 constexpr std::int64_t kOfflineShare = 16;
-/// So many neighbourhoods without a cheaper plan end their turn.
-constexpr int kPatience = 64;
+/// So many neighbourhoods without a cheaper plan end their turn; fewer if candidates come next.
+constexpr int kPatience = 64, kShortPatience = 32;
 
 /// A totalizer of n inputs that counts up to k has about n k^2 / 2 clauses, and nothing interrupts
 /// it while it grows.
@@ -88,8 +88,10 @@ Cost Descent::try_neighbourhoods(Cost lower_bound, std::int64_t end) {
   std::vector<AgentId> agents;
   for (const AgentId i : IdRange<AgentId>(problem_.num_agents())) agents.push_back(i);
   int failures = 0;
-  while (failures < kPatience && limits_.conflicts() < end && !limits_.exhausted_now()) {
+  while (limits_.conflicts() < end && !limits_.exhausted_now()) {
     const auto best = plans_.best_cost();
+    const bool is_close = best && *best - lower_bound <= max_gap_;
+    if (failures >= (is_close ? kShortPatience : kPatience)) break;
     if (!best || *best <= lower_bound || *best - base_ > max_excess_) break;
     random_.shuffle_front(agents, agents.size());
     std::vector<Lit> assumptions;
