@@ -141,8 +141,9 @@ class CoreGuidedSearch {
     turn_ = std::max(turn_, std::min(2 * turn_, kLongestTurn));
   }
 
-  /// The smallest of some minimal parts of a core. Measured: only during the passes, and only where
-  /// SolveOptions says so, is it worth while to look for more than one.
+  /// The smallest of some minimal parts of a core. Measured: it is worth while to look for more
+  /// than one only during the passes, and not everywhere (`core_tries`). Conflicts of these tries
+  /// do not count for later cores.
   std::vector<Lit> smallest_core(const std::vector<Lit>& core) {
     const bool is_short = options_.core_tries > 0;
     std::vector<Lit> best = minimise(core, is_short);

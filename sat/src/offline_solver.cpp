@@ -6,7 +6,7 @@
 namespace quadrille::sat {
 namespace {
 
-EngineOptions plain_solver_options() {
+EngineOptions offline_options() {
   EngineOptions options;
   options.inprocessing = true;
   return options;
@@ -15,7 +15,7 @@ EngineOptions plain_solver_options() {
 }  // namespace
 
 OfflineSolver::OfflineSolver(Engine& engine)
-    : source_(engine), solver_(nullptr, plain_solver_options()) {}
+    : source_(engine), solver_(nullptr, offline_options()) {}
 
 void OfflineSolver::catch_up() {
   // The same numbers mean the same variables.

@@ -137,6 +137,7 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t shar
   }
   options.first_turn = 1;
   options.passes = passes;
+  options.core_tries = passes - 1;  // the other orders of deletion, too
   options.descent_share = std::max<std::int64_t>(1, share);
   Cost last = 0;
   const auto on_bound = [&](Cost bound) {

@@ -48,7 +48,8 @@ class PlanStore {
 
 struct CoreGuidedOptions {
   bool minimise_cores = true;  ///< Drop what a core does not need, under a budget.
-  /// How often that is tried again in a random order during the passes, for the smallest core.
+  /// How often that is tried again in a random order during the passes, for the smallest core; at
+  /// least 0. If not 0, all tries are shorter.
   int core_tries = 0;
   /// For whom plans are looked for from above too, once cores take long; null: nobody. Only for
   /// problems whose `cost_above` adds little and never fails, and with an engine that keeps its
@@ -62,7 +63,7 @@ struct CoreGuidedOptions {
   /// So many conflicts from above for each one from below. At least 1.
   std::int64_t descent_share = 1;
   /// How close the best plan has to be to the lower bound before an offline solver, without the
-  /// theory, chooses costs for the engine to look at.
+  /// theory, chooses costs for the engine to look at; 0: never.
   Cost candidates_within = 8;
 };
 
