@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "quadrille/core/random.hpp"
@@ -169,6 +170,69 @@ TEST(CoreGuidedSearch, FindsTheLeastCostFromBelowAndFromAbove) {
   }
   EXPECT_GE(num_from_above, 30) << "plans come from above as well";
   EXPECT_GE(num_improved, 30) << "so do better ones than the first";
+}
+
+using Agents = std::vector<std::size_t>;
+
+/// The core clauses of a search, each as the sorted agents that it names.
+class CoreObserver final : public ClauseObserver {
+ public:
+  explicit CoreObserver(const std::vector<Lit>& above) : above_(above) {}
+  void on_lemma(const Lemma& lemma) override {
+    if (lemma.kind != LemmaKind::core) return;
+    Agents agents;
+    for (const Lit lit : lemma.clause)
+      agents.push_back(
+          static_cast<std::size_t>(std::find(above_.begin(), above_.end(), lit) - above_.begin()));
+    std::sort(agents.begin(), agents.end());
+    cores.push_back(agents);
+  }
+  void on_learned(std::span<const Lit>) override {}
+  std::vector<Agents> cores;
+
+ private:
+  const std::vector<Lit>& above_;  // by agent
+};
+
+/// The first core that the search takes of one with two minimal parts, all agents together. Unit
+/// propagation sees the whole only, because auxiliary literals hide the parts. One agent is in
+/// both.
+Agents first_core(const std::vector<Agents>& parts, int core_tries) {
+  std::vector<Lit> above;
+  CoreObserver observer(above);
+  EngineOptions engine_options;
+  engine_options.observer = &observer;
+  Engine engine(nullptr, engine_options);
+  RulesProblem problem(engine, {});
+  LimitMonitor limits{Limits{}};
+  for (const AgentId i : IdRange<AgentId>(kAgents))
+    above.push_back(problem.cost_above(i, 0, limits).value());
+  const auto add = [&](const Agents& agents, std::vector<Lit> hidden_by) {
+    std::vector<Lit> clause = std::move(hidden_by);
+    for (const std::size_t i : agents) clause.push_back(above[i]);
+    engine.add_clause({LemmaKind::collision, clause, {}, false});
+  };
+  for (const Agents& part : parts) {
+    const Lit a = engine.new_lit(), b = engine.new_lit();
+    for (const Lit c : {a, ~a})
+      for (const Lit d : {b, ~b}) add(part, {c, d});
+  }
+  add({0, 1, 2, 3, 4, 5}, {});
+  CoreGuidedOptions options;
+  options.core_tries = core_tries;
+  Statistics statistics;
+  const auto report = search_by_cores(engine, problem, options, limits, statistics, {});
+  EXPECT_EQ(report.end, SearchReport::End::found);
+  EXPECT_EQ(problem.accepted(), 1) << "of the agent in both parts";
+  return observer.cores.at(0);
+}
+
+TEST(CoreGuidedSearch, TakesTheSmallestOfTheCoresThatItsTriesFind) {
+  // Which part is left without tries depends on the order of the core.
+  const std::vector<Agents> one{{0, 1, 2}, {2, 3, 4, 5}}, other{{3, 4, 5}, {0, 1, 2, 3}};
+  EXPECT_TRUE(first_core(one, 0) == one[1] || first_core(other, 0) == other[1]);
+  EXPECT_EQ(first_core(one, 10), one[0]);
+  EXPECT_EQ(first_core(other, 10), other[0]);
 }
 
 }  // namespace
