@@ -116,14 +116,16 @@ class Search final : private sat::PlanStore {
     core_options.first_turn = options_.descend_after;
     if (options_.system != System::dpll) return core_options;
     if (searches_from_above(options_)) core_options.plans = this;
-    if (is_open(instance_.graph())) {
+    const bool open = is_open(instance_.graph());
+    const bool crowded = options_.crowded.value_or(open && is_crowded(instance_));
+    if (options_.crowded.value_or(open)) {
       core_options.descent_share = 3;
       core_options.candidates_within = 3;
-      if (is_crowded(instance_)) {
-        core_options.first_turn = std::max<std::int64_t>(1, options_.descend_after / 2);
-        core_options.passes = 6;
-        core_options.core_tries = 10;
-      }
+    }
+    if (crowded) {
+      core_options.first_turn = std::max<std::int64_t>(1, options_.descend_after / 2);
+      core_options.passes = 6;
+      core_options.core_tries = 10;
     }
     return core_options;
   }

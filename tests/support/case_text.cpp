@@ -132,6 +132,8 @@ class CaseReader {
       options_->forbid_first = true;
     } else if (word == "chronological" || word == "not-chronological") {
       options_->chronological = word == "chronological";
+    } else if (word == "crowded" || word == "not-crowded") {
+      options_->crowded = word == "crowded";
     } else if (word == "race") {
       options_->race = true;
     } else if (key == "threads" && value.size() == 1 && value[0] >= '1' && value[0] <= '9') {
@@ -246,7 +248,6 @@ std::string options_text(const SolveOptions& options) {
   if (options.system == System::dpll || options.system == System::dpll_mdd)
     text += " check=" + to_string(options.check);
   if (options.cost_search) text += " search=" + std::string(to_string(*options.cost_search));
-  if (options.cost_search) text += " search=" + std::string(to_string(*options.cost_search));
   if (options.mdd_growth != SolveOptions().mdd_growth)
     text += " growth=" + std::string(to_string(options.mdd_growth));
   text += " seed=" + std::to_string(options.seed);
@@ -257,6 +258,7 @@ std::string options_text(const SolveOptions& options) {
     text += *options.chronological ? " chronological" : " not-chronological";
   if (options.descend_after != SolveOptions().descend_after)
     text += " descend-after=" + std::to_string(options.descend_after);
+  if (options.crowded) text += *options.crowded ? " crowded" : " not-crowded";
   if (!options.first_plan) text += " no-first-plan";
   if (options.audit) text += " audit";
   if (options.known_plan) text += " known-plan";

@@ -138,6 +138,7 @@ std::vector<SolveOptions> random_systems(Random& random, Objective objective) {
     options.forbid_first = random.percent(30);
     if (random.percent(60)) options.chronological = random.percent(50);
     if (random.percent(50)) options.descend_after = 1 + static_cast<std::int64_t>(random.below(20));
+    if (random.percent(50)) options.crowded = random.percent(80);
     if (random.percent(5)) {
       options.threads = 2 + random.below(2);
       options.race = random.percent(50);

@@ -92,9 +92,14 @@ struct SolveOptions {
   std::optional<bool> chronological;
   /// Of the core-guided cost search: a core that takes more conflicts makes it start again with
   /// what it has learned and then, for dpll with `first_plan`, look for cheaper plans in turns. See
-  /// quadrille/sat/core_guided_search.hpp. Half of it counts for dpll on open maps (3.6 neighbours
-  /// on average) with an agent for every eight vertices. 1 .. 2^31 - 1.
+  /// quadrille/sat/core_guided_search.hpp. With the settings for `crowded` maps half of it counts.
+  /// 1 .. 2^31 - 1.
   std::int64_t descend_after = 8000;
+  /// Of dpll with the core-guided cost search: its settings for open and crowded maps (longer turns
+  /// from above, more passes, smaller cores for more time) or those for other ones. Absent: the
+  /// former if vertices have more than 3.6 neighbours on average and there is an agent for every
+  /// eight of them.
+  std::optional<bool> crowded;
   Limits limits;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
