@@ -23,6 +23,9 @@ constexpr SolveBudget kShortTryBudget{20, 200};
 constexpr std::int64_t kFreeConflicts = 200;
 /// Turns of the searches from below and from above grow, up to so many conflicts.
 constexpr std::int64_t kLongestTurn = 1 << 28;
+/// So many passes in a row that are no better than the best one are the last. Measured: where
+/// passes gain anything, one that does not is soon followed by one that does.
+constexpr int kVainPasses = 2;
 /// After so many more cores the search from above starts again from what they have left open.
 constexpr Cost kStaleCores = 8;
 
@@ -119,8 +122,11 @@ class CoreGuidedSearch {
       best_softs_.swap(softs_);
       best_conflicts_ = conflicts;
     }
+    vain_passes_ = is_best ? 0 : vain_passes_ + 1;
     if (softs_) softs_->retire();
-    if (++pass_ < options_.passes) return start_pass();
+    ++pass_;
+    if (vain_passes_ == kVainPasses) pass_ = options_.passes;
+    if (pass_ < options_.passes) return start_pass();
     softs_ = std::move(best_softs_);
     return true;
   }
@@ -196,7 +202,7 @@ class CoreGuidedSearch {
   const CoreGuidedOptions options_;
   LimitMonitor& limits_;
   SearchReport report_;
-  int pass_ = 0;
+  int pass_ = 0, vain_passes_ = 0;
   std::unique_ptr<Relaxation> softs_, best_softs_;
   std::int64_t pass_begin_ = 0, best_conflicts_ = 0;
   std::optional<OfflineSolver> offline_;

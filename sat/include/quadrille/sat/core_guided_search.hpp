@@ -56,8 +56,9 @@ struct CoreGuidedOptions {
   /// clauses, for nobody else. Must outlive the search.
   PlanStore* plans = nullptr;
   std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
-  /// How often cores are extracted from the start: again when a core is hard, with all that was
-  /// learned, which makes for smaller ones. At least 1. Measured: 2 to 6 make little difference,
+  /// How often at most cores are extracted from the start: again when a core is hard, with all that
+  /// was learned, which makes for smaller ones; two times in a row without gain are the last. At
+  /// least 1. Measured: 2 to 6 make little difference,
   /// one is up to four times as slow.
   int passes = 3;
   /// So many conflicts from above for each one from below. At least 1.
