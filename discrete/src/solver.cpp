@@ -110,7 +110,8 @@ class Search final : private sat::PlanStore {
   }
 
   /// Measured: on open maps the search from above closes most of the gap, and if they are crowded,
-  /// smaller cores are worth their time; elsewhere both take time from the cores.
+  /// it should begin soon, and smaller cores are worth their time. Elsewhere both take time from
+  /// the cores.
   [[nodiscard]] sat::CoreGuidedOptions core_options() {
     sat::CoreGuidedOptions core_options;
     core_options.first_turn = options_.descend_after;
@@ -122,6 +123,7 @@ class Search final : private sat::PlanStore {
       core_options.descent_share = 3;
       core_options.candidates_within = 3;
     }
+    core_options.head_start = crowded ? 1 : 6;
     if (crowded) {
       core_options.first_turn = std::max<std::int64_t>(1, options_.descend_after / 2);
       core_options.passes = 6;

@@ -2,6 +2,7 @@
 #include "quadrille/sat/core_guided_search.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -89,13 +90,18 @@ class CoreGuidedSearch {
     if (pass_ < options_.passes)
       budget.conflicts = static_cast<int>(pass_ == 0 ? options_.first_turn : later_pass_turn());
     else if (options_.plans != nullptr)
-      budget.conflicts = static_cast<int>(turn_);
+      budget.conflicts = turn_from_below();
     problem_.on_solve(true);
     Verdict verdict = engine_.solve(assumptions, limits_, budget);
     while (verdict == Verdict::sat && !problem_.accept_model())
       verdict = engine_.solve(assumptions, limits_, budget);
     main_conflicts_ += limits_.conflicts() - before;
     return verdict;
+  }
+
+  [[nodiscard]] int turn_from_below() const {
+    const std::int64_t turn = has_descended_ ? turn_ : options_.head_start * turn_;
+    return static_cast<int>(std::min<std::int64_t>(turn, std::numeric_limits<int>::max()));
   }
 
   /// Short: what was learned makes all cores but the last ones easy.
@@ -133,6 +139,7 @@ class CoreGuidedSearch {
 
   /// Gives the search from above its turn.
   void descend() {
+    has_descended_ = true;
     if (descent_ && softs_->bound() >= descent_->base() + kStaleCores) {
       descent_->retire();
       descent_.reset();
@@ -207,6 +214,7 @@ class CoreGuidedSearch {
   std::int64_t pass_begin_ = 0, best_conflicts_ = 0;
   std::optional<OfflineSolver> offline_;
   std::optional<Descent> descent_;
+  bool has_descended_ = false;
   Random random_{1};
   std::int64_t turn_;  // conflicts
   std::int64_t main_conflicts_ = 0, minimising_conflicts_ = 0;

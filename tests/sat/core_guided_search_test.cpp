@@ -140,6 +140,7 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t shar
   options.passes = passes;
   options.core_tries = passes - 1;  // the other orders of deletion, too
   options.descent_share = std::max<std::int64_t>(1, share);
+  options.head_start = passes == 5 ? 2 : 1;
   Cost last = 0;
   const auto on_bound = [&](Cost bound) {
     EXPECT_GE(bound, last) << "bounds do not fall";

@@ -61,6 +61,9 @@ struct CoreGuidedOptions {
   /// least 1. Measured: 2 to 6 make little difference,
   /// one is up to four times as slow.
   int passes = 3;
+  /// The first turn after the passes is so many times as long as `first_turn`: cores alone often
+  /// come to the end in it. At least 1.
+  std::int64_t head_start = 1;
   /// So many conflicts from above for each one from below. At least 1.
   std::int64_t descent_share = 1;
   /// How close the best plan has to be to the lower bound before an offline solver, without the
