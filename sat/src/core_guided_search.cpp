@@ -100,7 +100,7 @@ class CoreGuidedSearch {
   }
 
   [[nodiscard]] int turn_from_below() const {
-    const std::int64_t turn = has_descended_ ? turn_ : options_.head_start * turn_;
+    const std::int64_t turn = offline_ ? turn_ : options_.head_start * turn_;
     return static_cast<int>(std::min<std::int64_t>(turn, std::numeric_limits<int>::max()));
   }
 
@@ -139,7 +139,6 @@ class CoreGuidedSearch {
 
   /// Gives the search from above its turn.
   void descend() {
-    has_descended_ = true;
     if (descent_ && softs_->bound() >= descent_->base() + kStaleCores) {
       descent_->retire();
       descent_.reset();
@@ -212,9 +211,8 @@ class CoreGuidedSearch {
   int pass_ = 0, vain_passes_ = 0;
   std::unique_ptr<Relaxation> softs_, best_softs_;
   std::int64_t pass_begin_ = 0, best_conflicts_ = 0;
-  std::optional<OfflineSolver> offline_;
+  std::optional<OfflineSolver> offline_;  // since the first turn from above
   std::optional<Descent> descent_;
-  bool has_descended_ = false;
   Random random_{1};
   std::int64_t turn_;  // conflicts
   std::int64_t main_conflicts_ = 0, minimising_conflicts_ = 0;

@@ -28,7 +28,7 @@ class Descent {
           Cost max_gap);
 
   [[nodiscard]] Cost base() const noexcept { return base_; }
-  /// Goes on for so many conflicts of the engine, and, if the bounds are close, as long again with
+  /// Goes on for so many conflicts of the engine, and, if the bounds are close, twice as long with
   /// candidates of the offline solver, or until no plan can be cheaper than the best one. Requires
   /// the proven lower bound and returns what it is after that. Asks for nothing far above the base:
   /// adds about a million clauses at most.

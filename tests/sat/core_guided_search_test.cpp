@@ -124,7 +124,8 @@ struct Answer {
 };
 
 /// Share 0: from below only. `has_plan`: the search starts with a dear one.
-Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t share, bool has_plan) {
+Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t share, bool has_plan,
+                   std::int64_t head_start = 1) {
   EngineOptions engine_options;
   engine_options.keep_clauses = true;
   Engine engine(nullptr, engine_options);
@@ -140,7 +141,7 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t shar
   options.passes = passes;
   options.core_tries = passes - 1;  // the other orders of deletion, too
   options.descent_share = std::max<std::int64_t>(1, share);
-  options.head_start = passes == 5 ? 2 : 1;
+  options.head_start = head_start;
   Cost last = 0;
   const auto on_bound = [&](Cost bound) {
     EXPECT_GE(bound, last) << "bounds do not fall";
@@ -151,6 +152,19 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t shar
   EXPECT_TRUE(found || problem.best_cost() == report.lower_bound) << "the search ends with a proof";
   return {found ? problem.accepted() : problem.best_cost().value_or(-1), report.lower_bound,
           problem.num_taken};
+}
+
+TEST(CoreGuidedSearch, ALongHeadStartLeavesNothingToTheSearchFromAbove) {
+  Random random(1);
+  int num_from_above = 0;
+  for (int round = 0; round < 100; ++round) {
+    const std::vector<Rule> rules = random_rules(random);
+    num_from_above += solve_rules(rules, 1, 5, false).num_taken;
+    const Answer answer = solve_rules(rules, 1, 5, false, 1000);
+    EXPECT_EQ(answer.cost, cheapest_by_enumeration(rules));
+    EXPECT_EQ(answer.num_taken, 0);
+  }
+  EXPECT_GE(num_from_above, 1) << "it is the head start";
 }
 
 TEST(CoreGuidedSearch, FindsTheLeastCostFromBelowAndFromAbove) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/generators.hpp"
+#include "support/solver_cases.hpp"
 
 namespace quadrille::discrete::support {
 namespace {
@@ -63,6 +64,20 @@ TEST(CaseText, WritesWhatItReads) {
     ASSERT_TRUE(read) << read.error().to_string() << "\n" << text;
     EXPECT_EQ(read->instance.tasks(), instance.tasks());
     EXPECT_EQ(instance_text(read->instance), text);
+  }
+}
+
+TEST(CaseText, WritesTheOptionsThatItReads) {
+  Random random(7);
+  for (int round = 0; round < 100; ++round) {
+    const std::string grid = instance_text(random_grid(random, {}));
+    for (SolveOptions& options : random_systems(random, Objective::sum_of_costs)) {
+      options.known_plan.reset();  // the reader leaves finding one to its user
+      const std::string text = options_text(options);
+      const auto read = parse_case(grid + text, "case.txt");
+      ASSERT_TRUE(read) << read.error().to_string() << "\n" << text;
+      EXPECT_EQ(options_text(*read->options), text);
+    }
   }
 }
 

@@ -58,8 +58,7 @@ struct CoreGuidedOptions {
   std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
   /// How often at most cores are extracted from the start: again when a core is hard, with all that
   /// was learned, which makes for smaller ones; two times in a row without gain are the last. At
-  /// least 1. Measured: 2 to 6 make little difference,
-  /// one is up to four times as slow.
+  /// least 1. Measured: 2 to 6 make little difference, one is up to four times as slow.
   int passes = 3;
   /// The first turn after the passes is so many times as long as `first_turn`: cores alone often
   /// come to the end in it. At least 1.
