@@ -27,6 +27,8 @@ function(quadrille_add_library folder)
   add_library(${target} ${arg_SOURCES})
   add_library(quadrille::${folder} ALIAS ${target})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
+  # Private headers are named with their room: "cost/descent.hpp".
+  target_include_directories(${target} PRIVATE src)
   target_link_libraries(${target} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
   quadrille_compile_options(${target})
   set_target_properties(${target} PROPERTIES

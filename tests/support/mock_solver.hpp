@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "theory_host.hpp"
+#include "engine/theory_host.hpp"
 
 namespace quadrille::support {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "offline_solver.hpp"
+#include "engine/offline_solver.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/sat/core_guided_search.hpp"
 #include "quadrille/sat/totalizer.hpp"

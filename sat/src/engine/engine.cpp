@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/theory_host.hpp"
 #include "quadrille/core/contract.hpp"
-#include "theory_host.hpp"
 
 namespace quadrille::sat {
 namespace {

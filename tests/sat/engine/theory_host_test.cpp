@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "theory_host.hpp"
+#include "engine/theory_host.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "descent.hpp"
+#include "cost/descent.hpp"
 
 #include <algorithm>
 #include <array>

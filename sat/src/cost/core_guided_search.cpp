@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "descent.hpp"
-#include "offline_solver.hpp"
+#include "cost/descent.hpp"
+#include "cost/relaxation.hpp"
+#include "engine/offline_solver.hpp"
 #include "quadrille/core/contract.hpp"
 #include "quadrille/core/random.hpp"
-#include "relaxation.hpp"
 
 namespace quadrille::sat {
 namespace {

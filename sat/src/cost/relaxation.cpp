@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "relaxation.hpp"
+#include "cost/relaxation.hpp"
 
 #include "quadrille/core/contract.hpp"
 

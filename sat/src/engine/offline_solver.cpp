@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "offline_solver.hpp"
+#include "engine/offline_solver.hpp"
 
 #include <vector>
 
