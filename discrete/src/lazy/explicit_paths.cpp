@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "open_maps.hpp"
+#include "model/open_maps.hpp"
 
 namespace quadrille::discrete {
 

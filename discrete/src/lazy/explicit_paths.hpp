@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lazy_model.hpp"
-#include "mdd_paths.hpp"
+#include "mdd/mdd_paths.hpp"
 
 namespace quadrille::discrete {
 

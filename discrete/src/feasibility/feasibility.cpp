@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/discrete/feasibility.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "feasibility/feasibility_parts.hpp"
+
+namespace quadrille::discrete {
+namespace feasibility {
+namespace {
+
+/// Components differ in their shape, and only the shape and the number of free vertices matter.
+std::optional<std::string> check_component(const Component& component, const Arrangement& start,
+                                           const Arrangement& goal) {
+  const std::size_t root_degree = component.degree(0);
+  if (root_degree <= 1) return check_path(component, start, goal);
+  if (root_degree == 2) {
+    std::vector<Local> cycle(component.size());
+    std::iota(cycle.begin(), cycle.end(), Local{0});
+    return check_cycle(component, cycle, start, goal);
+  }
+  if (component.agents.size() == component.vertices.size())
+    return check_full(component, start, goal);
+  return check_corridors(component, start, goal);
+}
+
+}  // namespace
+
+Arrangement::Arrangement(std::size_t num_vertices, std::vector<Local> vertices)
+    : vertex_of(std::move(vertices)),
+      agent_at(num_vertices, kNone),
+      count_before(num_vertices + 1, 0) {
+  for (Local agent = 0; agent < vertex_of.size(); ++agent) agent_at[vertex_of[agent]] = agent;
+  for (Local v = 0; v < num_vertices; ++v)
+    count_before[v + 1] = count_before[v] + (occupied(v) ? 1 : 0);
+}
+
+namespace {
+
+Arrangement arrange(const Instance& instance, const ComponentNumbering& numbering,
+                    const Component& component, VertexId Task::*end) {
+  std::vector<Local> vertices;
+  vertices.reserve(component.agents.size());
+  for (const AgentId agent : component.agents)
+    vertices.push_back(numbering.number(instance.tasks()[agent].*end));
+  return {component.vertices.size(), std::move(vertices)};
+}
+
+}  // namespace
+}  // namespace feasibility
+
+Feasibility check_feasibility(const Instance& instance) {
+  using namespace feasibility;
+  const Graph& graph = instance.graph();
+  ComponentNumbering numbering(graph);
+  std::vector<Component> components;
+  for (const AgentId agent : instance.agents()) {
+    const auto [start, goal] = instance.tasks()[agent];
+    if (numbering.component_of(start) == kNone) components.push_back(numbering.explore(start));
+    const Local index = numbering.component_of(start);
+    if (numbering.component_of(goal) != index)
+      return {false, "agent " + std::to_string(agent.value()) + " cannot reach its goal " +
+                         vertex_name(graph, goal) + ": no way leads there from its start " +
+                         vertex_name(graph, start)};
+    components[index].agents.push_back(agent);
+  }
+  for (const Component& component : components) {
+    if (component.agents.size() < 2) continue;  // An agent alone goes where it likes.
+    const Arrangement start = arrange(instance, numbering, component, &Task::start);
+    const Arrangement goal = arrange(instance, numbering, component, &Task::goal);
+    if (auto reason = check_component(component, start, goal)) return {false, std::move(*reason)};
+  }
+  return {};
+}
+
+}  // namespace quadrille::discrete

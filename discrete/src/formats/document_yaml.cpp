@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+//
+// yaml-cpp reads the syntax; its events go straight into a Document. Its own tree of nodes is not
+// used: aliases would make shared and even cyclic values of it.
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <exception>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/document.hpp"
+#include "formats/text_input.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+constexpr std::string_view kTupleTag = "tag:yaml.org,2002:python/tuple";
+
+/// Leaves the parser after the builder has refused something.
+struct Stop : std::exception {};
+
+class YamlHandler final : public YAML::EventHandler {
+ public:
+  explicit YamlHandler(const std::string& file) : builder_(file) {}
+  DocumentBuilder& builder() { return builder_; }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (!builder_.is_empty()) refuse("a second document", mark);
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    check(mark, "", anchor);
+    if (!begin_value(mark, false)) return;
+    // The parser has gone on to what follows the missing value.
+    const long at = levels_.empty() || !levels_.back().is_map ? line(mark) : key_line_;
+    require(builder_.add_opaque(Document::Kind::null, at));
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    refuse("aliases are not accepted", mark);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    const bool plain = tag == "?" || tag.empty();
+    if (!plain && tag != "!") refuse("the tag " + in_quotes(tag) + " is not accepted here", mark);
+    check(mark, "", anchor);
+    const bool key = !begin_value(mark, true);
+    if (key) key_line_ = line(mark);
+    const bool negative = plain && value.starts_with('-');
+    const Natural number =
+        parse_natural(std::string_view(value).substr(negative ? 1 : 0), INT64_MAX);
+    if (key || !plain || number.fault == NumberFault::malformed)
+      require(builder_.add_text(value, line(mark)));
+    else if (number.fault == NumberFault::too_large)
+      require(builder_.add_opaque(Document::Kind::real, line(mark)));
+    else
+      require(builder_.add_integer(negative ? -number.value : number.value, line(mark)));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    check(mark, tag == kTupleTag ? "" : tag, anchor);
+    begin_value(mark, false);
+    open(Document::Kind::array, mark);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    check(mark, tag, anchor);
+    begin_value(mark, false);
+    open(Document::Kind::object, mark);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Level {
+    bool is_map;
+    bool key_next;
+  };
+
+  static long line(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1; }
+  static void require(bool fine) {
+    if (!fine) throw Stop();
+  }
+  void refuse(std::string message, const YAML::Mark& mark) {
+    require(builder_.fail(ErrorCode::syntax, std::move(message), line(mark)));
+  }
+  void check(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor) refuse("anchors are not accepted", mark);
+    if (!tag.empty() && tag != "?" && tag != "!")
+      refuse("the tag " + in_quotes(tag) + " is not accepted here", mark);
+  }
+  /// Notes that a value or key begins; false for a key.
+  bool begin_value(const YAML::Mark& mark, bool may_be_key) {
+    if (levels_.empty() || !levels_.back().is_map) return true;
+    const bool key = levels_.back().key_next;
+    levels_.back().key_next = !key;
+    if (key && !may_be_key) refuse("a key has to be a string", mark);
+    return !key;
+  }
+  void open(Document::Kind kind, const YAML::Mark& mark) {
+    require(builder_.open(kind, line(mark)));
+    levels_.push_back({kind == Document::Kind::object, true});
+  }
+  void close() {
+    levels_.pop_back();
+    builder_.close();
+  }
+
+  DocumentBuilder builder_;
+  std::vector<Level> levels_;
+  long key_line_ = 0;
+};
+
+/// Whether more brackets are open somewhere than any file of these formats has, quoted ones
+/// included. The parser looks ahead over all of them, with a few hundred bytes for each.
+bool has_too_many_open_brackets(std::string_view text) {
+  constexpr std::size_t kMaxOpen = 1000;
+  std::size_t open = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    if (open > kMaxOpen) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<Document> parse_yaml(const std::string& text, const std::string& file) {
+  if (has_too_many_open_brackets(text))
+    return Error{ErrorCode::out_of_range, "too many brackets are open at the same time", {file, 0}};
+  YamlHandler handler(file);
+  std::istringstream in(text);
+  try {
+    YAML::Parser parser(in);
+    while (parser.HandleNextDocument(handler)) {
+    }
+  } catch (const Stop&) {
+    // The builder holds the error.
+  } catch (const YAML::Exception& e) {
+    const long line = e.mark.is_null() ? 0 : e.mark.line + 1;
+    handler.builder().fail(ErrorCode::syntax, "not valid YAML: " + printable(e.msg, 200), line);
+  }
+  if (handler.builder().error()) return *handler.builder().error();
+  if (handler.builder().is_empty())
+    return Error{ErrorCode::syntax, "the file has no content", {file, 1}};
+  return std::move(handler.builder()).take();
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "formats/instance_document.hpp"
+
+#include <utility>
+
+namespace quadrille::discrete {
+namespace {
+
+bool all_distinct(Checker& checker, const Graph& graph, const std::vector<PlacedTask>& tasks,
+                  VertexId Task::*end, Document::Node PlacedTask::*place, const char* name) {
+  constexpr std::size_t kNobody = SIZE_MAX;
+  IdVector<VertexId, std::size_t> owner(graph.num_vertices(), kNobody);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const VertexId v = tasks[i].task.*end;
+    if (owner[v] != kNobody)
+      return checker.fail(tasks[i].*place, ErrorCode::invalid_instance,
+                          "agents " + std::to_string(owner[v]) + " and " + std::to_string(i) +
+                              " have the same " + name + " " + vertex_name(graph, v));
+    owner[v] = i;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<VertexId> find_vertex(const GridLayout& grid, std::int64_t x, std::int64_t y) {
+  if (x < 0 || y < 0 || x >= grid.width() || y >= grid.height()) return std::nullopt;
+  return grid.vertex_at({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)});
+}
+
+std::string not_passable(const GridLayout& grid, std::int64_t x, std::int64_t y) {
+  const std::string cell = "(" + std::to_string(x) + ", " + std::to_string(y) + ")";
+  if (x >= 0 && y >= 0 && x < grid.width() && y < grid.height()) return cell + " is blocked";
+  return cell + " is outside the grid of " + std::to_string(grid.width()) + " x " +
+         std::to_string(grid.height()) + " cells";
+}
+
+bool read_place(Checker& checker, const Document& document, const Graph& graph, Document::Node node,
+                ErrorCode code, VertexId& vertex) {
+  if (graph.layout()) {
+    std::int64_t x = 0, y = 0;
+    if (!checker.pair(node, INT32_MAX, x, y)) return false;
+    const auto found = find_vertex(*graph.layout(), x, y);
+    if (!found) return checker.fail(node, code, not_passable(*graph.layout(), x, y));
+    vertex = *found;
+    return true;
+  }
+  const auto count = static_cast<std::int64_t>(graph.num_vertices());
+  if (document.kind(node) == Document::Kind::integer &&
+      (document.integer(node) < 0 || document.integer(node) >= count))
+    return checker.fail(node, code,
+                        "there is no vertex " + std::to_string(document.integer(node)) +
+                            ", only 0 to " + std::to_string(count - 1));
+  std::int64_t number = 0;
+  if (!checker.integer(node, 0, INT32_MAX, number)) return false;
+  vertex = VertexId(static_cast<std::size_t>(number));
+  return true;
+}
+
+Result<Instance> make_instance(Checker& checker, Graph graph,
+                               const std::vector<PlacedTask>& tasks) {
+  if (!all_distinct(checker, graph, tasks, &Task::start, &PlacedTask::start, "start") ||
+      !all_distinct(checker, graph, tasks, &Task::goal, &PlacedTask::goal, "goal"))
+    return checker.error();
+  std::vector<Task> plain;
+  plain.reserve(tasks.size());
+  for (const PlacedTask& placed : tasks) plain.push_back(placed.task);
+  return Instance::make(std::move(graph), std::move(plain));
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/discrete/instance_json.hpp"
+
+#include <algorithm>
+#include <istream>
+#include <ostream>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "formats/document.hpp"
+#include "formats/instance_document.hpp"
+#include "formats/text_input.hpp"
+#include "quadrille/discrete/movingai.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+using Node = Document::Node;
+
+class JsonInstanceReader {
+ public:
+  explicit JsonInstanceReader(const Document& document) : document_(document), check_(document) {}
+
+  Result<Instance> run() {
+    std::optional<Node> kind, version, graph, grid, agents;
+    if (!check_.members(Document::kRoot, {{"quadrille", &kind},
+                                          {"version", &version},
+                                          {"graph", &graph, false},
+                                          {"grid", &grid, false},
+                                          {"agents", &agents}}) ||
+        !read_version(*kind, *version))
+      return check_.error();
+    if (graph.has_value() == grid.has_value()) {
+      check_.fail(Document::kRoot, "expected either 'graph' or 'grid'");
+      return check_.error();
+    }
+    if (graph ? !read_graph(*graph) : !read_grid(*grid)) return check_.error();
+    std::vector<PlacedTask> tasks;
+    if (!read_agents(*agents, tasks)) return check_.error();
+    return make_instance(check_, std::move(*graph_), tasks);
+  }
+
+ private:
+  bool read_version(Node kind, Node version) {
+    std::string_view name;
+    std::int64_t number = 0;
+    if (!check_.text(kind, name)) return false;
+    if (name != "instance")
+      return check_.fail(kind, "expected 'instance', found " + in_quotes(name));
+    return check_.integer(version, kInstanceJsonVersion, kInstanceJsonVersion, number);
+  }
+
+  bool read_graph(Node node) {
+    std::optional<Node> vertices, edges;
+    std::int64_t count = 0;
+    if (!check_.members(node, {{"vertices", &vertices}, {"edges", &edges}}) ||
+        !check_.integer(*vertices, 0, kMaxDeclaredVertices, count) ||
+        !check_.array(*edges, "edges"))
+      return false;
+    std::vector<Graph::Edge> list;
+    std::vector<std::tuple<std::int64_t, std::int64_t, Node>> sorted;
+    for (Node e = document_.first(*edges); e < document_.next(*edges); e = document_.next(e)) {
+      std::int64_t a = 0, b = 0;
+      if (!check_.pair(e, INT32_MAX, a, b)) return false;
+      if (a >= count || b >= count)
+        return check_.fail(e, ErrorCode::invalid_instance,
+                           "there is no vertex " + std::to_string(std::max(a, b)) + " among " +
+                               std::to_string(count));
+      if (a == b) return check_.fail(e, ErrorCode::invalid_instance, "the edge is a loop");
+      list.emplace_back(VertexId(static_cast<std::size_t>(a)),
+                        VertexId(static_cast<std::size_t>(b)));
+      sorted.emplace_back(std::min(a, b), std::max(a, b), e);
+    }
+    if (!no_edge_twice(sorted)) return false;
+    auto graph = Graph::make(static_cast<std::size_t>(count), list);
+    if (!graph) return check_.fail(node, graph.error().code, graph.error().message);
+    graph_ = std::move(graph).value();
+    return true;
+  }
+
+  bool no_edge_twice(std::vector<std::tuple<std::int64_t, std::int64_t, Node>>& sorted) {
+    std::sort(sorted.begin(), sorted.end());
+    std::optional<Node> first_repetition;
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      const auto& [a, b, node] = sorted[i];
+      const auto& [c, d, before] = sorted[i - 1];
+      if (a == c && b == d && (!first_repetition || node < *first_repetition))
+        first_repetition = node;
+    }
+    if (!first_repetition) return true;
+    return check_.fail(*first_repetition, ErrorCode::invalid_instance, "the edge is given twice");
+  }
+
+  bool read_grid(Node node) {
+    std::optional<Node> width, height, rows;
+    std::int64_t w = 0, h = 0;
+    if (!check_.members(node, {{"width", &width}, {"height", &height}, {"rows", &rows}}) ||
+        !check_.integer(*width, 1, kMaxMapCells, w) || !check_.integer(*height, 1, kMaxMapCells, h))
+      return false;
+    if (w * h > kMaxMapCells)
+      return check_.fail(node, ErrorCode::out_of_range,
+                         "the grid is larger than " + std::to_string(kMaxMapCells) + " cells");
+    if (!check_.array(*rows, "rows", static_cast<std::size_t>(h))) return false;
+    std::vector<bool> passable;
+    for (Node row = document_.first(*rows); row < document_.next(*rows);
+         row = document_.next(row)) {
+      std::string_view letters;
+      if (!check_.text(row, letters)) return false;
+      if (letters.size() != static_cast<std::size_t>(w))
+        return check_.fail(row, "the row has " + std::to_string(letters.size()) +
+                                    " letters instead of " + std::to_string(w));
+      for (const char& c : letters) {
+        if (c != '.' && c != '@')
+          return check_.fail(
+              row, "the letter " + in_quotes(std::string_view(&c, 1)) + " is neither '.' nor '@'");
+        passable.push_back(c == '.');
+      }
+    }
+    graph_ = Graph::grid(static_cast<std::int32_t>(w), static_cast<std::int32_t>(h), passable);
+    return true;
+  }
+
+  bool read_agents(Node agents, std::vector<PlacedTask>& tasks) {
+    if (!check_.array(agents, "agents")) return false;
+    for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
+      std::optional<Node> start, goal;
+      if (!check_.members(a, {{"start", &start}, {"goal", &goal}})) return false;
+      PlacedTask placed{{}, *start, *goal};
+      if (!read_place(check_, document_, *graph_, *start, ErrorCode::invalid_instance,
+                      placed.task.start) ||
+          !read_place(check_, document_, *graph_, *goal, ErrorCode::invalid_instance,
+                      placed.task.goal))
+        return false;
+      tasks.push_back(placed);
+    }
+    return true;
+  }
+
+  const Document& document_;
+  Checker check_;
+  std::optional<Graph> graph_;
+};
+
+void write_grid(std::ostream& out, const GridLayout& grid) {
+  out << "  \"grid\": {\n    \"width\": " << grid.width() << ",\n    \"height\": " << grid.height()
+      << ",\n    \"rows\": [";
+  std::string row;
+  for (std::int32_t y = 0; y < grid.height(); ++y) {
+    row.clear();
+    for (std::int32_t x = 0; x < grid.width(); ++x) row += grid.vertex_at({x, y}) ? '.' : '@';
+    out << (y == 0 ? "\n      \"" : ",\n      \"") << row << '"';
+  }
+  out << "\n    ]\n  }";
+}
+
+void write_graph(std::ostream& out, const Graph& graph) {
+  out << "  \"graph\": {\n    \"vertices\": " << graph.num_vertices() << ",\n    \"edges\": [";
+  bool first = true;
+  for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
+    for (const VertexId w : graph.neighbours(v)) {
+      if (w < v) continue;
+      out << (first ? "\n      [" : ",\n      [") << v.value() << ", " << w.value() << ']';
+      first = false;
+    }
+  out << (first ? "]\n  }" : "\n    ]\n  }");
+}
+
+}  // namespace
+
+Result<Instance> read_instance_json(std::istream& in, const std::string& file) {
+  const auto text = read_all(in, file);
+  if (!text) return text.error();
+  const auto document = parse_json(*text, file);
+  if (!document) return document.error();
+  return JsonInstanceReader(*document).run();
+}
+
+Result<Instance> read_instance_json(const std::filesystem::path& path) {
+  std::ifstream in;
+  if (auto error = open_input(path, in)) return *error;
+  return read_instance_json(in, path.string());
+}
+
+std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
+                                         const Instance& instance) {
+  const Graph& graph = instance.graph();
+  out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion << ",\n";
+  if (graph.layout())
+    write_grid(out, *graph.layout());
+  else
+    write_graph(out, graph);
+  const auto place = [&](VertexId v) {
+    if (!graph.layout()) return std::to_string(v.value());
+    const Cell cell = graph.layout()->cell_of(v);
+    return "[" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + "]";
+  };
+  out << ",\n  \"agents\": [";
+  bool first = true;
+  for (const Task& task : instance.tasks()) {
+    out << (first ? "\n" : ",\n") << "    {\"start\": " << place(task.start)
+        << ", \"goal\": " << place(task.goal) << '}';
+    first = false;
+  }
+  out << (first ? "]\n}\n" : "\n  ]\n}\n");
+  return finish_output(out, file);
+}
+
+}  // namespace quadrille::discrete

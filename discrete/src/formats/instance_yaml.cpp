@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/discrete/instance_yaml.hpp"
+
+#include <istream>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+#include "formats/document.hpp"
+#include "formats/instance_document.hpp"
+#include "formats/text_input.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+using Node = Document::Node;
+
+class YamlInstanceReader {
+ public:
+  explicit YamlInstanceReader(const Document& document) : document_(document), check_(document) {}
+
+  Result<Instance> run() {
+    std::optional<Node> map, agents, roadmap;
+    std::vector<PlacedTask> tasks;
+    // The roadmap comes first: files that have one have no map, and deserve the right reason.
+    if (!check_.members(
+            Document::kRoot,
+            {{"map", &map, false}, {"agents", &agents, false}, {"roadmap", &roadmap, false}}) ||
+        (roadmap && !check_.fail(*roadmap, "roadmaps are not supported, only grids")) ||
+        (!map && !check_.fail(Document::kRoot, "the key 'map' is missing")) ||
+        (!agents && !check_.fail(Document::kRoot, "the key 'agents' is missing")) ||
+        !read_map(*map) || !read_agents(*agents, tasks))
+      return check_.error();
+    return make_instance(check_, std::move(*graph_), tasks);
+  }
+
+ private:
+  bool read_map(Node map) {
+    std::optional<Node> dimensions, obstacles;
+    std::int64_t width = 0, height = 0;
+    if (!check_.members(map, {{"dimensions", &dimensions}, {"obstacles", &obstacles, false}}) ||
+        !check_.pair(*dimensions, kMaxDeclaredVertices, width, height))
+      return false;
+    if (width == 0 || height == 0) return check_.fail(*dimensions, "the map has no cells");
+    if (width * height > kMaxDeclaredVertices)
+      return check_.fail(
+          *dimensions, ErrorCode::out_of_range,
+          "the map is larger than " + std::to_string(kMaxDeclaredVertices) + " cells");
+    std::vector<bool> passable(static_cast<std::size_t>(width * height), true);
+    if (obstacles) {
+      if (!check_.array(*obstacles, "obstacles")) return false;
+      for (Node o = document_.first(*obstacles); o < document_.next(*obstacles);
+           o = document_.next(o)) {
+        std::int64_t x = 0, y = 0;
+        if (!check_.pair(o, INT32_MAX, x, y)) return false;
+        if (x >= width || y >= height)
+          return check_.fail(o, ErrorCode::invalid_instance,
+                             "the obstacle is outside the map of " + std::to_string(width) + " x " +
+                                 std::to_string(height) + " cells");
+        passable[static_cast<std::size_t>(y * width + x)] = false;
+      }
+    }
+    graph_ =
+        Graph::grid(static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), passable);
+    return true;
+  }
+
+  bool read_agents(Node agents, std::vector<PlacedTask>& tasks) {
+    if (!check_.array(agents, "agents")) return false;
+    for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
+      std::optional<Node> start, goal, name, potential;
+      if (!check_.members(a, {{"start", &start},
+                              {"goal", &goal, false},
+                              {"name", &name, false},
+                              {"potentialGoals", &potential, false}}))
+        return false;
+      if (potential) return check_.fail(*potential, "target assignment is not supported");
+      if (!goal) return check_.fail(a, "the key 'goal' is missing");
+      if (name && document_.kind(*name) != Document::Kind::string &&
+          document_.kind(*name) != Document::Kind::integer)
+        return check_.fail(*name, "expected a name");
+      PlacedTask placed{{}, *start, *goal};
+      if (!read_place(check_, document_, *graph_, *start, ErrorCode::invalid_instance,
+                      placed.task.start) ||
+          !read_place(check_, document_, *graph_, *goal, ErrorCode::invalid_instance,
+                      placed.task.goal))
+        return false;
+      tasks.push_back(placed);
+    }
+    return true;
+  }
+
+  const Document& document_;
+  Checker check_;
+  std::optional<Graph> graph_;
+};
+
+}  // namespace
+
+Result<Instance> read_instance_yaml(std::istream& in, const std::string& file) {
+  const auto text = read_all(in, file);
+  if (!text) return text.error();
+  const auto document = parse_yaml(*text, file);
+  if (!document) return document.error();
+  return YamlInstanceReader(*document).run();
+}
+
+Result<Instance> read_instance_yaml(const std::filesystem::path& path) {
+  std::ifstream in;
+  if (auto error = open_input(path, in)) return *error;
+  return read_instance_yaml(in, path.string());
+}
+
+std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& file,
+                                         const Instance& instance) {
+  if (!instance.graph().layout())
+    return Error{ErrorCode::invalid_instance, "this YAML format needs a grid", {file, 0}};
+  const GridLayout& grid = *instance.graph().layout();
+  const auto pair = [](Cell c) {
+    return "[" + std::to_string(c.x) + ", " + std::to_string(c.y) + "]";
+  };
+  out << "map:\n  dimensions: " << pair({grid.width(), grid.height()}) << "\n  obstacles:";
+  bool any = false;
+  for (std::int32_t y = 0; y < grid.height(); ++y)
+    for (std::int32_t x = 0; x < grid.width(); ++x) {
+      if (grid.vertex_at({x, y})) continue;
+      out << "\n    - " << pair({x, y});
+      any = true;
+    }
+  out << (any ? "\n" : " []\n") << "agents:" << (instance.num_agents() == 0 ? " []\n" : "\n");
+  for (const AgentId i : instance.agents()) {
+    const Task& task = instance.tasks()[i];
+    out << "  - name: agent" << i.value() << "\n    start: " << pair(grid.cell_of(task.start))
+        << "\n    goal: " << pair(grid.cell_of(task.goal)) << '\n';
+  }
+  return finish_output(out, file);
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/discrete/plan_formats.hpp"
+
+#include <istream>
+#include <ostream>
+#include <string>
+
+#include "formats/plan_codecs.hpp"
+#include "formats/text_input.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+bool needs_grid(PlanFormat format) {
+  return format == PlanFormat::cbsh2 || format == PlanFormat::visualizer;
+}
+
+Error no_grid(PlanFormat format, const std::string& file) {
+  return {ErrorCode::invalid_plan,
+          "the plan format " + std::string(to_string(format)) + " needs a grid",
+          {file, 0}};
+}
+
+}  // namespace
+
+std::string_view to_string(PlanFormat format) noexcept {
+  switch (format) {
+    case PlanFormat::json:
+      return "json";
+    case PlanFormat::cbsh2:
+      return "cbsh2";
+    case PlanFormat::visualizer:
+      return "visualizer";
+    case PlanFormat::yaml:
+      return "yaml";
+  }
+  return "?";
+}
+
+std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept {
+  for (const PlanFormat format :
+       {PlanFormat::json, PlanFormat::cbsh2, PlanFormat::visualizer, PlanFormat::yaml})
+    if (text == to_string(format)) return format;
+  return std::nullopt;
+}
+
+PlanFormat detect_plan_format(std::string_view text) noexcept {
+  const auto begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return PlanFormat::yaml;
+  text.remove_prefix(begin);
+  if (text.front() == '{') return PlanFormat::json;
+  if (text.front() >= '0' && text.front() <= '9') return PlanFormat::visualizer;
+  if (text.starts_with("Agent ")) return PlanFormat::cbsh2;
+  return PlanFormat::yaml;
+}
+
+std::optional<PlanFormat> plan_format_of(const std::filesystem::path& path) {
+  const std::filesystem::path extension = path.extension();
+  if (extension == ".json") return PlanFormat::json;
+  if (extension == ".yaml" || extension == ".yml") return PlanFormat::yaml;
+  return std::nullopt;
+}
+
+Result<PlanFile> read_plan(std::istream& in, const std::string& file, const Graph& graph,
+                           std::optional<PlanFormat> format) {
+  const auto text = read_all(in, file);
+  if (!text) return text.error();
+  const PlanFormat chosen = format.value_or(detect_plan_format(*text));
+  if (needs_grid(chosen) && !graph.layout()) return no_grid(chosen, file);
+  switch (chosen) {
+    case PlanFormat::json:
+      return read_json_plan(*text, file, graph);
+    case PlanFormat::cbsh2:
+      return read_cbsh2_plan(*text, file, graph);
+    case PlanFormat::visualizer:
+      return read_visualizer_plan(*text, file, graph);
+    case PlanFormat::yaml:
+      return read_yaml_plan(*text, file, graph);
+  }
+  return Error{ErrorCode::internal, "unknown plan format", {file, 0}};
+}
+
+Result<PlanFile> read_plan(const std::filesystem::path& path, const Graph& graph,
+                           std::optional<PlanFormat> format) {
+  std::ifstream in;
+  if (auto error = open_input(path, in)) return *error;
+  return read_plan(in, path.string(), graph, format);
+}
+
+std::optional<Error> write_plan(std::ostream& out, const std::string& file, const Graph& graph,
+                                const Plan& plan, PlanFormat format) {
+  if (needs_grid(format) && !graph.layout()) return no_grid(format, file);
+  for (std::size_t i = 0; i < plan.paths.size(); ++i) {
+    const Path& path = plan.paths[AgentId(i)];
+    const std::string agent = "the path of agent " + std::to_string(i);
+    if (path.empty()) return Error{ErrorCode::invalid_plan, agent + " is empty", {file, 0}};
+    for (const VertexId v : path)
+      if (v.index() >= graph.num_vertices())
+        return Error{ErrorCode::invalid_plan,
+                     agent + " has a vertex that the graph does not have",
+                     {file, 0}};
+  }
+  switch (format) {
+    case PlanFormat::json:
+      write_json_plan(out, graph, plan);
+      break;
+    case PlanFormat::cbsh2:
+      write_cbsh2_plan(out, graph, plan);
+      break;
+    case PlanFormat::visualizer:
+      write_visualizer_plan(out, graph, plan);
+      break;
+    case PlanFormat::yaml:
+      write_yaml_plan(out, graph, plan);
+      break;
+  }
+  return finish_output(out, file);
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "mdd/collision_theory.hpp"
+
+#include <algorithm>
+
+#include "model/usages.hpp"
+
+namespace quadrille::discrete {
+
+using sat::Lit;
+using sat::Truth;
+using VariableKind = MddModel::VariableKind;
+
+CollisionTheory::CollisionTheory(const MddModel& model, const CheckSchedule& schedule)
+    : model_(model),
+      schedule_(schedule),
+      clauses_(model),
+      occupant_(model.instance().graph().num_vertices()),
+      rivals_(model.instance().graph().num_vertices()) {}
+
+void CollisionTheory::on_extended() {
+  if (schedule_.kind != CheckSchedule::Kind::propagate) return;
+  for (int v = std::max(1, rivals_end_); v < model_.variable_end(); ++v) {
+    const Lit lit = Lit::from_dimacs(v);
+    const auto var = model_.variable(lit);
+    if (var.kind == VariableKind::vertex) rivals_.at(var.vertex, var.number).push_back(lit);
+  }
+  rivals_end_ = model_.variable_end();
+  reason_.resize(static_cast<std::size_t>(rivals_end_));
+}
+
+void CollisionTheory::on_assign(std::span<const Lit> newly_true) {
+  effort_ += static_cast<std::int64_t>(newly_true.size());
+  stack_.insert(stack_.end(), newly_true.begin(), newly_true.end());
+}
+
+void CollisionTheory::on_retract(std::size_t kept) {
+  while (entered_.size() > kept) {
+    const Entered& last = entered_.back();
+    const auto var = model_.variable(last.lit);
+    if (last.lit.positive() && var.kind == VariableKind::vertex)
+      occupant_.at(var.vertex, var.number) = last.previous;
+    entered_.pop_back();
+  }
+  stack_.resize(kept);
+  // A share that is passed again is checked again.
+  stages_done_ = std::min(stages_done_, stage(kept, num_variables_));
+}
+
+std::size_t CollisionTheory::stage(std::size_t assigned, std::size_t variables) const {
+  std::size_t reached = 0;
+  for (const auto& f : schedule_.fractions)
+    if (assigned * static_cast<std::size_t>(f.denominator) >=
+        variables * static_cast<std::size_t>(f.numerator))
+      ++reached;
+  return reached;
+}
+
+bool CollisionTheory::is_due(const sat::TheoryContext& context) {
+  if (schedule_.kind != CheckSchedule::Kind::fractions) return true;
+  num_variables_ = context.num_variables();
+  const std::size_t reached = stage(context.num_assigned(), num_variables_);
+  const bool due = reached > stages_done_;
+  stages_done_ = reached;
+  return due;
+}
+
+void CollisionTheory::check(sat::Effort effort, sat::TheoryContext& context) {
+  if (effort == sat::Effort::full) {
+    ++num_checks_;
+    check_paths(context);
+  } else if (is_due(context)) {
+    ++num_checks_;
+    enter_all(context);
+  }
+}
+
+void CollisionTheory::enter_all(sat::TheoryContext& context) {
+  while (entered_.size() < stack_.size()) {
+    const Lit lit = stack_[entered_.size()];
+    entered_.push_back({lit, Lit()});
+    if (lit.positive())
+      enter(lit, context);
+    else
+      enter_early_rest(lit, context);
+  }
+}
+
+void CollisionTheory::enter(Lit x, sat::TheoryContext& context) {
+  const auto var = model_.variable(x);
+  if (var.kind != VariableKind::vertex) return;
+  const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { context.add_lemma(lemma); };
+  Lit& place = occupant_.at(var.vertex, var.number);
+  entered_.back().previous = place;
+  if (place.valid() && model_.variable(place).agent != var.agent) clauses_.vertex(place, x, sink);
+  place = x;
+  find_swaps(x, var, sink);
+  if (const auto resident = model_.resident(var.vertex); resident && *resident != var.agent) {
+    const Lit late = model_.arrival_after(*resident, var.number);
+    if (late.valid() && context.value(late) != Truth::is_true)
+      clauses_.rest(x, *resident, late, sink);
+  }
+  if (schedule_.kind == CheckSchedule::Kind::propagate) deny_others(x, var, context);
+}
+
+// "Not late" comes after the X literal of a visitor at the goal when both came in one batch with a
+// true "late" that was undone since.
+void CollisionTheory::enter_early_rest(Lit not_late, sat::TheoryContext& context) {
+  const auto var = model_.variable(not_late);
+  if (var.kind != VariableKind::delay) return;
+  const Mdd& mdd = model_.mdd(var.agent);
+  const Timestep t = mdd.distance() + var.number - 1;
+  const Lit visitor = occupant_(mdd.task().goal, t);
+  if (!visitor.valid() || model_.variable(visitor).agent == var.agent) return;
+  if (model_.arrival_after(var.agent, t) != ~not_late) return;
+  clauses_.rest(visitor, var.agent, ~not_late,
+                [&](const sat::Lemma& lemma) { context.add_lemma(lemma); });
+}
+
+// The moves that x begins or ends, against moves that entered literals make.
+void CollisionTheory::find_swaps(Lit x, const MddModel::Variable& var,
+                                 const CollisionClauses::Sink& sink) {
+  const auto agent_of = [&](Lit lit) { return model_.variable(lit).agent; };
+  const VertexId v = var.vertex;
+  const Timestep t = var.number;
+  for (const VertexId u : model_.instance().graph().neighbours(v)) {
+    for (const Timestep other_time : {t - 1, t + 1}) {
+      const Lit own = occupant_(u, other_time);
+      if (!own.valid() || agent_of(own) != var.agent) continue;
+      // This agent is in u then and in v at t; a rival that is in v then and in u at t crosses it.
+      const Lit rival_v = occupant_(v, other_time), rival_u = occupant_(u, t);
+      if (!rival_v.valid() || !rival_u.valid()) continue;
+      if (agent_of(rival_v) != agent_of(rival_u) || agent_of(rival_v) == var.agent) continue;
+      if (other_time < t)
+        clauses_.swap(own, x, rival_v, rival_u, sink);
+      else
+        clauses_.swap(x, own, rival_u, rival_v, sink);
+    }
+  }
+}
+
+void CollisionTheory::deny_others(Lit x, const MddModel::Variable& var,
+                                  sat::TheoryContext& context) {
+  for (const Lit y : rivals_(var.vertex, var.number)) {
+    if (model_.variable(y).agent == var.agent) continue;
+    if (context.value(y) != Truth::unassigned) continue;
+    // Who asked for it first stays the reason: `x` may be retracted while the request still stands.
+    Lit& reason = reason_[static_cast<std::size_t>(y.variable())];
+    if (!reason.valid() || context.value(reason) != Truth::is_true) reason = x;
+    context.propagate(~y);
+  }
+}
+
+sat::Lemma CollisionTheory::explain(Lit implied, std::vector<Lit>& clause) {
+  const Lit x = reason_[static_cast<std::size_t>(implied.variable())];
+  QUADRILLE_REQUIRE(x.valid() && !implied.positive(), "explains what was propagated");
+  clause.push_back(implied);
+  clause.push_back(~x);
+  const auto var = model_.variable(x);
+  reason_usages_ = {vertex_usage(model_.variable(implied).agent, var.vertex, var.number),
+                    vertex_usage(var.agent, var.vertex, var.number)};
+  return {sat::LemmaKind::collision, {}, reason_usages_, true};
+}
+
+void CollisionTheory::check_paths(sat::TheoryContext& context) {
+  const auto is_true = [&](Lit lit) { return context.value(lit) == Truth::is_true; };
+  Plan plan;  // an agent without a path has an empty one here, which collides with nothing
+  for (const AgentId i : model_.instance().agents())
+    plan.paths.push_back(model_.has_path(i, is_true) ? model_.extract_path(i, is_true) : Path());
+  const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { context.add_lemma(lemma); };
+  for (const PathCollision& c : find_collisions(model_.instance().graph(), plan))
+    clauses_.exclude(c, is_true, sink);
+}
+
+}  // namespace quadrille::discrete

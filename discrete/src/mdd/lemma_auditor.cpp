@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "mdd/lemma_auditor.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "model/usages.hpp"
+
+namespace quadrille::discrete {
+
+using sat::Lit;
+using VariableKind = MddModel::VariableKind;
+
+namespace {
+
+/// What a path would have to do to make a path lemma false.
+struct Escape {
+  struct Visit {
+    VertexId vertex;
+    Timestep timestep;
+    bool required;  // else forbidden
+  };
+  std::vector<Visit> visits;
+  Timestep latest_arrival = std::numeric_limits<Timestep>::max();
+
+  [[nodiscard]] bool allows(VertexId v, Timestep t) const {
+    return std::all_of(visits.begin(), visits.end(), [&](const Visit& visit) {
+      return visit.timestep != t || (visit.vertex == v) == visit.required;
+    });
+  }
+};
+
+/// True if a path does all that. O((V + E) * horizon * visits): only for debugging.
+bool can_escape(const Graph& graph, const Task& task, const Escape& escape) {
+  Timestep horizon = 0;
+  for (const auto& visit : escape.visits) horizon = std::max(horizon, visit.timestep);
+  const bool bounded = escape.latest_arrival != std::numeric_limits<Timestep>::max();
+  if (bounded) horizon = std::max(horizon, escape.latest_arrival);
+  IdVector<VertexId, bool> here(graph.num_vertices(), false);
+  here[task.start] = escape.allows(task.start, 0);
+  for (Timestep t = 1; t <= horizon; ++t) {
+    IdVector<VertexId, bool> next(graph.num_vertices(), false);
+    for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
+      if (!here[v]) continue;
+      next[v] = next[v] || escape.allows(v, t);
+      for (const VertexId w : graph.neighbours(v)) next[w] = next[w] || escape.allows(w, t);
+    }
+    if (bounded && t >= escape.latest_arrival)  // at rest by now
+      for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
+        next[v] = next[v] && v == task.goal;
+    here = std::move(next);
+  }
+  if (bounded) return here[task.goal] && escape.latest_arrival >= 0;
+  const auto to_goal = distances_from(graph, task.goal);
+  for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
+    if (here[v] && to_goal[v] != kUnreachable) return true;
+  return false;
+}
+
+}  // namespace
+
+LemmaAuditor::LemmaAuditor(const MddModel& model, bool derive, std::optional<Plan> known_plan)
+    : model_(model), derive_(derive), known_plan_(std::move(known_plan)) {}
+
+void LemmaAuditor::on_lemma(const sat::Lemma& lemma) {
+  if (complaint_) return;
+  if (derive_) {
+    std::string wrong;
+    switch (lemma.kind) {
+      case sat::LemmaKind::path:
+        wrong = lemma.usages.size() == 1 ? audit_path(lemma.clause, lemma.usages[0].agent)
+                                         : "a path lemma is about one agent";
+        break;
+      case sat::LemmaKind::order:
+        wrong = audit_order(lemma.clause);
+        break;
+      case sat::LemmaKind::collision:
+        wrong = audit_collision(lemma);
+        break;
+      case sat::LemmaKind::counting:
+        break;  // definitions of new variables
+      case sat::LemmaKind::core:
+        break;  // nothing to derive it from but a proof
+    }
+    if (!wrong.empty()) complain(wrong, lemma.clause);
+  }
+  if (known_plan_ && !complaint_) {
+    const std::string wrong = audit_against_plan(&lemma, lemma.clause);
+    if (!wrong.empty()) complain(wrong, lemma.clause);
+  }
+}
+
+void LemmaAuditor::on_learned(std::span<const Lit> clause) {
+  if (complaint_ || !known_plan_) return;
+  const std::string wrong = audit_against_plan(nullptr, clause);
+  if (!wrong.empty()) complain(wrong, clause);
+}
+
+std::string LemmaAuditor::audit_path(Clause clause, AgentId agent) const {
+  Escape escape;
+  for (const Lit lit : clause) {
+    const auto var = model_.variable(lit);
+    if (var.kind == VariableKind::auxiliary) return "a path lemma has a foreign literal";
+    if (var.agent != agent) return "a path lemma is about one agent";
+    if (var.kind == VariableKind::vertex) {
+      escape.visits.push_back({var.vertex, var.number, !lit.positive()});
+    } else if (lit.positive()) {
+      const Timestep late = model_.mdd(agent).distance() + var.number;
+      escape.latest_arrival = std::min(escape.latest_arrival, late - 1);
+    } else {
+      return "a path lemma needs no lower bound";
+    }
+  }
+  const auto& instance = model_.instance();
+  return can_escape(instance.graph(), instance.tasks()[agent], escape)
+             ? "some path does not satisfy a path lemma"
+             : "";
+}
+
+std::string LemmaAuditor::audit_order(Clause clause) const {
+  if (clause.size() != 2) return "an order lemma has two literals";
+  const auto stronger = model_.variable(clause[0]), weaker = model_.variable(clause[1]);
+  const bool holds = stronger.kind == VariableKind::delay && weaker.kind == VariableKind::delay &&
+                     stronger.agent == weaker.agent && !clause[0].positive() &&
+                     clause[1].positive() && stronger.number > weaker.number;
+  return holds ? "" : "an order lemma does not hold";
+}
+
+std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
+  if (lemma.usages.size() != 2 || lemma.usages[0].agent == lemma.usages[1].agent)
+    return "a collision needs two agents";
+  // The literals that the two usages amount to.
+  std::vector<Lit> expected;
+  DecodedUsage use[2];
+  for (int side = 0; side < 2; ++side) {
+    const AgentId agent = lemma.usages[static_cast<std::size_t>(side)].agent;
+    use[side] = decode_usage(lemma.usages[static_cast<std::size_t>(side)].resource);
+    const DecodedUsage& u = use[side];
+    if (u.kind == UsageKind::vertex || u.kind == UsageKind::move)
+      expected.push_back(~model_.at(agent, u.vertex, u.timestep));
+    if (u.kind == UsageKind::move) expected.push_back(~model_.at(agent, u.to, u.timestep + 1));
+    if (u.kind == UsageKind::rest) {
+      if (model_.instance().tasks()[agent].goal != u.vertex) return "agents rest at their goals";
+      expected.push_back(model_.arrival_after(agent, u.timestep));
+    }
+  }
+  const bool same_place = use[0].vertex == use[1].vertex && use[0].timestep == use[1].timestep &&
+                          use[0].kind != UsageKind::move && use[1].kind == UsageKind::vertex;
+  const bool crossing = use[0].kind == UsageKind::move && use[1].kind == UsageKind::move &&
+                        use[0].timestep == use[1].timestep && use[0].vertex == use[1].to &&
+                        use[0].to == use[1].vertex &&
+                        model_.instance().graph().adjacent(use[0].vertex, use[0].to);
+  if (!same_place && !crossing) return "the usages of a collision lemma do not collide";
+  std::vector<Lit> clause(lemma.clause.begin(), lemma.clause.end());
+  std::sort(clause.begin(), clause.end());
+  std::sort(expected.begin(), expected.end());
+  return clause == expected ? "" : "a collision lemma does not say what its usages say";
+}
+
+bool LemmaAuditor::is_true_in_plan(Lit lit) const {
+  const auto var = model_.variable(lit);
+  bool value = false;
+  if (var.kind == VariableKind::vertex) {
+    value = position(known_plan_->paths[var.agent], var.number) == var.vertex;
+  } else if (var.kind == VariableKind::delay) {
+    value = arrival(known_plan_->paths[var.agent]) >= model_.mdd(var.agent).distance() + var.number;
+  } else {
+    const auto index = static_cast<std::size_t>(lit.variable());
+    value = index < counter_is_true_.size() && counter_is_true_[index];
+  }
+  return value == lit.positive();
+}
+
+// Counters are one-sided definitions "inputs -> output": the least values that satisfy them belong
+// to the plan. Definitions come before clauses that use them.
+std::string LemmaAuditor::audit_against_plan(const sat::Lemma* lemma, Clause clause) {
+  if (std::any_of(clause.begin(), clause.end(), [&](Lit l) { return is_true_in_plan(l); }))
+    return "";
+  if (lemma != nullptr && lemma->kind == sat::LemmaKind::counting)
+    for (const Lit lit : clause)
+      if (lit.positive() && model_.variable(lit).kind == VariableKind::auxiliary) {
+        const auto index = static_cast<std::size_t>(lit.variable());
+        if (counter_is_true_.size() <= index) counter_is_true_.resize(index + 1, false);
+        counter_is_true_[index] = true;
+        return "";
+      }
+  return lemma != nullptr ? "a lemma excludes the known plan"
+                          : "a learned clause excludes the known plan";
+}
+
+std::string LemmaAuditor::describe(Clause clause) const {
+  std::string text;
+  for (const Lit lit : clause) {
+    const auto var = model_.variable(lit);
+    text += lit.positive() ? " +" : " -";
+    const std::string number = std::to_string(var.number);
+    const std::string agent = std::to_string(var.agent.value());
+    if (var.kind == VariableKind::vertex)
+      text += "X(" + agent + "," + vertex_name(model_.instance().graph(), var.vertex) + "," +
+              number + ")";
+    else if (var.kind == VariableKind::delay)
+      text += "C(" + agent + "," + number + ")";
+    else
+      text += "v" + std::to_string(lit.variable());
+  }
+  return text;
+}
+
+void LemmaAuditor::complain(const std::string& what, Clause clause) {
+  complaint_ = what + ":" + describe(clause);
+}
+
+}  // namespace quadrille::discrete

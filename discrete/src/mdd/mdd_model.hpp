@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mdd/mdd_paths.hpp"
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/discrete/plan.hpp"
+#include "quadrille/sat/engine.hpp"
+
+namespace quadrille::discrete {
+
+/// The propositional formula over the agents' MDDs (docs/soundness.md): variables X(i,v,t) "agent i
+/// is in v at t" and C(i,k) "agent i arrives at d_i + k or later", and the clauses that each agent
+/// satisfies on its own. Grows; every clause stays valid when it does, so learned clauses survive.
+///
+/// A true assignment contains a path per agent. It may have further true X(i,v,t): at most one
+/// vertex per timestep is not demanded, and not needed.
+class MddModel {
+ public:
+  enum class VariableKind : std::uint8_t {
+    auxiliary,  ///< Not of this model.
+    vertex,     ///< X(agent, vertex, number).
+    delay,      ///< C(agent, number).
+  };
+  struct Variable {
+    VariableKind kind = VariableKind::auxiliary;
+    AgentId agent;
+    VertexId vertex;
+    Timestep number = 0;  ///< Timestep or delay.
+  };
+
+  MddModel(const Instance& instance, Objective objective);
+  /// Computes the agents' distances and sends all clauses to `engine` from now on; to be called
+  /// once, before anything below. Requires that every agent can reach its goal. False if `limits`
+  /// ended that early; the model is of no use then. O(agents * (V + E)).
+  [[nodiscard]] bool attach(sat::Engine& engine, LimitMonitor& limits);
+
+  /// Lets the agent's paths have a delay of up to `cap`: its variables, clauses and the guard
+  /// C(i, cap + 1) whose negation restricts it to them. No effect if it is there. False if `limits`
+  /// ended that early, or paths would be longer than kMaxTimestep; the model is of no further use
+  /// then.
+  [[nodiscard]] bool extend(AgentId agent, Timestep cap, LimitMonitor& limits);
+  /// Largest delay that the agent's paths can have; -1 before the first `extend`.
+  [[nodiscard]] Timestep cap(AgentId agent) const { return agents_[agent].paths.cap(); }
+
+  /// X(agent, v, t), invalid if there is no such variable. O(1).
+  [[nodiscard]] sat::Lit at(AgentId agent, VertexId v, Timestep t) const {
+    return agents_[agent].paths.at(v, t);
+  }
+  /// C(agent, delay), made if need be. Requires delay >= 1. Not during solve.
+  [[nodiscard]] sat::Lit delay_at_least(AgentId agent, Timestep delay);
+  /// A literal "the agent arrives after `t`" if the clauses about its rest at the goal need one: if
+  /// t is not before its earliest arrival, and it can be at rest without an X(i, goal, t), or the
+  /// objective charges it for arriving late. Otherwise invalid: being there is all that matters.
+  [[nodiscard]] sat::Lit arrival_after(AgentId agent, Timestep t) const;
+
+  /// What a literal's variable means.
+  [[nodiscard]] Variable variable(sat::Lit lit) const;
+  /// One more than the largest variable of the model; smaller ones can be auxiliary.
+  [[nodiscard]] int variable_end() const { return static_cast<int>(variables_.size()); }
+
+  [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
+  [[nodiscard]] Objective objective() const noexcept { return objective_; }
+  [[nodiscard]] const Mdd& mdd(AgentId agent) const { return agents_[agent].paths.mdd(); }
+  /// The agent whose goal is `v`.
+  [[nodiscard]] std::optional<AgentId> resident(VertexId v) const;
+
+  /// False if the assignment lets the agent be later than its cap: then it promises no path.
+  template <class IsTrue>
+  [[nodiscard]] bool has_path(AgentId agent, const IsTrue& is_true) const {
+    return !is_true(agents_[agent].delays.at(cap(agent) + 1));
+  }
+  /// The path in a complete assignment that satisfies the model's clauses. Requires `has_path`.
+  /// `is_true(Lit)` tells the assignment.
+  template <class IsTrue>
+  [[nodiscard]] Path extract_path(AgentId agent, const IsTrue& is_true) const {
+    const Mdd& mdd = agents_[agent].paths.mdd();
+    const VertexId goal = mdd.task().goal;
+    const Timestep end = mdd.distance() + cap(agent);
+    Path path{mdd.task().start};
+    for (Timestep t = 1; t <= end; ++t) {
+      const VertexId from = path.back();
+      const auto can_be = [&](VertexId v) {
+        const sat::Lit lit = at(agent, v, t);
+        return lit.valid() && is_true(lit);
+      };
+      std::optional<VertexId> next;
+      if (from == goal && can_be(goal)) next = goal;
+      for (const VertexId w : instance_.graph().neighbours(from))
+        if (!next && can_be(w)) next = w;
+      if (!next && can_be(from)) next = from;
+      QUADRILLE_REQUIRE(next.has_value(), "a true vertex has a true successor");
+      path.push_back(*next);
+    }
+    QUADRILLE_REQUIRE(path.back() == goal, "the guard forces the goal");
+    path.resize(static_cast<std::size_t>(arrival(path)) + 1);
+    return path;
+  }
+
+ private:
+  struct Agent {
+    MddPaths paths;
+    std::map<Timestep, sat::Lit> delays;
+  };
+  class AgentFormula;
+  [[nodiscard]] sat::Lit new_lit(const Variable& variable);
+  void prepare_rest(AgentId agent, VertexId v, Timestep t);
+
+  Instance instance_;
+  Objective objective_;
+  sat::Engine* engine_ = nullptr;
+  IdVector<AgentId, Agent> agents_;
+  IdVector<VertexId, std::uint32_t> resident_;  // agent + 1; 0: none
+  std::vector<Variable> variables_;
+};
+
+}  // namespace quadrille::discrete

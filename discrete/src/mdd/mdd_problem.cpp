@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "mdd/mdd_problem.hpp"
+
+#include <algorithm>
+
+namespace quadrille::discrete {
+
+using sat::Lit;
+
+MddProblem::MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* theory,
+                       EagerCollisions* eager, MddGrowth growth)
+    : model_(model),
+      engine_(engine),
+      theory_(theory),
+      eager_(eager),
+      growth_(growth),
+      total_(engine, model.instance().num_agents(),
+             [&model](std::size_t input, int k) {
+               return model.delay_at_least(AgentId(input), static_cast<Timestep>(k));
+             }),
+      wanted_cap_(model.instance().num_agents(), 0) {
+  for (const AgentId i : model.instance().agents()) {
+    const Cost distance = model.mdd(i).distance();
+    if (model.objective() == Objective::sum_of_costs)
+      lower_bound_ += distance;
+    else
+      lower_bound_ = std::max(lower_bound_, distance);
+  }
+}
+
+Timestep MddProblem::allowed_delay(AgentId agent, Cost bound) const {
+  if (model_.objective() == Objective::sum_of_costs)
+    return static_cast<Timestep>(bound - lower_bound_);
+  return static_cast<Timestep>(bound - model_.mdd(agent).distance());
+}
+
+bool MddProblem::assume_at_most(Cost bound, LimitMonitor& limits, std::vector<Lit>& assumptions) {
+  for (const AgentId i : model_.instance().agents()) {
+    const Timestep allowed = allowed_delay(i, bound);
+    const Timestep cap = growth_ == MddGrowth::full ? allowed : std::min(allowed, wanted_cap_[i]);
+    if (!model_.extend(i, cap, limits)) return false;
+  }
+  if (eager_ != nullptr && !eager_->extend(engine_, limits)) return false;
+  for (const AgentId i : model_.instance().agents())
+    assumptions.push_back(~model_.delay_at_least(i, model_.cap(i) + 1));
+  if (model_.objective() == Objective::sum_of_costs) {
+    const Lit too_much = total_.at_least(static_cast<int>(bound - lower_bound_) + 1);
+    if (too_much.valid()) assumptions.push_back(~too_much);
+  }
+  if (theory_ != nullptr) theory_->on_extended();
+  return true;
+}
+
+bool MddProblem::accept_model() {
+  const auto is_true = [&](Lit lit) { return engine_.model_value(lit); };
+  ++num_checks_;
+  plan_ = {};
+  for (const AgentId i : model_.instance().agents())
+    plan_.paths.push_back(model_.extract_path(i, is_true));
+  CollisionClauses clauses(model_);
+  std::vector<PathCollision> collisions = find_collisions(model_.instance().graph(), plan_);
+  const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { engine_.add_clause(lemma); };
+  for (const PathCollision& c : collisions) clauses.exclude(c, is_true, sink);
+  if (!collisions.empty()) ++num_rejected_;
+  return collisions.empty();
+}
+
+std::optional<Lit> MddProblem::cost_above(AgentId agent, Cost cost, LimitMonitor& limits) {
+  const auto delay = static_cast<Timestep>(cost - model_.mdd(agent).distance());
+  if (!model_.extend(agent, delay, limits)) return std::nullopt;
+  if (eager_ != nullptr && !eager_->extend(engine_, limits)) return std::nullopt;
+  return model_.delay_at_least(agent, delay + 1);
+}
+
+void MddProblem::on_solve(bool) {
+  if (theory_ != nullptr) theory_->on_extended();
+}
+
+Cost MddProblem::next_bound(Cost refuted, std::span<const Lit> core) {
+  bool grown = false;
+  for (const Lit lit : core) {
+    const auto var = model_.variable(lit);
+    if (var.kind != MddModel::VariableKind::delay) continue;
+    const Timestep cap = model_.cap(var.agent), allowed = allowed_delay(var.agent, refuted);
+    if (var.number != cap + 1 || cap >= allowed) continue;
+    // Sums are tight, so small steps; the makespan leaves most agents plenty.
+    wanted_cap_[var.agent] =
+        model_.objective() == Objective::sum_of_costs ? cap + 1 : std::min(allowed, 2 * cap + 1);
+    grown = true;
+  }
+  return grown ? refuted : refuted + 1;
+}
+
+}  // namespace quadrille::discrete

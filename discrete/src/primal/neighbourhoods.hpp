@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "primal/reservations.hpp"
+#include "quadrille/core/random.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
+#include "quadrille/discrete/instance.hpp"
+#include "quadrille/discrete/plan.hpp"
+
+namespace quadrille::discrete {
+
+/// Chooses the agents that get new paths together.
+class Neighbourhoods {
+ public:
+  enum class Rule {
+    delayed,  ///< A delayed agent, and those in its way when it tries to be faster.
+    place,    ///< Agents that pass a part of the map.
+    any,      ///< Any agents.
+  };
+
+  /// All outlive this object. `paths` are trimmed and are those in `reservations` whenever `choose`
+  /// is called.
+  Neighbourhoods(const Instance& instance, const GoalDistances& distances,
+                 const IdVector<AgentId, Path>& paths, const Reservations& reservations,
+                 Random& random);
+
+  /// At most `size` agents, at least one. `seed` is in it for Rule::delayed. Requires agents.
+  std::vector<AgentId> choose(Rule rule, std::size_t size, AgentId seed);
+
+ private:
+  void walk(AgentId agent, std::size_t size);
+  void gather_around(VertexId centre, std::size_t size);
+  void fill_up(std::size_t size);
+  void take(AgentId agent);
+  [[nodiscard]] VertexId random_vertex_of(AgentId agent);
+
+  const Instance& instance_;
+  const GoalDistances& distances_;
+  const IdVector<AgentId, Path>& paths_;
+  const Reservations& reservations_;
+  Random& random_;
+  std::vector<AgentId> chosen_;
+  std::vector<char> is_chosen_;  // By agent.
+  std::vector<VertexId> queue_;
+  IdVector<VertexId, char> is_queued_;
+};
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "primal/path_planner.hpp"
+
+#include <algorithm>
+
+namespace quadrille::discrete {
+
+PathPlanner::PathPlanner(const Instance& instance, const GoalDistances& distances, Random& random)
+    : instance_(instance),
+      distances_(distances),
+      random_(random),
+      heads_(instance.graph().num_vertices()) {}
+
+std::optional<Path> PathPlanner::find(AgentId agent, const Reservations& reservations,
+                                      Timestep latest, std::int64_t effort, LimitMonitor& limits) {
+  const std::int64_t enough = effort_ + effort;
+  if (!begin(agent, reservations, latest)) return std::nullopt;
+  for (std::size_t at = 0; at < num_buckets_;) {
+    auto& bucket = buckets_[at];
+    if (bucket.empty()) {
+      ++at;
+      continue;
+    }
+    // Last in, first out: among equals the one that is nearest to the goal, as a rule.
+    const LabelIndex label = bucket.back();
+    bucket.pop_back();
+    if (labels_[label].outdated) continue;
+    if (is_goal(labels_[label])) return path_to(label);
+    if (effort_ >= enough || ((++effort_ & 63) == 0 && limits.exhausted())) return std::nullopt;
+    expand(label);
+  }
+  return std::nullopt;
+}
+
+/// False when there can be no path.
+bool PathPlanner::begin(AgentId agent, const Reservations& reservations, Timestep latest) {
+  agent_ = agent;
+  reservations_ = &reservations;
+  latest_ = latest;
+  const auto [start, goal] = instance_.tasks()[agent];
+  goal_ = goal;
+  ++search_;
+  labels_.clear();
+  for (std::size_t k = 0; k < num_buckets_; ++k) buckets_[k].clear();
+  num_buckets_ = 0;
+  // The agent can only stay in its goal once all others have passed it for the last time.
+  const auto passing = reservations.stays(goal);
+  if (!passing.empty() && passing.back().end == kForever) return false;
+  earliest_ = std::max(distances_(agent, start), passing.empty() ? 0 : passing.back().end + 1);
+  if (earliest_ > latest_) return false;
+  const auto stays = reservations.stays(start);
+  add(start, 0, 0, stays.empty() ? kForever : stays.front().begin - 1, kNone);
+  return true;
+}
+
+void PathPlanner::expand(LabelIndex from) {
+  const auto near = instance_.graph().neighbours(labels_[from].vertex);
+  if (near.empty()) return;
+  // A random first neighbour makes a random path among many of the same length.
+  const auto shift = static_cast<std::size_t>(random_.below(near.size()));
+  for (std::size_t k = 0; k < near.size(); ++k) reach(from, near[(k + shift) % near.size()]);
+}
+
+/// Adds the arrivals in all gaps of a neighbour that overlap the rest of the label's gap.
+void PathPlanner::reach(LabelIndex from, VertexId to) {
+  const Timestep distance = distances_(agent_, to);
+  const Label label = labels_[from];
+  const Timestep first = label.time + 1;
+  const Timestep last = std::min(label.gap_end, latest_ - distance - 1) + 1;
+  if (first > last) return;
+  const auto stays = reservations_->stays(to);
+  for (std::size_t gap = reservations_->first_ending_from(to, first); gap <= stays.size(); ++gap) {
+    const Stay* const before = gap == 0 ? nullptr : &stays[gap - 1];
+    if (before != nullptr && before->end == kForever) return;
+    const Timestep begin = before == nullptr ? 0 : before->end + 1;
+    const Timestep end = gap == stays.size() ? kForever : stays[gap].begin - 1;
+    const Timestep arrival = std::max(first, begin);
+    if (arrival > last) return;
+    if (arrival > end) continue;
+    // Whoever leaves for the label's vertex when the agent comes would swap with it. The label's
+    // gap ends then, so waiting does not help.
+    if (before != nullptr && arrival == begin && before->next == label.vertex) continue;
+    add(to, static_cast<std::uint32_t>(gap), arrival, end, from);
+  }
+}
+
+void PathPlanner::add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end,
+                      LabelIndex parent) {
+  Head& head = heads_[v];
+  if (head.search != search_) head = {search_, kNone};
+  for (LabelIndex other = head.first; other != kNone; other = labels_[other].next_here) {
+    Label& label = labels_[other];
+    if (label.gap != gap || label.outdated) continue;
+    if (label.time <= time) return;
+    label.outdated = true;
+    break;
+  }
+  const auto index = static_cast<LabelIndex>(labels_.size());
+  labels_.push_back({v, gap, time, gap_end, parent, head.first, false});
+  head.first = index;
+  const Timestep estimate = std::max(time + distances_(agent_, v), earliest_);
+  const auto at = static_cast<std::size_t>(estimate - earliest_);
+  if (at >= num_buckets_) {
+    num_buckets_ = at + 1;
+    if (buckets_.size() < num_buckets_) buckets_.resize(num_buckets_);
+  }
+  buckets_[at].push_back(index);
+}
+
+Path PathPlanner::path_to(LabelIndex last) const {
+  Path path(static_cast<std::size_t>(labels_[last].time) + 1);
+  std::size_t end = path.size();  // What is behind is filled.
+  for (LabelIndex at = last; at != kNone; at = labels_[at].parent) {
+    const auto begin = static_cast<std::size_t>(labels_[at].time);
+    std::fill(path.begin() + static_cast<std::ptrdiff_t>(begin),
+              path.begin() + static_cast<std::ptrdiff_t>(end), labels_[at].vertex);
+    end = begin;
+  }
+  return path;
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "primal/reservations.hpp"
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/random.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
+#include "quadrille/discrete/instance.hpp"
+
+namespace quadrille::discrete {
+
+/// Earliest paths of single agents among moving obstacles: safe interval path planning (Phillips
+/// and Likhachev, ICRA 2011) with exact distances. A state is a vertex and one of the gaps between
+/// the stays there, so neither time nor memory depends on the horizon.
+class PathPlanner {
+ public:
+  /// All outlive this object.
+  PathPlanner(const Instance& instance, const GoalDistances& distances, Random& random);
+
+  /// A path of least arrival that collides with no reserved path, now or after its end, and arrives
+  /// by `latest`; a random one among several. nullopt if there is none, if it would take more than
+  /// `effort`, or if a limit was met. Requires that the start is free at timestep 0.
+  std::optional<Path> find(AgentId agent, const Reservations& reservations, Timestep latest,
+                           std::int64_t effort, LimitMonitor& limits);
+  /// States expanded by all calls.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+
+ private:
+  using LabelIndex = std::uint32_t;
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  struct Label {
+    VertexId vertex;
+    std::uint32_t gap;  // Before this stay of the vertex.
+    Timestep time;      // Of arrival.
+    Timestep gap_end;
+    LabelIndex parent;
+    LabelIndex next_here;  // Labels of the same vertex.
+    bool outdated;         // An earlier arrival in the same gap is known.
+  };
+  struct Head {
+    std::uint32_t search = 0;
+    LabelIndex first = kNone;
+  };
+
+  bool begin(AgentId agent, const Reservations& reservations, Timestep latest);
+  void expand(LabelIndex from);
+  void reach(LabelIndex from, VertexId to);
+  void add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end, LabelIndex parent);
+  [[nodiscard]] bool is_goal(const Label& label) const {
+    return label.vertex == goal_ && label.gap_end == kForever;
+  }
+  [[nodiscard]] Path path_to(LabelIndex last) const;
+
+  const Instance& instance_;
+  const GoalDistances& distances_;
+  Random& random_;
+  std::int64_t effort_ = 0;
+
+  // Of the current search.
+  std::uint32_t search_ = 0;
+  AgentId agent_;
+  VertexId goal_;
+  const Reservations* reservations_ = nullptr;
+  Timestep earliest_ = 0, latest_ = 0;  // No arrival before, none after.
+  IdVector<VertexId, Head> heads_;
+  std::vector<Label> labels_;
+  std::vector<std::vector<LabelIndex>> buckets_;  // By estimated arrival - earliest_.
+  std::size_t num_buckets_ = 0;                   // In use; the others are empty.
+};
+
+}  // namespace quadrille::discrete

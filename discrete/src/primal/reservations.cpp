@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "primal/reservations.hpp"
+
+#include <algorithm>
+
+namespace quadrille::discrete {
+namespace {
+
+/// Calls f(vertex, stay) for the stays of a path, in order.
+template <class F>
+void for_each_stay(AgentId agent, const Path& path, const F& f) {
+  std::size_t begin = 0;
+  for (std::size_t t = 1; t <= path.size(); ++t) {
+    const bool is_last = t == path.size();
+    if (!is_last && path[t] == path[begin]) continue;
+    f(path[begin],
+      Stay{static_cast<Timestep>(begin), is_last ? kForever : static_cast<Timestep>(t - 1),
+           is_last ? path[begin] : path[t], agent});
+    begin = t;
+  }
+}
+
+}  // namespace
+
+void Reservations::add(AgentId agent, const Path& path) {
+  for_each_stay(agent, path, [&](VertexId v, const Stay& stay) {
+    auto& stays = stays_[v];
+    const std::size_t at = first_ending_from(v, stay.begin);
+    stays.insert(stays.begin() + static_cast<std::ptrdiff_t>(at), stay);
+  });
+}
+
+void Reservations::remove(const Path& path) {
+  for_each_stay(AgentId(), path, [&](VertexId v, const Stay& stay) {
+    auto& stays = stays_[v];
+    const std::size_t at = first_ending_from(v, stay.begin);
+    stays.erase(stays.begin() + static_cast<std::ptrdiff_t>(at));
+  });
+}
+
+std::size_t Reservations::first_ending_from(VertexId v, Timestep t) const {
+  const auto& stays = stays_[v];
+  const auto it = std::partition_point(stays.begin(), stays.end(),
+                                       [t](const Stay& stay) { return stay.end < t; });
+  return static_cast<std::size_t>(it - stays.begin());
+}
+
+const Stay* Reservations::stay_at(VertexId v, Timestep t) const {
+  const auto& stays = stays_[v];
+  const std::size_t at = first_ending_from(v, t);
+  return at < stays.size() && stays[at].begin <= t ? &stays[at] : nullptr;
+}
+
+}  // namespace quadrille::discrete

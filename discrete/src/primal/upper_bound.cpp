@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "primal/upper_bound.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille::discrete {
+namespace {
+
+constexpr std::int64_t kFirstEffort = 20'000'000, kSlice = 20'000;
+constexpr std::int64_t kPasses = 5;  // over each path of a draft: copied, reserved, taken out again
+constexpr std::int64_t kLargestShare = 8, kSmallestShare = 64;  // one in so many
+
+}  // namespace
+
+UpperBound::UpperBound(const Instance& instance, Objective objective,
+                       std::shared_ptr<const GoalDistances> distances, std::uint32_t seed)
+    : instance_(instance),
+      objective_(objective),
+      distances_(std::move(distances)),
+      seed_(seed),
+      first_(instance, distances_, seed),
+      repair_(instance, distances_, seed),
+      share_(kLargestShare),
+      due_(kLargestShare * kSlice) {}
+
+void UpperBound::start(LimitMonitor& limits) {
+  static_cast<void>(first_.advance(kFirstEffort, limits));
+  take_first_plan();
+}
+
+void UpperBound::take_first_plan() {
+  if (first_.state() == PrimalSearch::State::found)
+    improver_.emplace(instance_, distances_, objective_, first_.plan(), seed_);
+}
+
+std::optional<Cost> UpperBound::cost() const {
+  if (!improver_) return std::nullopt;
+  return improver_->cost();
+}
+
+bool UpperBound::advance(std::int64_t search_effort, const std::function<Plan()>& draft,
+                         LimitMonitor& limits) {
+  if (search_effort < due_) return false;
+  extra_effort_ = 0;
+  const bool cheaper = work(draft, limits);
+  share_ = cheaper ? kLargestShare : std::min(kSmallestShare, share_ * 2);
+  due_ = search_effort + share_ * (kSlice + extra_effort_);
+  return cheaper;
+}
+
+bool UpperBound::work(const std::function<Plan()>& draft, LimitMonitor& limits) {
+  if (improver_) {
+    const Cost before = improver_->cost();
+    static_cast<void>(improver_->improve(kSlice, limits));
+    try_draft(draft(), limits);
+    return improver_->cost() < before;
+  }
+  static_cast<void>(first_.advance(kSlice, limits));
+  take_first_plan();
+  return improver_.has_value();
+}
+
+void UpperBound::try_draft(const Plan& draft, LimitMonitor& limits) {
+  if (draft.paths.size() != instance_.num_agents()) return;
+  for (const Path& path : draft.paths)
+    extra_effort_ += kPasses * static_cast<std::int64_t>(path.size());
+  const auto plan = repair_.repair(draft, limits);
+  if (!plan) return;
+  if (rival_)
+    rival_->restart_from(*plan);
+  else
+    rival_.emplace(instance_, distances_, objective_, *plan, seed_);
+  static_cast<void>(rival_->improve(kSlice, limits));
+  if (rival_->cost() < improver_->cost()) improver_->restart_from(rival_->plan());
+}
+
+void UpperBound::take(const Plan& plan) {
+  if (!improver_)
+    improver_.emplace(instance_, distances_, objective_, plan, seed_);
+  else if (plan.cost(objective_) < improver_->cost())
+    improver_->restart_from(plan);
+}
+
+}  // namespace quadrille::discrete

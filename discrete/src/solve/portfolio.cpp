@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "solve/portfolio.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "solve/run.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+/// Elementary steps of a round: a fraction of a second.
+constexpr std::int64_t kRound = 500'000;
+
+bool is_proof(const SolveOutcome& outcome) {
+  return outcome.internal_error || outcome.status == Status::optimal ||
+         outcome.status == Status::infeasible || outcome.stop == StopReason::gap;
+}
+
+/// Who is in which round, and who has won.
+class Rounds {
+ public:
+  Rounds(std::size_t num_workers, bool race) : workers_(num_workers), race_(race) {}
+
+  void on_effort(std::size_t worker, std::int64_t effort) {
+    if (race_ || effort < next_round_at(worker)) return;
+    std::unique_lock lock(mutex_);
+    Worker& me = workers_[worker];
+    me.round = effort / kRound;
+    decide();
+    changed_.notify_all();
+    changed_.wait(lock, [&] {
+      return winner_ || std::all_of(workers_.begin(), workers_.end(), [&](const Worker& other) {
+               return other.has_ended || other.round >= me.round;
+             });
+    });
+    me.next_round_at = (me.round + 1) * kRound;
+  }
+
+  void end(std::size_t worker, bool has_proof) {
+    const std::lock_guard lock(mutex_);
+    workers_[worker].has_ended = true;
+    workers_[worker].has_proof = has_proof;
+    decide();
+    changed_.notify_all();
+  }
+
+  [[nodiscard]] std::optional<std::size_t> winner() const { return winner_; }
+  [[nodiscard]] const std::atomic<bool>& over() const { return over_; }
+
+ private:
+  struct Worker {
+    std::int64_t round = 0;
+    std::int64_t next_round_at = kRound;  // the worker's own
+    bool has_ended = false, has_proof = false;
+  };
+
+  [[nodiscard]] std::int64_t next_round_at(std::size_t worker) const {
+    return workers_[worker].next_round_at;
+  }
+
+  /// The proof of the earliest round, among these that of the first worker, wins as soon as nobody
+  /// can come before it any more.
+  void decide() {
+    if (winner_) return;
+    const auto place = [&](std::size_t w) { return std::make_pair(workers_[w].round, w); };
+    std::optional<std::size_t> best;
+    for (std::size_t w = 0; w < workers_.size(); ++w)
+      if (workers_[w].has_proof && (!best || place(w) < place(*best))) best = w;
+    if (!best) return;
+    for (std::size_t w = 0; w < workers_.size() && !race_; ++w)
+      if (!workers_[w].has_ended && place(w) < place(*best)) return;
+    winner_ = best;
+    over_ = true;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Worker> workers_;
+  const bool race_;
+  std::optional<std::size_t> winner_;
+  std::atomic<bool> over_ = false;
+};
+
+class WorkerCompanion final : public Companion {
+ public:
+  WorkerCompanion(Rounds& rounds, std::size_t worker) : rounds_(rounds), worker_(worker) {}
+  void on_effort(std::int64_t effort) override { rounds_.on_effort(worker_, effort); }
+  const std::atomic<bool>& cancelled() const override { return rounds_.over(); }
+
+ private:
+  Rounds& rounds_;
+  std::size_t worker_;
+};
+
+/// What another worker does: the lazy model with the other way to backtrack, then the MDD model.
+SolveOptions options_of(const Instance& instance, const SolveOptions& options, std::size_t worker) {
+  if (worker == 0) return options;
+  using Kind = CheckSchedule::Kind;
+  SolveOptions other = options;
+  other.on_progress = {};
+  other.first_plan = false;
+  other.cost_search = CostSearch::core_guided;
+  other.mdd_growth = MddGrowth::on_demand;
+  const std::size_t variant = (worker - 1) % 4;
+  if (variant == 0) {
+    other.chronological = options.system == System::dpll && !is_chronological(instance, options);
+    other.system = System::dpll;
+  } else {
+    other.system = System::dpll_mdd;
+    other.check = {variant == 2 ? Kind::watch : Kind::propagate, {}};
+    if (variant == 3) other.cost_search = CostSearch::iterative;
+  }
+  return other;
+}
+
+}  // namespace
+
+SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& options) {
+  Rounds rounds(options.threads, options.race);
+  std::vector<SolveOutcome> outcomes(options.threads);
+  std::vector<std::exception_ptr> failures(options.threads);
+  const auto work = [&](std::size_t worker) {
+    try {
+      WorkerCompanion companion(rounds, worker);
+      outcomes[worker] = solve_alone(instance, options_of(instance, options, worker), &companion);
+    } catch (...) {
+      failures[worker] = std::current_exception();
+    }
+    rounds.end(worker, !failures[worker] && is_proof(outcomes[worker]));
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t worker = 1; worker < options.threads; ++worker)
+      threads.emplace_back(work, worker);
+    work(0);
+  }
+  const auto winner = rounds.winner();
+  if (!winner)
+    for (const std::exception_ptr& failure : failures)
+      if (failure) std::rethrow_exception(failure);
+  SolveOutcome& answer = outcomes[winner.value_or(0)];
+  for (const SolveOutcome& other : outcomes) {
+    if (!winner) answer.lower_bound = std::max(answer.lower_bound, other.lower_bound);
+    answer.statistics.cpu_s = std::max(answer.statistics.cpu_s, other.statistics.cpu_s);
+    answer.statistics.wall_s = std::max(answer.statistics.wall_s, other.statistics.wall_s);
+  }
+  if (!winner && answer.cost == answer.lower_bound) answer.status = Status::optimal;
+  return std::move(answer);
+}
+
+}  // namespace quadrille::discrete

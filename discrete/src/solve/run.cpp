@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "solve/run.hpp"
+
+#include <utility>
+
+#include "lazy/lazy_auditor.hpp"
+#include "lazy/lazy_model.hpp"
+#include "lazy/lazy_problem.hpp"
+#include "lazy/lazy_theory.hpp"
+#include "mdd/collision_theory.hpp"
+#include "mdd/eager_collisions.hpp"
+#include "mdd/lemma_auditor.hpp"
+#include "mdd/mdd_model.hpp"
+#include "mdd/mdd_problem.hpp"
+#include "model/open_maps.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+sat::EngineOptions engine_options(const Instance& instance, const SolveOptions& options,
+                                  sat::ClauseObserver* observer) {
+  sat::EngineOptions engine_options;
+  engine_options.seed = options.seed;
+  // Usages are negated variables.
+  engine_options.initial_phase = options.forbid_first && options.system == System::dpll;
+  if (options.system == System::dpll) {
+    engine_options.chronological = is_chronological(instance, options);
+    engine_options.bump_reasons = !is_open(instance.graph());
+    engine_options.keep_clauses = searches_from_above(options);
+  }
+  engine_options.observer = observer;
+  return engine_options;
+}
+
+class MddRun final : public Run {
+ public:
+  MddRun(const Instance& instance, const SolveOptions& options)
+      : growth_(options.mdd_growth), model_(instance, options.objective) {
+    if (options.system == System::dpll_mdd)
+      theory_ = std::make_unique<CollisionTheory>(model_, options.check);
+    if (options.system == System::mdd_sat) eager_ = std::make_unique<EagerCollisions>(model_);
+    if (options.audit || options.known_plan)
+      auditor_ = std::make_unique<LemmaAuditor>(model_, options.audit, options.known_plan);
+    engine_ = std::make_unique<sat::Engine>(theory_.get(),
+                                            engine_options(instance, options, auditor_.get()));
+  }
+
+  bool prepare(std::shared_ptr<const GoalDistances>, LimitMonitor& limits) override {
+    if (!model_.attach(*engine_, limits)) return false;
+    problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(), growth_);
+    return true;
+  }
+
+  sat::Engine& engine() override { return *engine_; }
+  sat::BoundedProblem& bounded_problem() override { return *problem_; }
+  sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
+  const Plan& plan() const override { return problem_->plan(); }
+  std::int64_t effort() const override { return theory_ ? 2 * theory_->effort() : 0; }
+  std::int64_t num_checks() const override {
+    return problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);
+  }
+  std::int64_t num_rejected() const override { return problem_->num_rejected(); }
+  std::optional<std::string> complaint() const override {
+    return auditor_ ? auditor_->complaint() : std::nullopt;
+  }
+
+ private:
+  MddGrowth growth_;
+  MddModel model_;
+  std::unique_ptr<CollisionTheory> theory_;
+  std::unique_ptr<EagerCollisions> eager_;
+  std::unique_ptr<LemmaAuditor> auditor_;
+  std::unique_ptr<sat::Engine> engine_;
+  std::unique_ptr<MddProblem> problem_;
+};
+
+class LazyRun final : public Run {
+ public:
+  LazyRun(const Instance& instance, const SolveOptions& options)
+      : instance_(instance), options_(options) {}
+
+  bool prepare(std::shared_ptr<const GoalDistances> distances, LimitMonitor& limits) override {
+    model_ = std::make_unique<LazyModel>(instance_, std::move(distances));
+    theory_ = std::make_unique<LazyTheory>(*model_, limits);
+    if (limits.exhausted_now()) return false;
+    if (options_.audit || options_.known_plan)
+      auditor_ = std::make_unique<LazyAuditor>(*model_, options_.audit, options_.known_plan);
+    engine_ = std::make_unique<sat::Engine>(theory_.get(),
+                                            engine_options(instance_, options_, auditor_.get()));
+    problem_ = std::make_unique<LazyProblem>(*model_, *engine_, *theory_, options_.objective);
+    return true;
+  }
+
+  sat::Engine& engine() override { return *engine_; }
+  sat::BoundedProblem& bounded_problem() override { return *problem_; }
+  sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
+  const Plan& plan() const override { return problem_->plan(); }
+  Plan draft() const override {
+    Plan draft;
+    for (const AgentId i : instance_.agents()) draft.paths.push_back(theory_->path(i));
+    return draft;
+  }
+  std::int64_t effort() const override { return theory_->effort(); }
+  std::int64_t num_checks() const override { return theory_->num_checks(); }
+  std::int64_t num_rejected() const override { return 0; }
+  std::optional<std::string> complaint() const override {
+    return auditor_ ? auditor_->complaint() : std::nullopt;
+  }
+
+ private:
+  const Instance& instance_;
+  const SolveOptions& options_;
+  std::unique_ptr<LazyModel> model_;
+  std::unique_ptr<LazyTheory> theory_;
+  std::unique_ptr<LazyAuditor> auditor_;
+  std::unique_ptr<sat::Engine> engine_;
+  std::unique_ptr<LazyProblem> problem_;
+};
+
+}  // namespace
+
+bool is_chronological(const Instance& instance, const SolveOptions& options) {
+  return options.chronological.value_or(instance.num_agents() >= kManyAgents);
+}
+
+std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options) {
+  if (options.system == System::dpll) return std::make_unique<LazyRun>(instance, options);
+  return std::make_unique<MddRun>(instance, options);
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/discrete/solver.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "model/open_maps.hpp"
+#include "model/usages.hpp"
+#include "primal/upper_bound.hpp"
+#include "quadrille/discrete/feasibility.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
+#include "quadrille/discrete/verify.hpp"
+#include "solve/portfolio.hpp"
+#include "solve/run.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+/// One solve, with what all systems have in common: bounds from both sides.
+class Search final : private sat::PlanStore {
+ public:
+  Search(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
+         SolveOutcome& outcome, Companion* companion)
+      : instance_(instance),
+        options_(options),
+        limits_(limits),
+        outcome_(outcome),
+        companion_(companion) {}
+
+  void run() {
+    const auto distances = GoalDistances::make(instance_, limits_);
+    outcome_.lower_bound = free_bound(distances.get());
+    if (!distances) return;
+    listen();
+    if (options_.first_plan) {
+      upper_.emplace(instance_, options_.objective, distances, options_.seed);
+      upper_->start(limits_);
+      consider_stop();
+    }
+    if (!limits_.exhausted_now()) search(distances);
+    if (!outcome_.internal_error && !outcome_.plan && upper_ && upper_->cost()) {
+      outcome_.plan = upper_->plan();
+      outcome_.status =
+          *upper_->cost() == outcome_.lower_bound ? Status::optimal : Status::feasible;
+    }
+  }
+
+ private:
+  /// What the agents cost when each is alone. Without `distances`, because a limit was met, of as
+  /// many as can be looked at in little time.
+  [[nodiscard]] Cost free_bound(const GoalDistances* distances) const {
+    constexpr double kGrace = 0.5;  // s
+    Cost bound = 0;
+    const double begin = wall_seconds();
+    for (const AgentId i : instance_.agents()) {
+      const Task& task = instance_.tasks()[i];
+      const Cost cost = distances != nullptr
+                            ? (*distances)(i, task.start)
+                            : distances_from(instance_.graph(), task.goal)[task.start];
+      bound = options_.objective == Objective::sum_of_costs ? bound + cost : std::max(bound, cost);
+      if (distances == nullptr && wall_seconds() > begin + kGrace) break;
+    }
+    return bound;
+  }
+
+  void listen() {
+    limits_.set_ticker(0.25, [this] {
+      if (!options_.on_progress) return;
+      options_.on_progress({outcome_.lower_bound, upper_ ? upper_->cost() : std::nullopt,
+                            limits_.elapsed_wall(), limits_.conflicts()});
+    });
+    limits_.set_conflict_listener([this] { improve(); });
+  }
+
+  void raise_bound(Cost bound) {
+    outcome_.lower_bound = std::max(outcome_.lower_bound, bound);
+    improve();
+    consider_stop();
+  }
+
+  void improve() {
+    constexpr std::int64_t kEffortOfConflict = 300;
+    if (run_ == nullptr) return;
+    const std::int64_t effort = limits_.conflicts() * kEffortOfConflict + run_->effort();
+    if (companion_ != nullptr) companion_->on_effort(effort);
+    if (upper_ && upper_->advance(
+                      effort, [this] { return run_->draft(); }, limits_))
+      consider_stop();
+  }
+
+  /// Ends the search when the bounds meet, or are as close as was asked for.
+  void consider_stop() {
+    if (!upper_ || !upper_->cost()) return;
+    const Cost cost = *upper_->cost(), gap = cost - outcome_.lower_bound;
+    if (gap == 0 || (options_.gap_percent && static_cast<double>(gap) * 100 <=
+                                                 *options_.gap_percent * static_cast<double>(cost)))
+      limits_.stop(StopReason::gap);
+  }
+
+  // sat::PlanStore
+  [[nodiscard]] std::optional<Cost> best_cost() const override { return upper_->cost(); }
+  [[nodiscard]] Cost best_cost_of(AgentId agent) const override {
+    return arrival(upper_->plan().paths[agent]);
+  }
+  void take_accepted() override {
+    upper_->take(run_->plan());
+    consider_stop();
+  }
+
+  /// Measured: on open maps the search from above closes most of the gap, and if they are crowded,
+  /// it should begin soon, and smaller cores are worth their time. Elsewhere both take time from
+  /// the cores.
+  [[nodiscard]] sat::CoreGuidedOptions core_options() {
+    sat::CoreGuidedOptions core_options;
+    core_options.first_turn = options_.descend_after;
+    if (options_.system != System::dpll) return core_options;
+    if (searches_from_above(options_)) core_options.plans = this;
+    const bool open = is_open(instance_.graph());
+    const bool crowded = options_.crowded.value_or(open && is_crowded(instance_));
+    if (options_.crowded.value_or(open)) {
+      core_options.descent_share = 3;
+      core_options.candidates_within = 3;
+    }
+    core_options.head_start = crowded ? 1 : 6;
+    if (crowded) {
+      core_options.first_turn = std::max<std::int64_t>(1, options_.descend_after / 2);
+      core_options.passes = 6;
+      core_options.core_tries = 10;
+    }
+    return core_options;
+  }
+
+  [[nodiscard]] sat::SearchReport search_costs(Run& run) {
+    const auto on_bound = [this](Cost bound) { raise_bound(bound); };
+    const CostSearch by_default =
+        options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
+    if (options_.objective == Objective::sum_of_costs &&
+        options_.cost_search.value_or(by_default) == CostSearch::core_guided)
+      return sat::search_by_cores(run.engine(), run.agent_cost_problem(), core_options(), limits_,
+                                  outcome_.statistics, on_bound);
+    return sat::search_upwards(run.engine(), run.bounded_problem(), limits_, on_bound);
+  }
+
+  void search(const std::shared_ptr<const GoalDistances>& distances) {
+    const std::unique_ptr<Run> run = make_run(instance_, options_);
+    if (!run->prepare(distances, limits_)) return;
+    run_ = run.get();
+    raise_bound(run->bounded_problem().lower_bound());
+    const auto report = search_costs(*run);
+    outcome_.lower_bound = std::max(outcome_.lower_bound, report.lower_bound);
+    run->engine().add_statistics(outcome_.statistics);
+    outcome_.statistics.checks = run->num_checks();
+    outcome_.statistics.rejected_models = run->num_rejected();
+    if (const auto complaint = run->complaint()) {
+      outcome_.internal_error = Error{ErrorCode::internal, *complaint, {}};
+    } else if (report.end == sat::SearchReport::End::exhausted) {
+      outcome_.internal_error =
+          Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
+    } else if (report.end == sat::SearchReport::End::found) {
+      outcome_.plan = run->plan();
+      outcome_.status = Status::optimal;
+    }
+  }
+
+  const Instance& instance_;
+  const SolveOptions& options_;
+  LimitMonitor& limits_;
+  SolveOutcome& outcome_;
+  Companion* const companion_;
+  std::optional<UpperBound> upper_;
+  const Run* run_ = nullptr;  // when it is prepared
+};
+
+/// The plan has to pass `verify` and to cost what was proved.
+void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
+  trim(*outcome.plan);
+  const VerifyReport report = verify(instance, *outcome.plan);
+  const Cost cost =
+      options.objective == Objective::sum_of_costs ? report.sum_of_costs : report.makespan;
+  std::optional<std::string> wrong;
+  if (!report.valid())
+    wrong = "the plan is not valid: " + report.violations.front().message;
+  else if (cost < outcome.lower_bound ||
+           (outcome.status == Status::optimal && cost != outcome.lower_bound))
+    wrong = "the plan costs " + std::to_string(cost) + " and the proven bound is " +
+            std::to_string(outcome.lower_bound);
+  if (wrong) {
+    outcome.internal_error = Error{ErrorCode::internal, *wrong, {}};
+    return;
+  }
+  outcome.cost = cost;
+}
+
+std::optional<Error> check_options(const Instance& instance, const SolveOptions& options) {
+  const auto refuse = [](ErrorCode code, std::string message) {
+    return Error{code, std::move(message), {}};
+  };
+  if (instance.graph().num_vertices() > kMaxVertices)
+    return refuse(ErrorCode::out_of_range,
+                  "the solver supports up to " + std::to_string(kMaxVertices) + " vertices");
+  const auto reaches = [](CheckSchedule::Fraction a, CheckSchedule::Fraction b) {
+    return static_cast<std::int64_t>(a.numerator) * b.denominator >=
+           static_cast<std::int64_t>(b.numerator) * a.denominator;
+  };
+  CheckSchedule::Fraction last{0, 1};
+  for (const CheckSchedule::Fraction& f : options.check.fractions) {
+    if (f.denominator <= 0 || reaches(last, f) || reaches(f, {1, 1}))
+      return refuse(ErrorCode::out_of_range,
+                    "the fractions of a check schedule increase between 0 and 1");
+    last = f;
+  }
+  if (options.gap_percent && !(*options.gap_percent >= 0))
+    return refuse(ErrorCode::out_of_range, "the gap is not a number of at least 0");
+  if (options.threads < 1 || options.threads > 64)
+    return refuse(ErrorCode::out_of_range, "the number of threads is not from 1 to 64");
+  if (options.descend_after < 1 || options.descend_after > INT32_MAX)
+    return refuse(ErrorCode::out_of_range, "descend_after is not from 1 to 2147483647");
+  if (options.seed > 2'000'000'000)
+    return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
+  if (options.known_plan && !verify(instance, *options.known_plan).valid())
+    return refuse(ErrorCode::invalid_plan, "the known plan is not a plan of this instance");
+  return std::nullopt;
+}
+
+}  // namespace
+
+SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
+                         Companion* companion) {
+  SolveOutcome outcome;
+  LimitMonitor limits(options.limits);
+  if (companion != nullptr) limits.set_cancel(&companion->cancelled());
+  const auto finish = [&]() -> SolveOutcome&& {
+    if (outcome.internal_error) {
+      outcome.status = Status::unknown;
+      outcome.plan.reset();
+      outcome.cost.reset();
+      outcome.explanation = outcome.internal_error->message;
+    }
+    outcome.statistics.cpu_s = limits.elapsed_cpu();
+    outcome.statistics.wall_s = limits.elapsed_wall();
+    outcome.statistics.peak_rss_mib = peak_rss_mib();
+    return std::move(outcome);
+  };
+  if (auto error = check_options(instance, options)) {
+    outcome.internal_error = std::move(error);
+    return finish();
+  }
+  const Feasibility feasibility = check_feasibility(instance);
+  if (!feasibility.feasible) {
+    outcome.status = Status::infeasible;
+    outcome.explanation = feasibility.reason;
+    return finish();
+  }
+  Search(instance, options, limits, outcome, companion).run();
+  if (outcome.plan) check_plan(instance, options, outcome);
+  if (outcome.status == Status::feasible) outcome.stop = limits.reason();
+  if (outcome.status == Status::unknown) {
+    outcome.stop = limits.reason();
+    outcome.explanation = outcome.stop == StopReason::none
+                              ? "a path needs more timesteps than the solver supports"
+                              : "stopped by the limit: " + std::string(to_string(outcome.stop));
+  }
+  return finish();
+}
+
+SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
+  return options.threads > 1 ? solve_portfolio(instance, options)
+                             : solve_alone(instance, options, nullptr);
+}
+
+}  // namespace quadrille::discrete

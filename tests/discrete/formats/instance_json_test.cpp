@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/discrete/instance_json.hpp"
+
+#include "discrete/formats/io_support.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+TEST(InstanceJson, ReadsGrids) {
+  const Instance instance = read_instance_json(testing::data("valid/grid.json")).value();
+  const GridMap map = read_map(testing::data("valid/small.map")).value();
+  EXPECT_TRUE(testing::equal(instance.graph(), map.graph()));
+  EXPECT_EQ(instance.tasks().items(),
+            (std::vector<Task>{{VertexId(0), VertexId(3)}, {VertexId(3), VertexId(0)}}));
+}
+
+TEST(InstanceJson, ReadsGraphs) {
+  const Instance instance = read_instance_json(testing::data("valid/graph.json")).value();
+  EXPECT_EQ(instance.graph().num_vertices(), 3u);
+  EXPECT_EQ(instance.graph().num_edges(), 2u);
+  EXPECT_TRUE(instance.graph().adjacent(VertexId(2), VertexId(1)));
+  EXPECT_FALSE(instance.graph().layout().has_value());
+  EXPECT_EQ(instance.tasks().items(),
+            (std::vector<Task>{{VertexId(0), VertexId(2)}, {VertexId(2), VertexId(0)}}));
+}
+
+TEST(InstanceJson, NumbersAtTheEndOfALineBelongToIt) {
+  // The parser has read the line end when it reports the number.
+  std::istringstream in("{\"quadrille\": \"instance\",\n\"version\": 7\n, \"agents\": []}\n");
+  EXPECT_EQ(read_instance_json(in, "test.json").error().to_string(),
+            "test.json:2: /version: 7 is not between 1 and 1");
+}
+
+TEST(InstanceJson, WhatIsWrittenIsReadBack) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance =
+        seed % 2 == 0 ? testing::random_grid_instance(seed) : testing::random_graph_instance(seed);
+    std::stringstream file;
+    ASSERT_EQ(write_instance_json(file, "out", instance), std::nullopt);
+    const auto again = read_instance_json(file, "out");
+    ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
+    EXPECT_TRUE(testing::equal(*again, instance)) << file.str();
+  }
+}
+
+TEST(InstanceJson, WriterReportsAFullDisk) {
+  const Instance instance = testing::random_grid_instance(1);
+  testing::expect_reports_full_disk(
+      [&](std::ostream& out) { return write_instance_json(out, "out", instance); });
+}
+
+}  // namespace
+}  // namespace quadrille::discrete

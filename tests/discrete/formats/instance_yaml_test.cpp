@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/discrete/instance_yaml.hpp"
+
+#include "discrete/formats/io_support.hpp"
+#include "quadrille/discrete/instance_json.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+Result<Instance> instance_of(const std::string& text) {
+  std::istringstream in(text);
+  return read_instance_yaml(in, "test.yaml");
+}
+
+TEST(InstanceYaml, ReadsTuplesAndLists) {
+  const Instance instance = read_instance_yaml(testing::data("valid/grid.yaml")).value();
+  EXPECT_TRUE(
+      testing::equal(instance, read_instance_json(testing::data("valid/grid.json")).value()));
+}
+
+TEST(InstanceYaml, ReadsFlowStyleAndIgnoresRepeatedObstacles) {
+  const auto instance = instance_of(
+      "map: {dimensions: [5, 2], obstacles: [[0, 1], [0, 1]]}\n"
+      "agents: [{name: agent0, start: [0, 0], goal: [4, 0]}]  # from its manual\n");
+  ASSERT_TRUE(instance.has_value()) << instance.error().to_string();
+  EXPECT_EQ(instance->graph().num_vertices(), 9u);
+  EXPECT_EQ(instance->tasks().items(), (std::vector<Task>{{VertexId(0), VertexId(4)}}));
+}
+
+TEST(InstanceYaml, AliasBombsAreRefusedAtOnce) {
+  std::string text = "a: &a [x, x, x, x, x, x, x, x, x]\n";
+  for (char c = 'b'; c <= 'z'; ++c) {
+    text += std::string(1, c) + ": &" + c + " [";
+    for (int i = 0; i < 9; ++i)
+      text += std::string(i == 0 ? "*" : ", *") + static_cast<char>(c - 1);
+    text += "]\n";
+  }
+  const auto instance = instance_of(text);
+  ASSERT_FALSE(instance.has_value());
+  EXPECT_EQ(instance.error().where.line, 1);
+  EXPECT_EQ(instance.error().message, "anchors are not accepted");
+}
+
+TEST(InstanceYaml, WhatIsWrittenIsReadBack) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = testing::random_grid_instance(seed);
+    std::stringstream file;
+    ASSERT_EQ(write_instance_yaml(file, "out", instance), std::nullopt);
+    const auto again = read_instance_yaml(file, "out");
+    ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
+    EXPECT_TRUE(testing::equal(*again, instance)) << file.str();
+  }
+}
+
+TEST(InstanceYaml, WriterNeedsAGrid) {
+  std::ostringstream out;
+  const auto error = write_instance_yaml(out, "out", testing::random_graph_instance(5));
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->code, ErrorCode::invalid_instance);
+  EXPECT_EQ(out.str(), "");
+}
+
+TEST(InstanceYaml, WriterReportsAFullDisk) {
+  const Instance instance = testing::random_grid_instance(1);
+  testing::expect_reports_full_disk(
+      [&](std::ostream& out) { return write_instance_yaml(out, "out", instance); });
+}
+
+}  // namespace
+}  // namespace quadrille::discrete

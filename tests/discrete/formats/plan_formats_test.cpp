@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/discrete/plan_formats.hpp"
+
+#include "discrete/formats/io_support.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+constexpr PlanFormat kAllFormats[] = {PlanFormat::json, PlanFormat::cbsh2, PlanFormat::visualizer,
+                                      PlanFormat::yaml};
+
+Graph small_graph() { return read_map(testing::data("valid/small.map")).value().graph(); }
+
+Plan small_plan() {
+  const Graph graph = small_graph();
+  const auto at = [&](std::int32_t x, std::int32_t y) {
+    return *graph.layout()->vertex_at({x, y});
+  };
+  return Plan{{Path{at(0, 0), at(1, 0)}, Path{at(3, 0), at(3, 1)}}};
+}
+
+std::string written(const Graph& graph, const Plan& plan, PlanFormat format) {
+  std::ostringstream out;
+  EXPECT_EQ(write_plan(out, "out", graph, plan, format), std::nullopt);
+  return out.str();
+}
+
+TEST(PlanFormats, HaveNames) {
+  for (const PlanFormat format : kAllFormats)
+    EXPECT_EQ(parse_plan_format(to_string(format)), format);
+  EXPECT_EQ(parse_plan_format("JSON"), std::nullopt);
+}
+
+TEST(PlanFormats, AreRecognisedByTheirFirstCharacters) {
+  EXPECT_EQ(detect_plan_format("\r\n {\"plan\": []}"), PlanFormat::json);
+  EXPECT_EQ(detect_plan_format("0:(1,2),"), PlanFormat::visualizer);
+  EXPECT_EQ(detect_plan_format("Agent 0: "), PlanFormat::cbsh2);
+  EXPECT_EQ(detect_plan_format("schedule:"), PlanFormat::yaml);
+  EXPECT_EQ(detect_plan_format(""), PlanFormat::yaml);
+  EXPECT_EQ(plan_format_of("a/b.json"), PlanFormat::json);
+  EXPECT_EQ(plan_format_of("b.yml"), PlanFormat::yaml);
+  EXPECT_EQ(plan_format_of("b.txt"), std::nullopt);
+}
+
+TEST(PlanFormats, AllFilesStateTheSamePlan) {
+  for (const char* name :
+       {"plan.json", "result.json", "plan.cbsh2", "plan.visualizer", "plan.yaml"}) {
+    const auto file = read_plan(testing::data(std::string("valid/") + name), small_graph());
+    ASSERT_TRUE(file.has_value()) << file.error().to_string();
+    EXPECT_EQ(file->plan, small_plan()) << name;
+  }
+}
+
+TEST(PlanFormats, StatedCostsAreHandedOn) {
+  const auto plan = read_plan(testing::data("valid/plan.json"), small_graph()).value();
+  EXPECT_EQ(plan.sum_of_costs, 2);
+  EXPECT_EQ(plan.makespan, std::nullopt);
+  const auto result = read_plan(testing::data("valid/result.json"), small_graph()).value();
+  EXPECT_EQ(result.sum_of_costs, std::nullopt);
+  EXPECT_EQ(result.makespan, 1);
+  const auto yaml = read_plan(testing::data("valid/plan.yaml"), small_graph()).value();
+  EXPECT_EQ(yaml.sum_of_costs, 2);
+  EXPECT_EQ(yaml.makespan, 1);
+}
+
+TEST(PlanFormats, AnExplicitFormatWins) {
+  const auto file =
+      read_plan(testing::data("valid/plan.cbsh2"), small_graph(), PlanFormat::visualizer);
+  ASSERT_FALSE(file.has_value());
+  EXPECT_EQ(file.error().where.line, 1);
+}
+
+TEST(PlanFormats, AreWrittenAsDocumented) {
+  const Graph graph = small_graph();
+  EXPECT_EQ(written(graph, small_plan(), PlanFormat::cbsh2),
+            testing::text_of(testing::data("valid/plan.cbsh2")));
+  EXPECT_EQ(written(graph, small_plan(), PlanFormat::visualizer),
+            testing::text_of(testing::data("valid/plan.visualizer")));
+  EXPECT_EQ(written(graph, small_plan(), PlanFormat::json),
+            testing::text_of(testing::data("valid/plan.json")));
+  EXPECT_EQ(written(graph, {{Path{VertexId(1)}}}, PlanFormat::yaml),
+            "statistics:\n  cost: 0\n  makespan: 0\nschedule:\n"
+            "  agent0:\n    - x: 1\n      y: 0\n      t: 0\n");
+  EXPECT_EQ(plan_to_json(graph, small_plan()), "[[[0, 0], [1, 0]], [[3, 0], [3, 1]]]");
+}
+
+TEST(PlanFormats, WhatIsWrittenIsReadBack) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const Graph graph =
+        seed % 4 == 0 ? Graph::make(5, {}).value() : random_map(5, 4, 0.3, seed).value().graph();
+    const Plan plan = testing::random_plan(graph, seed % 5, seed);
+    for (const PlanFormat format : kAllFormats) {
+      const bool lines = format == PlanFormat::cbsh2 || format == PlanFormat::visualizer;
+      std::stringstream file;
+      const auto error = write_plan(file, "out", graph, plan, format);
+      if (lines && !graph.layout()) {
+        ASSERT_TRUE(error.has_value());
+        EXPECT_EQ(error->code, ErrorCode::invalid_plan);
+        continue;
+      }
+      ASSERT_EQ(error, std::nullopt);
+      auto again = read_plan(file, "out", graph, format);
+      ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
+      Plan expected = plan;
+      if (format == PlanFormat::visualizer) {
+        trim(expected);
+        trim(again.value().plan);
+      }
+      EXPECT_EQ(again->plan, expected) << file.str();
+      if (format == PlanFormat::json || format == PlanFormat::yaml) {
+        EXPECT_EQ(again->sum_of_costs, plan.cost(Objective::sum_of_costs));
+      }
+      if (format == PlanFormat::yaml) {
+        EXPECT_EQ(again->makespan, plan.cost(Objective::makespan));
+      }
+    }
+  }
+}
+
+TEST(PlanFormats, PlansWithoutPlaceAreNotWritten) {
+  for (const PlanFormat format : kAllFormats)
+    for (const Plan& plan : {Plan{{Path{}}}, Plan{{Path{VertexId(0), VertexId(10)}}}}) {
+      std::ostringstream out;
+      const auto error = write_plan(out, "out", small_graph(), plan, format);
+      ASSERT_TRUE(error.has_value());
+      EXPECT_EQ(error->code, ErrorCode::invalid_plan);
+      EXPECT_EQ(out.str(), "");
+    }
+}
+
+TEST(PlanFormats, LineFormatsNeedAGridToRead) {
+  for (const char* name : {"valid/plan.cbsh2", "valid/plan.visualizer"}) {
+    const auto file = read_plan(testing::data(name), Graph::make(9, {}).value());
+    ASSERT_FALSE(file.has_value());
+    EXPECT_EQ(file.error().code, ErrorCode::invalid_plan);
+  }
+}
+
+TEST(PlanFormats, WritersReportAFullDisk) {
+  for (const PlanFormat format : kAllFormats)
+    testing::expect_reports_full_disk([&](std::ostream& out) {
+      return write_plan(out, "out", small_graph(), small_plan(), format);
+    });
+}
+
+}  // namespace
+}  // namespace quadrille::discrete
