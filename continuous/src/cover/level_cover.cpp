@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "cover/level_cover.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+/// Linear programs between two solutions that are made of one.
+constexpr std::int64_t kProgramsPerCompletion = 16;
+
+/// Whether every solution that hits `a` hits `b`.
+bool implies(const LevelCore& a, const LevelCore& b) {
+  return std::all_of(a.begin(), a.end(), [&](const Level& level) {
+    const auto at = std::lower_bound(b.begin(), b.end(), Level{level.agent, 0});
+    return at != b.end() && at->agent == level.agent && at->cost <= level.cost;
+  });
+}
+
+/// Below the level at which the leaf is to be split, and from there on.
+std::pair<CoverLeaf, CoverLeaf> split(CoverLeaf leaf) {
+  const Level level = *leaf.branch;
+  leaf.branch.reset();
+  leaf.shares.clear();
+  auto range = std::lower_bound(leaf.ranges.begin(), leaf.ranges.end(), level.agent,
+                                [](const auto& r, AgentId i) { return r.agent < i; });
+  if (range == leaf.ranges.end() || range->agent != level.agent)
+    range = leaf.ranges.insert(range, {level.agent});
+  CoverLeaf below = leaf;
+  below.ranges[static_cast<std::size_t>(range - leaf.ranges.begin())].high = level.cost;
+  range->low = level.cost;
+  return {std::move(below), std::move(leaf)};
+}
+
+}  // namespace
+
+LevelCover::LevelCover(IdVector<AgentId, Cost> free_costs)
+    : free_costs_(std::move(free_costs)), costs_(free_costs_), program_(free_costs_) {
+  for (const AgentId i : IdRange<AgentId>(free_costs_.size())) {
+    parent_.push_back(i);
+    total_ += free_costs_[i];
+  }
+}
+
+AgentId LevelCover::root(AgentId i) const {
+  while (parent_[i] != i) i = parent_[i];
+  return i;
+}
+
+void LevelCover::add(LevelCore core) {
+  std::sort(core.begin(), core.end());
+  QUADRILLE_REQUIRE(!core.empty(), "an empty core has no solution");
+  for (const Level& level : core) {
+    QUADRILLE_REQUIRE(level.cost > free_costs_[level.agent], "free costs hit no core");
+    const AgentId a = root(core.front().agent), b = root(level.agent);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+  if (std::any_of(cores_.begin(), cores_.end(),
+                  [&](const LevelCore& known) { return implies(known, core); }))
+    return;
+  std::erase_if(cores_, [&](const LevelCore& known) { return implies(core, known); });
+  cores_.push_back(std::move(core));
+}
+
+std::vector<LevelCover::Group> LevelCover::make_groups() const {
+  std::map<AgentId, Group> by_root;
+  for (const LevelCore& core : cores_) by_root[root(core.front().agent)].cores.push_back(&core);
+  for (const AgentId i : IdRange<AgentId>(free_costs_.size()))
+    if (const auto at = by_root.find(root(i)); at != by_root.end()) at->second.agents.push_back(i);
+  std::vector<Group> groups;
+  for (auto& [id, group] : by_root) groups.push_back(std::move(group));
+  return groups;
+}
+
+bool LevelCover::solve(LimitMonitor& limits) {
+  std::vector<Group> groups = make_groups();
+  // A tree of a group serves any group that contains it: others' cores and costs only add to its
+  // bounds. Of several, the one with the most work in it is kept.
+  for (Group& group : groups) {
+    for (const Group& old : groups_)
+      if (root(old.agents.front()) == root(group.agents.front()) &&
+          old.open.size() > group.open.size())
+        group.open = old.open;
+    if (group.open.empty()) group.open.emplace_back();
+    group.table = CoreTable(group.cores);
+    group.best = costs_;
+    group.table.complete(free_costs_, group.best);
+  }
+  bool is_complete = true;
+  for (Group& group : groups) is_complete = is_complete && solve(group, limits);
+  groups_ = std::move(groups);
+  if (!is_complete) return false;
+  for (const Group& group : groups_)
+    for (const AgentId i : group.agents) costs_[i] = group.best[i];
+  total_ = 0;
+  for (const Cost cost : costs_) total_ += cost;
+  return true;
+}
+
+Cost LevelCover::price(const Group& group, const IdVector<AgentId, Cost>& costs) const {
+  Cost sum = 0;
+  for (const AgentId i : group.agents) sum += costs[i] - free_costs_[i];
+  return sum;
+}
+
+// Best first. Leaves are never dropped because of a good solution: later cores may exclude it.
+bool LevelCover::solve(Group& group, LimitMonitor& limits) {
+  const auto is_later = [](const CoverLeaf& a, const CoverLeaf& b) { return a.bound > b.bound; };
+  const auto push = [&](CoverLeaf leaf) {
+    group.open.push_back(std::move(leaf));
+    std::push_heap(group.open.begin(), group.open.end(), is_later);
+  };
+  program_.set_cores(group.table);
+  group.cost = price(group, group.best);
+  while (true) {
+    QUADRILLE_REQUIRE(!group.open.empty(), "raising every level hits all cores");
+    if (group.open.front().bound >= group.cost) return true;
+    if (limits.exhausted()) return false;
+    std::pop_heap(group.open.begin(), group.open.end(), is_later);
+    CoverLeaf leaf = std::move(group.open.back());
+    group.open.pop_back();
+    if (!program_.is_known(leaf) && !relax(group, leaf)) continue;
+    if (leaf.bound >= group.cost || !leaf.branch ||
+        (!group.open.empty() && leaf.bound > group.open.front().bound)) {
+      push(std::move(leaf));
+      continue;
+    }
+    auto [below, above] = split(std::move(leaf));
+    push(std::move(below));
+    push(std::move(above));
+  }
+}
+
+bool LevelCover::relax(Group& group, CoverLeaf& leaf) {
+  const bool wants_costs = num_programs_++ % kProgramsPerCompletion == 0;
+  IdVector<AgentId, Cost> costs;
+  if (!program_.solve(leaf, costs)) return false;
+  if (wants_costs || program_.is_integral()) {
+    group.table.complete(free_costs_, costs);
+    if (const Cost cost = price(group, costs); cost < group.cost) {
+      group.cost = cost;
+      group.best = std::move(costs);
+    }
+  }
+  return true;
+}
+
+IdVector<AgentId, Cost> LevelCover::quick_costs() const {
+  IdVector<AgentId, Cost> costs = costs_;
+  std::vector<const LevelCore*> cores;
+  for (const LevelCore& core : cores_) cores.push_back(&core);
+  CoreTable(cores).complete(free_costs_, costs);
+  return costs;
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cover/leaf_program.hpp"
+#include "quadrille/core/ids.hpp"
+#include "quadrille/core/limits.hpp"
+
+namespace quadrille::continuous {
+
+/// The hitting set problem of the cost search: costs of the agents, none below its free cost, such
+/// that each core has an agent that reaches its level, and that the sum of the costs is least.
+///
+/// Agents that share no core, directly or not, are independent. For each group of agents a branch
+/// and bound tree is kept from call to call: cores only shrink the set of solutions, so the bounds
+/// of its leaves stay valid. Floating point (linear programs) guides the search and suggests
+/// bounds; each bound is then computed from the suggestion in integers.
+class LevelCover {
+ public:
+  explicit LevelCover(IdVector<AgentId, Cost> free_costs);
+
+  /// Adds a core, unless one that is known implies it. Requires levels above the free costs.
+  void add(LevelCore core);
+  [[nodiscard]] std::size_t num_cores() const noexcept { return cores_.size(); }
+
+  /// Finds costs of least sum. False if `limits` ended that early: the costs are as before then.
+  [[nodiscard]] bool solve(LimitMonitor& limits);
+  /// Of the last call of solve that returned true; at first the free costs.
+  [[nodiscard]] const IdVector<AgentId, Cost>& costs() const noexcept { return costs_; }
+  /// Their sum: no costs that hit all cores of that call have a smaller one.
+  [[nodiscard]] Cost total() const noexcept { return total_; }
+  /// Costs that hit all cores, found fast; their sum need not be least.
+  [[nodiscard]] IdVector<AgentId, Cost> quick_costs() const;
+
+  [[nodiscard]] std::int64_t num_programs() const noexcept { return num_programs_; }
+
+ private:
+  struct Group {
+    std::vector<AgentId> agents;
+    std::vector<const LevelCore*> cores;
+    CoreTable table;              // of the cores
+    std::vector<CoverLeaf> open;  // a heap, the least bound first
+    IdVector<AgentId, Cost> best;
+    Cost cost = 0;  // what its agents pay above their free costs in `best`
+  };
+
+  [[nodiscard]] AgentId root(AgentId i) const;
+  [[nodiscard]] std::vector<Group> make_groups() const;
+  [[nodiscard]] bool solve(Group& group, LimitMonitor& limits);
+  /// Solves the leaf's linear program. False: the leaf contains no solution.
+  [[nodiscard]] bool relax(Group& group, CoverLeaf& leaf);
+  [[nodiscard]] Cost price(const Group& group, const IdVector<AgentId, Cost>& costs) const;
+
+  IdVector<AgentId, Cost> free_costs_;
+  IdVector<AgentId, AgentId> parent_;  // agents that ever shared a core have the same root
+  std::vector<LevelCore> cores_;
+  std::vector<Group> groups_;  // of the last solve, for their trees
+  IdVector<AgentId, Cost> costs_;
+  Cost total_ = 0;
+  LeafProgram program_;
+  std::int64_t num_programs_ = 0;
+};
+
+}  // namespace quadrille::continuous

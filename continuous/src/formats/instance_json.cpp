@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/instance_json.hpp"
+
+#include <fstream>
+#include <istream>
+#include <memory>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+#include "formats/json_numbers.hpp"
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/text/document.hpp"
+#include "quadrille/text/text_input.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+using text::Document;
+using Node = Document::Node;
+
+class InstanceReader {
+ public:
+  explicit InstanceReader(const Document& document) : document_(document), check_(document) {}
+
+  Result<Instance> run() {
+    std::optional<Node> kind, version, resolution, roadmap, agents;
+    if (!check_.members(Document::kRoot, {{"quadrille", &kind},
+                                          {"version", &version},
+                                          {"resolution", &resolution, false},
+                                          {"roadmap", &roadmap},
+                                          {"agents", &agents}}) ||
+        !read_version(*kind, *version) || (resolution && !read_resolution(*resolution)) ||
+        !read_roadmap(*roadmap) || !read_agents(*agents))
+      return check_.error();
+    auto made = Roadmap::make(std::move(positions_), std::move(edges_));
+    if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
+    auto instance = Instance::make(std::make_shared<const Roadmap>(std::move(made).value()),
+                                   std::move(agents_), resolution_, places_);
+    if (!instance && instance.error().where.file.empty())
+      return document_.error(*roadmap, instance.error().code, instance.error().message);
+    return instance;
+  }
+
+ private:
+  bool read_version(Node kind, Node version) {
+    std::string_view name;
+    std::int64_t number = 0;
+    if (!check_.text(kind, name)) return false;
+    if (name != "instance")
+      return check_.fail(kind, "expected 'instance', found " + text::in_quotes(name));
+    return check_.integer(version, kInstanceJsonVersion, kInstanceJsonVersion, number);
+  }
+
+  bool read_resolution(Node node) {
+    if (!check_.number(node, resolution_)) return false;
+    if (resolution_ > 0) return true;
+    return check_.fail(node, ErrorCode::out_of_range, "a resolution is positive");
+  }
+
+  bool read_roadmap(Node node) {
+    std::optional<Node> vertices, edges;
+    if (!check_.members(node, {{"vertices", &vertices}, {"edges", &edges}}) ||
+        !check_.array(*vertices, "vertices") || !check_.array(*edges, "edges"))
+      return false;
+    for (Node v = document_.first(*vertices); v < document_.next(*vertices); v = document_.next(v))
+      if (!read_vertex(v)) return false;
+    for (Node e = document_.first(*edges); e < document_.next(*edges); e = document_.next(e))
+      if (!read_edge(e)) return false;
+    return true;
+  }
+
+  bool read_vertex(Node node) {
+    if (!check_.array(node, "coordinates", 2)) return false;
+    const Node x = document_.first(node);
+    Point point;
+    if (!read_coordinate(x, point.x) || !read_coordinate(document_.next(x), point.y)) return false;
+    positions_.push_back(point);
+    return true;
+  }
+
+  bool read_coordinate(Node node, Length& length) {
+    double value = 0;
+    if (!check_.number(node, value)) return false;
+    const auto units = quantise_coordinate(value, resolution_);
+    if (!units)
+      return check_.fail(node, ErrorCode::out_of_range,
+                         "the coordinate is too large for the resolution");
+    length = *units;
+    return true;
+  }
+
+  bool read_edge(Node node) {
+    if (!check_.array(node, "vertices")) return false;
+    const Node from = document_.first(node), end = document_.next(node);
+    const Node to = from < end ? document_.next(from) : end;
+    const Node duration = to < end ? document_.next(to) : end;
+    if (to == end || (duration != end && document_.next(duration) != end))
+      return check_.fail(node, "expected [from, to] or [from, to, duration]");
+    Edge edge;
+    if (!read_vertex_number(from, edge.from) || !read_vertex_number(to, edge.to)) return false;
+    if (edge.from == edge.to)
+      return check_.fail(node, ErrorCode::invalid_instance, "the edge is a loop");
+    if (duration != end) {
+      double value = 0;
+      if (!check_.number(duration, value)) return false;
+      edge.duration = quantise_duration(value, resolution_);
+      if (!edge.duration)
+        return check_.fail(duration, ErrorCode::out_of_range,
+                           "the duration is less than one tick, or too long");
+    } else if (positions_[edge.from.index()] == positions_[edge.to.index()]) {
+      return check_.fail(node, ErrorCode::invalid_instance,
+                         "the edge has length zero and no duration");
+    }
+    edges_.push_back(edge);
+    return true;
+  }
+
+  bool read_vertex_number(Node node, VertexId& vertex) {
+    std::int64_t number = 0;
+    if (!check_.integer(node, 0, INT64_MAX, number)) return false;
+    if (number >= std::ssize(positions_))
+      return check_.fail(node, ErrorCode::invalid_instance,
+                         "there is no vertex " + std::to_string(number) + " among " +
+                             std::to_string(positions_.size()));
+    vertex = VertexId(static_cast<std::size_t>(number));
+    return true;
+  }
+
+  bool read_agents(Node agents) {
+    if (!check_.array(agents, "agents")) return false;
+    for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
+      std::optional<Node> start, goal, radius, speed;
+      Agent agent;
+      if (!check_.members(a, {{"start", &start},
+                              {"goal", &goal},
+                              {"radius", &radius},
+                              {"speed", &speed, false}}) ||
+          !read_vertex_number(*start, agent.start) || !read_vertex_number(*goal, agent.goal) ||
+          !read_radius(*radius, agent.radius) || (speed && !read_speed(*speed, agent.speed)))
+        return false;
+      agents_.push_back(agent);
+      places_.push_back({document_.file(), document_.line(a)});
+    }
+    return true;
+  }
+
+  bool read_radius(Node node, Length& radius) {
+    double value = 0;
+    if (!check_.number(node, value)) return false;
+    const auto units = quantise_radius(value, resolution_);
+    if (!units)
+      return check_.fail(node, ErrorCode::out_of_range,
+                         "the radius is less than one length unit, or too large");
+    radius = *units;
+    return true;
+  }
+
+  bool read_speed(Node node, Speed& speed) {
+    double value = 0;
+    if (!check_.number(node, value)) return false;
+    const auto units = quantise_speed(value);
+    if (!units) return check_.fail(node, ErrorCode::out_of_range, "the speed is not supported");
+    speed = *units;
+    return true;
+  }
+
+  const Document& document_;
+  text::Checker check_;
+  double resolution_ = kDefaultResolution;
+  std::vector<Point> positions_;
+  std::vector<Edge> edges_;
+  std::vector<Agent> agents_;
+  std::vector<SourcePlace> places_;
+};
+
+}  // namespace
+
+Result<Instance> read_instance_json(std::istream& in, const std::string& file) {
+  const auto text = text::read_all(in, file);
+  if (!text) return text.error();
+  const auto document = text::parse_json(*text, file);
+  if (!document) return document.error();
+  return InstanceReader(*document).run();
+}
+
+Result<Instance> read_instance_json(const std::filesystem::path& path) {
+  std::ifstream in;
+  if (auto error = text::open_input(path, in)) return *error;
+  return read_instance_json(in, path.string());
+}
+
+bool is_roadmap_json(const std::string& text) {
+  // Most files are decided without being parsed.
+  if (text.find("\"roadmap\"") == std::string::npos) return false;
+  const auto document = text::parse_json(text, "");
+  if (!document || document->kind(Document::kRoot) != Document::Kind::object) return false;
+  const Node end = document->next(Document::kRoot);
+  for (Node key = document->first(Document::kRoot); key < end;
+       key = document->next(document->first(key)))
+    if (document->text(key) == "roadmap") return true;
+  return false;
+}
+
+std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
+                                         const Instance& instance) {
+  const double resolution = instance.resolution();
+  const auto number = [&](std::int64_t units) {
+    return json_number(in_input_units(units, resolution));
+  };
+  out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
+      << ",\n  \"resolution\": " << json_number(resolution)
+      << ",\n  \"roadmap\": {\n    \"vertices\": [";
+  const char* separator = "\n";
+  for (const Point& point : instance.roadmap().positions()) {
+    out << separator << "      [" << number(point.x) << ", " << number(point.y) << "]";
+    separator = ",\n";
+  }
+  out << (*separator == ',' ? "\n    ],\n" : "],\n") << "    \"edges\": [";
+  separator = "\n";
+  for (const Edge& edge : instance.roadmap().edges()) {
+    out << separator << "      [" << edge.from.index() << ", " << edge.to.index();
+    if (edge.duration) out << ", " << number(*edge.duration);
+    out << "]";
+    separator = ",\n";
+  }
+  out << (*separator == ',' ? "\n    ]\n" : "]\n") << "  },\n  \"agents\": [";
+  separator = "\n";
+  for (const Agent& agent : instance.agents()) {
+    out << separator << "    {\"start\": " << agent.start.index()
+        << ", \"goal\": " << agent.goal.index()
+        << ", \"radius\": " << json_number(radius_in_input_units(agent.radius, resolution))
+        << ", \"speed\": " << json_number(speed_in_input_units(agent.speed)) << "}";
+    separator = ",\n";
+  }
+  out << (*separator == ',' ? "\n  ]\n}\n" : "]\n}\n");
+  return text::finish_output(out, file);
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <utility>
+
+#include "formats/json_numbers.hpp"
+#include "formats/plan_codecs.hpp"
+#include "formats/xml_input.hpp"
+#include "quadrille/continuous/quantise.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+/// Lengths of edges are rounded coordinates apart here, and not in the log of another program.
+constexpr Ticks kMoveTolerance = 2;
+constexpr Ticks kMaxTick = Ticks{1} << 60;
+
+class LogReader {
+ public:
+  LogReader(const XmlFile& xml, const Instance& instance, const GridRoadmap* grid)
+      : xml_(xml), instance_(instance), grid_(grid) {}
+
+  Result<PlanFile> run() {
+    const pugi::xml_node log = xml_.root().child("log");
+    if (std::string_view(xml_.root().name()) != "root" || !log)
+      return xml_.error(xml_.root(), "there is no <log> in <root>");
+    for (const pugi::xml_node agent : log.children("agent"))
+      if (auto error = read_agent(agent)) return *error;
+    if (file_.plan.paths.empty() && instance_.num_agents() > 0)
+      return xml_.error(log, "there is no plan", ErrorCode::invalid_plan);
+    return std::move(file_);
+  }
+
+ private:
+  std::optional<Error> read_agent(const pugi::xml_node& node) {
+    const std::size_t index = file_.plan.paths.size();
+    const auto number = parse_integer(node.attribute("number").value(), 0, INT64_MAX);
+    if (number != static_cast<std::int64_t>(index))
+      return xml_.error(node, "agent " + quoted(node.attribute("number").value()) + " where " +
+                                  std::to_string(index) + " is due");
+    if (index >= instance_.num_agents())
+      return xml_.error(node,
+                        "agent " + std::to_string(index) + ", but the instance has " +
+                            std::to_string(instance_.num_agents()) + " agents",
+                        ErrorCode::invalid_plan);
+    const pugi::xml_node way = node.child("path");
+    if (!way) return xml_.error(node, "there is no <path>");
+    // Without sections the agent never leaves its start.
+    Path path{{instance_.agent(AgentId(index)).start, 0, 0}};
+    bool is_first = true;
+    for (const pugi::xml_node section : way.children("section")) {
+      if (auto error = read_section(section, AgentId(index), is_first, path)) return error;
+      is_first = false;
+    }
+    // Waiting at the end is no departure.
+    path.back().depart = path.back().arrive;
+    file_.plan.paths.push_back(std::move(path));
+    return std::nullopt;
+  }
+
+  std::optional<Error> read_section(const pugi::xml_node& node, AgentId agent, bool is_first,
+                                    Path& path) const {
+    std::array<VertexId, 2> ends;
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+      if (auto error = read_vertex(node, end == 0 ? "start" : "goal", ends[end])) return error;
+    const auto seconds = parse_number(node.attribute("duration").value());
+    const double units = seconds ? *seconds / instance_.resolution() : -1;
+    if (!(units >= 0 && units <= static_cast<double>(kMaxTick - path.back().depart)))
+      return xml_.error(
+          node, "the duration is " + quoted(node.attribute("duration").value()) + ", not a time");
+    if (is_first) path.back().vertex = ends[0];
+    if (path.back().vertex != ends[0])
+      return xml_.error(node, "the section does not begin where the one before it ends",
+                        ErrorCode::invalid_plan);
+    const auto ticks = static_cast<Ticks>(std::llround(units));
+    if (ends[0] == ends[1]) {
+      path.back().depart += ticks;
+    } else {
+      const Ticks arrive = path.back().depart + move_duration(agent, ends[0], ends[1], ticks);
+      path.push_back({ends[1], arrive, arrive});
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Ticks move_duration(AgentId agent, VertexId from, VertexId to, Ticks ticks) const {
+    for (const EdgeId e : instance_.roadmap().out_edges(from)) {
+      if (instance_.roadmap().edge(e).to != to) continue;
+      const Ticks exact = instance_.duration(instance_.class_of(agent), e);
+      if (std::abs(exact - ticks) <= kMoveTolerance) return exact;
+    }
+    return ticks;
+  }
+
+  std::optional<Error> read_vertex(const pugi::xml_node& node, const std::string& end,
+                                   VertexId& vertex) const {
+    constexpr std::int64_t kMax = INT32_MAX;
+    const auto id = parse_integer(node.attribute((end + "_id").c_str()).value(), 0, kMax);
+    const auto row = parse_integer(node.attribute((end + "_i").c_str()).value(), 0, kMax);
+    const auto column = parse_integer(node.attribute((end + "_j").c_str()).value(), 0, kMax);
+    if (id.has_value() == (row && column))
+      return xml_.error(node, "a <section> has " + end + "_id, or " + end + "_i and " + end + "_j");
+    std::optional<VertexId> found;
+    if (grid_ != nullptr) {
+      const std::int64_t width = grid_->width();
+      const auto cell = id ? std::pair(*id / width, *id % width) : std::pair(*row, *column);
+      found = grid_->vertex(
+          {static_cast<std::int32_t>(cell.first), static_cast<std::int32_t>(cell.second)});
+    } else if (id && *id < static_cast<std::int64_t>(instance_.roadmap().num_vertices())) {
+      found = VertexId(static_cast<std::size_t>(*id));
+    }
+    if (!found)
+      return xml_.error(node, "the " + end + " of a section is no vertex of the roadmap",
+                        ErrorCode::invalid_plan);
+    vertex = *found;
+    return std::nullopt;
+  }
+
+  const XmlFile& xml_;
+  const Instance& instance_;
+  const GridRoadmap* grid_;
+  PlanFile file_;
+};
+
+}  // namespace
+
+Result<PlanFile> read_ccbs_log(const std::string& text, const std::string& file,
+                               const Instance& instance, const GridRoadmap* grid) {
+  const auto xml = XmlFile::parse(text, file);
+  if (!xml) return xml.error();
+  return LogReader(*xml, instance, grid).run();
+}
+
+void write_ccbs_log(std::ostream& out, const Instance& instance, const Plan& plan,
+                    const GridRoadmap* grid) {
+  const auto time = [&](Ticks ticks) {
+    return json_number(in_input_units(ticks, instance.resolution()));
+  };
+  const auto place = [&](const char* end, VertexId v) {
+    out << " " << end;
+    if (grid == nullptr)
+      out << "_id=\"" << v.index() << "\"";
+    else
+      out << "_i=\"" << grid->cell(v).row << "\" " << end << "_j=\"" << grid->cell(v).column
+          << "\"";
+  };
+  out << "<?xml version=\"1.0\"?>\n<root>\n<log>\n <summary flowtime=\""
+      << time(cost(plan, Objective::sum_of_costs)) << "\" makespan=\""
+      << time(cost(plan, Objective::makespan)) << "\"/>\n";
+  for (const AgentId i : IdRange<AgentId>(plan.paths.size())) {
+    const Path& path = plan.paths[i];
+    out << " <agent number=\"" << i.index() << "\">\n  <path duration=\"" << time(cost(path))
+        << "\">\n";
+    int number = 0;
+    const auto section = [&](VertexId from, VertexId to, Ticks duration) {
+      out << "   <section number=\"" << number++ << "\"";
+      place("start", from);
+      place("goal", to);
+      out << " duration=\"" << time(duration) << "\"/>\n";
+    };
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+      const Ticks wait = path[k].depart - path[k].arrive;
+      if (wait > 0) section(path[k].vertex, path[k].vertex, wait);
+      section(path[k].vertex, path[k + 1].vertex, path[k + 1].arrive - path[k].depart);
+    }
+    out << "  </path>\n </agent>\n";
+  }
+  out << "</log>\n</root>\n";
+}
+
+}  // namespace quadrille::continuous

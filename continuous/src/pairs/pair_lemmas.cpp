@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "pairs/pair_lemmas.hpp"
+
+#include <algorithm>
+
+namespace quadrille::continuous {
+namespace {
+
+/// Steps of one search.
+constexpr std::int64_t kMaxSteps = 30'000'000;
+/// Of searches with obstacles, of which many are made.
+constexpr std::int64_t kMaxStepsInReduction = 3'000'000;
+
+constexpr Cost kSmallPart = 64;
+/// Most pairs need no such search: the clauses do as well, and for less.
+constexpr int kFirstTry = 64;
+/// Steps to begin with, and per call. A search that finds nothing is paid for.
+constexpr std::int64_t kFirstCredit = 12'000'000, kCreditPerCall = 1'000;
+
+}  // namespace
+
+bool PairLemmas::note_collision(const Party& i, const Party& j, FormulaWriter& writer) {
+  return note(collisions_[{i.agent, j.agent}], i, j, writer);
+}
+
+bool PairLemmas::note_explanation(const Party& i, const Party& j, FormulaWriter& writer) {
+  return note(explanations_[{i.agent, j.agent}], i, j, writer);
+}
+
+bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
+  credit_ += kCreditPerCall;
+  if (++record.count < std::max(record.next_try, kFirstTry)) return false;
+  if (i.cap >= kForever || j.cap >= kForever || kFirstCredit + credit_ < 0) return false;
+  record.next_try = 2 * record.count;
+  const std::int64_t before = search_.effort();
+  const bool is_added = try_pair(record, i, j, writer);
+  const std::int64_t cost = search_.effort() - before;
+  credit_ -= is_added ? cost / 2 : cost;
+  if (is_added) record.next_try = record.count + 1;
+  return is_added;
+}
+
+bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
+  for (const std::size_t side : {0U, 1U}) {
+    search_.bans(side).clear();
+    loaded_[side].clear();
+  }
+  const bool is_open = std::any_of(record.open.begin(), record.open.end(), [&](const auto& caps) {
+    return i.cap >= caps.first && j.cap >= caps.second;
+  });
+  if (is_open || !is_refuted(i, j)) {
+    if (!is_open) record.open.emplace_back(i.cap, j.cap);
+    load(i, j.agent, 0);
+    load(j, i.agent, 1);
+    if (!is_refuted(i, j)) return false;
+    reduce(i, j);
+  }
+  add_clauses(i, j, writer);
+  return true;
+}
+
+bool PairLemmas::is_refuted(const Party& i, const Party& j) {
+  return search_.refuted_raise({i.agent, i.cap}, {j.agent, j.cap}, 0, kMaxStepsInReduction) > 0;
+}
+
+void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
+  for (const ObstacleId id : party.active) {
+    const Obstacle& obstacle = model_.obstacles()[id];
+    const auto& partners = obstacle.partners;
+    if (std::find(partners.begin(), partners.end(), other) != partners.end()) continue;
+    loaded_[side].push_back(id);
+    search_.bans(side).add(obstacle.bans);
+  }
+}
+
+void PairLemmas::reduce(const Party& i, const Party& j) {
+  struct Slot {
+    std::size_t side, slot;
+  };
+  std::vector<Slot> slots;
+  for (const std::size_t side : {0U, 1U})
+    for (std::size_t slot = 0; slot < loaded_[side].size(); ++slot) slots.push_back({side, slot});
+  const auto enable = [&](std::size_t from, std::size_t to, bool on) {
+    for (std::size_t k = from; k < to; ++k) search_.bans(slots[k].side).enable(slots[k].slot, on);
+  };
+  for (std::size_t chunk = std::max<std::size_t>(slots.size() / 2, 1); !slots.empty(); chunk /= 2) {
+    for (std::size_t at = 0; at < slots.size();) {
+      const std::size_t end = std::min(at + chunk, slots.size());
+      enable(at, end, false);
+      if (is_refuted(i, j)) {
+        slots.erase(slots.begin() + static_cast<std::ptrdiff_t>(at),
+                    slots.begin() + static_cast<std::ptrdiff_t>(end));
+      } else {
+        enable(at, end, true);
+        at = end;
+      }
+    }
+    if (chunk == 1) break;
+  }
+}
+
+// Raising one cap may leave no room for the other: then a second clause raises the other one first.
+void PairLemmas::add_clauses(const Party& i, const Party& j, FormulaWriter& writer) {
+  PairSearch::Party first{i.agent, i.cap}, second{j.agent, j.cap};
+  raise(first, second, false);
+  raise(second, first, true);
+  add_clause(first, second, writer);
+  if (second.cap - j.cap >= max_raise(j.agent) / kSmallPart) return;
+  PairSearch::Party other_first{i.agent, i.cap}, other_second{j.agent, j.cap};
+  raise(other_second, other_first, true);
+  raise(other_first, other_second, false);
+  if (other_second.cap > second.cap) add_clause(other_first, other_second, writer);
+}
+
+void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second) {
+  if (is_second) search_.swap_bans();
+  const Cost raise = search_.refuted_raise(party, other, max_raise(party.agent), kMaxSteps);
+  if (is_second) search_.swap_bans();
+  party.cap += std::max<Cost>(raise, 1) - 1;
+}
+
+void PairLemmas::add_clause(const PairSearch::Party& i, const PairSearch::Party& j,
+                            FormulaWriter& writer) {
+  std::vector<sat::Lit> clause{model_.at_least(i.agent, i.cap + 1, writer),
+                               model_.at_least(j.agent, j.cap + 1, writer)};
+  std::vector<sat::Usage> usages;
+  for (const std::size_t side : {0U, 1U})
+    for (std::size_t slot = 0; slot < loaded_[side].size(); ++slot) {
+      if (!search_.bans(side).is_enabled(slot)) continue;
+      const Obstacle& obstacle = model_.obstacles()[loaded_[side][slot]];
+      usages.push_back({obstacle.agent, loaded_[side][slot].value()});
+      if (std::find(clause.begin(), clause.end(), obstacle.allowed) == clause.end())
+        clause.push_back(obstacle.allowed);
+    }
+  writer.add({sat::LemmaKind::collision, clause, usages, false});
+}
+
+/// About one move, as a way round it often costs as much.
+Cost PairLemmas::max_raise(AgentId i) const {
+  const Instance& instance = model_.instance();
+  Cost longest = 1;
+  for (const EdgeId e : instance.roadmap().out_edges(instance.agent(i).start))
+    longest = std::max(longest, instance.duration(instance.class_of(i), e));
+  return longest;
+}
+
+}  // namespace quadrille::continuous

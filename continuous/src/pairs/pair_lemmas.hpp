@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "pairs/pair_search.hpp"
+
+namespace quadrille::continuous {
+
+/// Says of two agents that collide again and again that one of them has to cost more.
+class PairLemmas {
+ public:
+  explicit PairLemmas(Model& model) : model_(model), search_(model) {}
+
+  struct Party {
+    AgentId agent;
+    Cost cap = 0;                             ///< kForever: none.
+    std::span<const ObstacleId> active = {};  ///< Obstacles whose literals are false.
+  };
+  /// To be told of each collision of two agents with i.agent < j.agent. True: a clause was added
+  /// that says that one of the caps is not kept, or that some active obstacle is allowed.
+  bool note_collision(const Party& i, const Party& j, FormulaWriter& writer);
+  /// To be told when obstacles, of which several are due to j, keep i from meeting its cap.
+  /// `i.active`: only these. True as above.
+  bool note_explanation(const Party& i, const Party& j, FormulaWriter& writer);
+
+ private:
+  struct Record {
+    int count = 0;
+    int next_try = 0;
+    std::vector<std::pair<Cost, Cost>> open;  // caps that other agents have to join in to refute
+  };
+  bool note(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
+  bool try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
+  [[nodiscard]] bool is_refuted(const Party& i, const Party& j);
+  /// Makes obstacles that the two do not owe to each other slots of the search.
+  void load(const Party& party, AgentId other, std::size_t side);
+  /// Switches slots off as long as the caps are refuted.
+  void reduce(const Party& i, const Party& j);
+  void add_clauses(const Party& i, const Party& j, FormulaWriter& writer);
+  void raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second);
+  void add_clause(const PairSearch::Party& i, const PairSearch::Party& j, FormulaWriter& writer);
+  [[nodiscard]] Cost max_raise(AgentId i) const;
+
+  Model& model_;
+  PairSearch search_;
+  std::map<std::pair<AgentId, AgentId>, Record> collisions_, explanations_;
+  std::int64_t credit_ = 0;
+  std::vector<ObstacleId> loaded_[2];  // by side, slot
+};
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "pairs/pair_search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille::continuous {
+namespace {
+
+std::uint64_t key(std::uint32_t x, std::uint32_t y) {
+  return static_cast<std::uint64_t>(x) << 32 | y;
+}
+
+}  // namespace
+
+void PairSearch::Reached::clear() {
+  slots_.assign(1024, {0, {}});
+  size_ = 0;
+}
+
+std::size_t PairSearch::Reached::find(std::uint64_t key) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 20) & mask;
+  while (slots_[at].key != 0 && slots_[at].key != key + 1) at = (at + 1) & mask;
+  return at;
+}
+
+const PairSearch::Starts& PairSearch::Reached::at(std::uint64_t key) const {
+  return slots_[find(key)].starts;
+}
+
+bool PairSearch::Reached::widen(std::uint64_t key, const Starts& starts) {
+  if (2 * (size_ + 1) > slots_.size()) grow();
+  Slot& slot = slots_[find(key)];
+  if (slot.key == 0) {
+    slot = {key + 1, starts};
+    ++size_;
+    return true;
+  }
+  if (slot.starts.x <= starts.x && slot.starts.y <= starts.y) return false;
+  slot.starts = {std::min(slot.starts.x, starts.x), std::min(slot.starts.y, starts.y)};
+  return true;
+}
+
+void PairSearch::Reached::grow() {
+  std::vector<Slot> old(4 * slots_.size(), {0, {}});
+  old.swap(slots_);
+  for (const Slot& slot : old)
+    if (slot.key != 0) slots_[find(slot.key - 1)] = slot;
+}
+
+bool PairSearch::are_far(EdgeId e, VertexId from, VertexId to, Length reach) const {
+  const Roadmap& roadmap = model_.instance().roadmap();
+  const Edge& edge = roadmap.edge(e);
+  const Point &p0 = roadmap.position(edge.from), &p1 = roadmap.position(edge.to);
+  const Point &q0 = roadmap.position(from), &q1 = roadmap.position(to);
+  const auto apart = [&](Length Point::*axis) {
+    return std::min(p0.*axis, p1.*axis) - std::max(q0.*axis, q1.*axis) >= reach ||
+           std::min(q0.*axis, q1.*axis) - std::max(p0.*axis, p1.*axis) >= reach;
+  };
+  return apart(&Point::x) || apart(&Point::y);
+}
+
+Contacts::Window PairSearch::window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach) {
+  if (are_far(e, v, v, reach)) return std::nullopt;
+  return model_.contacts().window(a, e, b, v);
+}
+
+// s is the start of `next`, t that of b's move; t <= s, because b's move is begun first. A stay
+// that matters is followed by a move that matters: so until s, b's agent stays at the end of its
+// move, if that matters, and x's agent before `next`. Each test below says what it takes that not
+// all of what the elements stand for collides.
+PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start_a,
+                                    const Element& next, Ticks first_s, Side& y, const Element& b,
+                                    Ticks first_t) {
+  const Instance& instance = model_.instance();
+  const Length reach = instance.radius(x.c) + instance.radius(y.c);
+  const auto raise_for_start = [&](Ticks tick) {
+    return std::max(raise_for_end(next, tick), raise_to_wait(y, b, first_t, tick));
+  };
+  Cost both = raise_for_start(first_s);
+  Steps result{{kForever, 0, 0}, {0, first_s, first_t}};
+  if (b.is_move) {
+    const Edge& edge = instance.roadmap().edge(b.edge);
+    if (!are_far(next.edge, edge.from, edge.to, reach)) {
+      const auto offsets = model_.contacts().offsets(x.c, next.edge, y.c, b.edge);
+      if (offsets && offsets->lo <= 0) {
+        // t - s < lo or t - s > hi
+        const Ticks late_s = std::max(first_s, first_t - offsets->lo + 1);
+        const Ticks late_t = std::max(first_t, first_s + offsets->hi + 1);
+        result.late = {raise_for_start(late_s), late_s, first_t};
+        result.early = {offsets->hi >= 0 ? kForever : raise_for_end(b, late_t), first_s, late_t};
+      }
+    }
+    // x's stay before `next` and b's move: x comes late, or leaves early.
+    if (a.stay_matters)
+      if (const auto w = window(y.c, b.edge, x.c, a.to, reach))
+        both = std::max(both, std::min(raise_for_end(a, first_t + w->last - a.duration),
+                                       raise_for_end(b, first_s - w->first)));
+  }
+  if (b.stay_matters) {
+    // `next` sets out where b stands in its way: b comes late.
+    if (const auto w = window(x.c, next.edge, y.c, b.to, reach); w && w->first < 0)
+      both = std::max(both, raise_for_end(b, first_s + w->last - b.duration));
+    // a's move passed where b stands: b comes late.
+    if (a.is_move)
+      if (const auto w = window(x.c, a.edge, y.c, b.to, reach); w && w->first < a.duration)
+        both = std::max(both, raise_for_end(b, start_a + w->last - b.duration));
+  }
+  result.late.raise = std::max(result.late.raise, both);
+  result.early.raise = std::max(result.early.raise, both);
+  return result;
+}
+
+bool PairSearch::is_dearer(const Pending& a, const Pending& b) {
+  return a.raise != b.raise ? a.raise > b.raise : a.pair > b.pair;
+}
+
+bool PairSearch::is_later(const Open& a, const Open& b) {
+  return a.time != b.time ? a.time > b.time : a.pair > b.pair;
+}
+
+void PairSearch::reach(std::uint64_t pair, const Starts& starts) {
+  if (!reached_.widen(pair, starts)) return;
+  open_.push_back({std::max(starts.x, starts.y), pair});
+  std::push_heap(open_.begin(), open_.end(), is_later);
+}
+
+void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, std::uint32_t at_y,
+                         Ticks start_y, bool is_first) {
+  if (at_x == kDone) return;
+  const Element &a = x.elements[at_x], &b = y.elements[at_y];
+  const auto visit = [&](std::uint32_t k, Cost raise, Ticks start, Ticks other_start) {
+    if (raise > max_raise_) return;
+    const std::uint64_t pair = is_first ? key(k, at_y) : key(at_y, k);
+    const Starts starts = is_first ? Starts{start, other_start} : Starts{other_start, start};
+    if (k == kDone && at_y == kDone) max_raise_ = raise;  // more need not be looked at
+    if (raise <= raise_) {
+      reach(pair, starts);
+    } else {
+      pending_.push_back({raise, pair, starts});
+      std::push_heap(pending_.begin(), pending_.end(), is_dearer);
+    }
+  };
+  const Next& next = next_of(x, a.to);
+  if (const Cost raise = raise_for_done(x, a, start_x, next); raise < kForever)
+    visit(kDone, raise, start_x, start_y);
+  for (const Way& way : next.ways) {
+    const Ticks arrive = start_x + a.duration + way.ticks;
+    for (auto k = x.first_element[way.vertex.index()]; k < x.end_element[way.vertex.index()]; ++k) {
+      const Element& to = x.elements[k];
+      ++effort_;
+      if (!to.matters || to.end < arrive || (way.ticks == 0 && breaks_ban(x, a, to))) continue;
+      const Ticks first = std::max({to.begin, arrive, start_y});
+      if (at_y == kDone) {
+        visit(k, raise_for_end(to, first), first, start_y);
+        continue;
+      }
+      const Steps s = steps(x, a, start_x, to, first, y, b, start_y);
+      for (const Step& step : {s.late, s.early}) visit(k, step.raise, step.start, step.other_start);
+    }
+  }
+}
+
+bool PairSearch::next_raise() {
+  while (open_.empty() && !pending_.empty()) {
+    std::pop_heap(pending_.begin(), pending_.end(), is_dearer);
+    const Pending next = pending_.back();
+    pending_.pop_back();
+    raise_ = next.raise;
+    reach(next.pair, next.starts);
+  }
+  return !open_.empty();
+}
+
+Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
+                               std::int64_t max_steps) {
+  Side &first = sides_[0], &second = sides_[1];
+  first.bans = &bans_[0];
+  second.bans = &bans_[1];
+  if (!collect_edges(i, max_raise, j, 0, first) || !collect_edges(j, 0, i, max_raise, second))
+    return 0;
+  effort_ += static_cast<std::int64_t>(first.edges.size() + second.edges.size());
+  find_contacts(first, second);
+  find_contacts(second, first);
+  make_elements(first);
+  make_elements(second);
+  reached_.clear();
+  pending_.clear();
+  open_.clear();
+  raise_ = 0;
+  max_raise_ = max_raise;
+  reach(key(kStart, kStart), {});
+  const std::int64_t last = effort_ + max_steps;
+  for (std::size_t count = 0; next_raise(); ++count) {
+    std::pop_heap(open_.begin(), open_.end(), is_later);
+    const std::uint64_t pair = open_.back().pair;
+    open_.pop_back();
+    const auto x = static_cast<std::uint32_t>(pair >> 32), y = static_cast<std::uint32_t>(pair);
+    if ((x == kDone && y == kDone) || effort_ > last) return raise_;
+    if (count % 8192 == 8191 && model_.limits().exhausted_now()) return raise_;
+    const Starts starts = reached_.at(pair);
+    advance(first, x, starts.x, second, y, starts.y, true);
+    advance(second, y, starts.y, first, x, starts.x, false);
+  }
+  return max_raise + 1;
+}
+
+}  // namespace quadrille::continuous

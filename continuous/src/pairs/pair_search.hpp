@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "theory/model.hpp"
+
+namespace quadrille::continuous {
+
+/// Finds out how much more one of two agents has to cost while the other keeps a cap, whatever the
+/// others do.
+///
+/// Paths within a cap are made of *elements*: moves along an edge that begin in some interval of
+/// ticks. An element *matters* if its move, or the stay after it, or the stay before it, could
+/// collide with something that the other agent could do within its cap. The search visits pairs of
+/// elements that matter, those that the two agents began last, in the order of time. A step to the
+/// next one of either agent is refused only if all moves and stays that the elements stand for
+/// collide. So each pair of paths that do not collide is among what the search follows, and if it
+/// does not reach the two ends there is no such pair.
+///
+/// A higher cap lengthens the intervals, which may allow a step. The search takes the steps in the
+/// order of the caps that they need, and so finds the highest cap for which it fails.
+class PairSearch {
+ public:
+  explicit PairSearch(Model& model)
+      : model_(model),
+        bans_{BanTable(model.instance().roadmap()), BanTable(model.instance().roadmap())} {}
+
+  struct Party {
+    AgentId agent;
+    Cost cap = 0;  ///< It arrives at this tick or earlier. At least its free cost.
+  };
+  /// Some r in [0, max_raise + 1]: no plan has both cost(i) < i.cap + r and cost(j) <= j.cap.
+  /// Tries at most about `max_steps` steps, fewer if the limits of the model are met.
+  [[nodiscard]] Cost refuted_raise(const Party& i, const Party& j, Cost max_raise,
+                                   std::int64_t max_steps);
+
+  /// Bans that agent i (0) and agent j (1) obey; none at first.
+  [[nodiscard]] BanTable& bans(std::size_t side) { return bans_[side]; }
+  void swap_bans() { std::swap(bans_[0], bans_[1]); }
+
+  /// Steps from one pair of elements to another that all searches have tried so far.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+
+ private:
+  /// A move that begins at a tick in [begin, end]. The first element is the stay at the start, the
+  /// second one says that nothing more matters.
+  struct Element {
+    bool is_move = false;
+    bool matters = false;
+    bool stay_matters = false;  // the one after it; then all that can follow matters
+    EdgeId edge;
+    VertexId to;
+    Ticks begin = 0, end = 0;
+    Ticks duration = 0;
+    Ticks end_without_raise = 0;  // grows with the raise until it is `end`, or is larger
+  };
+  static constexpr std::uint32_t kStart = 0, kDone = 1;
+  struct TimedEdge {
+    EdgeId edge;
+    Ticks first = 0, last = 0;     // starts, at the largest raise
+    Ticks last_without_raise = 0;  // grows with the raise until it is `last`
+    bool matters = false;
+  };
+  /// How an agent goes on from a vertex by edges that do not matter.
+  struct Way {
+    VertexId vertex;  // from which edges that matter go on
+    Ticks ticks = 0;
+  };
+  struct Next {
+    bool is_known = false;
+    std::vector<Way> ways;
+    Ticks done = kForever;  // how long it takes to the goal if nothing more matters
+    // The last start that matters is `begin_by` or, if that is less, `begin_by_without_raise` and
+    // the raise.
+    Ticks begin_by = -1, begin_by_without_raise = -1;
+  };
+  /// The elements of one agent.
+  struct Side {
+    ClassId c;
+    AgentId agent;
+    BanTable* bans = nullptr;
+    Ticks width = 1;               // of the intervals
+    std::vector<TimedEdge> edges;  // in the order of their tails
+    std::vector<Element> elements;
+    std::vector<Next> next;  // by vertex
+    Cost cap = 0;            // without raise
+    // By vertex:
+    std::vector<Ticks> from_start;                    // kForever: not reached within the cap
+    std::vector<std::uint32_t> first_edge, end_edge;  // that leave it
+    std::vector<std::uint32_t> first_element, end_element;
+    std::vector<char> stay_matters, may_matter_later;
+    std::vector<VertexId> reached;
+    std::vector<Ticks> distance;  // kForever between uses
+  };
+  /// What is known of the starts of a pair of elements: no earlier ones need to be considered.
+  struct Starts {
+    Ticks x = 0, y = 0;
+  };
+  /// The pairs reached. Open addressing; there is no need to take keys out.
+  class Reached {
+   public:
+    void clear();
+    /// Widens what is known of the pair. Whether that makes a difference.
+    bool widen(std::uint64_t key, const Starts& starts);
+    [[nodiscard]] const Starts& at(std::uint64_t key) const;
+
+   private:
+    struct Slot {
+      std::uint64_t key;  // + 1; 0: none
+      Starts starts;
+    };
+    [[nodiscard]] std::size_t find(std::uint64_t key) const;
+    void grow();
+    std::vector<Slot> slots_;
+    std::size_t size_ = 0;
+  };
+
+  /// `raise`: of the cap of `party`; `other_raise`: of the other's. One of them is 0. False: there
+  /// is too much of it.
+  bool collect_edges(const Party& party, Cost raise, const Party& other, Cost other_raise,
+                     Side& side);
+  [[nodiscard]] Ticks leave_by(const Side& side, VertexId v) const;
+  void find_contacts(Side& x, Side& y);
+  void make_elements(Side& side);
+  /// Starts of `e` that obey the bans, as far as these depend on the one move.
+  void list_allowed(const Side& side, const TimedEdge& e);
+  [[nodiscard]] bool is_banned(const BanTable& bans, EdgeId e) const;
+  /// Whether the stay between the two moves breaks a ban.
+  [[nodiscard]] static bool breaks_ban(const Side& side, const Element& from, const Element& to);
+  [[nodiscard]] const Next& next_of(Side& side, VertexId v);
+  /// What a next start at `tick` or later needs, or none that matters, after a start at `start`.
+  [[nodiscard]] Cost raise_to_wait(Side& side, const Element& element, Ticks start, Ticks tick);
+  [[nodiscard]] static Cost raise_for_done(const Side& side, const Element& element, Ticks start,
+                                           const Next& next);
+  /// Visits the pairs that follow when the agent of `x` begins its next move.
+  void advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, std::uint32_t at_y,
+               Ticks start_y, bool is_first);
+  /// What it takes to go on, and the earliest starts of `next` and of b's move after that.
+  struct Step {
+    Cost raise = kForever;
+    Ticks start = 0, other_start = 0;
+  };
+  /// The ways in which x can go from a to `next` while y has not gone beyond `b`: `next` is late,
+  /// or b is.
+  struct Steps {
+    Step late, early;
+  };
+  [[nodiscard]] Steps steps(const Side& x, const Element& a, Ticks start_a, const Element& next,
+                            Ticks first_s, Side& y, const Element& b, Ticks first_t);
+  /// What `element` needs to end at `tick` or later.
+  [[nodiscard]] static Cost raise_for_end(const Element& element, Ticks tick);
+  [[nodiscard]] bool are_far(EdgeId e, VertexId from, VertexId to, Length reach) const;
+  [[nodiscard]] Contacts::Window window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach);
+
+  Model& model_;
+  BanTable bans_[2];
+  std::vector<BanTable::Span> forbidden_, allowed_;
+  Side sides_[2];
+  Reached reached_;
+  struct Open {
+    Ticks time;
+    std::uint64_t pair;
+  };
+  struct Pending {
+    Cost raise;
+    std::uint64_t pair;
+    Starts starts;
+  };
+  static bool is_later(const Open& a, const Open& b);
+  void reach(std::uint64_t pair, const Starts& starts);
+  static bool is_dearer(const Pending& a, const Pending& b);
+  /// Goes on with the least raise that is pending. False: there is none.
+  bool next_raise();
+
+  Cost max_raise_ = 0;            // or what reaches both ends
+  Cost raise_ = 0;                // up to which steps have been taken
+  std::vector<Open> open_;        // a heap, the earliest first: to be visited
+  std::vector<Pending> pending_;  // a heap, the least raise first: to be visited later
+  std::vector<std::uint32_t> stack_;
+  std::int64_t effort_ = 0;
+};
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "paths/bans.hpp"
+
+#include <algorithm>
+
+namespace quadrille::continuous {
+
+void PathUses::assign(const Instance& instance, AgentId agent, const TimedPath& path) {
+  starts_.clear();
+  stays_.clear();
+  const ClassId c = instance.class_of(agent);
+  VertexId at = instance.agent(agent).start;
+  Ticks since = 0;
+  for (const Move& move : path.moves) {
+    stays_.push_back({at.value(), since, move.start});
+    starts_.push_back({move.edge.value(), move.start});
+    at = instance.roadmap().edge(move.edge).to;
+    since = move.start + instance.duration(c, move.edge);
+  }
+  stays_.push_back({at.value(), since, kForever});
+  edges_.reset();
+  vertices_.reset();
+  for (const Start& start : starts_) edges_.set(start.edge % kBits);
+  for (const Stay& stay : stays_) vertices_.set(stay.vertex % kBits);
+  std::sort(starts_.begin(), starts_.end());
+  std::sort(stays_.begin(), stays_.end());
+}
+
+bool PathUses::breaks(const Ban& ban) const {
+  if (!(ban.kind == Ban::Kind::start ? edges_ : vertices_)[ban.place % kBits]) return false;
+  if (ban.kind == Ban::Kind::start) {
+    const auto at = std::lower_bound(starts_.begin(), starts_.end(), Start{ban.place, ban.begin});
+    return at != starts_.end() && at->edge == ban.place && at->tick < ban.end;
+  }
+  auto at = std::lower_bound(stays_.begin(), stays_.end(), ban.place,
+                             [](const Stay& stay, std::uint32_t v) { return stay.vertex < v; });
+  for (; at != stays_.end() && at->vertex == ban.place; ++at)
+    if (at->arrive < ban.end && at->depart > ban.begin) return true;
+  return false;
+}
+
+bool PathUses::breaks(std::span<const Ban> bans) const {
+  return std::any_of(bans.begin(), bans.end(), [&](const Ban& ban) { return breaks(ban); });
+}
+
+BanTable::BanTable(const Roadmap& roadmap)
+    : num_edges_(roadmap.num_edges()),
+      index_(roadmap.num_edges() + roadmap.num_vertices(), kFree) {}
+
+void BanTable::clear() {
+  for (std::size_t p = 0; p < num_used_; ++p) {
+    index_[places_[p].resource] = kFree;
+    places_[p].entries.clear();
+    places_[p].version = 0;
+  }
+  num_used_ = 0;
+  enabled_.clear();
+  ++version_;
+}
+
+void BanTable::add(std::span<const Ban> bans) {
+  const auto slot = static_cast<std::uint32_t>(enabled_.size());
+  enabled_.push_back(1);
+  ++version_;
+  for (const Ban& ban : bans) {
+    const std::size_t resource = ban.kind == Ban::Kind::start ? ban.place : num_edges_ + ban.place;
+    if (index_[resource] == kFree) {
+      index_[resource] = static_cast<std::uint32_t>(num_used_);
+      if (places_.size() == num_used_) places_.emplace_back();
+      places_[num_used_++].resource = resource;
+    }
+    Place& place = places_[index_[resource]];
+    place.entries.push_back({ban.begin, ban.end, slot});
+    place.is_sorted = false;
+  }
+}
+
+void BanTable::enable(std::size_t slot, bool on) {
+  if ((enabled_[slot] != 0) == on) return;
+  enabled_[slot] = on ? 1 : 0;
+  ++version_;
+}
+
+bool BanTable::refresh(Place& place) {
+  if (place.version == version_) return false;
+  place.version = version_;
+  place.spans.clear();
+  if (!place.is_sorted) {
+    std::sort(place.entries.begin(), place.entries.end(), [](const Entry& a, const Entry& b) {
+      return a.begin != b.begin ? a.begin < b.begin : a.slot < b.slot;
+    });
+    place.is_sorted = true;
+  }
+  return true;
+}
+
+const std::vector<BanTable::Span>& BanTable::forbidden_starts(std::uint32_t index) {
+  Place& place = places_[index];
+  if (!refresh(place)) return place.spans;
+  for (const Entry& entry : place.entries) {
+    if (enabled_[entry.slot] == 0) continue;
+    if (!place.spans.empty() && entry.begin <= place.spans.back().end)
+      place.spans.back().end = std::max(place.spans.back().end, entry.end);
+    else
+      place.spans.push_back({entry.begin, entry.end});
+  }
+  return place.spans;
+}
+
+// A stay [arrive, depart] obeys the ban (begin, end) if it ends by `begin` or begins at `end` or
+// later. So between two bans whose open intervals do not overlap there is a safe stay, even if it
+// is one tick without length.
+const std::vector<BanTable::Span>& BanTable::safe_stays(std::uint32_t index) {
+  Place& place = places_[index];
+  if (!refresh(place)) return place.spans;
+  Ticks free_from = 0;
+  for (const Entry& entry : place.entries) {
+    if (enabled_[entry.slot] == 0 || entry.end <= free_from) continue;
+    if (entry.begin >= free_from) place.spans.push_back({free_from, entry.begin});
+    free_from = entry.end;
+  }
+  if (free_from < kForever) place.spans.push_back({free_from, kForever});
+  return place.spans;
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bitset>
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "paths/timed_path.hpp"
+
+namespace quadrille::continuous {
+
+/// Something that one agent may not do.
+///
+/// - start: begin to move along an edge at a tick in [begin, end).
+/// - stay: be at a vertex from `arrive` to `depart` with arrive < end and depart > begin. That is:
+///   be there at some moment strictly between begin and end. Passing through (arrive == depart)
+///   counts as well; arriving at `end` or departing at `begin` is allowed.
+/// `end` is kForever for bans without end.
+struct Ban {
+  enum class Kind : std::uint8_t { start, stay };
+  Kind kind = Kind::start;
+  std::uint32_t place = 0;  ///< An edge or a vertex.
+  Ticks begin = 0;
+  Ticks end = 0;
+
+  [[nodiscard]] static Ban start(EdgeId edge, Ticks begin, Ticks end) {
+    return {Kind::start, edge.value(), begin, end};
+  }
+  [[nodiscard]] static Ban stay(VertexId vertex, Ticks begin, Ticks end) {
+    return {Kind::stay, vertex.value(), begin, end};
+  }
+  friend auto operator<=>(const Ban&, const Ban&) = default;
+};
+
+/// What a path does, sorted by place, to look for breaches of bans in logarithmic time.
+class PathUses {
+ public:
+  void assign(const Instance& instance, AgentId agent, const TimedPath& path);
+  [[nodiscard]] bool breaks(const Ban& ban) const;
+  [[nodiscard]] bool breaks(std::span<const Ban> bans) const;
+
+ private:
+  struct Start {
+    std::uint32_t edge;
+    Ticks tick;
+    friend auto operator<=>(const Start&, const Start&) = default;
+  };
+  struct Stay {
+    std::uint32_t vertex;
+    Ticks arrive, depart;
+    friend auto operator<=>(const Stay&, const Stay&) = default;
+  };
+  std::vector<Start> starts_;
+  std::vector<Stay> stays_;
+  // Which edges and vertices occur, by their last bits: most bans are about others.
+  static constexpr std::size_t kBits = 1024;
+  std::bitset<kBits> edges_, vertices_;
+};
+
+/// The bans of one agent at work, by place. Each ban belongs to a *slot*, and slots can be switched
+/// off and on. Costs nothing in the size of the roadmap but memory for one table.
+class BanTable {
+ public:
+  explicit BanTable(const Roadmap& roadmap);
+
+  void clear();
+  /// Adds the bans as the next slot, switched on.
+  void add(std::span<const Ban> bans);
+  [[nodiscard]] std::size_t num_slots() const noexcept { return enabled_.size(); }
+  /// After this, what `safe_*` gave is stale.
+  void enable(std::size_t slot, bool on);
+
+  struct Span {
+    Ticks begin, end;  // of a stay: both included, begin <= end; of starts: end excluded
+  };
+  /// Index of a place with bans, or kFree. Switched-off slots count.
+  static constexpr std::uint32_t kFree = 0xffffffffu;
+  [[nodiscard]] std::uint32_t starts_of(EdgeId e) const { return index_[e.index()]; }
+  [[nodiscard]] std::uint32_t stays_of(VertexId v) const { return index_[num_edges_ + v.index()]; }
+
+  /// Forbidden starts, united, increasing. Valid until the table changes.
+  [[nodiscard]] const std::vector<Span>& forbidden_starts(std::uint32_t place);
+  /// The maximal allowed stays, increasing, none of which contains another. The first may begin at
+  /// 0 only; the last may end with kForever.
+  [[nodiscard]] const std::vector<Span>& safe_stays(std::uint32_t place);
+
+  struct Entry {
+    Ticks begin, end;
+    std::uint32_t slot;
+  };
+  /// All bans of a place, switched off or not.
+  [[nodiscard]] const std::vector<Entry>& entries(std::uint32_t place) const {
+    return places_[place].entries;
+  }
+  [[nodiscard]] bool is_enabled(std::size_t slot) const { return enabled_[slot] != 0; }
+
+ private:
+  struct Place {
+    std::size_t resource = 0;  // into index_
+    std::vector<Entry> entries;
+    std::vector<Span> spans;  // of version `version`
+    std::uint64_t version = 0;
+    bool is_sorted = false;
+  };
+  [[nodiscard]] bool refresh(Place& place);
+
+  std::size_t num_edges_;
+  std::vector<std::uint32_t> index_;  // by edge, then by vertex: into places_, or kFree
+  std::vector<Place> places_;
+  std::size_t num_used_ = 0;
+  std::vector<char> enabled_;
+  std::uint64_t version_ = 1;
+};
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "paths/contacts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille::continuous {
+namespace {
+
+geometry::Disc disc(const Instance& instance, ClassId c) {
+  return geometry::Disc{instance.radius(c)};
+}
+
+}  // namespace
+
+Contacts::Contacts(const Instance& instance) : instance_(instance) {
+  const IdRange<ClassId> classes(instance.num_classes());
+  const std::size_t num_edges = instance.roadmap().num_edges();
+  for (const ClassId a : classes)
+    for (const ClassId b : classes)
+      pairs_.push_back({geometry::BodyPair(disc(instance, a), disc(instance, b)),
+                        PairTable<Offsets>(num_edges, std::max<std::size_t>(num_edges, 1)),
+                        PairTable<Window>(
+                            num_edges, std::max<std::size_t>(instance.roadmap().num_vertices(), 1)),
+                        {},
+                        {}});
+  volumes_.resize(instance.num_classes());
+}
+
+const Contacts::Offsets& Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
+  Pair& p = pair(a, b);
+  return p.offsets.get(e.index(), f.index(), [&] {
+    return p.bodies.unsafe_offsets(instance_.motion(a, e), instance_.motion(b, f));
+  });
+}
+
+const Contacts::Window& Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
+  Pair& p = pair(a, b);
+  return p.windows.get(e.index(), v.index(), [&] {
+    return p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().position(v));
+  });
+}
+
+bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
+  return pairs_[a.index() * instance_.num_classes() + b.index()].bodies.overlap(
+      instance_.roadmap().position(v), instance_.roadmap().position(w));
+}
+
+const geometry::SweptVolumes& Contacts::volumes(ClassId c) {
+  auto& known = volumes_[c.index()];
+  if (known == nullptr) {
+    std::vector<geometry::Motion> motions;
+    const Roadmap& roadmap = instance_.roadmap();
+    motions.reserve(roadmap.num_edges() + roadmap.num_vertices());
+    for (std::size_t e = 0; e < roadmap.num_edges(); ++e)
+      motions.push_back(instance_.motion(c, EdgeId(e)));
+    for (const Point& position : roadmap.positions())
+      motions.push_back(geometry::rest(position, 1));
+    known = std::make_unique<geometry::SweptVolumes>(disc(instance_, c), std::move(motions));
+  }
+  return *known;
+}
+
+const Contacts::Neighbours& Contacts::near(
+    std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>>& known, std::uint32_t key,
+    ClassId a, const geometry::Motion& motion, ClassId b) {
+  auto& entry = known[key];
+  if (entry == nullptr) {
+    entry = std::make_unique<Neighbours>();
+    const std::size_t num_edges = instance_.roadmap().num_edges();
+    for (const std::size_t index : volumes(b).near(disc(instance_, a), motion)) {
+      if (index < num_edges)
+        entry->edges.emplace_back(index);
+      else
+        entry->vertices.emplace_back(index - num_edges);
+    }
+  }
+  return *entry;
+}
+
+const Contacts::Neighbours& Contacts::near_edge(ClassId a, EdgeId e, ClassId b) {
+  return near(pair(a, b).near_edges, e.value(), a, instance_.motion(a, e), b);
+}
+
+const Contacts::Neighbours& Contacts::near_vertex(ClassId a, VertexId v, ClassId b) {
+  return near(pair(a, b).near_vertices, v.value(), a,
+              geometry::rest(instance_.roadmap().position(v), 1), b);
+}
+
+}  // namespace quadrille::continuous

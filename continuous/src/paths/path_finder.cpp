@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "paths/path_finder.hpp"
+
+#include <algorithm>
+#include <queue>
+
+namespace quadrille::continuous {
+namespace {
+
+constexpr std::uint32_t kNoParent = 0xffffffffu;
+
+/// The first start at `tick` or later that no ban forbids.
+Ticks allowed_start(const std::vector<BanTable::Span>& forbidden, Ticks tick) {
+  auto at = std::partition_point(forbidden.begin(), forbidden.end(),
+                                 [&](const BanTable::Span& span) { return span.end <= tick; });
+  for (; at != forbidden.end() && at->begin <= tick; ++at) tick = at->end;
+  return tick;
+}
+
+const std::vector<BanTable::Span> kNothingForbidden;
+const std::vector<BanTable::Span> kAlwaysSafe{{0, kForever}};
+
+}  // namespace
+
+GoalDistances::GoalDistances(const Instance& instance, AgentId agent)
+    : ticks_(instance.roadmap().num_vertices(), kForever) {
+  const ClassId c = instance.class_of(agent);
+  using Entry = std::pair<Ticks, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const VertexId goal = instance.agent(agent).goal;
+  ticks_[goal.index()] = 0;
+  queue.emplace(0, goal);
+  while (!queue.empty()) {
+    const auto [ticks, v] = queue.top();
+    queue.pop();
+    if (ticks > ticks_[v.index()]) continue;
+    for (const EdgeId e : instance.roadmap().in_edges(v)) {
+      const VertexId u = instance.roadmap().edge(e).from;
+      const Ticks via = ticks + instance.duration(c, e);
+      if (via >= ticks_[u.index()]) continue;
+      ticks_[u.index()] = via;
+      queue.emplace(via, u);
+    }
+  }
+}
+
+// Of equal estimates the one that is nearer to its end comes first.
+bool PathFinder::is_later(const Entry& a, const Entry& b) {
+  if (a.estimate != b.estimate) return a.estimate > b.estimate;
+  if (a.arrive != b.arrive) return a.arrive < b.arrive;
+  return a.node < b.node;
+}
+
+void PathFinder::begin(const PathTask& task) {
+  static_cast<void>(task);
+  ++num_runs_;
+  ++run_;
+  nodes_.clear();
+  heap_.clear();
+  num_states_ = instance_.roadmap().num_vertices();
+  if (best_.size() < num_states_) {
+    best_.resize(num_states_);
+    stamp_.resize(num_states_, 0);
+  }
+}
+
+std::size_t PathFinder::state(BanTable& bans, VertexId v, std::uint32_t stay) {
+  const std::uint32_t place = bans.stays_of(v);
+  if (place == BanTable::kFree) return v.index();
+  if (first_state_.size() <= place) {
+    first_state_.resize(place + 1);
+    first_stamp_.resize(place + 1, 0);
+  }
+  if (first_stamp_[place] != run_) {
+    first_stamp_[place] = run_;
+    first_state_[place] = num_states_;
+    num_states_ += bans.safe_stays(place).size();
+    if (best_.size() < num_states_) {
+      best_.resize(2 * num_states_);
+      stamp_.resize(2 * num_states_, 0);
+    }
+  }
+  return first_state_[place] + stay;
+}
+
+void PathFinder::visit(const Node& node, Ticks estimate) {
+  ++num_visits_;
+  nodes_.push_back(node);
+  heap_.push_back({estimate, node.arrive, static_cast<std::uint32_t>(nodes_.size() - 1)});
+  std::push_heap(heap_.begin(), heap_.end(), is_later);
+}
+
+std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Ticks bound,
+                                      TimedPath* path, std::vector<char>* relevant) {
+  begin(task);
+  const Agent& agent = instance_.agent(task.agent);
+  if (task.distances[agent.start] >= bound) return std::nullopt;
+  const std::uint32_t start_place = bans.stays_of(agent.start);
+  const auto& stays = start_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(start_place);
+  if (stays.empty() || stays.front().begin > 0) {
+    // Only the bans that cover tick 0 are to blame, and one of them is enough.
+    if (relevant != nullptr)
+      for (const BanTable::Entry& entry : bans.entries(start_place))
+        if (bans.is_enabled(entry.slot) && entry.begin < 0 && entry.end > 0) {
+          (*relevant)[entry.slot] = 1;
+          break;
+        }
+    return std::nullopt;
+  }
+  const std::size_t first = state(bans, agent.start, 0);
+  best_[first] = 0;
+  stamp_[first] = run_;
+  visit({agent.start, 0, 0, stays.front().end, kNoParent, {}}, task.distances[agent.start]);
+  while (!heap_.empty()) {
+    std::pop_heap(heap_.begin(), heap_.end(), is_later);
+    const std::uint32_t index = heap_.back().node;
+    heap_.pop_back();
+    const Node node = nodes_[index];
+    if (best_[state(bans, node.vertex, node.stay)] < node.arrive) continue;
+    if (node.vertex == agent.goal && node.leave_by == kForever) {
+      if (path != nullptr) trace(index, *path);
+      return node.arrive;
+    }
+    if (relevant != nullptr) mark(task, bans, node, bound, *relevant);
+    expand(task, bans, index, bound);
+  }
+  return std::nullopt;
+}
+
+void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t index, Ticks bound) {
+  const Node node = nodes_[index];
+  const ClassId c = instance_.class_of(task.agent);
+  for (const EdgeId e : instance_.roadmap().out_edges(node.vertex)) {
+    const VertexId w = instance_.roadmap().edge(e).to;
+    const Ticks duration = instance_.duration(c, e), rest = task.distances[w];
+    if (rest >= kForever || node.arrive + duration + rest >= bound) continue;
+    const std::uint32_t start_place = bans.starts_of(e), stay_place = bans.stays_of(w);
+    const auto& forbidden =
+        start_place == BanTable::kFree ? kNothingForbidden : bans.forbidden_starts(start_place);
+    const auto& stays = stay_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(stay_place);
+    auto stay = std::partition_point(stays.begin(), stays.end(), [&](const BanTable::Span& span) {
+      return span.end < node.arrive + duration;
+    });
+    for (; stay != stays.end(); ++stay) {
+      const Ticks start = allowed_start(forbidden, std::max(node.arrive, stay->begin - duration));
+      const Ticks arrive = start + duration;
+      if (start > node.leave_by || arrive + rest >= bound) break;
+      if (arrive > stay->end) continue;
+      const auto k = static_cast<std::uint32_t>(stay - stays.begin());
+      const std::size_t s = state(bans, w, k);
+      if (stamp_[s] == run_ && best_[s] <= arrive) continue;
+      stamp_[s] = run_;
+      best_[s] = arrive;
+      visit({w, k, arrive, stay->end, index, {e, start}}, arrive + rest);
+    }
+  }
+}
+
+// A slot is irrelevant if nowhere on the way from a visited state it keeps a departure or arrival
+// from happening that could still lead to the goal before `bound`: without all irrelevant slots the
+// search would visit the same states.
+void PathFinder::mark(const PathTask& task, const BanTable& bans, const Node& node, Ticks bound,
+                      std::vector<char>& relevant) const {
+  const auto mark_entries = [&](std::uint32_t place, Ticks from, Ticks to) {
+    if (place == BanTable::kFree) return;
+    for (const BanTable::Entry& entry : bans.entries(place))
+      if (bans.is_enabled(entry.slot) && entry.begin <= to && entry.end >= from)
+        relevant[entry.slot] = 1;
+  };
+  // What ends this stay, unless it is too late to go on then. At the goal an agent could stay.
+  const bool is_goal = node.vertex == instance_.agent(task.agent).goal;
+  if (node.leave_by < kForever && (is_goal || node.leave_by + task.distances[node.vertex] < bound))
+    mark_entries(bans.stays_of(node.vertex), node.leave_by,
+                 is_goal ? kForever : bound - task.distances[node.vertex]);
+  const ClassId c = instance_.class_of(task.agent);
+  for (const EdgeId e : instance_.roadmap().out_edges(node.vertex)) {
+    const VertexId w = instance_.roadmap().edge(e).to;
+    const Ticks duration = instance_.duration(c, e), rest = task.distances[w];
+    if (rest >= kForever || node.arrive + duration + rest >= bound) continue;
+    const Ticks last_start = std::min(node.leave_by, bound - rest - duration - 1);
+    mark_entries(bans.starts_of(e), node.arrive, last_start);
+    mark_entries(bans.stays_of(w), node.arrive + duration, last_start + duration);
+  }
+}
+
+void PathFinder::trace(std::uint32_t node, TimedPath& path) const {
+  path.arrival = nodes_[node].arrive;
+  path.moves.clear();
+  for (; nodes_[node].parent != kNoParent; node = nodes_[node].parent)
+    path.moves.push_back(nodes_[node].move);
+  std::reverse(path.moves.begin(), path.moves.end());
+}
+
+}  // namespace quadrille::continuous

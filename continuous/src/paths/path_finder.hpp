@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "paths/bans.hpp"
+
+namespace quadrille::continuous {
+
+/// How far each vertex is from the goal of one agent.
+class GoalDistances {
+ public:
+  GoalDistances(const Instance& instance, AgentId agent);
+  /// Ticks; kForever if the goal cannot be reached.
+  [[nodiscard]] Ticks operator[](VertexId v) const { return ticks_[v.index()]; }
+
+ private:
+  std::vector<Ticks> ticks_;
+};
+
+/// Whose path is looked for.
+struct PathTask {
+  AgentId agent;
+  const GoalDistances& distances;
+};
+
+/// Safe-interval path planning (Phillips and Likhachev 2011, ICRA) with forbidden starts: cheapest
+/// paths that obey a table of bans. Among all visits to a vertex within one safe stay only the
+/// earliest matters, because an agent may wait until the stay ends.
+class PathFinder {
+ public:
+  explicit PathFinder(const Instance& instance) : instance_(instance) {}
+
+  /// Arrival of the cheapest path that arrives before `bound`; nullopt if there is none. `path`,
+  /// unless null, receives it. `relevant`, unless null, is marked by slot: no path arrives before
+  /// `bound` even if only the marked slots are switched on. Without result only.
+  [[nodiscard]] std::optional<Ticks> find(const PathTask& task, BanTable& bans, Ticks bound,
+                                          TimedPath* path, std::vector<char>* relevant = nullptr);
+
+  [[nodiscard]] std::int64_t num_runs() const noexcept { return num_runs_; }
+  /// Of states, in all runs.
+  [[nodiscard]] std::int64_t num_visits() const noexcept { return num_visits_; }
+
+ private:
+  struct Node {
+    VertexId vertex;
+    std::uint32_t stay;  // which of the safe stays
+    Ticks arrive;
+    Ticks leave_by;
+    std::uint32_t parent;
+    Move move;  // that led here
+  };
+  struct Entry {
+    Ticks estimate, arrive;
+    std::uint32_t node;
+  };
+  static bool is_later(const Entry& a, const Entry& b);
+
+  void begin(const PathTask& task);
+  void expand(const PathTask& task, BanTable& bans, std::uint32_t node, Ticks bound);
+  void visit(const Node& node, Ticks estimate);
+  [[nodiscard]] std::size_t state(BanTable& bans, VertexId v, std::uint32_t stay);
+  void mark(const PathTask& task, const BanTable& bans, const Node& node, Ticks bound,
+            std::vector<char>& relevant) const;
+  void trace(std::uint32_t node, TimedPath& path) const;
+
+  const Instance& instance_;
+  std::vector<Node> nodes_;
+  std::vector<Entry> heap_;
+  // States of vertices without bans come first, by vertex; others as they are met.
+  std::vector<Ticks> best_;
+  std::vector<std::uint32_t> stamp_;
+  std::vector<std::size_t> first_state_;  // by place of the ban table
+  std::vector<std::uint32_t> first_stamp_;
+  std::size_t num_states_ = 0;
+  std::uint32_t run_ = 0;
+  std::int64_t num_runs_ = 0, num_visits_ = 0;
+};
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "quadrille/continuous/plan.hpp"
+#include "theory/model.hpp"
+
+namespace quadrille::continuous {
+
+/// Looks for some plan, fast: one agent after the other takes a cheapest path around those before
+/// it, in several orders. The best plan found; nullopt says nothing about the instance. Stops early
+/// when the limits of the model are met.
+[[nodiscard]] std::optional<Plan> find_first_plan(Model& model, Objective objective);
+
+}  // namespace quadrille::continuous

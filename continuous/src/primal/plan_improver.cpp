@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "primal/plan_improver.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "quadrille/continuous/verify.hpp"
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+constexpr std::size_t kMaxChosen = 8;
+/// Bans of paths that were given up stay in the tables for a while.
+constexpr std::size_t kMaxSlotsPerAgent = 2;
+/// A table per class.
+constexpr std::size_t kMaxClasses = 4;
+
+TimedPath timed(const Instance& instance, AgentId i, const Path& stops) {
+  TimedPath path;
+  path.arrival = cost(stops);
+  for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
+    const auto& edges = instance.roadmap().out_edges(stops[k].vertex);
+    const auto at = std::find_if(edges.begin(), edges.end(), [&](EdgeId e) {
+      return instance.roadmap().edge(e).to == stops[k + 1].vertex &&
+             instance.duration(instance.class_of(i), e) == stops[k + 1].arrive - stops[k].depart;
+    });
+    QUADRILLE_REQUIRE(at != edges.end(), "plans move along edges");
+    path.moves.push_back({*at, stops[k].depart});
+  }
+  return path;
+}
+
+}  // namespace
+
+std::vector<Ban> bans_around(Model& model, ClassId a, ClassId b, const std::vector<Step>& steps) {
+  Contacts& contacts = model.contacts();
+  std::vector<Ban> bans;
+  for (const Step& step : steps) {
+    if (step.is_move) {
+      const auto& near = contacts.near_edge(b, step.edge, a);
+      for (const EdgeId e : near.edges)
+        if (const auto offsets = contacts.offsets(b, step.edge, a, e))
+          bans.push_back(Ban::start(e, step.begin + offsets->lo, step.begin + offsets->hi + 1));
+      for (const VertexId v : near.vertices)
+        if (const auto w = contacts.window(b, step.edge, a, v))
+          bans.push_back(Ban::stay(v, step.begin + w->first, step.begin + w->last));
+    } else {
+      // A move that begins at s meets the stay if begin < s + last and end > s + first.
+      for (const EdgeId e : contacts.near_vertex(b, step.vertex, a).edges)
+        if (const auto w = contacts.window(a, e, b, step.vertex))
+          bans.push_back(Ban::start(e, step.begin - w->last + 1,
+                                    step.end >= kForever ? kForever : step.end - w->first));
+    }
+  }
+  return bans;
+}
+
+PlanImprover::PlanImprover(Model& model)
+    : model_(model),
+      finder_(model.instance()),
+      nothing_(model.instance().roadmap()),
+      agents_(model.instance().num_agents()) {}
+
+void PlanImprover::improve(Plan& plan, std::int64_t effort) {
+  const Instance& instance = model_.instance();
+  if (instance.num_classes() > kMaxClasses || instance.num_agents() < 2) return;
+  start(plan);
+  const std::int64_t end = finder_.num_visits() + effort;
+  while (finder_.num_visits() < end && !model_.limits().exhausted()) {
+    if (num_slots_ > kMaxSlotsPerAgent * agents_.size()) load();
+    replan(choose());
+  }
+  Plan improved;
+  for (const AgentId i : instance.agent_ids())
+    improved.paths.push_back(with_stops(instance, i, agents_[i].path));
+  if (cost(improved, Objective::sum_of_costs) < cost(plan, Objective::sum_of_costs) &&
+      verify(instance, improved).valid())
+    plan = std::move(improved);
+}
+
+void PlanImprover::start(const Plan& plan) {
+  const Instance& instance = model_.instance();
+  while (tables_.size() < instance.num_classes()) tables_.emplace_back(instance.roadmap());
+  for (const AgentId i : instance.agent_ids()) {
+    agents_[i].path = timed(instance, i, plan.paths[i]);
+    list_bans(i, agents_[i]);
+  }
+  load();
+}
+
+void PlanImprover::list_bans(AgentId i, AgentState& agent) {
+  list_steps(model_.instance(), i, agent.path, agent.steps);
+  agent.bans.clear();
+  for (std::size_t c = 0; c < tables_.size(); ++c)
+    agent.bans.push_back(
+        bans_around(model_, ClassId(c), model_.instance().class_of(i), agent.steps));
+}
+
+void PlanImprover::load() {
+  for (BanTable& table : tables_) table.clear();
+  num_slots_ = 0;
+  for (AgentState& agent : agents_) add_slot(agent);
+}
+
+void PlanImprover::add_slot(AgentState& agent) {
+  for (std::size_t c = 0; c < tables_.size(); ++c) tables_[c].add(agent.bans[c]);
+  agent.slot = num_slots_++;
+}
+
+void PlanImprover::enable(std::size_t slot, bool on) {
+  for (BanTable& table : tables_) table.enable(slot, on);
+}
+
+AgentId PlanImprover::choose_delayed() {
+  std::vector<AgentId> delayed;
+  for (const AgentId i : model_.instance().agent_ids())
+    if (delay(i) > 0) delayed.push_back(i);
+  return delayed.empty() ? AgentId(draw(agents_.size())) : delayed[draw(delayed.size())];
+}
+
+/// Somebody who is late, some of those who are in its way, and some others.
+std::vector<AgentId> PlanImprover::choose() {
+  const Instance& instance = model_.instance();
+  const std::size_t size = std::min<std::size_t>(2 + draw(kMaxChosen - 1), instance.num_agents());
+  std::vector<AgentId> chosen{choose_delayed()};
+  const AgentId late = chosen.front();
+  TimedPath path;
+  static_cast<void>(finder_.find(model_.task(late), nothing_, kForever, &path));
+  std::vector<Step> steps;
+  list_steps(instance, late, path, steps);
+  std::vector<AgentId> others, in_way;
+  for (const AgentId j : instance.agent_ids()) {
+    if (j == late) continue;
+    others.push_back(j);
+    if (first_encounter(model_, late, steps, j, agents_[j].steps)) in_way.push_back(j);
+  }
+  for (std::vector<AgentId>* group : {&in_way, &others})
+    while (chosen.size() < size && !group->empty()) {
+      const std::size_t at = draw(group->size());
+      const AgentId j = (*group)[at];
+      group->erase(group->begin() + static_cast<std::ptrdiff_t>(at));
+      if (std::find(chosen.begin(), chosen.end(), j) == chosen.end()) chosen.push_back(j);
+    }
+  for (std::size_t k = chosen.size(); k > 1; --k) std::swap(chosen[k - 1], chosen[draw(k)]);
+  return chosen;
+}
+
+void PlanImprover::replan(const std::vector<AgentId>& chosen) {
+  const Instance& instance = model_.instance();
+  Cost left = 0;  // what may be spent above the free costs
+  for (const AgentId i : chosen) {
+    left += delay(i);
+    enable(agents_[i].slot, false);
+  }
+  std::vector<AgentState> fresh;
+  for (const AgentId i : chosen) {
+    AgentState state;
+    const Cost bound = model_.free_cost(i) + left + 1;
+    if (!finder_.find(model_.task(i), tables_[instance.class_of(i).index()], bound, &state.path))
+      break;
+    left -= state.path.arrival - model_.free_cost(i);
+    list_bans(i, state);
+    add_slot(state);
+    fresh.push_back(std::move(state));
+  }
+  const bool is_done = fresh.size() == chosen.size();
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    if (is_done)
+      agents_[chosen[k]] = std::move(fresh[k]);
+    else
+      enable(agents_[chosen[k]].slot, true);
+  }
+  if (!is_done)
+    for (const AgentState& state : fresh) enable(state.slot, false);
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "routes/cost_floors.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace quadrille::continuous {
+namespace {
+
+/// When an agent that is alone can be at each vertex, by index; kForever if never.
+std::vector<Ticks> earliest_visits(const Instance& instance, AgentId agent) {
+  const Roadmap& roadmap = instance.roadmap();
+  std::vector<Ticks> ticks(roadmap.num_vertices(), kForever);
+  using Entry = std::pair<Ticks, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  const auto visit = [&](VertexId v, Ticks tick) {
+    if (tick >= ticks[v.index()]) return;
+    ticks[v.index()] = tick;
+    open.emplace(tick, v.index());
+  };
+  visit(instance.agent(agent).start, 0);
+  while (!open.empty()) {
+    const auto [tick, v] = open.top();
+    open.pop();
+    if (tick > ticks[v]) continue;
+    for (const EdgeId e : roadmap.out_edges(VertexId(v)))
+      visit(roadmap.edge(e).to, tick + instance.duration(instance.class_of(agent), e));
+  }
+  return ticks;
+}
+
+/// When the contact between `passer`, if it is nowhere later than it has to be, and the goal of
+/// `resident` is over at last; 0 if it can go around.
+Ticks last_pass(Model& model, AgentId resident, AgentId passer, const std::vector<Ticks>& visits) {
+  const Instance& instance = model.instance();
+  const Roadmap& roadmap = instance.roadmap();
+  const ClassId mover = instance.class_of(passer), stander = instance.class_of(resident);
+  const VertexId place = instance.agent(resident).goal;
+
+  std::vector<std::pair<EdgeId, Ticks>> touching;  // edges, and how long they are in contact
+  for (const EdgeId e : model.contacts().near_vertex(stander, place, mover).edges)
+    if (const auto window = model.contacts().window(mover, e, stander, place))
+      touching.emplace_back(e, window->last);
+  if (touching.empty()) return 0;
+  const auto touches = [&](EdgeId e) {
+    return std::any_of(touching.begin(), touching.end(),
+                       [&](const auto& t) { return t.first == e; });
+  };
+
+  std::vector<bool> is_past(roadmap.num_vertices(), false);  // from where it needs none of them
+  std::vector<VertexId> stack{instance.agent(passer).goal};
+  is_past[stack.front().index()] = true;
+  while (!stack.empty()) {
+    const VertexId v = stack.back();
+    stack.pop_back();
+    for (const EdgeId e : roadmap.in_edges(v)) {
+      const VertexId from = roadmap.edge(e).from;
+      if (is_past[from.index()] || touches(e)) continue;
+      is_past[from.index()] = true;
+      stack.push_back(from);
+    }
+  }
+  if (is_past[instance.agent(passer).start.index()]) return 0;
+  Ticks end = kForever;
+  for (const auto& [e, last] : touching)
+    if (is_past[roadmap.edge(e).to.index()])
+      end = std::min(end, visits[roadmap.edge(e).from.index()] + last);
+  return end == kForever ? 0 : end;
+}
+
+}  // namespace
+
+std::vector<Cost> cost_floors(Model& model) {
+  std::vector<Cost> floors;
+  for (const AgentId i : model.instance().agent_ids()) floors.push_back(model.free_cost(i));
+  for (const AgentId passer : model.instance().agent_ids()) {
+    const std::vector<Ticks> visits = earliest_visits(model.instance(), passer);
+    for (const AgentId resident : model.instance().agent_ids())
+      if (resident != passer)
+        floors[resident.index()] =
+            std::max(floors[resident.index()], last_pass(model, resident, passer, visits));
+  }
+  return floors;
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/solver.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "feasibility/feasibility.hpp"
+#include "primal/first_plan.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "routes/route_search.hpp"
+#include "solve/cost_problem.hpp"
+#include "solve/cover_search.hpp"
+#include "theory/known_plan_auditor.hpp"
+#include "theory/model.hpp"
+#include "theory/theory.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+std::optional<Error> check_options(const Instance& instance, const SolveOptions& options) {
+  if (options.seed > 2'000'000'000)
+    return Error{ErrorCode::out_of_range, "the seed is larger than 2000000000", {}};
+  if (options.gap_percent && !(*options.gap_percent >= 0))
+    return Error{ErrorCode::out_of_range, "the gap is not a number of at least 0", {}};
+  if (options.known_plan && !verify(instance, *options.known_plan).valid())
+    return Error{ErrorCode::invalid_plan, "the known plan is not a plan of this instance", {}};
+  return std::nullopt;
+}
+
+/// Whether the gap that is left is as small as was asked for, and no proof of optimality.
+bool is_close(const SolveOptions& options, Cost cost, Cost bound) {
+  return options.gap_percent && cost > bound &&
+         static_cast<double>(cost - bound) * 100 <=
+             *options.gap_percent * static_cast<double>(cost);
+}
+
+std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_agents) {
+  if (blocked.size() == num_agents) return "the agents cannot all reach their goals";
+  std::string text = "agents";
+  for (const AgentId i : blocked)
+    text += (i == blocked.front() ? " " : " and ") + std::to_string(i.index());
+  return text + " cannot both reach their goals, even without the others";
+}
+
+void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
+               SolveOutcome& outcome) {
+  Model model(instance, limits);
+  if (!model.is_complete()) return;
+  Cost floor = 0;
+  std::optional<Plan> some_plan;
+  if (options.route_work > 0 && options.system == System::dpll &&
+      instance.num_agents() <= kMaxRouteAgents) {
+    auto routes = search_routes(model, options.objective, options.route_work);
+    floor = outcome.lower_bound = routes.lower_bound;
+    some_plan = std::move(routes.plan);
+    if (some_plan && cost(*some_plan, options.objective) == floor) {
+      outcome.plan = std::move(some_plan);
+      outcome.status = Status::optimal;
+      return;
+    }
+  }
+  if (!some_plan) some_plan = find_first_plan(model, options.objective);
+  if (!some_plan) {
+    const std::vector<AgentId> blocked = find_blocked_agents(model);
+    if (!blocked.empty()) {
+      outcome.status = Status::infeasible;
+      outcome.explanation = blocked_text(blocked, instance.num_agents());
+      return;
+    }
+  }
+  ContinuousTheory theory(model);
+  std::optional<KnownPlanAuditor> auditor;
+  if (options.known_plan) auditor.emplace(model, *options.known_plan);
+  const bool in_search = options.system == System::dpll;
+  sat::EngineOptions engine_options;
+  engine_options.seed = options.seed;
+  engine_options.observer = auditor ? &*auditor : nullptr;
+  sat::Engine engine(in_search ? &theory : nullptr, engine_options);
+  CostProblem problem(model, engine, theory, in_search);
+
+  std::optional<Cost> best;
+  limits.set_ticker(0.25, [&] {
+    if (options.on_progress)
+      options.on_progress({outcome.lower_bound, best, limits.elapsed_wall(), limits.conflicts()});
+  });
+  const auto on_report = [&](const CostReport& report) {
+    outcome.lower_bound = std::max(floor, report.lower_bound);
+    if (!report.plan) return;
+    best = cost(*report.plan, options.objective);
+    if (is_close(options, *best, outcome.lower_bound)) limits.stop(StopReason::gap);
+  };
+  const auto report =
+      options.objective == Objective::sum_of_costs
+          ? search_by_covers(problem, std::move(some_plan),
+                             options.known_plan ? cost(*options.known_plan, options.objective) : 0,
+                             limits, outcome.statistics, on_report)
+          : search_makespan(problem, std::move(some_plan), limits, outcome.statistics, on_report);
+  outcome.lower_bound = std::max(floor, report.lower_bound);
+  engine.add_statistics(outcome.statistics);
+  outcome.statistics.checks = theory.num_checks();
+  if (auditor && auditor->complaint()) {
+    outcome.internal_error = Error{ErrorCode::internal, *auditor->complaint(), {}};
+  } else if (report.end == sat::SearchReport::End::exhausted) {
+    outcome.status = Status::infeasible;
+    outcome.explanation = "every combination of paths collides";
+  } else if (report.plan) {
+    outcome.plan = report.plan;
+    const bool is_proved = report.end == sat::SearchReport::End::found ||
+                           cost(*report.plan, options.objective) == outcome.lower_bound;
+    outcome.status = is_proved ? Status::optimal : Status::feasible;
+  }
+}
+
+/// What is claimed must not contradict the known plan.
+void check_known_plan(const SolveOptions& options, SolveOutcome& outcome) {
+  const Cost known = cost(*options.known_plan, options.objective);
+  if (outcome.status == Status::infeasible)
+    outcome.internal_error = Error{ErrorCode::internal, "infeasible, but a plan is known", {}};
+  else if (known < outcome.lower_bound)
+    outcome.internal_error =
+        Error{ErrorCode::internal,
+              "the known plan costs " + std::to_string(known) + " and the proven bound is " +
+                  std::to_string(outcome.lower_bound),
+              {}};
+}
+
+/// The plan has to pass `verify` and to cost what was proved.
+void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
+  const VerifyReport report = verify(instance, *outcome.plan);
+  const Cost cost =
+      options.objective == Objective::sum_of_costs ? report.sum_of_costs : report.makespan;
+  std::optional<std::string> wrong;
+  if (!report.valid())
+    wrong = "the plan is not valid: " + report.violations.front().message;
+  else if (cost < outcome.lower_bound ||
+           (outcome.status == Status::optimal && cost != outcome.lower_bound))
+    wrong = "the plan costs " + std::to_string(cost) + " and the proven bound is " +
+            std::to_string(outcome.lower_bound);
+  if (wrong) {
+    outcome.internal_error = Error{ErrorCode::internal, *wrong, {}};
+    return;
+  }
+  outcome.cost = cost;
+}
+
+}  // namespace
+
+std::string_view to_string(System system) noexcept {
+  return system == System::dpll ? "dpll" : "smt-cbs";
+}
+
+std::optional<System> parse_system(std::string_view text) noexcept {
+  for (const System system : {System::dpll, System::smt_cbs})
+    if (text == to_string(system)) return system;
+  return std::nullopt;
+}
+
+SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
+  SolveOutcome outcome;
+  LimitMonitor limits(options.limits);
+  if (auto error = check_options(instance, options))
+    outcome.internal_error = std::move(error);
+  else
+    find_plan(instance, options, limits, outcome);
+  if (options.known_plan && !outcome.internal_error) check_known_plan(options, outcome);
+  if (outcome.plan && !outcome.internal_error) check_plan(instance, options, outcome);
+  if (outcome.internal_error) {
+    outcome.status = Status::unknown;
+    outcome.plan.reset();
+    outcome.cost.reset();
+    outcome.explanation = outcome.internal_error->message;
+  } else if (outcome.status == Status::unknown || outcome.status == Status::feasible) {
+    outcome.stop = limits.reason();
+    outcome.explanation = outcome.stop == StopReason::gap
+                              ? "the gap is as small as was asked for"
+                              : "stopped by a limit: " + std::string(to_string(outcome.stop));
+  }
+  outcome.statistics.cpu_s = limits.elapsed_cpu();
+  outcome.statistics.wall_s = limits.elapsed_wall();
+  outcome.statistics.peak_rss_mib = peak_rss_mib();
+  return outcome;
+}
+
+}  // namespace quadrille::continuous

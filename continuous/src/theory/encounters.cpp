@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "theory/encounters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+/// Whether two steps are so far apart that they cannot collide. May say no to such as well.
+bool are_far(const Instance& instance, const Step& a, const Step& b, Length reach) {
+  const auto ends = [&](const Step& step) {
+    const Roadmap& roadmap = instance.roadmap();
+    if (!step.is_move)
+      return std::pair{roadmap.position(step.vertex), roadmap.position(step.vertex)};
+    const Edge& edge = roadmap.edge(step.edge);
+    return std::pair{roadmap.position(edge.from), roadmap.position(edge.to)};
+  };
+  const auto [p0, p1] = ends(a);
+  const auto [q0, q1] = ends(b);
+  const auto apart = [&, p0 = p0, p1 = p1, q0 = q0, q1 = q1](Length Point::*axis) {
+    return std::min(p0.*axis, p1.*axis) - std::max(q0.*axis, q1.*axis) >= reach ||
+           std::min(q0.*axis, q1.*axis) - std::max(p0.*axis, p1.*axis) >= reach;
+  };
+  return apart(&Point::x) || apart(&Point::y);
+}
+
+bool collide(Model& model, ClassId a, const Step& p, ClassId b, const Step& q) {
+  if (are_far(model.instance(), p, q, model.instance().radius(a) + model.instance().radius(b)))
+    return false;
+  if (p.is_move && q.is_move) {
+    const auto offsets = model.contacts().offsets(a, p.edge, b, q.edge);
+    const Ticks offset = q.begin - p.begin;
+    return offsets && offsets->lo <= offset && offset <= offsets->hi;
+  }
+  // Two stays that are too near: whoever came later collides on its way already, as a move.
+  if (!p.is_move && !q.is_move) return false;
+  const Step& move = p.is_move ? p : q;
+  const Step& stay = p.is_move ? q : p;
+  const auto window = p.is_move ? model.contacts().window(a, move.edge, b, stay.vertex)
+                                : model.contacts().window(b, move.edge, a, stay.vertex);
+  return window && window->meets(stay.begin - move.begin, stay.end - move.begin);
+}
+
+}  // namespace
+
+void list_steps(const Instance& instance, AgentId agent, const TimedPath& path,
+                std::vector<Step>& steps) {
+  steps.clear();
+  const ClassId c = instance.class_of(agent);
+  VertexId at = instance.agent(agent).start;
+  Ticks now = 0;
+  for (const Move& move : path.moves) {
+    if (move.start > now) steps.push_back({false, EdgeId(), at, now, move.start});
+    now = move.start + instance.duration(c, move.edge);
+    steps.push_back({true, move.edge, VertexId(), move.start, now});
+    at = instance.roadmap().edge(move.edge).to;
+  }
+  steps.push_back({false, EdgeId(), at, now, kForever});
+}
+
+std::optional<Encounter> first_encounter(Model& model, AgentId i, const std::vector<Step>& steps_i,
+                                         AgentId j, const std::vector<Step>& steps_j) {
+  const ClassId a = model.instance().class_of(i), b = model.instance().class_of(j);
+  // A collision lasts: interiors that meet do so for some time. So steps that overlap at one tick
+  // only need no look.
+  for (std::size_t k = 0, l = 0; k < steps_i.size() && l < steps_j.size();) {
+    const Step &p = steps_i[k], &q = steps_j[l];
+    if (std::max(p.begin, q.begin) < std::min(p.end, q.end) && collide(model, a, p, b, q))
+      return Encounter{i, j, p, q};
+    if (p.end <= q.end)
+      ++k;
+    else
+      ++l;
+  }
+  return std::nullopt;
+}
+
+void EncounterClauses::exclude(const Encounter& encounter, Ticks stay_i, Ticks stay_j,
+                               FormulaWriter& writer) {
+  const Instance& instance = model_.instance();
+  const Party i{encounter.first, instance.class_of(encounter.first)};
+  const Party j{encounter.second, instance.class_of(encounter.second)};
+  if (encounter.a.is_move && encounter.b.is_move)
+    exclude_moves(i, encounter.a, j, encounter.b, writer);
+  else if (encounter.a.is_move)
+    exclude_stay(i, encounter.a, j, encounter.b, stay_j, writer);
+  else
+    exclude_stay(j, encounter.b, i, encounter.a, stay_i, writer);
+}
+
+// With offsets lo <= t - s <= hi unsafe, every start of e in [s, t - lo] collides with every start
+// of f in [t, s + hi]: the offsets of the corners are t - (t - lo) = lo and (s + hi) - s = hi, and
+// the others are between them.
+void EncounterClauses::exclude_moves(Party i, const Step& a, Party j, const Step& b,
+                                     FormulaWriter& writer) {
+  const auto offsets = model_.contacts().offsets(i.c, a.edge, j.c, b.edge);
+  QUADRILLE_REQUIRE(offsets.has_value(), "the moves collide");
+  const Ticks s = a.begin, t = b.begin;
+  std::vector<Ban> bans_i{Ban::start(a.edge, s, t - offsets->lo + 1)};
+  std::vector<Ban> bans_j{Ban::start(b.edge, t, s + offsets->hi + 1)};
+  lift(i, bans_i, j, (bans_j[0].end - bans_j[0].begin) / 2, bans_j);
+  lift(j, bans_j, i, (bans_i[0].end - bans_i[0].begin) / 2, bans_i);
+  add_pair(i.agent, std::move(bans_i), j.agent, std::move(bans_j), writer);
+}
+
+// Start s of a along e collides with start t of b along f if lo <= t - s <= hi. For all s of a ban
+// [x, y) that is t >= lo + y - 1 and t <= hi + x; for all bans of a together the largest of the
+// former and the smallest of the latter bound t.
+void EncounterClauses::lift(Party a, std::span<const Ban> bans_of_a, Party b, Ticks min_length,
+                            std::vector<Ban>& bans_of_b) {
+  const EdgeId known(bans_of_b.front().place);
+  const auto& near = model_.contacts().near_edge(a.c, EdgeId(bans_of_a.front().place), b.c);
+  for (const EdgeId f : near.edges) {
+    if (f == known) continue;
+    Ticks begin = -kForever, end = kForever;
+    for (const Ban& ban : bans_of_a) {
+      const auto offsets = model_.contacts().offsets(a.c, EdgeId(ban.place), b.c, f);
+      if (!offsets) {
+        end = begin;
+        break;
+      }
+      begin = std::max(begin, offsets->lo + ban.end - 1);
+      end = std::min(end, offsets->hi + ban.begin + 1);
+      if (end - begin < min_length) break;
+    }
+    if (end > begin && end - begin >= min_length && end > 0)
+      bans_of_b.push_back(Ban::start(f, begin, end));
+  }
+}
+
+// A stay [arrive, depart] that breaks the ban (x, y) has arrive <= y - 1 and depart >= x + 1. A
+// move that starts at s with contact window (first, last) meets it if arrive < s + last and depart
+// > s + first; s >= y - last and s <= x - first are enough.
+void EncounterClauses::lift_over_stay(Party a, Party b, const Ban& stay, Ticks min_length,
+                                      std::vector<Ban>& bans_of_a) {
+  const VertexId v(stay.place);
+  const EdgeId known(bans_of_a.front().place);
+  for (const EdgeId e : model_.contacts().near_vertex(b.c, v, a.c).edges) {
+    if (e == known) continue;
+    const auto window = model_.contacts().window(a.c, e, b.c, v);
+    if (!window) continue;
+    const Ticks begin = stay.end - window->last, end = stay.begin - window->first + 1;
+    if (end > begin && end - begin >= min_length && end > 0)
+      bans_of_a.push_back(Ban::start(e, begin, end));
+  }
+}
+
+void EncounterClauses::exclude_stay(Party mover, const Step& move, Party stander, const Step& stay,
+                                    Ticks final_from, FormulaWriter& writer) {
+  const auto window = model_.contacts().window(mover.c, move.edge, stander.c, stay.vertex);
+  QUADRILLE_REQUIRE(window.has_value(), "the move meets the stay");
+  const Ticks s = move.begin, until = s + window->last;
+  if (stay.end == kForever && final_from < until) {
+    // Whoever stays for good before `until` is in the way of this move; see keep_off_goal.
+    bool is_new = false;
+    const ObstacleId id = model_.keep_off_goal(mover.agent, stander.agent, until, writer, is_new);
+    if (is_new) add_price(id, writer);
+    return;
+  }
+  // Any `from` in [s + first, depart) gives a sound pair: starts in [s, from - first] are in
+  // contact during all of (from, until), see lift_over_stay. It is chosen half-way through the
+  // contact.
+  const Ticks middle = s + window->first + (window->last - window->first) / 2;
+  const Ticks depart = stay.end == kForever ? until : stay.end;
+  const Ticks from = std::min({depart - 1, until - 1, std::max(stay.begin, middle)});
+  std::vector<Ban> bans_mover{Ban::start(move.edge, s, from - window->first + 1)};
+  const Ban ban_stander = Ban::stay(stay.vertex, from, until);
+  lift_over_stay(mover, stander, ban_stander, (bans_mover[0].end - bans_mover[0].begin) / 4,
+                 bans_mover);
+  add_pair(mover.agent, std::move(bans_mover), stander.agent, {ban_stander}, writer);
+}
+
+void EncounterClauses::add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
+                                std::vector<Ban> bans_j, FormulaWriter& writer) {
+  bool is_new_i = false, is_new_j = false;
+  const ObstacleId a = model_.usage(i, std::move(bans_i), j, writer, is_new_i);
+  const ObstacleId b = model_.usage(j, std::move(bans_j), i, writer, is_new_j);
+  const sat::Lit clause[] = {~model_.obstacles()[a].allowed, ~model_.obstacles()[b].allowed};
+  const sat::Usage usages[] = {{i, a.value()}, {j, b.value()}};
+  writer.add({sat::LemmaKind::collision, clause, usages, false});
+  if (is_new_i) add_price(a, writer);
+  if (is_new_j) add_price(b, writer);
+}
+
+// The path lemma whose only usage is this one.
+void EncounterClauses::add_price(ObstacleId id, FormulaWriter& writer) {
+  const AgentId i = model_.obstacles()[id].agent;
+  bans_.clear();
+  bans_.add(model_.obstacles()[id].bans);
+  const auto arrival = finder_.find(model_.task(i), bans_, kForever, nullptr);
+  if (arrival && *arrival <= model_.free_cost(i)) return;
+  std::vector<sat::Lit> clause{model_.obstacles()[id].allowed};
+  if (arrival) clause.push_back(model_.at_least(i, *arrival, writer));
+  const sat::Usage usages[] = {{i, id.value()}};
+  writer.add({sat::LemmaKind::path, clause, usages, false});
+}
+
+}  // namespace quadrille::continuous

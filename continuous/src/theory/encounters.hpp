@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "theory/model.hpp"
+
+namespace quadrille::continuous {
+
+/// A move along an edge, or a stay at a vertex that ends with kForever at the goal.
+struct Step {
+  bool is_move = false;
+  EdgeId edge;      // moves
+  VertexId vertex;  // stays
+  Ticks begin = 0, end = 0;
+};
+
+/// The path as steps that follow each other; stays without length are left out.
+void list_steps(const Instance& instance, AgentId agent, const TimedPath& path,
+                std::vector<Step>& steps);
+
+/// Two steps of different agents that collide.
+struct Encounter {
+  AgentId first, second;
+  Step a, b;  // of `first`, of `second`
+};
+
+/// The first collision of two agents, by the time at which its later step begins.
+[[nodiscard]] std::optional<Encounter> first_encounter(Model& model, AgentId i,
+                                                       const std::vector<Step>& steps_i, AgentId j,
+                                                       const std::vector<Step>& steps_j);
+
+/// Turns collisions into clauses that exclude them and much of what is like them. docs: see the
+/// proofs at the functions.
+class EncounterClauses {
+ public:
+  EncounterClauses(Model& model, PathFinder& finder, BanTable& bans)
+      : model_(model), finder_(finder), bans_(bans) {}
+
+  /// Adds a clause that the encounter breaks. `stay_i`: from when on the first agent's stay at its
+  /// goal counts as final, at least its arrival; `stay_j` likewise.
+  void exclude(const Encounter& encounter, Ticks stay_i, Ticks stay_j, FormulaWriter& writer);
+
+ private:
+  struct Party {
+    AgentId agent;
+    ClassId c;
+  };
+  void exclude_moves(Party i, const Step& a, Party j, const Step& b, FormulaWriter& writer);
+  void exclude_stay(Party mover, const Step& move, Party stander, const Step& stay,
+                    Ticks final_from, FormulaWriter& writer);
+  /// Adds what b can do along edges that collides with all of `bans_of_a` (starts).
+  void lift(Party a, std::span<const Ban> bans_of_a, Party b, Ticks min_length,
+            std::vector<Ban>& bans_of_b);
+  /// Adds moves of a that collide with any stay of b that `stay` bans.
+  void lift_over_stay(Party a, Party b, const Ban& stay, Ticks min_length,
+                      std::vector<Ban>& bans_of_a);
+  void add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j, std::vector<Ban> bans_j,
+                FormulaWriter& writer);
+  /// Adds what the obstacle alone costs its agent.
+  void add_price(ObstacleId id, FormulaWriter& writer);
+
+  Model& model_;
+  PathFinder& finder_;
+  BanTable& bans_;
+};
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "theory/model.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::continuous {
+
+using sat::Lit;
+
+Model::Model(const Instance& instance, LimitMonitor& limits)
+    : instance_(instance),
+      limits_(limits),
+      contacts_(instance),
+      thresholds_(instance.num_agents()) {
+  distances_.reserve(instance.num_agents());
+  for (const AgentId i : instance.agent_ids()) {
+    if (limits.exhausted_now()) return;
+    distances_.emplace_back(instance, i);
+  }
+}
+
+void Model::remember(Lit lit, const Variable& variable) {
+  const auto index = static_cast<std::size_t>(lit.variable());
+  if (variables_.size() <= index) variables_.resize(index + 1);
+  variables_[index] = variable;
+  literals_.push_back(lit.positive() ? lit : ~lit);
+}
+
+Model::Variable Model::variable(Lit lit) const {
+  const auto index = static_cast<std::size_t>(lit.variable());
+  return index < variables_.size() ? variables_[index] : Variable{};
+}
+
+Lit Model::at_least(AgentId agent, Cost cost, FormulaWriter& writer) {
+  Threshold& known = threshold(agent, cost, writer);
+  known.is_natural = true;
+  return known.at_least;
+}
+
+Lit Model::above(AgentId agent, Cost cap, FormulaWriter& writer) {
+  return threshold(agent, cap + 1, writer).at_least;
+}
+
+Model::Threshold& Model::threshold(AgentId agent, Cost cost, FormulaWriter& writer) {
+  QUADRILLE_REQUIRE(cost > free_cost(agent), "nobody costs less than its free cost");
+  auto& known = thresholds_[agent];
+  const auto at = std::lower_bound(known.begin(), known.end(), cost,
+                                   [](const Threshold& t, Cost c) { return t.cost < c; });
+  if (at != known.end() && at->cost == cost) return *at;
+  const Lit made = writer.new_lit();
+  remember(made, {VariableKind::cost, agent, cost, ObstacleId()});
+  const auto index = static_cast<std::size_t>(at - known.begin());
+  known.insert(at, {cost, made, false});
+  const auto order = [&](Lit stronger, Lit weaker) {
+    const Lit clause[] = {~stronger, weaker};
+    writer.add({sat::LemmaKind::order, clause, {}, false});
+  };
+  if (index > 0) order(made, known[index - 1].at_least);
+  if (index + 1 < known.size()) order(known[index + 1].at_least, made);
+  return known[index];
+}
+
+Lit Model::total_above(Cost total, FormulaWriter& writer) {
+  const auto known = totals_.find(total);
+  if (known != totals_.end()) return known->second;
+  const Lit made = writer.new_lit();
+  const auto at = totals_.emplace(total, made).first;
+  const auto order = [&](Lit stronger, Lit weaker) {
+    const Lit clause[] = {~stronger, weaker};
+    writer.add({sat::LemmaKind::order, clause, {}, false});
+  };
+  if (at != totals_.begin()) order(made, std::prev(at)->second);
+  if (std::next(at) != totals_.end()) order(std::next(at)->second, made);
+  return made;
+}
+
+ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
+                        FormulaWriter& writer, bool& is_new) {
+  std::sort(bans.begin(), bans.end());
+  const auto [at, inserted] = usages_.try_emplace({agent, bans}, obstacles_.next_id());
+  is_new = inserted;
+  if (inserted) {
+    // Variables are false by default in the solver: what is forbidden is the exception.
+    const Lit allowed = ~writer.new_lit();
+    remember(allowed, {VariableKind::usage, agent, 0, at->second});
+    obstacles_.push_back({agent, allowed, std::move(bans), {}});
+  }
+  auto& partners = obstacles_[at->second].partners;
+  if (std::find(partners.begin(), partners.end(), partner) == partners.end())
+    partners.push_back(partner);
+  return at->second;
+}
+
+// Let the resident arrive for good before `tick`, that is at tick - 1 or earlier. A move that
+// begins at s and is in contact with the goal until s + last collides with it if the arrival is
+// before s + last, and s >= tick - last is enough for that. A stay near the goal collides if it
+// ends after the arrival, and ending after tick - 1 is enough.
+ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, FormulaWriter& writer,
+                                bool& is_new) {
+  const auto [at, inserted] =
+      goals_.try_emplace(std::make_tuple(agent, resident, tick), obstacles_.next_id());
+  is_new = inserted;
+  if (!inserted) return at->second;
+  const Lit later = at_least(resident, tick, writer);
+  const ClassId a = instance_.class_of(agent), b = instance_.class_of(resident);
+  const VertexId goal = instance_.agent(resident).goal;
+  const auto& near = contacts_.near_vertex(b, goal, a);
+  std::vector<Ban> bans;
+  for (const EdgeId e : near.edges)
+    if (const auto window = contacts_.window(a, e, b, goal))
+      bans.push_back(Ban::start(e, tick - window->last, kForever));
+  for (const VertexId v : near.vertices)
+    if (contacts_.overlap(a, v, b, goal)) bans.push_back(Ban::stay(v, tick - 1, kForever));
+  obstacles_.push_back({agent, later, std::move(bans), {resident}});
+  return at->second;
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pairs/pair_lemmas.hpp"
+#include "quadrille/sat/theory.hpp"
+#include "theory/encounters.hpp"
+#include "theory/explanation.hpp"
+#include "theory/model.hpp"
+#include "theory/path_cache.hpp"
+
+namespace quadrille::continuous {
+
+class CountingWriter;
+
+/// Keeps one current path per agent: the theory of MAPF_R.
+///
+/// Each agent has a stack of active obstacles, a cap on its cost and a cost from which on its stay
+/// at the goal is final, as the assignment says, and a path. A path that an obstacle is in the way
+/// of, or that is dearer than the cap, is replaced by a known one or by a cheapest one; if there is
+/// none within the cap, a path lemma says why. On complete assignments the collisions of all paths
+/// become clauses.
+class ContinuousTheory final : public sat::Theory {
+ public:
+  /// `model` outlives the theory.
+  explicit ContinuousTheory(Model& model);
+
+  /// The paths of the last complete assignment that was accepted.
+  [[nodiscard]] const std::optional<Plan>& accepted() const noexcept { return accepted_; }
+  void forget_accepted() { accepted_.reset(); }
+  /// Times that the paths of a complete assignment were checked for collisions.
+  [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
+
+  /// Looks at complete assignments only, or not even at those, which leaves plain SAT solving.
+  enum class Mode { always, complete, never };
+  void set_mode(Mode mode) { mode_ = mode; }
+
+  /// Whether agents that collide again and again are searched together.
+  void set_pair_lemmas(bool on) { uses_pair_lemmas_ = on; }
+
+  /// From now on, assignments in which the costs of all paths sum up to more than `total` are
+  /// refuted by lemmas that contain `above`, the literal that allows it. kForever: none are.
+  void set_budget(Cost total, sat::Lit above) {
+    budget_ = total;
+    above_budget_ = above;
+  }
+
+  /// Looks at an assignment that was found without this theory. True: it is accepted. False:
+  /// clauses that exclude it were written.
+  [[nodiscard]] bool check_complete(std::span<const sat::Lit> assignment, FormulaWriter& writer);
+
+  void on_assign(std::span<const sat::Lit> newly_true) override;
+  void on_retract(std::size_t kept) override;
+  void check(sat::Effort effort, sat::TheoryContext& context) override;
+  sat::Lemma explain(sat::Lit implied, std::vector<sat::Lit>& clause) override;
+
+ private:
+  struct AgentState {
+    std::vector<ObstacleId> active;
+    Cost cap = kForever;
+    Cost floor = 0;  // the cost that literals claim: its stay at the goal is final from then on
+    KnownPathRef path;
+    PathCache cache;
+    bool is_violated = false;  // the path may be hindered or dearer than the cap
+  };
+  /// What a literal on the stack brought about.
+  struct Change {
+    enum class Kind : std::uint8_t { activation, cap, floor, path };
+    Kind kind;
+    AgentId agent;
+    ObstacleId obstacle;  // activation
+    Cost cost = 0;        // cap and floor: the one before
+  };
+
+  [[nodiscard]] sat::Truth value(sat::Lit lit) const;
+  void notice_new_obstacles();
+  void activate(ObstacleId id);
+  void set_cap(AgentId i, Cost cap);
+  void set_floor(AgentId i, Cost floor);
+  void undo(const Change& change);
+  /// Whether the path keeps clear of all active obstacles.
+  [[nodiscard]] bool obeys(const AgentState& agent, const KnownPath& known) const;
+
+  /// Replaces violated paths. False if lemmas say that some agent has none.
+  bool replan_all(FormulaWriter& writer);
+  bool replan(AgentId i, FormulaWriter& writer);
+  void load_bans(AgentId i);
+  /// Adds "i costs `bound` or more, or one of these usages is allowed"; i's bans are loaded.
+  void explain_bound(AgentId i, Cost bound, FormulaWriter& writer);
+  /// Tries to find a stronger lemma of two agents for one that explains a bound by `slots`.
+  void blame_pairs(AgentId i, Cost bound, const std::vector<std::size_t>& slots,
+                   FormulaWriter& writer);
+  /// A known path that obeys all active bans and the cap, if no lemma about a cost would be found
+  /// by looking for a cheapest one. Null: none.
+  [[nodiscard]] KnownPathRef recall(AgentId i) const;
+  void set_path(AgentId i, TimedPath path);
+  /// As set_path, if the path was violated: a dearer path is taken back later.
+  void replace_path(AgentId i, KnownPathRef path);
+  /// False if the paths cost more than the budget; lemmas say so then.
+  bool check_budget(FormulaWriter& writer);
+  /// The literal that i costs as much as its path, after explaining why. No literal if the path was
+  /// not a cheapest one; then it is now.
+  [[nodiscard]] sat::Lit claim_cost(AgentId i, FormulaWriter& writer);
+  void check_paths(CountingWriter& writer);
+  [[nodiscard]] std::vector<Encounter> encounters();
+
+  Model& model_;
+  PathFinder finder_;
+  BanTable bans_;
+  Explainer explainer_;
+  EncounterClauses clauses_;
+  PairLemmas pair_lemmas_;
+  Mode mode_ = Mode::always;
+  bool uses_pair_lemmas_ = true;
+  Cost budget_ = kForever;
+  sat::Lit above_budget_;
+
+  IdVector<AgentId, AgentState> agents_;
+  std::vector<sat::Lit> stack_;
+  std::vector<std::size_t> changes_before_;  // by stack place: size of changes_ when it was pushed
+  std::vector<Change> changes_;
+  std::vector<KnownPathRef> replaced_paths_;       // of the path changes
+  std::vector<sat::Truth> values_;                 // by variable
+  std::vector<std::vector<ObstacleId>> watchers_;  // by variable: obstacles that it controls
+  std::size_t num_noticed_ = 0;                    // obstacles that are in watchers_
+  std::uint64_t last_version_ = 0;
+  /// By pair of agents: the versions of their paths when they were last found not to collide.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> apart_;
+
+  std::optional<Plan> accepted_;
+  std::int64_t num_checks_ = 0;
+};
+
+}  // namespace quadrille::continuous

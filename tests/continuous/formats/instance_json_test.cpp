@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/instance_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "continuous/formats/file_support.hpp"
+#include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/quantise.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+bool equal(const Instance& a, const Instance& b) {
+  return a.roadmap().positions() == b.roadmap().positions() &&
+         a.roadmap().edges() == b.roadmap().edges() && a.agents() == b.agents() &&
+         a.resolution() == b.resolution();
+}
+
+TEST(RoadmapJson, ReadsTheExample) {
+  const Instance instance = read_instance_json(test::data("discs.json")).value();
+  EXPECT_EQ(instance.resolution(), 0.001);
+  EXPECT_EQ(instance.roadmap().positions(),
+            (std::vector<Point>{{0, 0}, {1000, 0}, {2000, 0}, {1000, 800}}));
+  ASSERT_EQ(instance.roadmap().num_edges(), 6u);
+  EXPECT_EQ(instance.roadmap().edge(EdgeId(4)), (Edge{VertexId(1), VertexId(3), std::nullopt}));
+  EXPECT_EQ(instance.roadmap().edge(EdgeId(5)), (Edge{VertexId(3), VertexId(1), Ticks{1500}}));
+  ASSERT_EQ(instance.num_agents(), 2u);
+  EXPECT_EQ(instance.agent(AgentId(0)), (Agent{VertexId(0), VertexId(2), 300, kUnitSpeed}));
+  EXPECT_EQ(instance.agent(AgentId(1)), (Agent{VertexId(2), VertexId(0), 250, 2 * kUnitSpeed}));
+}
+
+TEST(RoadmapJson, IsToldFromOtherInstances) {
+  EXPECT_TRUE(is_roadmap_json(test::contents(test::data("discs.json"))));
+  EXPECT_FALSE(
+      is_roadmap_json(test::contents(std::string(QUADRILLE_TEST_DATA "/valid/graph.json"))));
+  EXPECT_FALSE(is_roadmap_json("{\"quadrille\": \"roadmap\"}"));
+  EXPECT_FALSE(is_roadmap_json("[\"roadmap\"]"));
+  EXPECT_FALSE(is_roadmap_json("{\"agents\": {\"roadmap\": 1}}"));
+  EXPECT_FALSE(is_roadmap_json("{\"roadmap\": 1"));
+  EXPECT_TRUE(is_roadmap_json("{\"agents\": [[1, {\"x\": 2}], 3], \"roadmap\": 1}"));
+}
+
+TEST(RoadmapJson, RefusesWhatIsWrongWithLineAndReason) {
+  const std::vector<test::Fault> faults = {
+      {"", "", "f:1: not valid JSON"},
+      {"", "[]", "f:1: expected an object, found a list"},
+      {"", "{\"quadrille\": 1, \"roadmap\": {}}", "f:1: the key 'version' is missing"},
+      {"", std::string("{\0}", 3), "f:1: a NUL byte"},
+      {"\"instance\"", "\"plan\"", "f:2: /quadrille: expected 'instance', found 'plan'"},
+      {"\"version\": 1", "\"version\": 2", "f:3: /version: 2 is not between 1 and 1"},
+      {"0.001", "0", "f:4: /resolution: a resolution is positive"},
+      {"0.001", "-1", "f:4: /resolution: a resolution is positive"},
+      {"0.001", "nan", "f:4: not valid JSON"},
+      {"0.001", "1e999", "f:4: not valid JSON"},
+      {"0.001", "\"x\"", "f:4: /resolution: expected a number, found a string"},
+      {"\"resolution\"", "\"reso\"", "f:4: /reso: this key is not known here"},
+      {"\"resolution\": 0.001", "\"version\": 1", "f:4: /version: this key is given twice"},
+      {"\"vertices\"", "\"nodes\"", "f:6: /roadmap/nodes: this key is not known here"},
+      {"[1, 0], [2, 0], [1, 0.8]", "[1, 0], [2], [1, 0.8]",
+       "f:6: /roadmap/vertices/2: expected 2 coordinates, found 1"},
+      {"[1, 0.8]", "[1, \"0.8\"]", "f:6: /roadmap/vertices/3/1: expected a number"},
+      {"[1, 0.8]", "[1, Infinity]", "f:6: not valid JSON"},
+      {"[1, 0.8]", "[1, 1e300]", "f:6: /roadmap/vertices/3/1: the coordinate is too large"},
+      {"[1, 0.8]", "[1, 0.0001]", "f:7: /roadmap/edges/4: the edge has length zero"},
+      {"[1, 3]", "[1, 1]", "f:7: /roadmap/edges/4: the edge is a loop"},
+      {"[1, 3]", "[1, 4]", "f:7: /roadmap/edges/4/1: there is no vertex 4 among 4"},
+      {"[1, 3]", "[-1, 3]", "f:7: /roadmap/edges/4/0: -1 is not between 0"},
+      {"[1, 3]", "[1, 3.5]", "f:7: /roadmap/edges/4/1: expected an integer"},
+      {"[1, 3]", "[1]", "f:7: /roadmap/edges/4: expected [from, to] or [from, to, duration]"},
+      {"[1, 3]", "[]", "f:7: /roadmap/edges/4: expected [from, to] or [from, to, duration]"},
+      {"[1, 3]", "[1, 3, 1, 1]", "f:7: /roadmap/edges/4: expected [from, to]"},
+      {"1.5]]", "0]]", "f:7: /roadmap/edges/5/2: the duration is less than one tick"},
+      {"1.5]]", "-2]]", "f:7: /roadmap/edges/5/2: the duration is less than one tick"},
+      {"\"speed\": 2", "\"speed\": 0", "f:11: /agents/1/speed: the speed is not supported"},
+      {"\"speed\": 2", "\"speed\": -1", "f:11: /agents/1/speed: the speed is not supported"},
+      {"\"speed\": 2", "\"speed\": null", "f:11: /agents/1/speed: expected a number"},
+      {"0.25", "0", "f:11: /agents/1/radius: the radius is less than one length unit"},
+      {"0.25", "0.0009", "f:11: /agents/1/radius: the radius is less than one length unit"},
+      {", \"radius\": 0.25", "", "f:11: /agents/1: the key 'radius' is missing"},
+      {"\"start\": 2", "\"start\": 9", "f:11: /agents/1/start: there is no vertex 9 among 4"},
+      {"\"start\": 2", "\"start\": 0", "f:11: the starts of agents 0 and 1 overlap"},
+      {"\"goal\": 0", "\"goal\": 2", "f:11: the goals of agents 0 and 1 overlap"},
+      {"0.3", "1.751", "f:11: the starts of agents 0 and 1 overlap"},
+      {"[0, 1], [1, 0], [1, 2]", "[0, 1], [1, 2]",
+       "f:11: agent 1 cannot reach its goal: there is no way from vertex 2 to vertex 0"},
+      {"\"speed\": 2", "\"speed\": 1000000", "f:11: edge 0 takes less than one tick"},
+  };
+  test::expect_refused(test::contents(test::data("discs.json")), faults,
+                       [](std::istream& in) { return read_instance_json(in, "f"); });
+}
+
+TEST(RoadmapJson, TouchingStartsAreAllowed) {
+  const test::Fault touching{"0.3", "1.75", ""};
+  std::istringstream in(test::with_fault(test::contents(test::data("discs.json")), touching));
+  EXPECT_TRUE(read_instance_json(in, "f").has_value());
+}
+
+TEST(RoadmapJson, DeepAndHugeFilesAreRefused) {
+  std::istringstream deep("{\"roadmap\": " + std::string(100'000, '['));
+  EXPECT_EQ(read_instance_json(deep, "f").error().code, ErrorCode::out_of_range);
+  EXPECT_EQ(read_instance_json(std::filesystem::path("/")).error().code, ErrorCode::io);
+  EXPECT_EQ(read_instance_json(std::filesystem::path("none.json")).error().code, ErrorCode::io);
+}
+
+TEST(RoadmapJson, WhatIsWrittenIsReadBack) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance drawn = test::random_instance(seed, {});
+    // Other resolutions, where decimals are not exact.
+    const double resolutions[] = {1e-6, 1, 0.001, 0.3, 7, 1.0 / 3};
+    const Instance instance = Instance::make(drawn.shared_roadmap(), drawn.agents().items(),
+                                             resolutions[seed % std::size(resolutions)])
+                                  .value();
+    std::stringstream file;
+    ASSERT_EQ(write_instance_json(file, "out", instance), std::nullopt);
+    const auto again = read_instance_json(file, "out");
+    ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
+    EXPECT_TRUE(equal(*again, instance)) << file.str();
+  }
+}
+
+TEST(RoadmapJson, WriterReportsAFullDisk) {
+  std::ofstream full("/dev/full");
+  if (!full.is_open()) GTEST_SKIP() << "there is no /dev/full";
+  const auto error = write_instance_json(full, "out", test::random_instance(1, {}));
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->code, ErrorCode::io);
+}
+
+TEST(Quantise, GoesThereAndBack) {
+  for (const double resolution : {1e-6, 1e-9, 0.001, 0.3, 1.0, 7.0, 1.0 / 3})
+    for (const std::int64_t units : {1L, 2L, 3L, 7L, 49L, 353'553L, 999'999L, 123'456'789L}) {
+      SCOPED_TRACE(std::to_string(resolution) + " " + std::to_string(units));
+      EXPECT_EQ(quantise_radius(radius_in_input_units(units, resolution), resolution), units);
+      EXPECT_EQ(quantise_coordinate(in_input_units(-units, resolution), resolution), -units);
+      EXPECT_EQ(quantise_duration(in_input_units(units, resolution), resolution), units);
+      EXPECT_TRUE(is_about(in_input_units(units, resolution), units, resolution));
+      EXPECT_FALSE(is_about(in_input_units(units + 1, resolution), units, resolution));
+    }
+  EXPECT_EQ(in_input_units(1'414'214, 1e-6), 1.414214);
+}
+
+TEST(Quantise, RefusesWhatIsNotSupported) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double wrong : {nan, inf, -inf, 1e300}) {
+    EXPECT_EQ(quantise_coordinate(wrong, 1e-6), std::nullopt);
+    EXPECT_EQ(quantise_radius(wrong, 1e-6), std::nullopt);
+    EXPECT_EQ(quantise_duration(wrong, 1e-6), std::nullopt);
+    EXPECT_EQ(quantise_speed(wrong), std::nullopt);
+  }
+  for (const double resolution : {0.0, -1.0, nan, inf})
+    EXPECT_EQ(quantise_coordinate(1, resolution), std::nullopt);
+  EXPECT_EQ(quantise_radius(0.9e-6, 1e-6), std::nullopt);
+  EXPECT_EQ(quantise_radius(-1, 1e-6), std::nullopt);
+  EXPECT_EQ(quantise_radius(1.9e-6, 1e-6), 1);      // down
+  EXPECT_EQ(quantise_coordinate(1.9e-6, 1e-6), 2);  // to the nearest
+  EXPECT_EQ(quantise_duration(0.4e-6, 1e-6), std::nullopt);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous

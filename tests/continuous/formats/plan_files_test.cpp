@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/plan_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <sstream>
+
+#include "continuous/formats/file_support.hpp"
+#include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/instance_json.hpp"
+#include "quadrille/continuous/verify.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+const Instance& discs() {
+  static const Instance instance = read_instance_json(test::data("discs.json")).value();
+  return instance;
+}
+
+auto read_discs(std::istream& in) { return read_plan(in, "f", discs()); }
+
+TEST(TimedPlanFiles, TheExamplesAreOnePlan) {
+  const PlanFile json = read_plan(test::data("discs-plan.json"), discs()).value();
+  const PlanFile log = read_plan(test::data("discs-log.xml"), discs()).value();
+  EXPECT_EQ(json.plan, log.plan);
+  EXPECT_EQ(json.sum_of_costs, std::nullopt);
+  const VerifyReport report = verify(discs(), json.plan);
+  EXPECT_TRUE(report.valid());
+  EXPECT_EQ(report.sum_of_costs, 5015);
+}
+
+TEST(TimedPlanFiles, RefusesWrongJson) {
+  const std::vector<test::Fault> faults = {
+      {"", "{}", "f:1: the key 'resolution' is missing"},
+      {"", "", "f:1: not valid JSON"},
+      {"\"plan\",", "\"instance\",", "f:2: /quadrille: expected 'plan' or 'result'"},
+      {"\"version\": 1,", "", "f:1: the key 'version' is missing"},
+      {"\"version\": 1", "\"version\": 3", "f:3: /version: 3 is not between"},
+      {"0.001", "0.01", "f:4: /resolution: the resolution of the instance is 0.001"},
+      {"0.001,", "0.001, \"objective\": \"speed\",", "f:4: /objective: expected 'sum-of-costs'"},
+      {"0.001,", "0.001, \"cost\": 5,", "f:4: /cost: a cost needs the key 'cost_ticks'"},
+      {"0.001,", "0.001, \"cost_ticks\": 5,", "f:4: /cost_ticks: a cost needs the key 'objective'"},
+      {"0.001,", "0.001, \"objective\": \"makespan\", \"cost\": 2, \"cost_ticks\": 2900,",
+       "f:4: /cost: this is not 2900 times the resolution"},
+      {"0.001,", "0.001, \"agents\": 3,", "f:4: /agents: 3 agents, but 2 paths"},
+      {"{\"vertex\": 0, \"at\"", "{\"vertex\": 4, \"at\"",
+       "f:6: /plan/0/0/vertex: there is no vertex 4 among 4"},
+      {"{\"vertex\": 0, \"at\"", "{\"vertex\": -1, \"at\"", "f:6: /plan/0/0/vertex: -1 is not"},
+      {"{\"vertex\": 0, \"at\"", "{\"vertex\": 1, \"at\"", "f:6: /plan/0/0/at/0: this is not 1000"},
+      {"{\"vertex\": 0, \"at\"", "{\"at\"", "f:6: /plan/0/0: the key 'vertex' is missing"},
+      {"\"depart\": 0.115", "\"depart\": 0.116", "f:6: /plan/0/0/depart: this is not 115 times"},
+      {"\"depart\": 0.115, \"depart_ticks\": 115", "\"depart\": 0.115",
+       "f:6: /plan/0/0: the key 'depart_ticks' is missing"},
+      {"\"depart_ticks\": 115}", "\"depart_ticks\": 115.5}",
+       "f:6: /plan/0/0/depart_ticks: expected"},
+      {"\"depart_ticks\": 115}", "\"depart_ticks\": 9e18}",
+       "f:6: /plan/0/0/depart_ticks: expected"},
+      {"\"depart_ticks\": 115}", "\"depart_ticks\": 9223372036854775807}",
+       "f:6: /plan/0/0/depart_ticks: 9223372036854775807 is not between"},
+      {"\"arrive_ticks\": 2115}", "\"arrive_ticks\": 2115, \"depart_ticks\": 2116}",
+       "f:6: /plan/0/2/depart_ticks: an agent stays at its last stop for ever"},
+      {"\"plan\": [", "\"plan\": [[],", "f:5: /plan/0: the path is empty"},
+      {"", "{\"status\": \"unknown\", \"resolution\": 0.001, \"plan\": null}",
+       "f:1: /plan: there is no plan"},
+  };
+  test::expect_refused(test::contents(test::data("discs-plan.json")), faults, read_discs);
+}
+
+TEST(TimedPlanFiles, RefusesWrongLogs) {
+  const std::vector<test::Fault> faults = {
+      {"", "<log/>", "f:1: there is no <log> in <root>"},
+      {"", "<root/>", "f:1: there is no <log> in <root>"},
+      {"", "<root><log/></root>", "f:1: there is no plan"},
+      {"<agent number=\"1\">", "<agent number=\"2\">", "f:12: agent '2' where 1 is due"},
+      {"<agent number=\"1\">", "<agent>", "f:12: agent '' where 1 is due"},
+      {"</log>", "<agent number=\"2\"/></log>", "f:20: agent 2, but the instance has 2 agents"},
+      {"start_id=\"3\"", "start_id=\"4\"", "f:16: the start of a section is no vertex"},
+      {"start_id=\"3\"", "start_id=\"2\"", "f:16: the section does not begin where"},
+      {"start_id=\"3\"", "start_id=\"x\"", "f:16: a <section> has start_id"},
+      {"start_id=\"3\"", "start_i=\"0\" start_j=\"3\"",
+       "f:16: the start of a section is no vertex"},
+      {"\"1.5\"", "\"-1.5\"", "f:16: the duration is '-1.5', not a time"},
+      {"\"1.5\"", "\"nan\"", "f:16: the duration is 'nan', not a time"},
+      {"\"1.5\"", "\"inf\"", "f:16: the duration is 'inf', not a time"},
+      {"\"1.5\"", "\"1e30\"", "f:16: the duration is '1e30', not a time"},
+      {"\"1.5\"", "\"\"", "f:16: the duration is '', not a time"},
+  };
+  test::expect_refused(test::contents(test::data("discs-log.xml")), faults, read_discs);
+}
+
+TEST(TimedPlanFiles, LogsOfOtherProgramsMayDifferByTheirRounding) {
+  const std::string log = test::contents(test::data("discs-log.xml"));
+  const Plan exact = read_plan(test::data("discs-log.xml"), discs()).value().plan;
+  for (const char* duration : {"1.4985", "1.50194"}) {
+    std::istringstream in(
+        test::with_fault(log, {"\"1.5\"", '"' + std::string(duration) + '"', ""}));
+    EXPECT_EQ(read_discs(in).value().plan, exact) << duration;
+  }
+  std::istringstream in(test::with_fault(log, {"\"1.5\"", "\"1.503\"", ""}));
+  const Plan longer = read_discs(in).value().plan;
+  EXPECT_NE(longer, exact);
+  EXPECT_FALSE(verify(discs(), longer).valid());
+}
+
+TEST(TimedPlanFiles, WhatIsWrittenIsReadBack) {
+  std::mt19937_64 random(5);
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const Instance instance = test::random_instance(seed, {});
+    Plan plan;
+    for (const AgentId i : instance.agent_ids()) {
+      // Any walk along edges, with waits.
+      Path path{{instance.agent(i).start, 0, 0}};
+      for (std::size_t moves = random() % 5; moves > 0; --moves) {
+        const auto edges = instance.roadmap().out_edges(path.back().vertex);
+        if (edges.empty()) break;
+        const EdgeId e = edges[random() % edges.size()];
+        path.back().depart += static_cast<Ticks>(random() % 3 * 1000);
+        const Ticks arrive = path.back().depart + instance.duration(instance.class_of(i), e);
+        path.push_back({instance.roadmap().edge(e).to, arrive, arrive});
+      }
+      plan.paths.push_back(std::move(path));
+    }
+    for (const PlanFormat format : {PlanFormat::json, PlanFormat::ccbs}) {
+      std::stringstream file;
+      ASSERT_EQ(write_plan(file, "out", instance, plan, format), std::nullopt);
+      const auto again = read_plan(file, "out", instance);
+      ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
+      EXPECT_EQ(again->plan, plan) << file.str();
+    }
+  }
+}
+
+TEST(TimedPlanFiles, LogsOnGridsNameCells) {
+  const OccupancyGrid cells{2, 2, std::vector<bool>(4, true)};
+  const GridRoadmap grid = GridRoadmap::make(cells, 3, 1000, 1e-6).value();
+  const VertexId start = *grid.vertex({0, 1}), goal = *grid.vertex({1, 1});
+  const Instance instance =
+      Instance::make(grid.roadmap(), {{start, goal, 1000, kUnitSpeed}}).value();
+  Plan plan;
+  plan.paths.push_back({{start, 0, 7}, {goal, 1'000'007, 1'000'007}});
+  std::stringstream file;
+  ASSERT_EQ(write_plan(file, "out", instance, plan, PlanFormat::ccbs, &grid), std::nullopt);
+  EXPECT_NE(file.str().find("start_i=\"0\" start_j=\"1\" goal_i=\"1\" goal_j=\"1\""),
+            std::string::npos);
+  EXPECT_EQ(read_plan(file, "out", instance, &grid).value().plan, plan);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+//
+// The clauses about two agents against plans of the oracle. In whole searches few are made.
+#include "pairs/pair_lemmas.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "continuous/routes/order_search.hpp"
+#include "continuous/support/random_instance.hpp"
+#include "support/environment.hpp"
+#include "theory/known_plan_auditor.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+/// As many as it takes until the pair is searched.
+constexpr int kCollisions = 64;
+
+/// Keeps the clauses about pairs.
+class Collector final : public FormulaWriter {
+ public:
+  [[nodiscard]] sat::Lit new_lit() override { return sat::Lit::from_dimacs(++last_); }
+  void add(const sat::Lemma& lemma) override {
+    if (lemma.kind == sat::LemmaKind::collision)
+      clauses_.emplace_back(lemma.clause.begin(), lemma.clause.end());
+  }
+  [[nodiscard]] const std::vector<std::vector<sat::Lit>>& clauses() const { return clauses_; }
+
+ private:
+  int last_ = 0;
+  std::vector<std::vector<sat::Lit>> clauses_;
+};
+
+struct Count {
+  int searches = 0, clauses = 0;
+  int with_obstacles = 0;  ///< Of the clauses.
+};
+
+class PairLemmaAudit {
+ public:
+  PairLemmaAudit(const Instance& instance, Draw& draw, Count& count)
+      : instance_(instance), draw_(draw), count_(count) {}
+
+  /// Looks for clauses that tell of caps and bans near `plan`; none may exclude any of `plans`.
+  void check(const Plan& plan, const std::vector<Plan>& plans) {
+    LimitMonitor limits({});
+    Model model(instance_, limits);
+    Collector writer;
+    PairLemmas lemmas(model);
+    const int raised = static_cast<int>(draw_.number(0, 2));  // 2: neither
+    std::vector<ObstacleId> active[2];
+    PairLemmas::Party parties[2];
+    for (const AgentId i : instance_.agent_ids()) {
+      const Cost own = cost(plan.paths[i]);
+      // One agent has to cost more than its cap, or a ban keeps one from what it does.
+      const bool is_raised = static_cast<int>(i.index()) == raised && own > model.free_cost(i);
+      const Cost cap = is_raised ? draw_.number(model.free_cost(i), own - 1) : own;
+      if (draw_.chance(60)) add_obstacles(model, i, plan.paths[i], writer, active[i.index()]);
+      parties[i.index()] = {i, cap, active[i.index()]};
+    }
+    bool is_added = false;
+    for (int k = 0; k < kCollisions && !is_added; ++k)
+      is_added = lemmas.note_collision(parties[0], parties[1], writer);
+    ASSERT_EQ(is_added, !writer.clauses().empty());
+    ++count_.searches;
+    for (const auto& clause : writer.clauses()) {
+      ++count_.clauses;
+      count_.with_obstacles += clause.size() > 2 ? 1 : 0;
+      for (const Plan& known : plans) {
+        KnownPlanAuditor auditor(model, known);
+        auditor.on_lemma({sat::LemmaKind::collision, clause, {}, false});
+        ASSERT_FALSE(auditor.complaint()) << *auditor.complaint();
+      }
+    }
+  }
+
+ private:
+  /// Some that the path breaks, some at random, each due to nobody in particular.
+  void add_obstacles(Model& model, AgentId i, const Path& path, FormulaWriter& writer,
+                     std::vector<ObstacleId>& active) {
+    const Roadmap& roadmap = instance_.roadmap();
+    for (int k = 0; k < 3; ++k) {
+      const auto& stop = path[static_cast<std::size_t>(
+          draw_.number(0, static_cast<std::int64_t>(path.size()) - 1))];
+      VertexId vertex = stop.vertex;
+      Ticks begin = stop.arrive - draw_.number(1, 20), end = stop.depart + draw_.number(1, 20);
+      if (draw_.chance(50)) {
+        vertex = VertexId(static_cast<std::size_t>(
+            draw_.number(0, static_cast<std::int64_t>(roadmap.num_vertices()) - 1)));
+        begin = draw_.number(0, cost(path) + 30);
+        end = begin + draw_.number(1, 40);
+      }
+      if (vertex == instance_.agent(i).start && begin < 0) continue;
+      bool is_new = false;
+      const ObstacleId id = model.usage(i, {Ban::stay(vertex, begin, end)}, i, writer, is_new);
+      if (is_new) active.push_back(id);
+    }
+  }
+
+  const Instance& instance_;
+  Draw& draw_;
+  Count& count_;
+};
+
+TEST(PairLemmas, ExcludeNoPlan) {
+  const auto instances = static_cast<std::uint32_t>(support::scaled(300));
+  Count count;
+  for (std::uint32_t seed = 7'000'000; seed < 7'000'000 + instances; ++seed) {
+    const Instance instance = random_pair(seed);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
+    const std::vector<Plan> plans = known_plans(instance, 4);
+    Draw draw(seed);
+    PairLemmaAudit audit(instance, draw, count);
+    for (const Plan& plan : plans) {
+      audit.check(plan, plans);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+  testing::Test::RecordProperty("searches", count.searches);
+  testing::Test::RecordProperty("clauses", count.clauses);
+  testing::Test::RecordProperty("with_obstacles", count.with_obstacles);
+  // The test is of no use if there are none.
+  EXPECT_GT(20 * count.clauses, count.searches);
+  EXPECT_GT(5 * count.with_obstacles, count.clauses);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+//
+// What is said of agents without looking at single plans, against plans of the oracle: the search
+// of pairs may refute no plan, and agents that have one are not blocked.
+#include "pairs/pair_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "continuous/routes/order_search.hpp"
+#include "continuous/support/random_instance.hpp"
+#include "feasibility/feasibility.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+constexpr std::int64_t kManySteps = 1'000'000;
+
+TimedPath moves_of(const Instance& instance, AgentId agent, const Path& path) {
+  TimedPath moves{{}, cost(path)};
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+    for (const EdgeId e : instance.roadmap().out_edges(path[k].vertex))
+      if (instance.roadmap().edge(e).to == path[k + 1].vertex &&
+          path[k].depart + instance.duration(instance.class_of(agent), e) == path[k + 1].arrive) {
+        moves.moves.push_back({e, path[k].depart});
+        break;
+      }
+  EXPECT_EQ(moves.moves.size() + 1, path.size());
+  return moves;
+}
+
+/// Random bans that the path obeys, one per slot.
+void add_bans(const Instance& instance, AgentId agent, const Path& path, Draw& draw,
+              BanTable& table) {
+  PathUses uses;
+  uses.assign(instance, agent, moves_of(instance, agent, path));
+  const Roadmap& roadmap = instance.roadmap();
+  for (int tried = 0; tried < 8; ++tried) {
+    const Ticks begin = draw.number(0, cost(path) + 30);
+    const Ticks end = begin + draw.number(1, 40);
+    const auto random_index = [&](std::size_t size) {
+      return static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(size) - 1));
+    };
+    const Ban ban = roadmap.num_edges() > 0 && draw.number(0, 1) == 0
+                        ? Ban::start(EdgeId(random_index(roadmap.num_edges())), begin, end)
+                        : Ban::stay(VertexId(random_index(roadmap.num_vertices())), begin, end);
+    if (!uses.breaks(ban)) table.add(std::vector<Ban>{ban});
+  }
+}
+
+struct Count {
+  int searches = 0, refuted = 0;
+};
+
+/// Caps that the plan exceeds, or just keeps: what is refuted has to end where the plan begins.
+void check(Model& model, const Plan& plan, bool has_bans, Draw& draw, Count& count) {
+  const Instance& instance = model.instance();
+  PairSearch search(model);
+  for (const std::size_t first : {0U, 1U}) {
+    const AgentId i(first), j(1 - first);
+    const Cost cost_i = cost(plan.paths[i]), cost_j = cost(plan.paths[j]);
+    if (cost_i == model.free_cost(i) && !has_bans) continue;  // nothing may be refuted
+    for (int round = 0; round < 3; ++round) {
+      for (const std::size_t side : {0U, 1U}) {
+        search.bans(side).clear();
+        const AgentId agent = side == 0 ? i : j;
+        if (has_bans) add_bans(instance, agent, plan.paths[agent], draw, search.bans(side));
+      }
+      const Cost cap_i = draw.number(model.free_cost(i), cost_i);
+      const Cost cap_j = cost_j + draw.number(0, 2);
+      const Cost raise =
+          search.refuted_raise({i, cap_i}, {j, cap_j}, draw.number(0, 60), kManySteps);
+      ASSERT_GE(raise, 0);
+      // No plan has cost(i) < cap_i + raise and cost(j) <= cap_j: this one has.
+      if (raise > 0) {
+        ASSERT_GE(cost_i, cap_i + raise) << "caps " << cap_i << " and " << cap_j << " of agents "
+                                         << first << " and " << 1 - first;
+      }
+      ++count.searches;
+      count.refuted += raise > 0 ? 1 : 0;
+    }
+  }
+}
+
+void check_instances(bool has_bans, Count& count) {
+  for (std::uint32_t seed = 0; seed < support::scaled(250); ++seed) {
+    const Instance instance = random_pair(5'000'000 + seed);
+    SCOPED_TRACE("seed " + std::to_string(5'000'000 + seed) + ": " + describe(instance));
+    LimitMonitor limits({});
+    Model model(instance, limits);
+    Draw draw(seed);
+    for (const Plan& plan : known_plans(instance, 4)) {
+      check(model, plan, has_bans, draw, count);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+
+/// The test is of no use if nothing is refuted. Measured: 3 to 5 of a hundred.
+void expect_many(const Count& count) { EXPECT_GT(100 * count.refuted, count.searches); }
+
+TEST(PairSearch, RefutesNoPlan) {
+  Count count;
+  check_instances(false, count);
+  expect_many(count);
+}
+
+TEST(PairSearch, RefutesNoPlanThatObeysTheBans) {
+  Count count;
+  check_instances(true, count);
+  expect_many(count);
+}
+
+TEST(BlockedAgents, HaveNoPlan) {
+  int solvable = 0, blocked = 0;
+  for (std::uint32_t seed = 0; seed < support::scaled(500); ++seed) {
+    const Instance instance = random_pair(6'000'000 + seed);
+    LimitMonitor limits({});
+    Model model(instance, limits);
+    const bool is_blocked = !find_blocked_agents(model).empty();
+    const bool is_solvable = !known_plans(instance, 4).empty();
+    ASSERT_FALSE(is_blocked && is_solvable)
+        << "seed " << 6'000'000 + seed << ": " << describe(instance);
+    solvable += is_solvable ? 1 : 0;
+    blocked += is_blocked ? 1 : 0;
+  }
+  // Measured: 388 and 64 of 500.
+  EXPECT_GT(5 * solvable, 2 * (solvable + blocked));
+  EXPECT_GT(blocked, 0);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Random instances against the oracle, others for each objective and system.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "continuous/support/oracle_check.hpp"
+#include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+class SolverRandom : public testing::TestWithParam<std::tuple<Objective, System>> {};
+
+TEST_P(SolverRandom, AgreesWithTheOracle) {
+  const auto [objective, system] = GetParam();
+  const auto count = static_cast<std::uint32_t>(support::scaled(250));
+  const std::uint32_t part = 2 * static_cast<std::uint32_t>(objective == Objective::makespan) +
+                             static_cast<std::uint32_t>(system == System::smt_cbs);
+  const std::uint32_t first = part * 1'000'000;
+  constexpr std::size_t max_moves = 4;
+  Tally tally;
+  for (std::uint32_t seed = first; seed < first + count; ++seed) {
+    RandomOptions random;
+    random.num_agents = 2 + seed % 2;
+    random.num_vertices = 4 + seed / 2 % 4;
+    random.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
+    const Instance instance = random_instance(seed, random);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
+    const OrderSearch oracle = search_orders(instance, objective, max_moves);
+    if (oracle.best) {
+      ASSERT_TRUE(verify(instance, oracle.best_plan).valid());
+    }
+    SolveOptions options;
+    options.objective = objective;
+    options.system = system;
+    options.limits.conflicts = 3000;
+    // Half of them without the search of routes, the others with little of it or as much as usual.
+    const std::int64_t route_work[] = {0, 1000, 0, SolveOptions().route_work};
+    options.route_work = route_work[seed / 24 % 4];
+    // The latter may have no plan, and no conflicts either.
+    options.limits.cpu_s = oracle.best ? 2 : 0.1;
+    if (!oracle.some_plans.empty())
+      options.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
+    check_against(oracle, max_moves, instance, options, tally);
+    if (HasFatalFailure()) return;
+  }
+  RecordProperty("optimal", tally.optimal);
+  RecordProperty("infeasible", tally.infeasible);
+  RecordProperty("unknown", tally.unknown);
+  RecordProperty("solvable", tally.solvable);
+  if (count < 250) return;  // scaled down, for slow builds: too few to count on chance
+  EXPECT_GE(2 * tally.solvable, static_cast<int>(count));
+  EXPECT_GE(10 * tally.optimal, 8 * tally.solvable);
+}
+
+std::string name(const testing::TestParamInfo<SolverRandom::ParamType>& param) {
+  const auto [objective, system] = param.param;
+  return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
+         (system == System::dpll ? "Dpll" : "SmtCbs");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SolverRandom,
+                         testing::Combine(testing::Values(Objective::sum_of_costs,
+                                                          Objective::makespan),
+                                          testing::Values(System::dpll, System::smt_cbs)),
+                         name);
+
+}  // namespace
+}  // namespace quadrille::continuous::test

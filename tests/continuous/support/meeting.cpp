@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "continuous/support/meeting.hpp"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace quadrille::continuous::test {
+namespace {
+
+using Wide = boost::multiprecision::checked_int256_t;
+
+/// A square of a length, as a fraction.
+struct Square {
+  Wide over, under = 1;
+};
+bool less(const Square& a, const Square& b) { return a.over * b.under < b.over * a.under; }
+
+/// The least square of the distance between the centres while both elements last, times
+/// `scale` squared; nothing if they share no moment.
+struct Nearest {
+  std::optional<Square> square;
+  Wide scale = 1;
+};
+
+Ticks length(const Element& e) { return std::max<Ticks>(e.end - e.begin, 1); }
+
+// Times the lengths of both elements the distance is (x + u t, y + v t), in integers.
+Nearest nearest(const Element& a, const Element& b) {
+  const Ticks begin = std::max(a.begin, b.begin);
+  const Ticks end = std::min(a.end, b.end);
+  const Wide la = length(a), lb = length(b);
+  if (begin > end) return {std::nullopt, la * lb};
+  const Wide u = lb * (a.to.x - a.from.x) - la * (b.to.x - b.from.x);
+  const Wide v = lb * (a.to.y - a.from.y) - la * (b.to.y - b.from.y);
+  const auto at_zero = [&](Length from_a, Length to_a, Length from_b, Length to_b) -> Wide {
+    return lb * (la * from_a - Wide(to_a - from_a) * a.begin) -
+           la * (lb * from_b - Wide(to_b - from_b) * b.begin);
+  };
+  const Wide x = at_zero(a.from.x, a.to.x, b.from.x, b.to.x);
+  const Wide y = at_zero(a.from.y, a.to.y, b.from.y, b.to.y);
+  const Wide speed = u * u + v * v;
+  const Wide approach = -(x * u + y * v);  // speed * the moment at which they are nearest
+  const auto at = [&](Ticks t) {
+    const Wide dx = x + u * t, dy = y + v * t;
+    return Nearest{Square{dx * dx + dy * dy}, la * lb};
+  };
+  if (approach <= speed * begin) return at(begin);
+  if (approach >= speed * end) return at(end);
+  const Wide area = x * v - y * u;
+  return {Square{area * area, speed}, la * lb};
+}
+
+Element moved(Element e, Ticks by) {
+  e.begin += by;
+  e.end += by;
+  return e;
+}
+
+/// The last of [yes, no) at which `is_so`, which is true first and then false.
+template <class Predicate>
+Ticks last_true(Ticks yes, Ticks no, const Predicate& is_so) {
+  while (no - yes > 1 || yes - no > 1) {
+    const Ticks middle = yes + (no - yes) / 2;
+    (is_so(middle) ? yes : no) = middle;
+  }
+  return yes;
+}
+
+}  // namespace
+
+bool meet(const Element& a, const Element& b, Length reach) {
+  const Nearest n = nearest(a, b);
+  const Wide scaled_reach = n.scale * reach;
+  return n.square && less(*n.square, {scaled_reach * scaled_reach});
+}
+
+// Positions are linear in time, so the distance is a convex function of two moments, and what is
+// least at each difference between these is one of the difference: it falls and then rises.
+std::optional<Run> meeting_starts(const Element& a, const Element& b, Length reach) {
+  const auto apart = [](Length a0, Length a1, Length b0, Length b1, Length by) {
+    return std::max(a0, a1) + by <= std::min(b0, b1) || std::max(b0, b1) + by <= std::min(a0, a1);
+  };
+  if (apart(a.from.x, a.to.x, b.from.x, b.to.x, reach) ||
+      apart(a.from.y, a.to.y, b.from.y, b.to.y, reach))
+    return std::nullopt;
+  const auto meets = [&](Ticks d) { return meet(a, moved(b, d), reach); };
+  // These are the differences at which they share a moment.
+  Ticks low = a.begin - b.end, high = a.end - b.begin;
+  while (low < high && !meets(low + (high - low) / 2)) {
+    const Ticks middle = low + (high - low) / 2;
+    const Square here = *nearest(a, moved(b, middle)).square;
+    const Square next = *nearest(a, moved(b, middle + 1)).square;
+    if (less(next, here))
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  low += (high - low) / 2;
+  if (!meets(low)) return std::nullopt;
+  return Run{last_true(low, a.begin - b.end - 1, meets),
+             last_true(low, a.end - b.begin + 1, meets)};
+}
+
+std::optional<Clearance> clearance(const Element& move, Point place, Length reach) {
+  const Ticks before = move.begin - 1, after = move.end + 1;
+  if (!meet(move, {place, place, before, after}, reach)) return std::nullopt;
+  const auto meets_until = [&](Ticks t) { return meet(move, {place, place, before, t}, reach); };
+  const auto meets_from = [&](Ticks t) { return meet(move, {place, place, t, after}, reach); };
+  const Ticks leave = last_true(after, before, meets_until) - 1;
+  const Ticks arrive = last_true(before, after, meets_from) + 1;
+  return Clearance{move.begin - leave, arrive - move.begin};
+}
+
+Meetings::Meetings(const Instance& instance) : instance_(instance) {
+  const std::size_t edges = instance.roadmap().num_edges();
+  const std::size_t pairs = instance.num_classes() * instance.num_classes();
+  moves_.resize(pairs * edges * edges);
+  stays_.resize(pairs * edges * instance.roadmap().num_vertices());
+}
+
+const std::optional<Run>& Meetings::moves(ClassId a, EdgeId e, ClassId b, EdgeId f) {
+  const std::size_t edges = instance_.roadmap().num_edges();
+  Known<Run>& known =
+      moves_[((a.index() * instance_.num_classes() + b.index()) * edges + e.index()) * edges +
+             f.index()];
+  if (!known.is_known) known = {true, meeting_starts(element(a, e), element(b, f), reach(a, b))};
+  return known.value;
+}
+
+const std::optional<Clearance>& Meetings::stay(ClassId a, EdgeId e, ClassId b, VertexId v) {
+  const std::size_t edges = instance_.roadmap().num_edges();
+  const std::size_t vertices = instance_.roadmap().num_vertices();
+  Known<Clearance>& known =
+      stays_[((a.index() * instance_.num_classes() + b.index()) * edges + e.index()) * vertices +
+             v.index()];
+  if (!known.is_known)
+    known = {true, clearance(element(a, e), instance_.roadmap().position(v), reach(a, b))};
+  return known.value;
+}
+
+Element Meetings::element(ClassId c, EdgeId e) const {
+  const Roadmap& roadmap = instance_.roadmap();
+  return {roadmap.position(roadmap.edge(e).from), roadmap.position(roadmap.edge(e).to), 0,
+          instance_.duration(c, e)};
+}
+
+}  // namespace quadrille::continuous::test
