@@ -10,7 +10,7 @@
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/discrete/instance_json.hpp"
 #include "quadrille/discrete/instance_yaml.hpp"
-#include "roadmap_input.hpp"
+#include "roadmap/roadmap_input.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "generate_roadmap.hpp"
 #include "output.hpp"
 #include "quadrille/discrete/generator.hpp"
+#include "roadmap/generate_roadmap.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {

@@ -8,7 +8,7 @@
 #include "input.hpp"
 #include "output.hpp"
 #include "quadrille/discrete/feasibility.hpp"
-#include "roadmap_info.hpp"
+#include "roadmap/roadmap_info.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {

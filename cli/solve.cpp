@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "delivery.hpp"
+#include "grid/picture.hpp"
+#include "grid/report.hpp"
 #include "input.hpp"
 #include "outcome_check.hpp"
 #include "output.hpp"
-#include "picture.hpp"
 #include "progress.hpp"
 #include "quadrille/discrete/verify.hpp"
-#include "report.hpp"
+#include "roadmap/solve_roadmap.hpp"
 #include "signals.hpp"
-#include "solve_roadmap.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "grid/report.hpp"
 #include "input.hpp"
 #include "output.hpp"
-#include "report.hpp"
-#include "roadmap_report.hpp"
+#include "roadmap/roadmap_report.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "agent_distances.hpp"
+#include "lazy/agent_distances.hpp"
 
 namespace quadrille::discrete {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "corridors.hpp"
+#include "lazy/corridors.hpp"
 
 #include <algorithm>
 

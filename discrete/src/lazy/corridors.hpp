@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "agent_distances.hpp"
-#include "path_index.hpp"
+#include "lazy/agent_distances.hpp"
+#include "lazy/path_index.hpp"
 
 namespace quadrille::discrete {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "encounter_clauses.hpp"
+#include "lazy/encounter_clauses.hpp"
 
 #include <algorithm>
 
-#include "rectangle.hpp"
+#include "lazy/rectangle.hpp"
 
 namespace quadrille::discrete {
 

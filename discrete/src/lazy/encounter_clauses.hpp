@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "corridors.hpp"
-#include "lazy_model.hpp"
-#include "path_index.hpp"
+#include "lazy/corridors.hpp"
+#include "lazy/lazy_model.hpp"
+#include "lazy/path_index.hpp"
 
 namespace quadrille::discrete {
 

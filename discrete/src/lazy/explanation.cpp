@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "explanation.hpp"
+#include "lazy/explanation.hpp"
 
 #include "quadrille/core/contract.hpp"
 

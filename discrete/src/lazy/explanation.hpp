@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "agent_distances.hpp"
-#include "obstacle_map.hpp"
+#include "lazy/agent_distances.hpp"
+#include "lazy/obstacle_map.hpp"
 
 namespace quadrille::discrete {
 

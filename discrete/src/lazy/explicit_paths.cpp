@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "explicit_paths.hpp"
+#include "lazy/explicit_paths.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lazy_model.hpp"
+#include "lazy/lazy_model.hpp"
 #include "mdd/mdd_paths.hpp"
 
 namespace quadrille::discrete {

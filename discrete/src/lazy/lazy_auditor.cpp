@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy_auditor.hpp"
+#include "lazy/lazy_auditor.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lazy_model.hpp"
+#include "lazy/lazy_model.hpp"
 #include "quadrille/discrete/plan.hpp"
 #include "quadrille/sat/lemma.hpp"
 

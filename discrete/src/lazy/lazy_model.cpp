@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy_model.hpp"
+#include "lazy/lazy_model.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "agent_distances.hpp"
-#include "obstacles.hpp"
+#include "lazy/agent_distances.hpp"
+#include "lazy/obstacles.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/sat/lemma.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy_problem.hpp"
+#include "lazy/lazy_problem.hpp"
 
 #include <algorithm>
 

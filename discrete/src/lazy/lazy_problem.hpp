@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "lazy_model.hpp"
-#include "lazy_theory.hpp"
+#include "lazy/lazy_model.hpp"
+#include "lazy/lazy_theory.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/sat/core_guided_search.hpp"
 #include "quadrille/sat/cost_search.hpp"

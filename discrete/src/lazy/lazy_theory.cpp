@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy_theory.hpp"
+#include "lazy/lazy_theory.hpp"
 
 #include <algorithm>
 

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "encounter_clauses.hpp"
-#include "explanation.hpp"
-#include "explicit_paths.hpp"
-#include "lazy_model.hpp"
-#include "path_cache.hpp"
-#include "path_finder.hpp"
-#include "path_index.hpp"
+#include "lazy/encounter_clauses.hpp"
+#include "lazy/explanation.hpp"
+#include "lazy/explicit_paths.hpp"
+#include "lazy/lazy_model.hpp"
+#include "lazy/path_cache.hpp"
+#include "lazy/path_finder.hpp"
+#include "lazy/path_index.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/sat/theory.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "obstacle_map.hpp"
+#include "lazy/obstacle_map.hpp"
 
 #include <algorithm>
 

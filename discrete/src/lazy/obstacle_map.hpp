@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "obstacles.hpp"
+#include "lazy/obstacles.hpp"
 
 namespace quadrille::discrete {
 

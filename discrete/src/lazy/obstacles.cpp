@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "obstacles.hpp"
+#include "lazy/obstacles.hpp"
 
 #include <algorithm>
 

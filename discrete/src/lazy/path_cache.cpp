@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_cache.hpp"
+#include "lazy/path_cache.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_finder.hpp"
+#include "lazy/path_finder.hpp"
 
 #include <algorithm>
 

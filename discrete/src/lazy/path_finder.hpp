@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "agent_distances.hpp"
-#include "obstacle_map.hpp"
-#include "path_index.hpp"
+#include "lazy/agent_distances.hpp"
+#include "lazy/obstacle_map.hpp"
+#include "lazy/path_index.hpp"
 
 namespace quadrille::discrete {
 

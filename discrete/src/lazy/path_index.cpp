@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_index.hpp"
+#include "lazy/path_index.hpp"
 
 #include <algorithm>
 

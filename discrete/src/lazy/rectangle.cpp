@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rectangle.hpp"
+#include "lazy/rectangle.hpp"
 
 #include <utility>
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "agent_distances.hpp"
-#include "obstacles.hpp"
-#include "path_index.hpp"
+#include "lazy/agent_distances.hpp"
+#include "lazy/obstacles.hpp"
+#include "lazy/path_index.hpp"
 
 namespace quadrille::discrete {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generate_roadmap.hpp"
+#include "roadmap/generate_roadmap.hpp"
 
 #include <sstream>
 #include <utility>
@@ -9,7 +9,7 @@
 #include "quadrille/continuous/generator.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/quantise.hpp"
-#include "roadmap_input.hpp"
+#include "roadmap/roadmap_input.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap_report.hpp"
+#include "roadmap/roadmap_report.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <optional>
 #include <string_view>
 
+#include "grid/report.hpp"
 #include "quadrille/continuous/quantise.hpp"
-#include "report.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
-#include "roadmap_input.hpp"
+#include "roadmap/roadmap_input.hpp"
 
 namespace quadrille::cli {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "exit_codes.hpp"
-#include "roadmap_input.hpp"
+#include "roadmap/roadmap_input.hpp"
 
 namespace quadrille::cli {
 

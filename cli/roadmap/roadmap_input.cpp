@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap_input.hpp"
+#include "roadmap/roadmap_input.hpp"
 
 #include <fmt/format.h>
 

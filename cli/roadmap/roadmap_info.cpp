@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap_info.hpp"
+#include "roadmap/roadmap_info.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "picture.hpp"
+#include "grid/picture.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "roadmap_report.hpp"
+#include "roadmap/roadmap_report.hpp"
 
 namespace quadrille::cli {
 

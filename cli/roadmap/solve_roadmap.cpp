@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve_roadmap.hpp"
+#include "roadmap/solve_roadmap.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "delivery.hpp"
+#include "grid/report.hpp"
 #include "outcome_check.hpp"
 #include "progress.hpp"
-#include "report.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report.hpp"
+#include "grid/report.hpp"
 
 #include <fmt/format.h>
 
