@@ -7,9 +7,9 @@
 #include <set>
 #include <vector>
 
+#include "engine/theory_host.hpp"
 #include "support/environment.hpp"
 #include "support/mock_solver.hpp"
-#include "theory_host.hpp"
 
 namespace quadrille::discrete {
 namespace {
