@@ -28,6 +28,10 @@ Result<std::string> read_all(std::istream& in, const std::string& file) {
   }
   // Only the end of the file may stop the reading.
   if (in.bad() || !in.eof()) return Error{ErrorCode::io, "cannot be read", {file, 0}};
+  for (const std::string_view mark : {"\xEF\xBB\xBF", "\xFE\xFF", "\xFF\xFE"})
+    if (text.starts_with(mark))
+      return Error{
+          ErrorCode::syntax, "a byte order mark: files are read as UTF-8 without one", {file, 1}};
   return text;
 }
 

@@ -22,13 +22,23 @@ class LogReader {
       : xml_(xml), instance_(instance), grid_(grid) {}
 
   Result<PlanFile> run() {
-    const pugi::xml_node log = xml_.root().child("log");
-    if (std::string_view(xml_.root().name()) != "root" || !log)
+    if (std::string_view(xml_.root().name()) != "root")
       return xml_.error(xml_.root(), "there is no <log> in <root>");
-    for (const pugi::xml_node agent : log.children("agent"))
+    // CCBS repeats map and tasks in the file: agents with a start and a goal beside the log.
+    if (auto error = xml_.misplaced({{"root"},
+                                     {"root", "log"},
+                                     {"root", "log", "agent"},
+                                     {"root", "agent"},
+                                     {"root", "log", "agent", "path"},
+                                     {"root", "log", "agent", "path", "section"}}))
+      return *error;
+    const auto log = xml_.only_child(xml_.root(), "log");
+    if (!log) return log.error();
+    if (!*log) return xml_.error(xml_.root(), "there is no <log> in <root>");
+    for (const pugi::xml_node agent : log->children("agent"))
       if (auto error = read_agent(agent)) return *error;
     if (file_.plan.paths.empty() && instance_.num_agents() > 0)
-      return xml_.error(log, "there is no plan", ErrorCode::invalid_plan);
+      return xml_.error(*log, "there is no plan", ErrorCode::invalid_plan);
     return std::move(file_);
   }
 
@@ -44,15 +54,16 @@ class LogReader {
                         "agent " + std::to_string(index) + ", but the instance has " +
                             std::to_string(instance_.num_agents()) + " agents",
                         ErrorCode::invalid_plan);
-    const pugi::xml_node way = node.child("path");
-    if (!way) return xml_.error(node, "there is no <path>");
-    // Without sections the agent never leaves its start.
-    Path path{{instance_.agent(AgentId(index)).start, 0, 0}};
+    const auto way = xml_.only_child(node, "path");
+    if (!way) return way.error();
+    if (!*way) return xml_.error(node, "there is no <path>");
+    Path path{{VertexId(0), 0, 0}};
     bool is_first = true;
-    for (const pugi::xml_node section : way.children("section")) {
+    for (const pugi::xml_node section : way->children("section")) {
       if (auto error = read_section(section, AgentId(index), is_first, path)) return error;
       is_first = false;
     }
+    if (is_first) return xml_.error(*way, "the path is empty", ErrorCode::invalid_plan);
     // Waiting at the end is no departure.
     path.back().depart = path.back().arrive;
     file_.plan.paths.push_back(std::move(path));
@@ -163,6 +174,8 @@ void write_ccbs_log(std::ostream& out, const Instance& instance, const Plan& pla
       if (wait > 0) section(path[k].vertex, path[k].vertex, wait);
       section(path[k].vertex, path[k + 1].vertex, path[k + 1].arrive - path[k].depart);
     }
+    // A path is not empty: the section says where the agent is.
+    if (number == 0) section(path.front().vertex, path.front().vertex, 0);
     out << "  </path>\n </agent>\n";
   }
   out << "</log>\n</root>\n";

@@ -2,6 +2,8 @@
 #include "quadrille/continuous/roadmap_xml.hpp"
 
 #include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "formats/xml_input.hpp"
@@ -14,8 +16,11 @@ constexpr std::int64_t kMaxVertices = std::int64_t{1} << 26;
 constexpr std::int64_t kMaxSide = std::int64_t{1} << 16;
 
 std::optional<std::int64_t> parse_node_id(std::string_view text) {
-  if (text.size() < 2 || text.front() != 'n' || text[1] < '0' || text[1] > '9') return std::nullopt;
-  return parse_integer(text.substr(1), 0, kMaxVertices);
+  if (text.empty()) return std::nullopt;
+  const auto number = parse_integer(text.substr(1), 0, kMaxVertices);
+  // One name for each node: not n01, nor n with a blank.
+  if (!number || text != "n" + std::to_string(*number)) return std::nullopt;
+  return number;
 }
 
 class GraphmlReader {
@@ -23,21 +28,21 @@ class GraphmlReader {
   GraphmlReader(const XmlFile& xml, double resolution) : xml_(xml), resolution_(resolution) {}
 
   Result<MapXml> read() {
-    for (const pugi::xml_node key : xml_.root().children("key"))
-      if (std::string_view(key.attribute("for").value()) == "node" &&
-          std::string_view(key.attribute("attr.name").value()) == "coords")
-        coords_key_ = key.attribute("id").value();
-    if (coords_key_.empty())
-      return xml_.error(xml_.root(), "there is no <key for=\"node\" attr.name=\"coords\">");
-    const pugi::xml_node graph = xml_.root().child("graph");
-    if (!graph) return xml_.error(xml_.root(), "there is no <graph>");
-    if (graph.next_sibling("graph"))
-      return xml_.error(graph.next_sibling("graph"), "there is a second <graph>");
-    if (std::string_view(graph.attribute("edgedefault").value()) != "directed")
-      return xml_.error(graph, "edgedefault has to be \"directed\"");
-    for (const pugi::xml_node node : graph.children("node"))
+    if (auto error = xml_.misplaced({{"graphml"},
+                                     {"graphml", "key"},
+                                     {"graphml", "graph"},
+                                     {"graphml", "graph", "node"},
+                                     {"graphml", "graph", "edge"}}))
+      return *error;
+    if (auto error = find_coords_key()) return *error;
+    const auto graph = xml_.only_child(xml_.root(), "graph");
+    if (!graph) return graph.error();
+    if (!*graph) return xml_.error(xml_.root(), "there is no <graph>");
+    if (std::string_view(graph->attribute("edgedefault").value()) != "directed")
+      return xml_.error(*graph, "edgedefault has to be \"directed\"");
+    for (const pugi::xml_node node : graph->children("node"))
       if (auto error = read_node(node)) return *error;
-    for (const pugi::xml_node edge : graph.children("edge"))
+    for (const pugi::xml_node edge : graph->children("edge"))
       if (auto error = read_edge(edge)) return *error;
     auto roadmap = Roadmap::make(std::move(positions_), std::move(edges_));
     if (!roadmap) return Error{roadmap.error().code, roadmap.error().message, {xml_.file(), 0}};
@@ -45,16 +50,43 @@ class GraphmlReader {
   }
 
  private:
+  std::optional<Error> find_coords_key() {
+    std::set<std::string_view> ids;
+    for (const pugi::xml_node key : xml_.root().children("key")) {
+      const std::string_view id = key.attribute("id").value();
+      if (!ids.insert(id).second)
+        return xml_.error(key, "there is a second <key> with the id " + quoted(id));
+      if (std::string_view(key.attribute("for").value()) != "node" ||
+          std::string_view(key.attribute("attr.name").value()) != "coords")
+        continue;
+      if (!coords_key_.empty()) return xml_.error(key, "there is a second <key> for coords");
+      if (id.empty()) return xml_.error(key, "the <key> for coords has no id");
+      coords_key_ = id;
+    }
+    if (coords_key_.empty())
+      return xml_.error(xml_.root(), "there is no <key for=\"node\" attr.name=\"coords\">");
+    return std::nullopt;
+  }
+
+  /// The text of the node's <data> with the coordinates, empty if there is none.
+  Result<std::string_view> coordinates(const pugi::xml_node& node) const {
+    pugi::xml_node found;
+    for (const pugi::xml_node data : node.children("data")) {
+      if (coords_key_ != data.attribute("key").value()) continue;
+      if (found) return xml_.error(data, "the coordinates of a node are given twice");
+      found = data;
+    }
+    return xml_.text(found);
+  }
+
   std::optional<Error> read_node(const pugi::xml_node& node) {
     const std::string_view id = node.attribute("id").value();
     const std::string expected = "n" + std::to_string(positions_.size());
     if (id != expected)
       return xml_.error(node, "node " + quoted(id) + " where " + expected + " is due");
-    const pugi::xml_node data = node.find_child([&](const pugi::xml_node& child) {
-      return std::string_view(child.name()) == "data" &&
-             coords_key_ == child.attribute("key").value();
-    });
-    const std::string_view text = data.child_value();
+    const auto data = coordinates(node);
+    if (!data) return data.error();
+    const std::string_view text = data.value();
     const auto comma = text.find(',');
     const auto x = parse_number(text.substr(0, comma));
     const auto y =
@@ -85,13 +117,22 @@ class GraphmlReader {
     }
     if (ends[0] == ends[1])
       return xml_.error(edge, "an edge from a node to itself", ErrorCode::invalid_instance);
-    edges_.push_back({ends[0], ends[1], std::nullopt});
+    const pugi::xml_attribute directed = edge.attribute("directed");
+    const std::string_view way = directed ? directed.value() : "true";
+    if (way != "true" && way != "false")
+      return xml_.error(edge, "directed is " + quoted(way) + ", neither true nor false");
+    add_edge(ends[0], ends[1]);
+    if (way == "false") add_edge(ends[1], ends[0]);
+    return std::nullopt;
+  }
+
+  void add_edge(VertexId from, VertexId to) {
+    edges_.push_back({from, to, std::nullopt});
     // Sampling planners leave such edges in published files. Every move takes time here.
-    if (positions_[ends[0].index()] == positions_[ends[1].index()]) {
+    if (positions_[from.index()] == positions_[to.index()]) {
       edges_.back().duration = 1;
       ++num_zero_length_edges_;
     }
-    return std::nullopt;
   }
 
   const XmlFile& xml_;
@@ -103,8 +144,10 @@ class GraphmlReader {
 };
 
 std::optional<Error> read_row(const XmlFile& xml, const pugi::xml_node& row, OccupancyGrid& grid) {
+  const auto text = xml.text(row);
+  if (!text) return text.error();
   std::int32_t columns = 0;
-  for (const char c : std::string_view(row.child_value())) {
+  for (const char c : *text) {
     if (c == ' ' || c == '\t' || c == '\r' || c == '\n') continue;
     if (c != '0' && c != '1')
       return xml.error(row, "a row consists of 0 and 1 and has " + quoted({&c, 1}));
@@ -118,26 +161,39 @@ std::optional<Error> read_row(const XmlFile& xml, const pugi::xml_node& row, Occ
 }
 
 Result<MapXml> read_grid(const XmlFile& xml) {
-  const pugi::xml_node map = xml.root().child("map");
-  if (!map) return xml.error(xml.root(), "there is no <map> in <root>");
+  if (auto error = xml.misplaced({{"root"},
+                                  {"root", "map"},
+                                  {"root", "map", "width"},
+                                  {"root", "map", "height"},
+                                  {"root", "map", "grid"},
+                                  {"root", "map", "grid", "row"}}))
+    return *error;
+  const auto map = xml.only_child(xml.root(), "map");
+  if (!map) return map.error();
+  if (!*map) return xml.error(xml.root(), "there is no <map> in <root>");
   OccupancyGrid grid;
-  for (const auto& [name, value] :
+  for (const auto& [name, side] :
        {std::pair{"width", &grid.width}, std::pair{"height", &grid.height}}) {
-    const auto number = parse_integer(map.child(name).child_value(), 1, kMaxSide);
+    const auto element = xml.only_child(*map, name);
+    if (!element) return element.error();
+    const auto text = xml.text(*element);
+    if (!text) return text.error();
+    const auto number = parse_integer(*text, 1, kMaxSide);
     if (!number)
-      return xml.error(map, std::string("<") + name + "> has to be 1 .. " +
-                                std::to_string(kMaxSide) + " and is " +
-                                quoted(map.child(name).child_value()));
-    *value = static_cast<std::int32_t>(*number);
+      return xml.error(*map, std::string("<") + name + "> has to be 1 .. " +
+                                 std::to_string(kMaxSide) + " and is " + quoted(*text));
+    *side = static_cast<std::int32_t>(*number);
   }
+  const auto cells = xml.only_child(*map, "grid");
+  if (!cells) return cells.error();
   std::int32_t rows = 0;
-  for (const pugi::xml_node row : map.child("grid").children("row")) {
+  for (const pugi::xml_node row : cells->children("row")) {
     if (auto error = read_row(xml, row, grid)) return *error;
     ++rows;
   }
   if (rows != grid.height)
     return xml.error(
-        map, std::to_string(rows) + " rows where the height is " + std::to_string(grid.height));
+        *map, std::to_string(rows) + " rows where the height is " + std::to_string(grid.height));
   return MapXml{std::move(grid), 0};
 }
 
@@ -180,6 +236,7 @@ Result<TaskXml> read_task(const Result<XmlFile>& xml) {
   if (!xml) return xml.error();
   if (std::string_view(xml->root().name()) != "root")
     return xml->error(xml->root(), "not <root> but " + quoted(xml->root().name()));
+  if (auto error = xml->misplaced({{"root"}, {"root", "agent"}})) return *error;
   TaskXml task{xml->file(), {}};
   for (const pugi::xml_node child : xml->root().children()) {
     if (child.type() != pugi::node_element) continue;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <iosfwd>
 #include <memory>
 #include <optional>
@@ -16,7 +17,8 @@
 
 namespace quadrille::continuous {
 
-/// A parsed XML file that knows the lines of its elements.
+/// A parsed XML file that knows the lines of its elements. What the parser lets pass although it is
+/// not well-formed is refused: repeated attributes, entities that nobody has defined.
 class XmlFile {
  public:
   [[nodiscard]] static Result<XmlFile> parse(std::string text, const std::string& file);
@@ -24,6 +26,18 @@ class XmlFile {
   [[nodiscard]] static Result<XmlFile> read(const std::filesystem::path& path);
 
   [[nodiscard]] pugi::xml_node root() const { return document_->document_element(); }
+
+  /// Where an element belongs: the names from the root down to it, such as {"root", "log",
+  /// "agent"}.
+  using Place = std::initializer_list<std::string_view>;
+  /// The first element that has the last name of a place and is somewhere else.
+  [[nodiscard]] std::optional<Error> misplaced(std::initializer_list<Place> places) const;
+  /// The child of that name, null if there is none. Errors: syntax for a second one.
+  [[nodiscard]] Result<pugi::xml_node> only_child(const pugi::xml_node& parent,
+                                                  const char* name) const;
+  /// The text of an element, which is nothing else. Errors: syntax if it is in pieces, between
+  /// which there are elements or comments: "1,2<!-- -->5" is 1,25 to one reader and 1,2 to another.
+  [[nodiscard]] Result<std::string_view> text(const pugi::xml_node& node) const;
   [[nodiscard]] long line(const pugi::xml_node& node) const;
   [[nodiscard]] Error error(const pugi::xml_node& node, const std::string& message,
                             ErrorCode code = ErrorCode::syntax) const;
@@ -31,6 +45,8 @@ class XmlFile {
 
  private:
   XmlFile() = default;
+  [[nodiscard]] std::optional<Error> check_top_level() const;
+  [[nodiscard]] std::optional<Error> check_attributes() const;
   [[nodiscard]] long line_at(std::ptrdiff_t offset) const;
 
   std::string file_, text_;

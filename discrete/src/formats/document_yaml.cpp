@@ -55,7 +55,7 @@ class YamlHandler final : public YAML::EventHandler {
         parse_natural(std::string_view(value).substr(negative ? 1 : 0), INT64_MAX);
     if (key || !plain || number.fault == NumberFault::malformed)
       require(builder_.add_text(value, line(mark)));
-    else if (number.fault == NumberFault::too_large)
+    else if (number.fault == NumberFault::too_large || (negative && number.value == 0))
       require(builder_.add_opaque(Document::Kind::real, line(mark)));
     else
       require(builder_.add_integer(negative ? -number.value : number.value, line(mark)));

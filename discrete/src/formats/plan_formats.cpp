@@ -46,7 +46,8 @@ std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept {
 
 PlanFormat detect_plan_format(std::string_view text) noexcept {
   const auto begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos) return PlanFormat::yaml;
+  // An empty line is the plan for no agents, which an empty file is in no format.
+  if (begin == std::string_view::npos) return text.empty() ? PlanFormat::yaml : PlanFormat::cbsh2;
   text.remove_prefix(begin);
   if (text.front() == '{') return PlanFormat::json;
   if (text.front() >= '0' && text.front() <= '9') return PlanFormat::visualizer;

@@ -177,6 +177,8 @@ Result<PlanFile> read_visualizer_plan(const std::string& text, const std::string
 }
 
 void write_cbsh2_plan(std::ostream& out, const Graph& graph, const Plan& plan) {
+  // An empty line tells the plan for no agents from a file that somebody failed to write.
+  if (plan.paths.empty()) out << '\n';
   for (std::size_t i = 0; i < plan.paths.size(); ++i) {
     out << "Agent " << i << ": ";
     for (const VertexId v : plan.paths[AgentId(i)]) {
@@ -188,7 +190,7 @@ void write_cbsh2_plan(std::ostream& out, const Graph& graph, const Plan& plan) {
 }
 
 void write_visualizer_plan(std::ostream& out, const Graph& graph, const Plan& plan) {
-  std::size_t length = plan.paths.empty() ? 0 : 1;
+  std::size_t length = 1;  // Without agents too: the line tells the file from an empty one.
   for (const Path& path : plan.paths) length = std::max(length, path.size());
   for (std::size_t t = 0; t < length; ++t) {
     out << t << ':';

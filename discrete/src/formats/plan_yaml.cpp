@@ -56,7 +56,9 @@ class YamlPlanReader {
       const bool prefixed = name.starts_with("agent");
       const Natural number = parse_natural(prefixed ? name.substr(5) : "", INT32_MAX);
       const auto agent = static_cast<std::size_t>(number.value);
-      if (number.fault != NumberFault::none || agent >= count)
+      // One name for each agent: not agent01.
+      if (number.fault != NumberFault::none || agent >= count ||
+          name != "agent" + std::to_string(agent))
         return check_.fail(key, "expected a name from agent0 to agent" + std::to_string(count - 1));
       Path& path = paths[AgentId(agent)];
       if (!path.empty()) return check_.fail(key, "this agent is given twice");

@@ -67,6 +67,7 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithLineAndReason) {
       {"[1, 0.8]", "[1, 0.0001]", "f:7: /roadmap/edges/4: the edge has length zero"},
       {"[1, 3]", "[1, 1]", "f:7: /roadmap/edges/4: the edge is a loop"},
       {"[1, 3]", "[1, 4]", "f:7: /roadmap/edges/4/1: there is no vertex 4 among 4"},
+      {"[1, 3]", "[-0, 3]", "f:7: /roadmap/edges/4/0: expected an integer"},
       {"[1, 3]", "[-1, 3]", "f:7: /roadmap/edges/4/0: -1 is not between 0"},
       {"[1, 3]", "[1, 3.5]", "f:7: /roadmap/edges/4/1: expected an integer"},
       {"[1, 3]", "[1]", "f:7: /roadmap/edges/4: expected [from, to] or [from, to, duration]"},

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
 #include <sstream>
 
@@ -86,6 +87,25 @@ TEST(TimedPlanFiles, RefusesWrongLogs) {
       {"\"1.5\"", "\"inf\"", "f:16: the duration is 'inf', not a time"},
       {"\"1.5\"", "\"1e30\"", "f:16: the duration is '1e30', not a time"},
       {"\"1.5\"", "\"\"", "f:16: the duration is '', not a time"},
+      {"</log>", "</log>\n<log/>", "f:21: there is a second <log>"},
+      {"", "<root><map/><agent start_id=\"1\" goal_id=\"2\"/><x><log/></x></root>",
+       "f:1: <log> outside of <root>"},
+      {"<agent number=\"1\">", "<agent number=\"1\"><path/>", "f:13: there is a second <path>"},
+      {"<path duration=\"2.9\">",
+       "<section start_id=\"2\" goal_id=\"2\" duration=\"1\"/><path duration=\"2.9\">",
+       "f:13: <section> outside of <path>"},
+      {"<path duration=\"2.9\">",
+       "<path duration=\"2.9\"><x><section start_id=\"2\" goal_id=\"2\" duration=\"1\"/></x>",
+       "f:13: <section> outside of <path>"},
+      {"</log>", "</log><section/>", "f:20: <section> outside of <path>"},
+      {"</log>", "<agent number=\"2\"><path/></agent></log>", "f:20: agent 2, but the instance"},
+      {"\"1.5\"", "\"1.5\" duration=\"1.5\"",
+       "f:16: not well-formed XML: the attribute 'duration' is given twice"},
+      {"\"1.5\"", "\"1.5&nbsp;\"", "f:16: not well-formed XML: '&nbsp;' is no character"},
+      {"", "<root><log><agent number=\"0\">\n<path/></agent></log></root>",
+       "f:2: the path is empty"},
+      {"", "<root><log><agent number=\"0\">\n<path><x/></path></agent></log></root>",
+       "f:2: the path is empty"},
   };
   test::expect_refused(test::contents(test::data("discs-log.xml")), faults, read_discs);
 }
@@ -130,6 +150,19 @@ TEST(TimedPlanFiles, WhatIsWrittenIsReadBack) {
       ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
       EXPECT_EQ(again->plan, plan) << file.str();
     }
+  }
+}
+
+TEST(TimedPlanFiles, APlanForNoAgentsIsReadBack) {
+  const auto roadmap =
+      std::make_shared<const Roadmap>(Roadmap::make({{0, 0}, {1000, 0}}, {}).value());
+  const Instance instance = Instance::make(roadmap, {}).value();
+  for (const PlanFormat format : {PlanFormat::json, PlanFormat::ccbs}) {
+    std::stringstream file;
+    ASSERT_EQ(write_plan(file, "out", instance, {}, format), std::nullopt);
+    const auto again = read_plan(file, "out", instance);
+    ASSERT_TRUE(again.has_value()) << again.error().to_string();
+    EXPECT_TRUE(again->plan.paths.empty());
   }
 }
 

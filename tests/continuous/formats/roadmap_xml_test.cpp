@@ -36,6 +36,35 @@ TEST(RoadmapXml, EdgesOfLengthZeroTakeOneTickAndAreCounted) {
   EXPECT_EQ(std::get<Roadmap>(map.map).edge(EdgeId(0)).duration, 1);
 }
 
+TEST(RoadmapXml, UndirectedEdgesLeadBothWays) {
+  const auto edges = [](const char* directed) {
+    const test::Fault change{"id=\"e1\" source", std::string(directed) + " source", ""};
+    std::istringstream in(test::with_fault(test::contents(test::data("roadmap.xml")), change));
+    return std::get<Roadmap>(read_map_xml(in, "f", kResolution).value().map).edges();
+  };
+  const Edge there{VertexId(0), VertexId(1), std::nullopt};
+  const Edge back{VertexId(1), VertexId(0), std::nullopt};
+  EXPECT_EQ(edges("directed=\"false\""), (std::vector<Edge>{there, back, there}));
+  EXPECT_EQ(edges("directed=\"true\""), (std::vector<Edge>{there, back}));
+}
+
+TEST(RoadmapXml, WhatSurroundsTheNumbersDoesNotMatter) {
+  const std::string file = test::contents(test::data("roadmap.xml"));
+  const auto roadmap = [&](const std::string& text) {
+    std::istringstream in(text);
+    return std::get<Roadmap>(read_map_xml(in, "f", kResolution).value().map).positions();
+  };
+  const std::vector<Point> expected = roadmap(file);
+  const std::vector<test::Fault> changes = {
+      {"1.5,-2", " 1.5 , -2\n<!-- & <here> \"'--> ", ""},
+      {"1.5,-2", "<![CDATA[1.5,-2]]>", ""},
+      {"1.5,-2", "&#49;.5&#x2c;-2", ""},
+      {"<graph id", "<desc a='&lt;\"&amp;'>it's &quot;&apos;&gt;</desc><?skip & < ?><graph id", ""},
+  };
+  for (const test::Fault& change : changes)
+    EXPECT_EQ(roadmap(test::with_fault(file, change)), expected) << change.to;
+}
+
 TEST(RoadmapXml, ReadsGridsAndTasks) {
   const OccupancyGrid grid = cells();
   EXPECT_EQ(grid.width, 4);
@@ -81,6 +110,33 @@ TEST(RoadmapXml, RefusesWrongRoadmaps) {
       {"id=\"e1\" source=\"n1\"", "id=\"e1\" source=\"n0\"", "f:15: an edge from a node to itself"},
       {"id=\"e1\" source=\"n1\"", "id=\"e1\"", "f:15: the source '' of an edge is no node"},
       {"</graph>", "</graph><graph/>", "f:18: there is a second <graph>"},
+      {"</graph>", "<node id=\"n2\"><graph/></node></graph>", "f:18: <graph> outside of <graphml>"},
+      {"<data key=\"key0\">1.5,-2</data>", "<node id=\"n2\"/>", "f:10: <node> outside of <graph>"},
+      {"<graph id", "<edge source=\"n0\" target=\"n1\"/><graph id",
+       "f:5: <edge> outside of <graph>"},
+      {"<graph id", "<key id=\"c\" for=\"node\" attr.name=\"coords\"/><graph id",
+       "f:5: there is a second <key> for coords"},
+      {"<graph id", "<key id=\"key0\" for=\"edge\" attr.name=\"x\"/><graph id",
+       "f:5: there is a second <key> with the id 'key0'"},
+      {"<key id=\"key0\"", "<key", "f:3: the <key> for coords has no id"},
+      {"1.5,-2</data>", "1.5,-2</data>\n<data key=\"key0\">3,4</data>",
+       "f:11: the coordinates of a node are given twice"},
+      {"1.5,-2", "1,2<!-- x -->5", "f:10: <data> has to be text without elements or comments"},
+      {"1.5,-2", "1.5,-2<b/>", "f:10: <data> has to be text without elements or comments"},
+      {"1.5,-2", "1.5,<![CDATA[-2]]>", "f:10: <data> has to be text without elements or comments"},
+      {"1.5,-2", "1.5&comma;-2", "f:10: not well-formed XML: '&comma;' is no character that XML"},
+      {"1.5,-2", "1.5,-2&#0;", "f:10: not well-formed XML: '&#0;' is no character that XML"},
+      {"1.5,-2", "1.5,-2&#x110000;", "f:10: not well-formed XML: '&#x110000;' is no character"},
+      {"1.5,-2", "1.5,-2&", "f:10: not well-formed XML: '&' is no character that XML knows"},
+      {"id=\"e1\" source", "id=\"&e;\" source", "f:15: not well-formed XML: '&e;' is no"},
+      {"id=\"e1\" source", "id=\"<e\" source", "f:15: not well-formed XML: '<' in an attribute"},
+      {"id=\"e1\" source", "id=\"e1\" target=\"n0\" source",
+       "f:15: not well-formed XML: the attribute 'target' is given twice"},
+      {"id=\"e1\" source", "id=\"e1\" directed=\"no\" source",
+       "f:15: directed is 'no', neither true nor false"},
+      {"id=\"e1\" source=\"n1\"", "id=\"e1\" source=\"n01\"", "f:15: the source 'n01' of an edge"},
+      {"id=\"e1\" source=\"n1\"", "id=\"e1\" source=\"n1 \"", "f:15: the source 'n1 ' of an edge"},
+      {"", "\xEF\xBB\xBF<graphml/>", "f:1: a byte order mark"},
   };
   test::expect_refused(test::contents(test::data("roadmap.xml")), faults, read_map);
 }
@@ -100,6 +156,16 @@ TEST(RoadmapXml, RefusesWrongGrids) {
       {"0 0 1 0", "0 0 1 0 1", "f:6: a row of 5 cells where the width is 4"},
       {"0 0 1 0", "0 0 2 0", "f:6: a row consists of 0 and 1 and has '2'"},
       {"0 0 1 0", "", "f:6: a row of 0 cells where the width is 4"},
+      {"<width>4", "<width>4</width><width>4", "f:3: there is a second <width>"},
+      {"<height>2", "<height>3</height><height>2", "f:4: there is a second <height>"},
+      {"</grid>", "</grid><grid><row>0 0 0 0</row></grid>", "f:8: there is a second <grid>"},
+      {"</map>", "</map>\n<map/>", "f:10: there is a second <map>"},
+      {"</grid>", "</grid><row>0 0 0 0</row>", "f:8: <row> outside of <grid>"},
+      {"</map>", "<x><map/></x></map>", "f:9: <map> outside of <root>"},
+      {"<width>4", "<width>4<!-- -->0", "f:3: <width> has to be text without elements or comments"},
+      {"0 0 1 0", "0 0<!-- --> 1 0", "f:6: <row> has to be text without elements or comments"},
+      {"<row>0 0 1 0", "<row a=\"1\" a=\"1\">0 0 1 0",
+       "f:6: not well-formed XML: the attribute 'a' is given twice"},
   };
   test::expect_refused(test::contents(test::data("cells.xml")), faults, read_map);
 }
@@ -114,6 +180,10 @@ TEST(RoadmapXml, RefusesWrongTasks) {
       {"start_id=\"7\"", "start_id=\"x\"", "f:3: start_id is 'x', not a natural number"},
       {"start_id=\"7\"", "start_id=\"1.0\"", "f:3: start_id is '1.0', not a natural number"},
       {"start_id=\"7\"", "start_id=\"99999999999\"", "f:3: start_id is '99999999999'"},
+      {"start_id=\"7\"", "start_id=\"7\" start_id=\"6\"",
+       "f:3: not well-formed XML: the attribute 'start_id' is given twice"},
+      {"start_id=\"7\"", "start_id=\"-0\"", "f:3: start_id is '-0', not a natural number"},
+      {"goal_id=\"4\"/>", "goal_id=\"4\"><agent/></agent>", "f:3: <agent> outside of <root>"},
   };
   test::expect_refused(test::contents(test::data("tasks.xml")), faults, read_task);
 }

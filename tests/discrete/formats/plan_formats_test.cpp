@@ -42,6 +42,23 @@ TEST(PlanFormats, AreRecognisedByTheirFirstCharacters) {
   EXPECT_EQ(plan_format_of("b.txt"), std::nullopt);
 }
 
+TEST(PlanFormats, APlanForNoAgentsIsReadBack) {
+  for (const PlanFormat format : kAllFormats) {
+    const std::string text = written(small_graph(), {}, format);
+    EXPECT_FALSE(text.empty());
+    for (const std::optional<PlanFormat> named :
+         {std::optional(format), std::optional<PlanFormat>()}) {
+      std::istringstream in(text);
+      const auto again = read_plan(in, "f", small_graph(), named);
+      ASSERT_TRUE(again.has_value()) << to_string(format) << ": " << again.error().to_string();
+      EXPECT_TRUE(again->plan.paths.empty());
+    }
+  }
+  // A file that nobody managed to write is none.
+  std::istringstream in("");
+  EXPECT_FALSE(read_plan(in, "f", small_graph()).has_value());
+}
+
 TEST(PlanFormats, AllFilesStateTheSamePlan) {
   for (const char* name :
        {"plan.json", "result.json", "plan.cbsh2", "plan.visualizer", "plan.yaml"}) {

@@ -19,8 +19,8 @@ namespace quadrille::text {
 /// Longer files are refused.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 28;
 
-/// The rest of a stream. Errors: io; out_of_range above kMaxFileBytes; syntax at a NUL byte, which
-/// no text format has.
+/// A whole stream. Errors: io; out_of_range above kMaxFileBytes; syntax at a NUL byte, which no
+/// text format has, and at a byte order mark.
 [[nodiscard]] Result<std::string> read_all(std::istream& in, const std::string& file);
 
 /// Why `path` cannot be read, if it cannot; otherwise `in` is open.
