@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "model/usages.hpp"
+#include "mdd/usages.hpp"
 
 namespace quadrille::discrete {
 

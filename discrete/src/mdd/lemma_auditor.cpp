@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "model/usages.hpp"
+#include "mdd/usages.hpp"
 
 namespace quadrille::discrete {
 

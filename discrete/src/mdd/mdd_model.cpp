@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "model/usages.hpp"
+#include "mdd/usages.hpp"
 
 namespace quadrille::discrete {
 

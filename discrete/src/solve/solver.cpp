@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "mdd/usages.hpp"
 #include "model/open_maps.hpp"
-#include "model/usages.hpp"
 #include "primal/upper_bound.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
