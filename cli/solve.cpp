@@ -135,9 +135,10 @@ void add_limit_options(CLI::App& app, SolveArguments& arguments) {
   add_seconds(app, "--time-limit", limits.wall_s,
               "Stop after this wall-clock time; 0 stops at once")
       ->group(group);
-  add_seconds(app, "--cpu-limit", limits.cpu_s, "Stop after this CPU time")->group(group);
+  add_seconds(app, "--cpu-limit", limits.cpu_s, "Stop after this CPU time, of all threads together")
+      ->group(group);
   add_integer(app, "--memory-limit", arguments.memory_mib, 1, std::int64_t{1} << 40,
-              "Stop when the process is larger than this many MiB")
+              "Stop when the search has added this many MiB to the process")
       ->group(group);
   add_integer(app, "--conflict-limit", limits.conflicts, 0, INT64_MAX,
               "Stop after this many conflicts of the SAT solver")

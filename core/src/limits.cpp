@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <utility>
 
 namespace quadrille {
@@ -21,6 +22,12 @@ double cpu_seconds() noexcept {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double thread_cpu_seconds() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double peak_rss_mib() noexcept {
@@ -39,11 +46,14 @@ double current_rss_mib() noexcept {
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-LimitMonitor::LimitMonitor(const Limits& limits)
-    : limits_(limits), wall_start_(wall_seconds()), cpu_start_(cpu_seconds()) {}
+LimitMonitor::LimitMonitor(const Limits& limits, std::shared_ptr<ResourceAccount> account)
+    : limits_(limits), meter_(account ? std::move(account) : std::make_shared<ResourceAccount>()) {}
 
-double LimitMonitor::elapsed_wall() const noexcept { return wall_seconds() - wall_start_; }
-double LimitMonitor::elapsed_cpu() const noexcept { return cpu_seconds() - cpu_start_; }
+double LimitMonitor::elapsed_wall() const noexcept { return meter_.account().wall_s(); }
+double LimitMonitor::elapsed_cpu() noexcept {
+  meter_.look_at_cpu();
+  return meter_.account().cpu_s();
+}
 
 void LimitMonitor::set_ticker(double interval_s, std::function<void()> listener) {
   ticker_ = std::move(listener);
@@ -64,31 +74,47 @@ void LimitMonitor::stop(StopReason reason) noexcept {
   if (reason_ == StopReason::none) reason_ = reason;
 }
 
-bool LimitMonitor::exhausted() {
+bool LimitMonitor::exhausted() { return look(++calls_ % 16 == 0, false); }
+bool LimitMonitor::exhausted_now() { return look(true, true); }
+
+bool LimitMonitor::look(bool at_clock, bool at_cpu) {
   if (reason_ != StopReason::none) return true;
-  ++calls_;
-  if (ticker_ && calls_ % 16 == 0 && elapsed_wall() >= next_tick_) {
-    ticker_();
-    next_tick_ = elapsed_wall() + tick_interval_;
-  }
   if (limits_.interrupt != nullptr && limits_.interrupt->load(std::memory_order_relaxed))
     reason_ = StopReason::interrupt;
   else if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed))
     reason_ = StopReason::interrupt;
   else if (limits_.conflicts && conflicts_ >= *limits_.conflicts)
     reason_ = StopReason::conflicts;
-  else if (calls_ % 16 == 0 && limits_.wall_s && elapsed_wall() >= *limits_.wall_s)
-    reason_ = StopReason::wall_time;
-  else if (calls_ % 16 == 0 && limits_.cpu_s && elapsed_cpu() >= *limits_.cpu_s)
-    reason_ = StopReason::cpu_time;
-  else if (calls_ % 1024 == 0 && limits_.memory_mib && current_rss_mib() >= *limits_.memory_mib)
-    reason_ = StopReason::memory;
+  else if (at_clock)
+    look_at_meter(at_cpu);
   return reason_ != StopReason::none;
 }
 
-bool LimitMonitor::exhausted_now() {
-  calls_ = 1023;
-  return exhausted();
+void LimitMonitor::look_at_meter(bool at_cpu) {
+  constexpr double kInterval = 0.001;
+  const double now = elapsed_wall();
+  if (ticker_ && now >= next_tick_) {
+    ticker_();
+    next_tick_ = elapsed_wall() + tick_interval_;
+  }
+  const bool is_due = now >= next_look_;
+  if (is_due) next_look_ = now + kInterval;
+  if (is_due && limits_.memory_mib) meter_.look_at_memory();
+  if (limits_.wall_s && now >= *limits_.wall_s)
+    stop(StopReason::wall_time);
+  else if ((is_due || at_cpu) && limits_.cpu_s && elapsed_cpu() >= *limits_.cpu_s)
+    stop(StopReason::cpu_time);
+  else if (limits_.memory_mib && meter_.account().memory_mib() >= *limits_.memory_mib)
+    stop(StopReason::memory);
+}
+
+bool LimitMonitor::has_room_for(std::size_t bytes) {
+  if (reason_ != StopReason::none) return false;
+  if (!limits_.memory_mib) return true;
+  meter_.look_at_memory();
+  const double more = static_cast<double>(bytes) / (1 << 20);
+  if (meter_.account().memory_mib() + more > *limits_.memory_mib) stop(StopReason::memory);
+  return reason_ == StopReason::none;
 }
 
 }  // namespace quadrille

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -91,13 +92,16 @@ class Rounds {
 
 class WorkerCompanion final : public Companion {
  public:
-  WorkerCompanion(Rounds& rounds, std::size_t worker) : rounds_(rounds), worker_(worker) {}
+  WorkerCompanion(Rounds& rounds, std::size_t worker, std::shared_ptr<ResourceAccount> account)
+      : rounds_(rounds), worker_(worker), account_(std::move(account)) {}
   void on_effort(std::int64_t effort) override { rounds_.on_effort(worker_, effort); }
   const std::atomic<bool>& cancelled() const override { return rounds_.over(); }
+  std::shared_ptr<ResourceAccount> account() const override { return account_; }
 
  private:
   Rounds& rounds_;
   std::size_t worker_;
+  std::shared_ptr<ResourceAccount> account_;
 };
 
 /// What another worker does: the lazy model with the other way to backtrack, then the MDD model.
@@ -127,9 +131,10 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
   Rounds rounds(options.threads, options.race);
   std::vector<SolveOutcome> outcomes(options.threads);
   std::vector<std::exception_ptr> failures(options.threads);
+  const auto account = std::make_shared<ResourceAccount>();
   const auto work = [&](std::size_t worker) {
     try {
-      WorkerCompanion companion(rounds, worker);
+      WorkerCompanion companion(rounds, worker, account);
       outcomes[worker] = solve_alone(instance, options_of(instance, options, worker), &companion);
     } catch (...) {
       failures[worker] = std::current_exception();
@@ -147,11 +152,10 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
     for (const std::exception_ptr& failure : failures)
       if (failure) std::rethrow_exception(failure);
   SolveOutcome& answer = outcomes[winner.value_or(0)];
-  for (const SolveOutcome& other : outcomes) {
+  for (const SolveOutcome& other : outcomes)
     if (!winner) answer.lower_bound = std::max(answer.lower_bound, other.lower_bound);
-    answer.statistics.cpu_s = std::max(answer.statistics.cpu_s, other.statistics.cpu_s);
-    answer.statistics.wall_s = std::max(answer.statistics.wall_s, other.statistics.wall_s);
-  }
+  answer.statistics.cpu_s = account->cpu_s();
+  answer.statistics.wall_s = account->wall_s();
   if (!winner && answer.cost == answer.lower_bound) answer.status = Status::optimal;
   return std::move(answer);
 }

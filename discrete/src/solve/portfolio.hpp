@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/solver.hpp"
@@ -17,6 +18,8 @@ class Companion {
   virtual void on_effort(std::int64_t effort) = 0;
   /// Set when the search is not needed any more.
   [[nodiscard]] virtual const std::atomic<bool>& cancelled() const = 0;
+  /// Of all searches that run side by side.
+  [[nodiscard]] virtual std::shared_ptr<ResourceAccount> account() const = 0;
 };
 
 /// One search in the calling thread. `companion` may be null.

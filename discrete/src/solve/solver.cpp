@@ -229,7 +229,7 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
 SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
                          Companion* companion) {
   SolveOutcome outcome;
-  LimitMonitor limits(options.limits);
+  LimitMonitor limits(options.limits, companion != nullptr ? companion->account() : nullptr);
   if (companion != nullptr) limits.set_cancel(&companion->cancelled());
   const auto finish = [&]() -> SolveOutcome&& {
     if (outcome.internal_error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Limits and interrupts: a search stops soon, says why, and never claims what it has not proved.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <atomic>
 #include <chrono>
@@ -62,6 +63,7 @@ void expect_stopped_by(StopReason reason, const Limits& limits) {
   const Instance instance = hard_instance();
   for (const SolveOptions& options : systems_for_both_objectives()) {
     SCOPED_TRACE(options_text(options));
+    malloc_trim(0);  // What earlier searches have left to the process would be no growth.
     const auto [outcome, seconds] = run(instance, with_limits(options, limits));
     EXPECT_LT(seconds, kSoon + limits.wall_s.value_or(0) + limits.cpu_s.value_or(0));
     EXPECT_FALSE(is_proof(outcome.status)) << to_string(outcome.status);
@@ -113,6 +115,54 @@ TEST(SolverLimits, Memory) {
   Limits limits;
   limits.memory_mib = 1;
   expect_stopped_by(StopReason::memory, limits);
+}
+
+// A host that holds memory and burns CPU all the time runs two searches, each for as much CPU or
+// memory as it may take itself. Either would end at once by what the others use.
+TEST(SolverLimits, BelongToTheSolve) {
+  malloc_trim(0);
+  const std::vector<char> of_the_host(500 << 20, 'x');
+  std::atomic<bool> done = false;
+  std::thread host([&] {
+    std::size_t sum = 0;
+    while (!done)
+      for (std::size_t i = 0; i < of_the_host.size() && !done; i += 4096)
+        sum += of_the_host[i] == 'x';
+    EXPECT_GT(sum, 0U);
+  });
+  SolveOptions small, large;
+  small.limits.cpu_s = 1;
+  small.limits.memory_mib = 60;
+  large.system = System::mdd_sat;
+  large.limits.cpu_s = 20;
+  large.limits.memory_mib = 200;
+  Random random(6);
+  const Instance short_paths = random_grid(random, {12, 12, 0, 120, 120});
+  const Instance long_paths = random_grid(random, {40, 40, 0, 700, 700});
+  SolveOutcome by_cpu, by_memory;
+  std::thread second([&] { by_memory = solve(long_paths, large); });
+  by_cpu = solve(short_paths, small);
+  second.join();
+  done = true;
+  host.join();
+  EXPECT_EQ(by_cpu.stop, StopReason::cpu_time) << to_string(by_cpu.stop);
+  EXPECT_GE(by_cpu.statistics.cpu_s, 1);
+  EXPECT_LT(by_cpu.statistics.cpu_s, 1.3);
+  EXPECT_EQ(by_memory.stop, StopReason::memory) << to_string(by_memory.stop);
+  EXPECT_LT(by_memory.statistics.cpu_s, 20);
+}
+
+TEST(SolverLimits, PortfoliosCountAllTheirThreads) {
+  const Instance instance = hard_instance();
+  SolveOptions options;
+  options.threads = 3;
+  options.race = true;
+  options.limits.cpu_s = 0.6;
+  const auto [outcome, seconds] = run(instance, options);
+  EXPECT_EQ(outcome.stop, StopReason::cpu_time) << to_string(outcome.stop);
+  EXPECT_GE(outcome.statistics.cpu_s, 0.6);
+  EXPECT_LT(outcome.statistics.cpu_s, 1.2);
+  EXPECT_NEAR(outcome.statistics.cpu_s, seconds, 0.2);
 }
 
 TEST(SolverLimits, InterruptBeforeTheSearch) {

@@ -4,9 +4,11 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "quadrille/core/outcome.hpp"
+#include "quadrille/core/resource_meter.hpp"
 
 namespace quadrille {
 
@@ -14,32 +16,40 @@ namespace quadrille {
 [[nodiscard]] double wall_seconds() noexcept;
 /// Seconds of CPU time used by this process.
 [[nodiscard]] double cpu_seconds() noexcept;
+/// Seconds of CPU time used by the calling thread.
+[[nodiscard]] double thread_cpu_seconds() noexcept;
 /// Largest resident set of this process so far, in MiB.
 [[nodiscard]] double peak_rss_mib() noexcept;
 /// Resident set of this process now, in MiB; 0 where the system does not tell.
 [[nodiscard]] double current_rss_mib() noexcept;
 
-/// What a search may use. An absent limit does not bind. All are counted from the moment the
-/// LimitMonitor is made, but memory, which is the process's resident set.
+/// What a search may use. An absent limit does not bind. All belong to the search, not to the
+/// process: what its host or another search uses does not count. See ResourceMeter.
 struct Limits {
   std::optional<double> wall_s;
-  std::optional<double> cpu_s;
-  std::optional<double> memory_mib;
+  std::optional<double> cpu_s;       ///< Of all threads of the search together.
+  std::optional<double> memory_mib;  ///< Resident memory that the search adds to the process.
   std::optional<std::int64_t> conflicts;
   /// Set from anywhere (a signal handler, another thread) to stop the search soon. May be null.
   const std::atomic<bool>* interrupt = nullptr;
 };
 
-/// Watches Limits during one search. Once a limit is met it stays met. One thread.
+/// Watches Limits during one search. Once a limit is met it stays met. To be used by the thread
+/// that made it.
 class LimitMonitor {
  public:
-  explicit LimitMonitor(const Limits& limits);
+  /// A search of several threads has one monitor for each of them and one account for all; null: an
+  /// account of its own.
+  explicit LimitMonitor(const Limits& limits, std::shared_ptr<ResourceAccount> account = nullptr);
 
   /// True when the search has to stop. Looks at the interrupt flag and the conflict count at every
-  /// call, at clocks every 16th and at memory every 1024th call.
+  /// call, at the wall clock every 16th, and then once a millisecond at CPU time and memory.
   [[nodiscard]] bool exhausted();
-  /// As `exhausted`, but looks at everything now.
+  /// As `exhausted`, but looks at the clocks now, and once a millisecond at memory.
   [[nodiscard]] bool exhausted_now();
+  /// Whether `bytes` more would be within the limit of memory; to be asked before a large table is
+  /// made. If not, the limit counts as met.
+  [[nodiscard]] bool has_room_for(std::size_t bytes);
 
   /// Calls `listener` from within `exhausted` about every `interval_s` seconds.
   void set_ticker(double interval_s, std::function<void()> listener);
@@ -54,14 +64,18 @@ class LimitMonitor {
   void add_conflicts(std::int64_t count);
   [[nodiscard]] std::int64_t conflicts() const noexcept { return conflicts_; }
   [[nodiscard]] StopReason reason() const noexcept { return reason_; }
-  /// Since the monitor was made.
+  /// Since the account was made; CPU time is that of all its threads.
   [[nodiscard]] double elapsed_wall() const noexcept;
-  [[nodiscard]] double elapsed_cpu() const noexcept;
+  [[nodiscard]] double elapsed_cpu() noexcept;
 
  private:
+  bool look(bool at_clock, bool at_cpu);
+  void look_at_meter(bool at_cpu);
+
   Limits limits_;
   const std::atomic<bool>* cancel_ = nullptr;
-  double wall_start_, cpu_start_;
+  ResourceMeter meter_;
+  double next_look_ = 0;
   std::int64_t conflicts_ = 0;
   std::uint32_t calls_ = 0;
   StopReason reason_ = StopReason::none;
