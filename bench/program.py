@@ -7,6 +7,7 @@ import shlex
 import subprocess
 import tempfile
 import threading
+from decimal import Decimal
 
 EXIT_CODES = {0: "optimal", 10: "feasible", 20: "infeasible", 30: "unknown"}
 SOLVED = ("optimal", "infeasible")
@@ -70,3 +71,99 @@ def read_rows(path, columns):
             if None in row or None in row.values():
                 raise BenchError(f"{path}:{reader.line_num}: wrong number of fields")
             yield row
+
+
+class Table:
+    """A CSV file of runs. Each row is checked against all rows before it and written at once.
+
+    `key` names the columns that tell runs apart, `instance` those of them that say what was solved.
+    `known` maps instances to (optimal cost, who says so, tolerance).
+    """
+
+    def __init__(self, path, columns, key, instance, known):
+        self.path, self.key, self.instance = path, key, instance
+        self.rows, self.runs, self.proved = {}, {}, dict(known)
+        self.lock = threading.Lock()
+        new = not os.path.exists(path) or os.path.getsize(path) == 0
+        if not new:
+            for row in read_rows(path, columns):
+                self._enter(row)
+        self.file = open(path, "a", newline="", encoding="utf-8")
+        self.writer = csv.DictWriter(self.file, columns, lineterminator="\n")
+        if new:
+            self.writer.writeheader()
+            self.file.flush()
+
+    def find(self, key):
+        with self.lock:
+            return self.rows.get(tuple(key))
+
+    def append(self, row):
+        with self.lock:
+            self.writer.writerow(row)  # Written before it is checked: a wrong row is evidence.
+            self.file.flush()
+            self._enter(row)
+
+    def _enter(self, row):
+        key = tuple(row[name] for name in self.key)
+        if key in self.rows:
+            raise BenchError(f"{self.path}: two rows for {' '.join(key)}")
+        self._check(row)
+        self.rows[key] = row
+
+    def _check(self, row):
+        """Raises when the row contradicts another row or what is known."""
+        instance = tuple(row[name] for name in self.instance)
+        where = " ".join(row[name] for name in self.key)
+        runs = self.runs.setdefault(instance, [])
+        if row["status"] in SOLVED:
+            answer = row["cost"] if row["status"] == "optimal" else "infeasible"
+            if row["status"] == "optimal" and row["cost"] != row["lower_bound"]:
+                raise BenchError(f"{where}: optimal with cost {answer}, but lower bound "
+                                 f"{row['lower_bound']}")
+            if instance in self.proved:
+                known, who, tolerance = self.proved[instance]
+                if answer != known and ("infeasible" in (answer, known) or
+                                        abs(Decimal(answer) - Decimal(known)) > tolerance):
+                    raise BenchError(f"{where}: WRONG ANSWER, {answer}, but {known} by {who}")
+            # Of two runs, the costs are those of the same units: no tolerance.
+            self.proved[instance] = (answer, where, Decimal(0))
+        runs.append((where, row))
+        if instance in self.proved:
+            for other, seen in runs:
+                self._check_bounds(other, seen, *self.proved[instance])
+
+    @staticmethod
+    def _check_bounds(where, row, answer, who, tolerance):
+        if answer == "infeasible":
+            if row["cost"] != "":
+                raise BenchError(f"{where}: has a plan, but infeasible by {who}")
+            return
+        if row["lower_bound"] != "" and Decimal(row["lower_bound"]) > Decimal(answer) + tolerance:
+            raise BenchError(f"{where}: WRONG BOUND, {row['lower_bound']} is above the optimal "
+                             f"cost {answer} by {who}")
+        if row["cost"] != "" and Decimal(row["cost"]) < Decimal(answer) - tolerance:
+            raise BenchError(f"{where}: WRONG COST, {row['cost']} is below the optimal cost "
+                             f"{answer} by {who}")
+
+
+def read_grid_reference(data):
+    """(map, scenario, agents) -> optimal sum of costs, found by other solvers; {} without a table."""
+    path = os.path.join(data, "reference", "discrete_sum_of_costs.csv")
+    if not os.path.exists(path):
+        return {}
+    with open(path, newline="", encoding="utf-8") as file:
+        return {(row["map"], f"random-{row['random_scen']}", row["agents"]):
+                row["optimal_sum_of_costs"]
+                for row in csv.DictReader(file) if row["optimal_sum_of_costs"]}
+
+
+def read_continuous_reference(data):
+    """(family, task, agents) -> sum of costs of other solvers; {} without a table."""
+    path = os.path.join(data, "reference", "continuous_sum_of_costs.csv")
+    if not os.path.exists(path):
+        return {}
+    with open(path, newline="", encoding="utf-8") as file:
+        return {(name, f"task-{row['task']}", row["agents"]): row["sum_of_costs"]
+                for row in csv.DictReader(file) if row["sum_of_costs"]
+                for name in (row["map"], f"{row['map']}:{row['k']}")}
