@@ -12,7 +12,9 @@ constexpr std::int64_t kMaxSteps = 30'000'000;
 constexpr std::int64_t kMaxStepsInReduction = 3'000'000;
 
 constexpr Cost kSmallPart = 64;
-/// Most pairs need no such search: the clauses do as well, and for less.
+/// Most pairs need no such search: the clauses do as well, and for less. Measured: on den520d with
+/// 40 and in the warehouse with 60 agents, searches of pairs make seconds of more than 30 s; on
+/// room64, where cores come from many agents, they are worth nothing.
 constexpr int kFirstTry = 64;
 /// Steps to begin with, and per call. A search that finds nothing is paid for.
 constexpr std::int64_t kFirstCredit = 12'000'000, kCreditPerCall = 1'000;

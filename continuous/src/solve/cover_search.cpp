@@ -15,6 +15,9 @@ using End = sat::SearchReport::End;
 using sat::Verdict;
 using Core = std::vector<CostProblem::Level>;
 
+/// Conflicts and decisions of a test whether a part of a core is one. Measured: 200 decisions leave
+/// `dense` (28 agents) open, 1500 leave `empty16` open and take twice the time on `sparse` and
+/// `room64`.
 constexpr sat::SolveBudget kTryBudget{200, 700};
 constexpr sat::SolveBudget kNextBudget{1000, {}};
 /// Covers by greed between two exact ones.

@@ -11,8 +11,9 @@ using sat::Lit;
 using sat::Truth;
 
 namespace {
-/// Of each agent. Measured: 8 to 32 make no difference on most instances, fewer cost time on hard
-/// ones.
+/// Of each agent. Measured: nine in ten violated paths are replaced by a remembered one; without
+/// any the ladders' last rungs take 1.7 times as long (geometric mean). 8 to 32 make no difference
+/// on most instances, fewer cost time on hard ones.
 constexpr std::size_t kRememberedPaths = 16;
 }  // namespace
 
