@@ -44,202 +44,100 @@ LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits)
     : model_(model),
       limits_(limits),
       paths_(model.instance()),
+      trailed_paths_(paths_, model.obstacles()),
+      trail_(trailed_paths_, model.instance().num_agents(), kForever),
+      search_(model, paths_),
+      separation_(paths_, trail_, search_, limits),
       clauses_(model, paths_),
-      obstacle_map_(model.instance().graph().num_vertices()),
-      finder_(model.instance().graph().num_vertices()),
-      explainer_(model.instance().graph().num_vertices()),
       explicit_paths_(model),
-      cache_(model.instance().num_agents(), kRememberedPaths),
-      agents_(model.instance().num_agents()) {
-  for (const AgentId i : model.instance().agents()) {
-    const AgentDistances& distances = model_.distances(i);
-    obstacle_map_.load(model_.obstacles(), {}, distances.goal());
-    const bool found =
-        finder_.find_cheapest({i, distances, obstacle_map_, distances.free_cost(), &paths_}, path_);
-    QUADRILLE_REQUIRE(found, "nothing hinders an agent that is alone");
-    paths_.replace(i, path_);
-    agents_[i].cap = distances.free_cost();
+      cache_(model.instance().num_agents(), kRememberedPaths) {
+  set_free_paths();
+}
+
+void LazyTheory::set_free_paths() {
+  const std::size_t num_agents = model_.instance().num_agents();
+  for (const AgentId i : model_.instance().agents()) {
+    const Path* path = search_.find_cheapest(i, {}, model_.distances(i).free_cost()).path();
+    QUADRILLE_REQUIRE(path != nullptr, "nothing hinders an agent that is alone");
+    paths_.replace(i, *path);
   }
+  LazyTrail free_costs(trailed_paths_, num_agents, kForever);
+  for (const AgentId i : model_.instance().agents())
+    free_costs.lower_cap(i, model_.distances(i).free_cost());
+  Separation separation(paths_, free_costs, search_, limits_);
   constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds && !limits.exhausted_now() && bypass(); ++round) {
+  for (int round = 0; round < kRounds && !limits_.exhausted_now() && separation.bypass_all();
+       ++round) {
   }
-  for (Agent& agent : agents_) agent.cap = kForever;
 }
 
 // ---- the assignment -----------------------------------------------------------------------------
 
-Truth LazyTheory::value(Lit lit) const {
-  const auto index = static_cast<std::size_t>(lit.variable());
-  const Truth positive = index < values_.size() ? values_[index] : Truth::unassigned;
-  if (positive == Truth::unassigned || lit.positive()) return positive;
-  return positive == Truth::is_true ? Truth::is_false : Truth::is_true;
-}
-
 void LazyTheory::on_assign(std::span<const Lit> newly_true) {
-  notice_new_obstacles();
+  trail_.notice(model_.obstacles());
   for (const Lit lit : newly_true) {
-    const auto index = static_cast<std::size_t>(lit.variable());
-    if (values_.size() <= index) values_.resize(index + 1, Truth::unassigned);
-    values_[index] = lit.positive() ? Truth::is_true : Truth::is_false;
-    stack_.push_back(lit);
-    changes_before_.push_back(changes_.size());
-    // Usages are allowed and costs are high while their variables are false.
-    if (!lit.positive()) continue;
+    trail_.push(lit);
+    if (!lit.positive()) continue;  // costs are high while their variables are false
     const auto meaning = model_.variable(lit);
-    if (meaning.kind == LazyModel::VariableKind::auxiliary ||
-        meaning.kind == LazyModel::VariableKind::vertex)
-      continue;
-    if (index < watchers_.size())
-      for (const ObstacleId id : watchers_[index]) activate(id);
-    if (meaning.kind == LazyModel::VariableKind::cost) lower_cap(meaning.agent, meaning.cost);
+    if (meaning.kind == LazyModel::VariableKind::cost)
+      trail_.lower_cap(meaning.agent, meaning.cost);
   }
 }
 
-void LazyTheory::on_retract(std::size_t kept) {
-  if (kept >= stack_.size()) return;
-  for (std::size_t at = kept; at < stack_.size(); ++at)
-    values_[static_cast<std::size_t>(stack_[at].variable())] = Truth::unassigned;
-  const std::size_t num_kept = changes_before_[kept];
-  stack_.resize(kept);
-  changes_before_.resize(kept);
-  std::vector<ObstacleId> popped;
-  while (changes_.size() > num_kept) {
-    const Change change = changes_.back();
-    changes_.pop_back();
-    undo(change);
-    if (change.kind == Change::Kind::activation) popped.push_back(change.obstacle);
-  }
-  // An obstacle that was made after its literal had become false is still active.
-  for (auto it = popped.rbegin(); it != popped.rend(); ++it)
-    if (value(model_.obstacles()[*it].allowed) == Truth::is_false) activate(*it);
-}
-
-void LazyTheory::undo(const Change& change) {
-  Agent& agent = agents_[change.agent];
-  switch (change.kind) {
-    case Change::Kind::activation:
-      agent.active.pop_back();
-      break;
-    case Change::Kind::cap:
-      agent.cap = change.cap;
-      break;
-    case Change::Kind::path:
-      paths_.replace(change.agent, replaced_paths_.back());
-      replaced_paths_.pop_back();
-      // It was violated when it was replaced, and may still be.
-      mark_violated(change.agent);
-      break;
-  }
-}
-
-void LazyTheory::notice_new_obstacles() {
-  const ObstacleTable& table = model_.obstacles();
-  for (; num_noticed_ < table.size(); ++num_noticed_) {
-    const ObstacleId id(num_noticed_);
-    const Lit allowed = table[id].allowed;
-    const auto index = static_cast<std::size_t>(allowed.variable());
-    if (watchers_.size() <= index) watchers_.resize(index + 1);
-    watchers_[index].push_back(id);
-    if (value(allowed) == Truth::is_false) activate(id);
-  }
-}
-
-void LazyTheory::activate(ObstacleId id) {
-  const AgentId i = model_.obstacles()[id].agent;
-  Agent& agent = agents_[i];
-  agent.active.push_back(id);
-  changes_.push_back({Change::Kind::activation, i, id, 0});
-  if (!agent.is_violated && model_.obstacles().hits(id, paths_.path(i))) mark_violated(i);
-}
-
-void LazyTheory::lower_cap(AgentId i, Timestep cap) {
-  Agent& agent = agents_[i];
-  if (cap >= agent.cap) return;
-  changes_.push_back({Change::Kind::cap, i, ObstacleId(), agent.cap});
-  agent.cap = cap;
-  if (paths_.cost(i) > cap) mark_violated(i);
-}
+void LazyTheory::on_retract(std::size_t kept) { trail_.retract(kept); }
 
 // ---- paths --------------------------------------------------------------------------------------
 
-bool LazyTheory::is_hit(AgentId i, const Path& path) const {
-  const std::vector<ObstacleId>& active = agents_[i].active;
-  return std::any_of(active.begin(), active.end(),
-                     [&](ObstacleId id) { return model_.obstacles().hits(id, path); });
-}
-
-void LazyTheory::set_path(AgentId i, const Path& path) {
-  // A dearer path is taken back with what made it necessary; any other one is as good as before.
-  if (path.size() > paths_.path(i).size()) {
-    changes_.push_back({Change::Kind::path, i, ObstacleId(), 0});
-    replaced_paths_.push_back(paths_.path(i));
-  }
-  paths_.replace(i, path);
-}
-
-void LazyTheory::mark_violated(AgentId i) {
-  if (agents_[i].is_violated) return;
-  agents_[i].is_violated = true;
-  violated_.push_back(i);
-}
-
 bool LazyTheory::replan_all(ContextWriter& writer) {
-  std::sort(violated_.begin(), violated_.end());
-  bool all_done = true;
-  for (const AgentId i : violated_) {
-    if (!is_present(i)) continue;
-    all_done = !limits_.exhausted();
-    if (!all_done) writer.stop();
-    all_done = all_done && replan(i, writer);
-    if (!all_done) break;
-  }
-  std::erase_if(violated_, [&](AgentId i) { return !agents_[i].is_violated; });
-  return all_done;
+  return trail_.mend_violated([&](AgentId i) {
+    if (!is_present(i)) return true;
+    if (limits_.exhausted()) {
+      writer.stop();
+      return false;
+    }
+    return replan(i, writer);
+  });
 }
 
 bool LazyTheory::replan(AgentId i, FormulaWriter& writer) {
-  Agent& agent = agents_[i];
+  const Timestep cap = trail_.cap(i);
   // What hit it may be gone.
-  if (paths_.cost(i) <= agent.cap && !is_hit(i, paths_.path(i))) {
-    agent.is_violated = false;
+  if (paths_.cost(i) <= cap && !trail_.find_broken(i, paths_.path(i))) {
+    trail_.keep_path(i);
     return true;
   }
   if (const Path* remembered = find_remembered(i)) {
-    agent.is_violated = false;
-    set_path(i, *remembered);
+    trail_.replace_path(i, *remembered);
     return true;
   }
-  const AgentDistances& distances = model_.distances(i);
-  obstacle_map_.load(model_.obstacles(), agent.active, distances.goal());
-  if (!finder_.find_cheapest({i, distances, obstacle_map_, agent.cap, &paths_}, path_)) {
-    explain_bound(i, agent.cap, writer);
+  trail_.list_active(i, active_);
+  const auto search = search_.find_cheapest(i, active_, cap);
+  if (search.path() == nullptr) {
+    explain_bound(i, search, cap, writer);
     return false;
   }
-  agent.is_violated = false;
-  const auto cost = static_cast<Timestep>(path_.size()) - 1;
-  const auto& literals = model_.cost_literals(i);
+  const Timestep cost = trailed_paths_.cost(*search.path());
   Timestep refuted = -1;  // the largest open bound that this search refutes
-  for (const auto& literal : literals) {
+  for (const auto& literal : model_.cost_literals(i)) {
     if (literal.cost >= cost) break;
-    if (value(literal.above) == Truth::unassigned) refuted = literal.cost;
+    if (trail_.value(literal.above) == Truth::unassigned) refuted = literal.cost;
   }
-  if (refuted >= 0) explain_bound(i, refuted, writer);
-  set_path(i, path_);
-  cache_.add(i, path_);
+  if (refuted >= 0) explain_bound(i, search, refuted, writer);
+  trail_.replace_path(i, *search.path());
+  cache_.add(i, *search.path());
   return true;
 }
 
 const Path* LazyTheory::find_remembered(AgentId i) const {
-  const Agent& agent = agents_[i];
-  Timestep max_cost = agent.cap;  // a dearer path needs the search's proof that it must be
+  Timestep max_cost = trail_.cap(i);  // a costlier path needs the search's proof that it must be
   for (const auto& literal : model_.cost_literals(i)) {
     if (literal.cost >= max_cost) break;
-    if (value(literal.above) == Truth::unassigned) max_cost = literal.cost;
+    if (trail_.value(literal.above) == Truth::unassigned) max_cost = literal.cost;
   }
   const Path* best = nullptr;
   int fewest = 0;
   for (const Path& path : cache_.paths(i)) {
-    if (static_cast<Timestep>(path.size()) - 1 > max_cost || is_hit(i, path)) continue;
+    if (trailed_paths_.cost(path) > max_cost || trail_.find_broken(i, path)) continue;
     const int collisions = paths_.num_collisions(i, path);
     if (best != nullptr && collisions >= fewest) continue;
     best = &path;
@@ -248,38 +146,30 @@ const Path* LazyTheory::find_remembered(AgentId i) const {
   return best;
 }
 
-void LazyTheory::explain_bound(AgentId i, Timestep cost, FormulaWriter& writer) {
-  const Agent& agent = agents_[i];
-  slots_.clear();
-  explainer_.explain(model_.distances(i), obstacle_map_, finder_.first_hits(), cost, slots_);
+void LazyTheory::explain_bound(AgentId i, const PathSearch::Cheapest& search, Timestep cost,
+                               FormulaWriter& writer) {
+  const std::vector<ObstacleId> blamed = search.blame(cost);
   std::vector<Lit> clause{model_.cost_above(i, cost, writer)};
   std::vector<sat::Usage> usages;
-  for (const std::size_t slot : slots_) {
-    const ObstacleId id = agent.active[slot];
+  for (const ObstacleId id : blamed) {
     const Lit allowed = model_.obstacles()[id].allowed;
     usages.push_back({i, id.value()});
     if (std::find(clause.begin(), clause.end(), allowed) == clause.end()) clause.push_back(allowed);
   }
   writer.add({sat::LemmaKind::path, clause, usages, false});
-  bump(clause);
-  explicit_paths_.on_path_lemma(i, agent.cap, writer);
+  decisions_.on_path_lemma(clause);
+  explicit_paths_.on_path_lemma(i, trail_.cap(i), writer);
 }
 
 // ---- checks -------------------------------------------------------------------------------------
 
 void LazyTheory::check(sat::Effort effort, sat::TheoryContext& context) {
   ContextWriter writer(context);
-  notice_new_obstacles();
+  trail_.notice(model_.obstacles());
   if (effort == sat::Effort::partial)
     static_cast<void>(replan_all(writer));
   else
     check_paths(writer);
-}
-
-void LazyTheory::list_present_collisions() {
-  collisions_.clear();
-  for (const Encounter& e : paths_.collisions())
-    if (is_present(e.first) && is_present(e.second)) collisions_.push_back(e);
 }
 
 // Obstacles whose literal is false already take effect without a clause: then paths change, and
@@ -293,22 +183,19 @@ void LazyTheory::check_paths(ContextWriter& writer) {
       writer.stop();
       return;
     }
-    list_present_collisions();
-    if (!has_bypassed) {
-      has_bypassed = true;
-      while (!limits_.exhausted_now() && bypass()) {
-      }
-      list_present_collisions();
+    while (!has_bypassed && !limits_.exhausted_now() && separation_.bypass_all()) {
     }
-    if (collisions_.empty()) {
+    has_bypassed = true;
+    std::vector<Encounter> collisions = separation_.collisions();
+    if (collisions.empty()) {
       accept();
       return;
     }
     std::stable_sort(
-        collisions_.begin(), collisions_.end(),
+        collisions.begin(), collisions.end(),
         [](const Encounter& a, const Encounter& b) { return a.timestep < b.timestep; });
-    for (const Encounter& e : collisions_) clauses_.exclude(e, agents_[e.first].cap, writer);
-    notice_new_obstacles();
+    for (const Encounter& e : collisions) clauses_.exclude(e, trail_.cap(e.first), writer);
+    trail_.notice(model_.obstacles());
     explicit_paths_.link_new_obstacles(writer);
     if (writer.has_excluded()) return;
   }
@@ -324,73 +211,32 @@ void LazyTheory::accept() {
 
 Lit LazyTheory::decide(sat::TheoryContext& context) {
   if (!is_part_) return {};
-  for (const AgentId i : violated_)  // after a lemma that the solver has not seen yet
-    if (is_present(i)) return {};
-  list_present_collisions();
-  while (!collisions_.empty() &&
-         (bypass(collisions_.front().first) || bypass(collisions_.front().second)))
-    list_present_collisions();
-  if (collisions_.empty()) {
+  // After a lemma that the solver has not seen yet.
+  if (trail_.any_violated([&](AgentId i) { return is_present(i); })) return {};
+  std::vector<Encounter> collisions = separation_.collisions();
+  while (!collisions.empty() && (separation_.bypass(collisions.front().first) ||
+                                 separation_.bypass(collisions.front().second)))
+    collisions = separation_.collisions();
+  if (collisions.empty()) {
     context.stop();
     return {};
   }
   ContextWriter writer(context);
-  for (const Encounter& e : std::vector<Encounter>(collisions_)) {
-    const auto usages = clauses_.exclude(e, agents_[e.first].cap, writer);
-    notice_new_obstacles();
-    explicit_paths_.link_new_obstacles(writer);
-    Lit choice;
-    for (const ObstacleId id : usages) {
-      const Lit allowed = model_.obstacles()[id].allowed;
-      if (value(allowed) == Truth::unassigned &&
-          (!choice.valid() || activity(allowed) > activity(choice)))
-        choice = allowed;
-    }
-    if (choice.valid()) return ~choice;
-  }
+  for (const Encounter& e : collisions)
+    if (const Lit usage = choose_usage(e, writer); usage.valid()) return ~usage;
   return {};
 }
 
-void LazyTheory::bump(std::span<const Lit> clause) {
-  constexpr double kGrowth = 1.05, kLimit = 1e100;
-  for (const Lit lit : clause) {
-    const auto index = static_cast<std::size_t>(lit.variable());
-    if (activity_.size() <= index) activity_.resize(index + 1, 0.0);
-    activity_[index] += bump_;
-  }
-  bump_ *= kGrowth;
-  if (bump_ < kLimit) return;
-  for (double& value : activity_) value /= kLimit;
-  bump_ /= kLimit;
-}
-
-bool LazyTheory::bypass() {
-  list_present_collisions();
-  std::vector<AgentId> colliding;
-  for (const Encounter& e : collisions_) {
-    colliding.push_back(e.first);
-    colliding.push_back(e.second);
-  }
-  std::sort(colliding.begin(), colliding.end());
-  colliding.erase(std::unique(colliding.begin(), colliding.end()), colliding.end());
-  bool any = false;
-  for (const AgentId i : colliding) any = (!limits_.exhausted() && bypass(i)) || any;
-  return any;
-}
-
-bool LazyTheory::bypass(AgentId i) {
-  const int now = paths_.num_collisions(i);
-  if (now == 0) return false;
-  const AgentDistances& distances = model_.distances(i);
-  obstacle_map_.load(model_.obstacles(), agents_[i].active, distances.goal());
-  // On open maps a vain search would look at everything within the cap.
-  constexpr std::int64_t kStatesPerStep = 10;
-  const auto max_effort = kStatesPerStep * static_cast<std::int64_t>(paths_.path(i).size());
-  if (!finder_.find_quietest({i, distances, obstacle_map_, agents_[i].cap, &paths_, max_effort},
-                             now, path_))
-    return false;
-  set_path(i, path_);
-  return true;
+Lit LazyTheory::choose_usage(const Encounter& e, FormulaWriter& writer) {
+  const auto usages = clauses_.exclude(e, trail_.cap(e.first), writer);
+  trail_.notice(model_.obstacles());
+  explicit_paths_.link_new_obstacles(writer);
+  std::vector<Lit> open;
+  for (const ObstacleId id : usages)
+    if (const Lit allowed = model_.obstacles()[id].allowed;
+        trail_.value(allowed) == Truth::unassigned)
+      open.push_back(allowed);
+  return decisions_.choose(open);
 }
 
 sat::Lemma LazyTheory::explain(Lit, std::vector<Lit>&) {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "quadrille/discrete/plan.hpp"
-#include "quadrille/sat/lit.hpp"
+#include "quadrille/sat/obstacle_trail.hpp"
 
 namespace quadrille::discrete {
 
-using ObstacleId = StrongId<struct ObstacleTag>;
+using sat::ObstacleId;
 
 /// Being in a vertex at a timestep.
 struct Visit {

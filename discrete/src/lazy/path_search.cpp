@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "lazy/path_search.hpp"
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::discrete {
+
+PathSearch::PathSearch(const LazyModel& model, const PathIndex& paths)
+    : model_(model),
+      paths_(paths),
+      map_(model.instance().graph().num_vertices()),
+      finder_(model.instance().graph().num_vertices()),
+      explainer_(model.instance().graph().num_vertices()) {}
+
+void PathSearch::load(AgentId agent, std::span<const ObstacleId> obstacles) {
+  ++num_searches_;
+  loaded_.assign(obstacles.begin(), obstacles.end());
+  map_.load(model_.obstacles(), loaded_, model_.distances(agent).goal());
+}
+
+PathSearch::Cheapest PathSearch::find_cheapest(AgentId agent, std::span<const ObstacleId> obstacles,
+                                               Timestep max_cost) {
+  load(agent, obstacles);
+  const bool is_found =
+      finder_.find_cheapest({agent, model_.distances(agent), map_, max_cost, &paths_}, path_);
+  return {*this, agent, is_found};
+}
+
+const Path* PathSearch::Cheapest::path() const {
+  QUADRILLE_REQUIRE(number_ == search_.num_searches_, "the last search is asked");
+  return is_found_ ? &search_.path_ : nullptr;
+}
+
+std::vector<ObstacleId> PathSearch::Cheapest::blame(Timestep bound) const {
+  QUADRILLE_REQUIRE(number_ == search_.num_searches_, "the last search is asked");
+  std::vector<std::size_t> slots;
+  search_.explainer_.explain(search_.model_.distances(agent_), search_.map_,
+                             search_.finder_.first_hits(), bound, slots);
+  std::vector<ObstacleId> blamed;
+  for (const std::size_t slot : slots) blamed.push_back(search_.loaded_[slot]);
+  return blamed;
+}
+
+const Path* PathSearch::find_quieter(AgentId agent, std::span<const ObstacleId> obstacles,
+                                     Timestep max_cost) {
+  const int now = paths_.num_collisions(agent);
+  if (now == 0) return nullptr;
+  load(agent, obstacles);
+  // On open maps a search without success would look at everything within the cap.
+  constexpr std::int64_t kStatesPerStep = 10;
+  const auto max_effort = kStatesPerStep * static_cast<std::int64_t>(paths_.path(agent).size());
+  const bool is_found = finder_.find_quietest(
+      {agent, model_.distances(agent), map_, max_cost, &paths_, max_effort}, now, path_);
+  return is_found ? &path_ : nullptr;
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "lazy/separation.hpp"
+
+#include <algorithm>
+
+namespace quadrille::discrete {
+
+const std::vector<Encounter>& Separation::collisions() {
+  collisions_.clear();
+  const auto takes_part = [&](AgentId i) { return trail_.cap(i) != kForever; };
+  for (const Encounter& e : paths_.collisions())
+    if (takes_part(e.first) && takes_part(e.second)) collisions_.push_back(e);
+  return collisions_;
+}
+
+bool Separation::bypass(AgentId i) {
+  trail_.list_active(i, active_);
+  const Path* quieter = search_.find_quieter(i, active_, trail_.cap(i));
+  if (quieter == nullptr) return false;
+  trail_.replace_path(i, *quieter);
+  return true;
+}
+
+bool Separation::bypass_all() {
+  std::vector<AgentId> colliding;
+  for (const Encounter& e : collisions()) {
+    colliding.push_back(e.first);
+    colliding.push_back(e.second);
+  }
+  std::sort(colliding.begin(), colliding.end());
+  colliding.erase(std::unique(colliding.begin(), colliding.end()), colliding.end());
+  bool any = false;
+  for (const AgentId i : colliding) any = (!limits_.exhausted() && bypass(i)) || any;
+  return any;
+}
+
+}  // namespace quadrille::discrete
