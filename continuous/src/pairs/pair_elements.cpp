@@ -19,12 +19,12 @@ constexpr std::size_t kMaxEdges = 50'000;
 
 bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& other, Cost other_raise,
                                Side& side) {
-  const Instance& instance = model_.instance();
+  const Instance& instance = scene_.instance();
   const Roadmap& roadmap = instance.roadmap();
   side.agent = party.agent;
   side.c = instance.class_of(party.agent);
   side.cap = party.cap;
-  const Ticks slack = party.cap + raise - model_.free_cost(party.agent);
+  const Ticks slack = party.cap + raise - scene_.free_cost(party.agent);
   side.width = std::max<Ticks>((slack + kPieces - 1) / kPieces, 1);
   for (const VertexId v : side.reached) side.from_start[v.index()] = kForever;
   side.reached.clear();
@@ -38,7 +38,7 @@ bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& othe
     side.stay_matters.resize(roadmap.num_vertices());
     side.may_matter_later.resize(roadmap.num_vertices());
   }
-  const auto& distances = model_.task(party.agent).distances;
+  const auto& distances = scene_.task(party.agent).distances;
   const ClassId other_class = instance.class_of(other.agent);
   const VertexId other_goal = instance.agent(other.agent).goal;
   const Length reach_of_bodies = instance.radius(side.c) + instance.radius(other_class);
@@ -83,7 +83,7 @@ bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& othe
 }
 
 Ticks PairSearch::leave_by(const Side& side, VertexId v) const {
-  if (v == model_.instance().agent(side.agent).goal) return kForever;
+  if (v == scene_.instance().agent(side.agent).goal) return kForever;
   Ticks last = -1;
   for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k)
     last = std::max(last, side.edges[k].last);
@@ -92,11 +92,11 @@ Ticks PairSearch::leave_by(const Side& side, VertexId v) const {
 
 /// Marks the edges of x and y that could collide, and the edges of x and stays of y.
 void PairSearch::find_contacts(Side& x, Side& y) {
-  const Instance& instance = model_.instance();
+  const Instance& instance = scene_.instance();
   const Roadmap& roadmap = instance.roadmap();
   for (TimedEdge& e : x.edges) {
     const Ticks duration = instance.duration(x.c, e.edge);
-    const auto& near = model_.contacts().near_edge(x.c, e.edge, y.c);
+    const auto& near = scene_.contacts().near_edge(x.c, e.edge, y.c);
     for (const EdgeId f : near.edges) {
       const VertexId tail = roadmap.edge(f).from;
       if (y.from_start[tail.index()] > e.last + duration) continue;
@@ -105,7 +105,7 @@ void PairSearch::find_contacts(Side& x, Side& y) {
         if (other.edge != f || (e.matters && other.matters)) continue;
         const Ticks least = other.first - e.last, most = other.last - e.first;
         if (least > duration || most < -instance.duration(y.c, f)) continue;
-        const auto offsets = model_.contacts().offsets(x.c, e.edge, y.c, f);
+        const auto offsets = scene_.contacts().offsets(x.c, e.edge, y.c, f);
         if (offsets && offsets->lo <= most && least <= offsets->hi)
           e.matters = other.matters = true;
       }
@@ -113,7 +113,7 @@ void PairSearch::find_contacts(Side& x, Side& y) {
     for (const VertexId v : near.vertices) {
       const Ticks arrive = y.from_start[v.index()];
       if (arrive > e.last + duration) continue;
-      const auto w = model_.contacts().window(x.c, e.edge, y.c, v);
+      const auto w = scene_.contacts().window(x.c, e.edge, y.c, v);
       if (w && arrive < e.last + w->last && leave_by(y, v) > e.first + w->first) {
         e.matters = true;
         y.stay_matters[v.index()] = 1;
@@ -124,7 +124,7 @@ void PairSearch::find_contacts(Side& x, Side& y) {
 
 void PairSearch::list_allowed(const Side& side, const TimedEdge& e) {
   BanTable& bans = *side.bans;
-  const Edge& edge = model_.instance().roadmap().edge(e.edge);
+  const Edge& edge = scene_.instance().roadmap().edge(e.edge);
   forbidden_.clear();
   if (const auto place = bans.starts_of(e.edge); place != BanTable::kFree)
     forbidden_ = bans.forbidden_starts(place);
@@ -138,7 +138,7 @@ void PairSearch::list_allowed(const Side& side, const TimedEdge& e) {
         forbidden_.push_back({entry.begin + 1 - after, entry.end - after});
   };
   add_stays(edge.from, 0);
-  add_stays(edge.to, model_.instance().duration(side.c, e.edge));
+  add_stays(edge.to, scene_.instance().duration(side.c, e.edge));
   std::sort(forbidden_.begin(), forbidden_.end(),
             [](const auto& a, const auto& b) { return a.begin < b.begin; });
   allowed_.clear();
@@ -164,13 +164,13 @@ bool PairSearch::breaks_ban(const Side& side, const Element& from, const Element
 }
 
 bool PairSearch::is_banned(const BanTable& bans, EdgeId e) const {
-  const Edge& edge = model_.instance().roadmap().edge(e);
+  const Edge& edge = scene_.instance().roadmap().edge(e);
   return bans.starts_of(e) != BanTable::kFree || bans.stays_of(edge.from) != BanTable::kFree ||
          bans.stays_of(edge.to) != BanTable::kFree;
 }
 
 void PairSearch::make_elements(Side& side) {
-  const Instance& instance = model_.instance();
+  const Instance& instance = scene_.instance();
   const Roadmap& roadmap = instance.roadmap();
   const VertexId start = instance.agent(side.agent).start;
   side.elements.clear();
@@ -224,8 +224,8 @@ const PairSearch::Next& PairSearch::next_of(Side& side, VertexId from) {
   if (next.is_known) return next;
   next = {};
   next.is_known = true;
-  const Instance& instance = model_.instance();
-  const auto& rest = model_.task(side.agent).distances;
+  const Instance& instance = scene_.instance();
+  const auto& rest = scene_.task(side.agent).distances;
   using Entry = std::pair<Ticks, VertexId>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<VertexId> seen;

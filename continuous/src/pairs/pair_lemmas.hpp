@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "pairs/pair_search.hpp"
+#include "theory/model.hpp"
 
 namespace quadrille::continuous {
 
 /// Says of two agents that collide again and again that one of them has to cost more.
 class PairLemmas {
  public:
-  explicit PairLemmas(Model& model) : model_(model), search_(model) {}
+  explicit PairLemmas(Model& model) : model_(model), search_(model.scene()) {}
 
   struct Party {
     AgentId agent;

@@ -50,7 +50,7 @@ void PairSearch::Reached::grow() {
 }
 
 bool PairSearch::are_far(EdgeId e, VertexId from, VertexId to, Length reach) const {
-  const Roadmap& roadmap = model_.instance().roadmap();
+  const Roadmap& roadmap = scene_.instance().roadmap();
   const Edge& edge = roadmap.edge(e);
   const Point &p0 = roadmap.position(edge.from), &p1 = roadmap.position(edge.to);
   const Point &q0 = roadmap.position(from), &q1 = roadmap.position(to);
@@ -63,7 +63,7 @@ bool PairSearch::are_far(EdgeId e, VertexId from, VertexId to, Length reach) con
 
 Contacts::Window PairSearch::window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach) {
   if (are_far(e, v, v, reach)) return std::nullopt;
-  return model_.contacts().window(a, e, b, v);
+  return scene_.contacts().window(a, e, b, v);
 }
 
 // s is the start of `next`, t that of b's move; t <= s, because b's move is begun first. A stay
@@ -73,7 +73,7 @@ Contacts::Window PairSearch::window(ClassId a, EdgeId e, ClassId b, VertexId v, 
 PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start_a,
                                     const Element& next, Ticks first_s, Side& y, const Element& b,
                                     Ticks first_t) {
-  const Instance& instance = model_.instance();
+  const Instance& instance = scene_.instance();
   const Length reach = instance.radius(x.c) + instance.radius(y.c);
   const auto raise_for_start = [&](Ticks tick) {
     return std::max(raise_for_end(next, tick), raise_to_wait(y, b, first_t, tick));
@@ -83,7 +83,7 @@ PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start
   if (b.is_move) {
     const Edge& edge = instance.roadmap().edge(b.edge);
     if (!are_far(next.edge, edge.from, edge.to, reach)) {
-      const auto offsets = model_.contacts().offsets(x.c, next.edge, y.c, b.edge);
+      const auto offsets = scene_.contacts().offsets(x.c, next.edge, y.c, b.edge);
       if (offsets && offsets->lo <= 0) {
         // t - s < lo or t - s > hi
         const Ticks late_s = std::max(first_s, first_t - offsets->lo + 1);
@@ -198,7 +198,7 @@ Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
     open_.pop_back();
     const auto x = static_cast<std::uint32_t>(pair >> 32), y = static_cast<std::uint32_t>(pair);
     if ((x == kDone && y == kDone) || effort_ > last) return raise_;
-    if (count % 8192 == 8191 && model_.limits().exhausted_now()) return raise_;
+    if (count % 8192 == 8191 && scene_.limits().exhausted_now()) return raise_;
     const Starts starts = reached_.at(pair);
     advance(first, x, starts.x, second, y, starts.y, true);
     advance(second, y, starts.y, first, x, starts.x, false);

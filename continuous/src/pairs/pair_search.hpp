@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "theory/model.hpp"
+#include "paths/scene.hpp"
 
 namespace quadrille::continuous {
 
@@ -24,16 +24,16 @@ namespace quadrille::continuous {
 /// order of the caps that they need, and so finds the highest cap for which it fails.
 class PairSearch {
  public:
-  explicit PairSearch(Model& model)
-      : model_(model),
-        bans_{BanTable(model.instance().roadmap()), BanTable(model.instance().roadmap())} {}
+  explicit PairSearch(Scene& scene)
+      : scene_(scene),
+        bans_{BanTable(scene.instance().roadmap()), BanTable(scene.instance().roadmap())} {}
 
   struct Party {
     AgentId agent;
     Cost cap = 0;  ///< It arrives at this tick or earlier. At least its free cost.
   };
   /// Some r in [0, max_raise + 1]: no plan has both cost(i) < i.cap + r and cost(j) <= j.cap.
-  /// Tries at most about `max_steps` steps, fewer if the limits of the model are met.
+  /// Tries at most about `max_steps` steps, fewer if the limits of the scene are met.
   [[nodiscard]] Cost refuted_raise(const Party& i, const Party& j, Cost max_raise,
                                    std::int64_t max_steps);
 
@@ -155,7 +155,7 @@ class PairSearch {
   [[nodiscard]] bool are_far(EdgeId e, VertexId from, VertexId to, Length reach) const;
   [[nodiscard]] Contacts::Window window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach);
 
-  Model& model_;
+  Scene& scene_;
   BanTable bans_[2];
   std::vector<BanTable::Span> forbidden_, allowed_;
   Side sides_[2];

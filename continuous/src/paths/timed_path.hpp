@@ -25,6 +25,10 @@ struct TimedPath {
   friend bool operator==(const TimedPath&, const TimedPath&) = default;
 };
 
+/// The path with these stops: the first edge that fits takes it from each to the next. Requires a
+/// valid path of the agent.
+[[nodiscard]] TimedPath without_stops(const Instance& instance, AgentId agent, const Path& stops);
+
 /// The path with its stops.
 [[nodiscard]] Path with_stops(const Instance& instance, AgentId agent, const TimedPath& path);
 

@@ -18,24 +18,24 @@ constexpr int kMaxImprovements = 2;
 
 class OneByOne {
  public:
-  explicit OneByOne(Model& model)
-      : model_(model), finder_(model.instance()), bans_(model.instance().roadmap()) {}
+  explicit OneByOne(Scene& scene)
+      : scene_(scene), finder_(scene.instance()), bans_(scene.instance().roadmap()) {}
 
   /// The agent that found no path, if one did not.
   std::optional<std::size_t> try_order(const std::vector<AgentId>& order) {
     std::vector<std::vector<Step>> steps;
     paths_.assign(order.size(), {});
     for (std::size_t k = 0; k < order.size(); ++k) {
-      if (model_.limits().exhausted()) return k;
+      if (scene_.limits().exhausted()) return k;
       const AgentId i = order[k];
       bans_.clear();
       for (std::size_t before = 0; before < k; ++before)
         keep_clear(i, order[before], steps[before]);
       TimedPath path;
-      if (!finder_.find(model_.task(i), bans_, kForever, &path)) return k;
+      if (!finder_.find(scene_.task(i), bans_, kForever, &path)) return k;
       steps.emplace_back();
-      list_steps(model_.instance(), i, path, steps.back());
-      paths_[i.index()] = with_stops(model_.instance(), i, path);
+      list_steps(scene_.instance(), i, path, steps.back());
+      paths_[i.index()] = with_stops(scene_.instance(), i, path);
     }
     return std::nullopt;
   }
@@ -47,11 +47,11 @@ class OneByOne {
 
  private:
   void keep_clear(AgentId i, AgentId other, const std::vector<Step>& steps) {
-    const Instance& instance = model_.instance();
-    bans_.add(bans_around(model_, instance.class_of(i), instance.class_of(other), steps));
+    const Instance& instance = scene_.instance();
+    bans_.add(bans_around(scene_, instance.class_of(i), instance.class_of(other), steps));
   }
 
-  Model& model_;
+  Scene& scene_;
   PathFinder finder_;
   BanTable bans_;
   std::vector<Path> paths_;
@@ -59,14 +59,14 @@ class OneByOne {
 
 }  // namespace
 
-std::optional<Plan> find_first_plan(Model& model, Objective objective) {
-  const Instance& instance = model.instance();
+std::optional<Plan> find_first_plan(Scene& scene, Objective objective) {
+  const Instance& instance = scene.instance();
   std::vector<AgentId> order;
   for (const AgentId i : instance.agent_ids()) order.push_back(i);
   std::stable_sort(order.begin(), order.end(),
-                   [&](AgentId a, AgentId b) { return model.free_cost(a) > model.free_cost(b); });
+                   [&](AgentId a, AgentId b) { return scene.free_cost(a) > scene.free_cost(b); });
   if (order.empty()) return Plan{};
-  OneByOne planner(model);
+  OneByOne planner(scene);
   std::optional<Plan> best;
   Random random(1);
   const auto someone = [&]() -> AgentId& {
@@ -74,7 +74,7 @@ std::optional<Plan> find_first_plan(Model& model, Objective objective) {
   };
   int improvements = 0;
   for (int round = 0; round < kMaxOrders && improvements <= kMaxImprovements; ++round) {
-    if (model.limits().exhausted_now()) break;
+    if (scene.limits().exhausted_now()) break;
     if (best) ++improvements;
     if (const auto failed = planner.try_order(order)) {
       // Who found no path goes first; now and then somebody else is let before it.

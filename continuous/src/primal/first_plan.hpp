@@ -3,14 +3,14 @@
 
 #include <optional>
 
+#include "paths/scene.hpp"
 #include "quadrille/continuous/plan.hpp"
-#include "theory/model.hpp"
 
 namespace quadrille::continuous {
 
 /// Looks for some plan, fast: one agent after the other takes a cheapest path around those before
 /// it, in several orders. The best plan found; nullopt says nothing about the instance. Stops early
-/// when the limits of the model are met.
-[[nodiscard]] std::optional<Plan> find_first_plan(Model& model, Objective objective);
+/// when the limits of the scene are met.
+[[nodiscard]] std::optional<Plan> find_first_plan(Scene& scene, Objective objective);
 
 }  // namespace quadrille::continuous

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "quadrille/continuous/verify.hpp"
-#include "quadrille/core/contract.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -18,25 +17,10 @@ constexpr std::size_t kMaxSlotsPerAgent = 2;
 /// A table per class.
 constexpr std::size_t kMaxClasses = 4;
 
-TimedPath timed(const Instance& instance, AgentId i, const Path& stops) {
-  TimedPath path;
-  path.arrival = cost(stops);
-  for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
-    const auto& edges = instance.roadmap().out_edges(stops[k].vertex);
-    const auto at = std::find_if(edges.begin(), edges.end(), [&](EdgeId e) {
-      return instance.roadmap().edge(e).to == stops[k + 1].vertex &&
-             instance.duration(instance.class_of(i), e) == stops[k + 1].arrive - stops[k].depart;
-    });
-    QUADRILLE_REQUIRE(at != edges.end(), "plans move along edges");
-    path.moves.push_back({*at, stops[k].depart});
-  }
-  return path;
-}
-
 }  // namespace
 
-std::vector<Ban> bans_around(Model& model, ClassId a, ClassId b, const std::vector<Step>& steps) {
-  Contacts& contacts = model.contacts();
+std::vector<Ban> bans_around(Scene& scene, ClassId a, ClassId b, const std::vector<Step>& steps) {
+  Contacts& contacts = scene.contacts();
   std::vector<Ban> bans;
   for (const Step& step : steps) {
     if (step.is_move) {
@@ -58,18 +42,18 @@ std::vector<Ban> bans_around(Model& model, ClassId a, ClassId b, const std::vect
   return bans;
 }
 
-PlanImprover::PlanImprover(Model& model)
-    : model_(model),
-      finder_(model.instance()),
-      nothing_(model.instance().roadmap()),
-      agents_(model.instance().num_agents()) {}
+PlanImprover::PlanImprover(Scene& scene)
+    : scene_(scene),
+      finder_(scene.instance()),
+      nothing_(scene.instance().roadmap()),
+      agents_(scene.instance().num_agents()) {}
 
 void PlanImprover::improve(Plan& plan, std::int64_t effort) {
-  const Instance& instance = model_.instance();
+  const Instance& instance = scene_.instance();
   if (instance.num_classes() > kMaxClasses || instance.num_agents() < 2) return;
   start(plan);
   const std::int64_t end = finder_.num_visits() + effort;
-  while (finder_.num_visits() < end && !model_.limits().exhausted()) {
+  while (finder_.num_visits() < end && !scene_.limits().exhausted()) {
     if (num_slots_ > kMaxSlotsPerAgent * agents_.size()) load();
     replan(choose());
   }
@@ -82,21 +66,21 @@ void PlanImprover::improve(Plan& plan, std::int64_t effort) {
 }
 
 void PlanImprover::start(const Plan& plan) {
-  const Instance& instance = model_.instance();
+  const Instance& instance = scene_.instance();
   while (tables_.size() < instance.num_classes()) tables_.emplace_back(instance.roadmap());
   for (const AgentId i : instance.agent_ids()) {
-    agents_[i].path = timed(instance, i, plan.paths[i]);
+    agents_[i].path = without_stops(instance, i, plan.paths[i]);
     list_bans(i, agents_[i]);
   }
   load();
 }
 
 void PlanImprover::list_bans(AgentId i, AgentState& agent) {
-  list_steps(model_.instance(), i, agent.path, agent.steps);
+  list_steps(scene_.instance(), i, agent.path, agent.steps);
   agent.bans.clear();
   for (std::size_t c = 0; c < tables_.size(); ++c)
     agent.bans.push_back(
-        bans_around(model_, ClassId(c), model_.instance().class_of(i), agent.steps));
+        bans_around(scene_, ClassId(c), scene_.instance().class_of(i), agent.steps));
 }
 
 void PlanImprover::load() {
@@ -116,26 +100,26 @@ void PlanImprover::enable(std::size_t slot, bool on) {
 
 AgentId PlanImprover::choose_delayed() {
   std::vector<AgentId> delayed;
-  for (const AgentId i : model_.instance().agent_ids())
+  for (const AgentId i : scene_.instance().agent_ids())
     if (delay(i) > 0) delayed.push_back(i);
   return delayed.empty() ? AgentId(draw(agents_.size())) : delayed[draw(delayed.size())];
 }
 
 /// Somebody who is late, some of those who are in its way, and some others.
 std::vector<AgentId> PlanImprover::choose() {
-  const Instance& instance = model_.instance();
+  const Instance& instance = scene_.instance();
   const std::size_t size = std::min<std::size_t>(2 + draw(kMaxChosen - 1), instance.num_agents());
   std::vector<AgentId> chosen{choose_delayed()};
   const AgentId late = chosen.front();
   TimedPath path;
-  static_cast<void>(finder_.find(model_.task(late), nothing_, kForever, &path));
+  static_cast<void>(finder_.find(scene_.task(late), nothing_, kForever, &path));
   std::vector<Step> steps;
   list_steps(instance, late, path, steps);
   std::vector<AgentId> others, in_way;
   for (const AgentId j : instance.agent_ids()) {
     if (j == late) continue;
     others.push_back(j);
-    if (first_encounter(model_, late, steps, j, agents_[j].steps)) in_way.push_back(j);
+    if (first_encounter(scene_, late, steps, j, agents_[j].steps)) in_way.push_back(j);
   }
   for (std::vector<AgentId>* group : {&in_way, &others})
     while (chosen.size() < size && !group->empty()) {
@@ -149,7 +133,7 @@ std::vector<AgentId> PlanImprover::choose() {
 }
 
 void PlanImprover::replan(const std::vector<AgentId>& chosen) {
-  const Instance& instance = model_.instance();
+  const Instance& instance = scene_.instance();
   Cost left = 0;  // what may be spent above the free costs
   for (const AgentId i : chosen) {
     left += delay(i);
@@ -158,10 +142,10 @@ void PlanImprover::replan(const std::vector<AgentId>& chosen) {
   std::vector<AgentState> fresh;
   for (const AgentId i : chosen) {
     AgentState state;
-    const Cost bound = model_.free_cost(i) + left + 1;
-    if (!finder_.find(model_.task(i), tables_[instance.class_of(i).index()], bound, &state.path))
+    const Cost bound = scene_.free_cost(i) + left + 1;
+    if (!finder_.find(scene_.task(i), tables_[instance.class_of(i).index()], bound, &state.path))
       break;
-    left -= state.path.arrival - model_.free_cost(i);
+    left -= state.path.arrival - scene_.free_cost(i);
     list_bans(i, state);
     add_slot(state);
     fresh.push_back(std::move(state));

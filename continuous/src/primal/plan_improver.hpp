@@ -4,15 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "paths/steps.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/random.hpp"
-#include "theory/encounters.hpp"
-#include "theory/model.hpp"
 
 namespace quadrille::continuous {
 
 /// Bans that keep agents of class `a` clear of what an agent of class `b` does.
-[[nodiscard]] std::vector<Ban> bans_around(Model& model, ClassId a, ClassId b,
+[[nodiscard]] std::vector<Ban> bans_around(Scene& scene, ClassId a, ClassId b,
                                            const std::vector<Step>& steps);
 
 /// Makes a plan cheaper by large neighbourhood search (Li et al. 2021, IJCAI): some agents give up
@@ -20,10 +19,10 @@ namespace quadrille::continuous {
 /// Proves nothing. Deterministic.
 class PlanImprover {
  public:
-  explicit PlanImprover(Model& model);
+  explicit PlanImprover(Scene& scene);
 
   /// Improves `plan`, which is valid, for about so much effort, in visits of the path search. Stops
-  /// early when the limits of the model are met.
+  /// early when the limits of the scene are met.
   void improve(Plan& plan, std::int64_t effort);
 
  private:
@@ -41,7 +40,7 @@ class PlanImprover {
   void add_slot(AgentState& agent);
   void enable(std::size_t slot, bool on);
   [[nodiscard]] Cost delay(AgentId i) const {
-    return agents_[i].path.arrival - model_.free_cost(i);
+    return agents_[i].path.arrival - scene_.free_cost(i);
   }
   [[nodiscard]] std::vector<AgentId> choose();
   [[nodiscard]] AgentId choose_delayed();
@@ -51,7 +50,7 @@ class PlanImprover {
     return static_cast<std::size_t>(random_.below(count));
   }
 
-  Model& model_;
+  Scene& scene_;
   PathFinder finder_;
   std::vector<BanTable> tables_;  // by class
   BanTable nothing_;

@@ -33,15 +33,15 @@ std::vector<Ticks> earliest_visits(const Instance& instance, AgentId agent) {
 
 /// When the contact between `passer`, if it is nowhere later than it has to be, and the goal of
 /// `resident` is over at last; 0 if it can go around.
-Ticks last_pass(Model& model, AgentId resident, AgentId passer, const std::vector<Ticks>& visits) {
-  const Instance& instance = model.instance();
+Ticks last_pass(Scene& scene, AgentId resident, AgentId passer, const std::vector<Ticks>& visits) {
+  const Instance& instance = scene.instance();
   const Roadmap& roadmap = instance.roadmap();
   const ClassId mover = instance.class_of(passer), stander = instance.class_of(resident);
   const VertexId place = instance.agent(resident).goal;
 
   std::vector<std::pair<EdgeId, Ticks>> touching;  // edges, and how long they are in contact
-  for (const EdgeId e : model.contacts().near_vertex(stander, place, mover).edges)
-    if (const auto window = model.contacts().window(mover, e, stander, place))
+  for (const EdgeId e : scene.contacts().near_vertex(stander, place, mover).edges)
+    if (const auto window = scene.contacts().window(mover, e, stander, place))
       touching.emplace_back(e, window->last);
   if (touching.empty()) return 0;
   const auto touches = [&](EdgeId e) {
@@ -72,15 +72,15 @@ Ticks last_pass(Model& model, AgentId resident, AgentId passer, const std::vecto
 
 }  // namespace
 
-std::vector<Cost> cost_floors(Model& model) {
+std::vector<Cost> cost_floors(Scene& scene) {
   std::vector<Cost> floors;
-  for (const AgentId i : model.instance().agent_ids()) floors.push_back(model.free_cost(i));
-  for (const AgentId passer : model.instance().agent_ids()) {
-    const std::vector<Ticks> visits = earliest_visits(model.instance(), passer);
-    for (const AgentId resident : model.instance().agent_ids())
+  for (const AgentId i : scene.instance().agent_ids()) floors.push_back(scene.free_cost(i));
+  for (const AgentId passer : scene.instance().agent_ids()) {
+    const std::vector<Ticks> visits = earliest_visits(scene.instance(), passer);
+    for (const AgentId resident : scene.instance().agent_ids())
       if (resident != passer)
         floors[resident.index()] =
-            std::max(floors[resident.index()], last_pass(model, resident, passer, visits));
+            std::max(floors[resident.index()], last_pass(scene, resident, passer, visits));
   }
   return floors;
 }

@@ -23,8 +23,8 @@ constexpr Cost kFirstStep = 16;
 /// Lower bounds on what the agents of a subset cost together in every plan. Subsets are bit sets.
 class SubsetBounds {
  public:
-  SubsetBounds(Model& model, Objective objective) : objective_(objective) {
-    const std::vector<Cost> floors = cost_floors(model);
+  SubsetBounds(Scene& scene, Objective objective) : objective_(objective) {
+    const std::vector<Cost> floors = cost_floors(scene);
     bounds_.assign(std::size_t{1} << floors.size(), 0);
     for (std::size_t i = 0; i < floors.size(); ++i) bounds_[std::size_t{1} << i] = floors[i];
   }
@@ -48,20 +48,20 @@ class SubsetBounds {
 class RouteSearch {
  public:
   /// `agents`: a subset, whose parts have bounds. The last two outlive this.
-  RouteSearch(Model& model, Objective objective, std::size_t agents, const SubsetBounds& bounds,
+  RouteSearch(Scene& scene, Objective objective, std::size_t agents, const SubsetBounds& bounds,
               std::int64_t& work)
-      : model_(model),
-        instance_(model.instance()),
+      : scene_(scene),
+        instance_(scene.instance()),
         objective_(objective),
         all_(agents),
         bounds_(bounds),
         work_(work),
-        orders_(model.contacts(), model.instance(), objective, work) {
+        orders_(scene.contacts(), scene.instance(), objective, work) {
     for (std::size_t i = 0; i < instance_.num_agents(); ++i)
       if ((agents >> i & 1) != 0) agents_.push_back(AgentId(i));
   }
 
-  /// Until `work` is below 0, or the limits of the model are met.
+  /// Until `work` is below 0, or the limits of the scene are met.
   RouteSearchReport run() {
     RouteSearchReport report{bounds_[all_], std::nullopt};
     Cost step = std::max<Cost>(bounds_[all_] / kFirstStep, 1);
@@ -103,7 +103,7 @@ class RouteSearch {
     std::vector<Part> parts{{0, 0}};  // all parts of them
   };
 
-  [[nodiscard]] bool is_over() { return work_ < 0 || model_.limits().exhausted(); }
+  [[nodiscard]] bool is_over() { return work_ < 0 || scene_.limits().exhausted(); }
   [[nodiscard]] static std::size_t bit(AgentId i) { return std::size_t{1} << i.index(); }
   [[nodiscard]] std::size_t bit(std::size_t k) const { return bit(travellers_[k].agent); }
   [[nodiscard]] std::size_t position(AgentId agent) const {
@@ -151,7 +151,7 @@ class RouteSearch {
       work_ -= kWorkPerMove;
       const VertexId to = instance_.roadmap().edge(e).to;
       const Ticks duration = instance_.duration(instance_.class_of(t.agent), e);
-      const Ticks to_go = model_.task(t.agent).distances[to];
+      const Ticks to_go = scene_.task(t.agent).distances[to];
       if (to_go >= kForever || route.duration + duration + to_go >= share) continue;
       route.edges.push_back(e);
       route.duration += duration;
@@ -231,7 +231,7 @@ class RouteSearch {
     for (const AgentId i : agents_) plan_->paths.push_back(paths[position(i)]);
   }
 
-  Model& model_;
+  Scene& scene_;
   const Instance& instance_;
   const Objective objective_;
   const std::size_t all_;
@@ -249,22 +249,22 @@ class RouteSearch {
 
 }  // namespace
 
-RouteSearchReport search_routes(Model& model, Objective objective, std::int64_t work) {
-  const std::size_t size = model.instance().num_agents();
+RouteSearchReport search_routes(Scene& scene, Objective objective, std::int64_t work) {
+  const std::size_t size = scene.instance().num_agents();
   if (size == 0) return {0, Plan{}};
-  SubsetBounds bounds(model, objective);
+  SubsetBounds bounds(scene, objective);
   const std::size_t all = (std::size_t{1} << size) - 1;
   const std::int64_t work_per_part = work / 2 / static_cast<std::int64_t>(all);
   for (std::size_t agents = 1; agents < all; ++agents) {
     if (std::popcount(agents) < 2) continue;
     bounds.join_parts(agents);
     std::int64_t part_work = work_per_part;
-    const auto report = RouteSearch(model, objective, agents, bounds, part_work).run();
+    const auto report = RouteSearch(scene, objective, agents, bounds, part_work).run();
     bounds.raise(agents, report.lower_bound);
     work -= work_per_part - part_work;
   }
   bounds.join_parts(all);
-  return RouteSearch(model, objective, all, bounds, work).run();
+  return RouteSearch(scene, objective, all, bounds, work).run();
 }
 
 }  // namespace quadrille::continuous

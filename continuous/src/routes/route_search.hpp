@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "paths/scene.hpp"
 #include "quadrille/continuous/plan.hpp"
-#include "theory/model.hpp"
 
 namespace quadrille::continuous {
 
@@ -17,6 +17,6 @@ struct RouteSearchReport {
 /// For few agents in each other's way: looks at all routes that a plan below some cost could have,
 /// and at the orders in which they can be followed, for higher and higher costs. `work` bounds the
 /// effort, whatever the clock says: about 10^8 take a second.
-[[nodiscard]] RouteSearchReport search_routes(Model& model, Objective objective, std::int64_t work);
+[[nodiscard]] RouteSearchReport search_routes(Scene& scene, Objective objective, std::int64_t work);
 
 }  // namespace quadrille::continuous

@@ -106,7 +106,7 @@ class CoverSearch {
         on_report_(on_report),
         cover_(free_costs()),
         shrinker_(problem, limits),
-        improver_(problem.model()) {
+        improver_(problem.model().scene()) {
     report_.plan = std::move(some_plan);
   }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "feasibility/feasibility.hpp"
+#include "paths/scene.hpp"
 #include "primal/first_plan.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "routes/route_search.hpp"
@@ -47,13 +48,14 @@ std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_ag
 
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
                SolveOutcome& outcome) {
-  Model model(instance, limits);
-  if (!model.is_complete()) return;
+  Scene scene(instance, limits);
+  if (!scene.is_complete()) return;
+  Model model(scene);
   Cost floor = 0;
   std::optional<Plan> some_plan;
   if (options.route_work > 0 && options.system == System::dpll &&
       instance.num_agents() <= kMaxRouteAgents) {
-    auto routes = search_routes(model, options.objective, options.route_work);
+    auto routes = search_routes(scene, options.objective, options.route_work);
     floor = outcome.lower_bound = routes.lower_bound;
     some_plan = std::move(routes.plan);
     if (some_plan && cost(*some_plan, options.objective) == floor) {
@@ -62,7 +64,7 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
       return;
     }
   }
-  if (!some_plan) some_plan = find_first_plan(model, options.objective);
+  if (!some_plan) some_plan = find_first_plan(scene, options.objective);
   if (!some_plan) {
     const std::vector<AgentId> blocked = find_blocked_agents(model);
     if (!blocked.empty()) {

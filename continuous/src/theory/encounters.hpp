@@ -1,35 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "paths/steps.hpp"
 #include "theory/model.hpp"
 
 namespace quadrille::continuous {
-
-/// A move along an edge, or a stay at a vertex that ends with kForever at the goal.
-struct Step {
-  bool is_move = false;
-  EdgeId edge;      // moves
-  VertexId vertex;  // stays
-  Ticks begin = 0, end = 0;
-};
-
-/// The path as steps that follow each other; stays without length are left out.
-void list_steps(const Instance& instance, AgentId agent, const TimedPath& path,
-                std::vector<Step>& steps);
-
-/// Two steps of different agents that collide.
-struct Encounter {
-  AgentId first, second;
-  Step a, b;  // of `first`, of `second`
-};
-
-/// The first collision of two agents, by the time at which its later step begins.
-[[nodiscard]] std::optional<Encounter> first_encounter(Model& model, AgentId i,
-                                                       const std::vector<Step>& steps_i, AgentId j,
-                                                       const std::vector<Step>& steps_j);
 
 /// Turns collisions into clauses that exclude them and much of what is like them. docs: see the
 /// proofs at the functions.

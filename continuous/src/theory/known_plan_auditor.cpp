@@ -3,25 +3,12 @@
 
 #include <algorithm>
 
-#include "quadrille/core/contract.hpp"
-
 namespace quadrille::continuous {
 
 KnownPlanAuditor::KnownPlanAuditor(const Model& model, const Plan& plan) : model_(model) {
   const Instance& instance = model.instance();
   for (const AgentId i : instance.agent_ids()) {
-    TimedPath path;
-    const Path& stops = plan.paths[i];
-    const ClassId c = instance.class_of(i);
-    path.arrival = cost(stops);
-    for (std::size_t k = 0; k + 1 < stops.size(); ++k)
-      for (const EdgeId e : instance.roadmap().out_edges(stops[k].vertex))
-        if (instance.roadmap().edge(e).to == stops[k + 1].vertex &&
-            instance.duration(c, e) == stops[k + 1].arrive - stops[k].depart) {
-          path.moves.push_back({e, stops[k].depart});
-          break;
-        }
-    QUADRILLE_REQUIRE(path.moves.size() + 1 == stops.size(), "the plan is valid");
+    const TimedPath path = without_stops(instance, i, plan.paths[i]);
     PathUses uses;
     uses.assign(instance, i, path);
     paths_.push_back(path);

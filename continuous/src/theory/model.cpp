@@ -11,16 +11,8 @@ namespace quadrille::continuous {
 
 using sat::Lit;
 
-Model::Model(const Instance& instance, LimitMonitor& limits)
-    : instance_(instance),
-      limits_(limits),
-      contacts_(instance),
-      thresholds_(instance.num_agents()) {
-  distances_.reserve(instance.num_agents());
-  for (const AgentId i : instance.agent_ids()) {
-    if (limits.exhausted_now()) return;
-    distances_.emplace_back(instance, i);
-  }
+Model::Model(Scene& scene) : scene_(scene), thresholds_(scene.instance().num_agents()) {
+  QUADRILLE_REQUIRE(scene.is_complete(), "the distances to all goals are known");
 }
 
 void Model::remember(Lit lit, const Variable& variable) {
@@ -106,15 +98,15 @@ ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, For
   is_new = inserted;
   if (!inserted) return at->second;
   const Lit later = at_least(resident, tick, writer);
-  const ClassId a = instance_.class_of(agent), b = instance_.class_of(resident);
-  const VertexId goal = instance_.agent(resident).goal;
-  const auto& near = contacts_.near_vertex(b, goal, a);
+  const ClassId a = instance().class_of(agent), b = instance().class_of(resident);
+  const VertexId goal = instance().agent(resident).goal;
+  const auto& near = contacts().near_vertex(b, goal, a);
   std::vector<Ban> bans;
   for (const EdgeId e : near.edges)
-    if (const auto window = contacts_.window(a, e, b, goal))
+    if (const auto window = contacts().window(a, e, b, goal))
       bans.push_back(Ban::start(e, tick - window->last, kForever));
   for (const VertexId v : near.vertices)
-    if (contacts_.overlap(a, v, b, goal)) bans.push_back(Ban::stay(v, tick - 1, kForever));
+    if (contacts().overlap(a, v, b, goal)) bans.push_back(Ban::stay(v, tick - 1, kForever));
   obstacles_.push_back({agent, later, std::move(bans), {resident}});
   return at->second;
 }

@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "paths/bans.hpp"
-#include "paths/contacts.hpp"
-#include "paths/path_finder.hpp"
-#include "quadrille/core/limits.hpp"
+#include "paths/scene.hpp"
 #include "quadrille/sat/lemma.hpp"
 
 namespace quadrille::continuous {
@@ -44,19 +42,16 @@ struct Obstacle {
 /// In lemmas, the resource number of a usage is the index of its obstacle.
 class Model {
  public:
-  /// Both outlive the model. If `limits` end the computation of the distances early, the
-  /// model is not complete and of no use.
-  Model(const Instance& instance, LimitMonitor& limits);
-  [[nodiscard]] bool is_complete() const { return distances_.size() == instance_.num_agents(); }
+  /// `scene` is complete and outlives the model.
+  explicit Model(Scene& scene);
 
-  [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
-  [[nodiscard]] LimitMonitor& limits() noexcept { return limits_; }
-  [[nodiscard]] Contacts& contacts() noexcept { return contacts_; }
-  [[nodiscard]] PathTask task(AgentId i) const { return {i, distances_[i.index()]}; }
-  /// Cost of the cheapest path of an agent that is alone.
-  [[nodiscard]] Cost free_cost(AgentId i) const {
-    return distances_[i.index()][instance_.agent(i).start];
-  }
+  [[nodiscard]] Scene& scene() noexcept { return scene_; }
+  // Of the scene:
+  [[nodiscard]] const Instance& instance() const noexcept { return scene_.instance(); }
+  [[nodiscard]] LimitMonitor& limits() noexcept { return scene_.limits(); }
+  [[nodiscard]] Contacts& contacts() noexcept { return scene_.contacts(); }
+  [[nodiscard]] PathTask task(AgentId i) const { return scene_.task(i); }
+  [[nodiscard]] Cost free_cost(AgentId i) const { return scene_.free_cost(i); }
   [[nodiscard]] const IdVector<ObstacleId, Obstacle>& obstacles() const noexcept {
     return obstacles_;
   }
@@ -104,10 +99,7 @@ class Model {
   [[nodiscard]] Threshold& threshold(AgentId agent, Cost cost, FormulaWriter& writer);
   void remember(sat::Lit lit, const Variable& variable);
 
-  const Instance& instance_;
-  LimitMonitor& limits_;
-  std::vector<GoalDistances> distances_;
-  Contacts contacts_;
+  Scene& scene_;
   IdVector<ObstacleId, Obstacle> obstacles_;
   IdVector<AgentId, std::vector<Threshold>> thresholds_;
   std::map<Cost, sat::Lit> totals_;

@@ -333,7 +333,7 @@ std::vector<Encounter> ContinuousTheory::encounters() {
       const std::pair versions{agents_[i].path->version, agents_[j].path->version};
       if (apart == versions) continue;
       if (auto encounter =
-              first_encounter(model_, i, agents_[i].path->steps, j, agents_[j].path->steps))
+              first_encounter(model_.scene(), i, agents_[i].path->steps, j, agents_[j].path->steps))
         found.push_back(*encounter);
       else
         apart = versions;

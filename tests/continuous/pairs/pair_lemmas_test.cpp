@@ -46,7 +46,8 @@ class PairLemmaAudit {
   /// Looks for clauses that tell of caps and bans near `plan`; none may exclude any of `plans`.
   void check(const Plan& plan, const std::vector<Plan>& plans) {
     LimitMonitor limits({});
-    Model model(instance_, limits);
+    Scene scene(instance_, limits);
+    Model model(scene);
     Collector writer;
     PairLemmas lemmas(model);
     const int raised = static_cast<int>(draw_.number(0, 2));  // 2: neither

@@ -53,20 +53,20 @@ struct Count {
 };
 
 /// Caps that the plan exceeds, or just keeps: what is refuted has to end where the plan begins.
-void check(Model& model, const Plan& plan, bool has_bans, Draw& draw, Count& count) {
-  const Instance& instance = model.instance();
-  PairSearch search(model);
+void check(Scene& scene, const Plan& plan, bool has_bans, Draw& draw, Count& count) {
+  const Instance& instance = scene.instance();
+  PairSearch search(scene);
   for (const std::size_t first : {0U, 1U}) {
     const AgentId i(first), j(1 - first);
     const Cost cost_i = cost(plan.paths[i]), cost_j = cost(plan.paths[j]);
-    if (cost_i == model.free_cost(i) && !has_bans) continue;  // nothing may be refuted
+    if (cost_i == scene.free_cost(i) && !has_bans) continue;  // nothing may be refuted
     for (int round = 0; round < 3; ++round) {
       for (const std::size_t side : {0U, 1U}) {
         search.bans(side).clear();
         const AgentId agent = side == 0 ? i : j;
         if (has_bans) add_bans(instance, agent, plan.paths[agent], draw, search.bans(side));
       }
-      const Cost cap_i = draw.number(model.free_cost(i), cost_i);
+      const Cost cap_i = draw.number(scene.free_cost(i), cost_i);
       const Cost cap_j = cost_j + draw.number(0, 2);
       const Cost raise =
           search.refuted_raise({i, cap_i}, {j, cap_j}, draw.number(0, 60), kManySteps);
@@ -87,10 +87,10 @@ void check_instances(bool has_bans, Count& count) {
     const Instance instance = random_pair(5'000'000 + seed);
     SCOPED_TRACE("seed " + std::to_string(5'000'000 + seed) + ": " + describe(instance));
     LimitMonitor limits({});
-    Model model(instance, limits);
+    Scene scene(instance, limits);
     Draw draw(seed);
     for (const Plan& plan : known_plans(instance, 4)) {
-      check(model, plan, has_bans, draw, count);
+      check(scene, plan, has_bans, draw, count);
       if (testing::Test::HasFatalFailure()) return;
     }
   }
@@ -116,7 +116,8 @@ TEST(BlockedAgents, HaveNoPlan) {
   for (std::uint32_t seed = 0; seed < support::scaled(500); ++seed) {
     const Instance instance = random_pair(6'000'000 + seed);
     LimitMonitor limits({});
-    Model model(instance, limits);
+    Scene scene(instance, limits);
+    Model model(scene);
     const bool is_blocked = !find_blocked_agents(model).empty();
     const bool is_solvable = !known_plans(instance, 4).empty();
     ASSERT_FALSE(is_blocked && is_solvable)

@@ -26,8 +26,8 @@ TEST(PlanImprover, StaysAboveTheOptimum) {
     const OrderSearch oracle = search_orders(instance, Objective::sum_of_costs, 3);
     if (oracle.some_plans.empty()) continue;
     LimitMonitor limits({});
-    Model model(instance, limits);
-    PlanImprover improver(model);
+    Scene scene(instance, limits);
+    PlanImprover improver(scene);
     Plan plan = oracle.some_plans.back();
     const Cost before = cost(plan, Objective::sum_of_costs);
     improver.improve(plan, kEffort);

@@ -15,8 +15,8 @@ namespace {
 
 std::vector<Cost> floors_of(const Instance& instance) {
   LimitMonitor limits{Limits{}};
-  Model model(instance, limits);
-  return cost_floors(model);
+  Scene scene(instance, limits);
+  return cost_floors(scene);
 }
 
 /// A line of four, with an alcove at its second place.
@@ -47,9 +47,9 @@ TEST(CostFloors, NoPlanIsBelow) {
     const std::vector<Cost> floors = floors_of(instance);
     const OrderSearch oracle = search_orders(instance, Objective::sum_of_costs, 4);
     LimitMonitor limits{Limits{}};
-    Model model(instance, limits);
+    Scene scene(instance, limits);
     for (const AgentId i : instance.agent_ids()) {
-      raised += floors[i.index()] > model.free_cost(i) ? 1 : 0;
+      raised += floors[i.index()] > scene.free_cost(i) ? 1 : 0;
       for (const Plan& plan : oracle.some_plans)
         ASSERT_GE(plan.paths[i].back().arrive, floors[i.index()]) << "agent " << i.index();
       if (oracle.best) {

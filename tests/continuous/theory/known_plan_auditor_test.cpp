@@ -49,7 +49,8 @@ class KnownPlanAudit : public testing::Test {
                      {agent(0, 1, 3), agent(2, 3, 3)})
           .value();
   LimitMonitor limits_{{}};
-  Model model_{instance_, limits_};
+  Scene scene_{instance_, limits_};
+  Model model_{scene_};
   NumberingWriter writer_;
   const Plan plan_{{{{VertexId(0), 0, 5}, {VertexId(1), 1005, 1005}},
                     {{VertexId(2), 0, 0}, {VertexId(3), 1000, 1000}}}};
