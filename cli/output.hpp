@@ -8,7 +8,7 @@
 
 namespace quadrille::cli {
 
-/// A file to be written once, after work that must not be in vain: `probe` finds out beforehand
+/// A file to be written once, after work that must not be wasted: `probe` finds out beforehand
 /// whether it can be written, without changing it. Regular files are replaced as a whole or left
 /// alone. "-" is standard output.
 class OutputFile {

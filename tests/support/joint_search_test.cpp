@@ -72,7 +72,7 @@ TEST(JointSearch, LeavingTheGoalCostsTheWaitBefore) {
   expect_answer(on_graph(5, {{0, 1}, {1, 2}, {1, 3}, {4, 0}}, {{1, 1}, {4, 2}}), 6, 3);
 }
 
-// Waiting is dearer than the detour for one objective only: the optima need different plans.
+// Waiting is costlier than the detour for one objective only: the optima need different plans.
 TEST(JointSearch, GivesUpBeyondItsStates) {
   const Instance instance = on_graph(3, {{0, 1}, {1, 2}}, {{0, 1}, {1, 2}});
   EXPECT_EQ(joint_search(instance, Objective::makespan, 9).status, Status::optimal);

@@ -123,7 +123,7 @@ AgentId PlanImprover::Impl::draw_seed() {
   }
 }
 
-/// What the neighbourhood may cost at most, such that the plan is not dearer than before.
+/// What the neighbourhood may cost at most, such that the plan is not costlier than before.
 PlanImprover::Impl::Budget PlanImprover::Impl::budget_of(const std::vector<AgentId>& agents) const {
   Budget budget;
   Cost free_makespan = 0;

@@ -13,7 +13,7 @@ namespace quadrille::sat {
 /// engine's time for a conflict: it asks nobody, and it may rewrite the formula between conflicts.
 class OfflineSolver {
  public:
-  /// The engine keeps its clauses, for nobody else, and outlives this solver.
+  /// The engine records its clauses for this solver alone, and outlives it.
   explicit OfflineSolver(Engine& engine);
 
   /// Learns first what the engine has been given since the last call.

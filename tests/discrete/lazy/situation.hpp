@@ -95,7 +95,7 @@ struct Situation {
     const Task& task = model.instance().tasks()[i];
     if (path.empty() || path.front() != task.start || path.back() != task.goal)
       return "does not lead from the start to the goal";
-    if (static_cast<Timestep>(path.size()) - 1 > cap[i]) return "is dearer than the cap";
+    if (static_cast<Timestep>(path.size()) - 1 > cap[i]) return "is costlier than the cap";
     const auto last = std::max(end + 1, static_cast<Timestep>(path.size()));
     for (Timestep t = 0; t <= last; ++t) {
       const VertexId v = position(path, t), w = position(path, t + 1);

@@ -134,7 +134,7 @@ class WatchedTheory final : public sat::Theory {
     }
     ++(is_feasible ? count_.silent : count_.conflicts);
   }
-  /// A new path that is dearer than a bound which nobody has spoken of comes with a lemma that
+  /// A new path that is costlier than a bound which nobody has spoken of comes with a lemma that
   /// refutes the bound: the search that found the path has proved it.
   void expect_bound_told(AgentId i, const Recorder& said, const Situation& now) {
     const auto cost = static_cast<Timestep>(theory_.path(i).size()) - 1;

@@ -224,7 +224,7 @@ class Checked final : public Theory {
       ASSERT_EQ(found.has_value(), broken != active.end());
       ASSERT_TRUE(!found || *found == *broken);
     }
-    // A path that is not allowed is noticed, and none is dearer than it has to be.
+    // A path that is not allowed is noticed, and none is costlier than it has to be.
     const int path = paths_.path(i);
     EXPECT_TRUE(trail_.is_violated(i) || is_allowed(i, path));
     EXPECT_EQ(trail_.any_violated([&](AgentId j) { return j == i; }), trail_.is_violated(i));

@@ -59,8 +59,8 @@ class PrimalSearch {
 
 /// Makes a plan cheaper by large-neighbourhood search (Li et al., "Anytime multi-agent path finding
 /// via large neighborhood search", IJCAI 2021): takes a few agents out of the plan, gives them new
-/// paths one after the other, and keeps the result unless it is dearer. Which agents are taken out
-/// together, and how many, is learned from what paid. One thread.
+/// paths one after the other, and keeps the result unless it is costlier. Which agents are taken
+/// out together, and how many, is learned from what paid. One thread.
 ///
 /// The objective decides first. For the makespan the sum of costs breaks ties.
 class PlanImprover {

@@ -34,8 +34,8 @@ concept TrailPaths = std::copyable<typename P::Path> && std::totally_ordered<typ
 ///
 /// An obstacle is active while its literal is false, also if it was made after that. The active
 /// obstacles of an agent are kept in the order in which they became active. When a path gives way
-/// to a dearer one, it comes back as soon as the stack is shorter than it was then: so if each
-/// replacement is a cheapest path, no agent has a path that is dearer than it has to be, whatever
+/// to a costlier one, it comes back as soon as the stack is shorter than it was then: so if each
+/// replacement is a cheapest path, no agent has a path that is costlier than it has to be, whatever
 /// was retracted since.
 ///
 /// Pushing and retracting take O(1) for each literal, for each obstacle that it controls, and for
