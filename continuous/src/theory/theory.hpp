@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "pairs/pair_lemmas.hpp"
 #include "quadrille/sat/theory.hpp"
 #include "theory/encounters.hpp"
 #include "theory/explanation.hpp"
 #include "theory/model.hpp"
+#include "theory/pair_lemmas.hpp"
 #include "theory/path_cache.hpp"
 
 namespace quadrille::continuous {

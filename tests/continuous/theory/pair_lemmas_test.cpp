@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The clauses about two agents against plans of the oracle. In whole searches few are made.
-#include "pairs/pair_lemmas.hpp"
+#include "theory/pair_lemmas.hpp"
 
 #include <gtest/gtest.h>
 

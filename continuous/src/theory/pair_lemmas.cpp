@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pairs/pair_lemmas.hpp"
+#include "theory/pair_lemmas.hpp"
 
 #include <algorithm>
 
