@@ -5,6 +5,7 @@
 - PAR-2: mean CPU seconds, where an instance that is not solved counts as twice the limit
 - ratio: geometric mean of the CPU ratios to the first program, over the instances that both solve;
   times below 0.05 s, which are start-up, count as 0.05 s
+- conflicts: where they are equal on all instances, the search is the same
 - gap: (plan - bound) / bound at the limit, of instances that are not solved
 """
 import math
@@ -82,15 +83,20 @@ def write_solved(complete, names, file):
     exact = {key: found for key, found in complete.items() if key[0] != "scale"}
     if not exact:
         return
-    file.write(line(["family", "instances"] + [f"solved {n}" for n in names]
-                    + [f"PAR-2 {n}" for n in names] + [f"CPU {n} / {names[0]}" for n in names[1:]]))
-    file.write("|" + "---|" * (1 + 2 * len(names) + len(names)) + "\n")
     groups = {}
     for key, found in exact.items():
         for title in (f"{key[0]} {key[1]}", f"**all of {key[0]}**", "**all**"):
             groups.setdefault(title, {n: [] for n in names})
             for name in names:
                 groups[title][name].append(found[name])
+    for name in names[1:]:
+        both = [f for f in exact.values() if solved(f[names[0]]) and solved(f[name])]
+        same = sum(f[names[0]]["conflicts"] == f[name]["conflicts"] for f in both)
+        file.write(f"{name} needs as many conflicts as {names[0]} on {same} of {len(both)} instances "
+                   "that both solve.\n\n")
+    file.write(line(["family", "instances"] + [f"solved {n}" for n in names]
+                    + [f"PAR-2 {n}" for n in names] + [f"CPU {n} / {names[0]}" for n in names[1:]]))
+    file.write("|" + "---|" * (1 + 2 * len(names) + len(names)) + "\n")
     for title in sorted(groups, key=lambda title: (title == "**all**", title.startswith("**"))):
         file.write(figures(title, groups[title], names))
     file.write("\n")

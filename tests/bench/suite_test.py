@@ -155,13 +155,14 @@ class SuiteTest(unittest.TestCase):
         table = ("program,kind,family,scenario,agents,cpu_limit,status,stop_reason,cost,lower_bound,"
                  "cpu_s,conflicts,cores,peak_rss_mib,version,options\n"
                  "a,grid,m,random-1,5,10,optimal,none,7,7,2.0,0,0,1,x,\n"
-                 "b,grid,m,random-1,5,10,optimal,none,7,7,0.5,0,0,1,x,\n"
+                 "b,grid,m,random-1,5,10,optimal,none,7,7,0.5,3,0,1,x,\n"
                  "a,grid,m,random-2,5,10,feasible,cpu-time,11,10,10.1,0,0,1,x,\n"
                  "b,grid,m,random-2,5,10,optimal,none,10,10,4.0,0,0,1,x,\n")
         self.write(self.csv, table)
         done = self.suite("--report-only", programs=["a=x", "b=x"])
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("| grid m | 2 | 1 | 2 | 11.00 | 2.25 | 0.25 (1) |", done.stdout)
+        self.assertIn("b needs as many conflicts as a on 0 of 1 instances", done.stdout)
         self.assertIn("| grid m, random-2 | 5 | 11 | 10 | 10 | 10 | 10.00 | 0.00 |", done.stdout)
 
 
