@@ -30,7 +30,8 @@ std::optional<Error> read_known_plan(const RoadmapInput& input, RoadmapSolveRequ
                  "not a valid plan: " + replay.violations.front().message,
                  {request.known_plan, 0}};
   request.options.known_plan = std::move(file.value().plan);
-  request.options.route_work = 0;  // the search of routes makes no clauses that could be checked
+  // Neither of these searches makes clauses that could be checked.
+  request.options.route_work = request.options.joint_work = 0;
   return std::nullopt;
 }
 

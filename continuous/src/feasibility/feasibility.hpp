@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "theory/model.hpp"
+#include "paths/scene.hpp"
+#include "quadrille/continuous/plan.hpp"
 
 namespace quadrille::continuous {
 
-/// Looks for agents that cannot all reach their goals, whatever it costs, even if there were no
-/// others: first two of them, then all. Leaves the times out, so that there is a finite number of
-/// states; what is found is certain, but not every instance without a plan is found out. Empty: no
-/// such agents were found before the effort became too much or the limits of the model were met.
-[[nodiscard]] std::vector<AgentId> find_blocked_agents(Model& model);
+/// Whether there is a plan at all, whatever it costs.
+struct Feasibility {
+  /// Proved: these agents cannot all reach their goals, even if there are no others. Empty: none
+  /// such were found.
+  std::vector<AgentId> blocked;
+  /// Some plan of all agents, if one was found. It may cost a lot.
+  std::optional<Plan> plan;
+};
+
+/// Looks for agents that block each other: every two, then every three of four, then all, if they
+/// are few enough for a joint search. Exact both ways: if neither blocked agents nor a plan are
+/// found, the work was too much, the agents too many, or the limits of the scene were met.
+[[nodiscard]] Feasibility check_feasibility(Scene& scene);
 
 }  // namespace quadrille::continuous

@@ -14,6 +14,7 @@
 #include "routes/route_search.hpp"
 #include "solve/cost_problem.hpp"
 #include "solve/cover_search.hpp"
+#include "solve/small_instances.hpp"
 #include "theory/known_plan_auditor.hpp"
 #include "theory/model.hpp"
 #include "theory/theory.hpp"
@@ -43,7 +44,12 @@ std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_ag
   std::string text = "agents";
   for (const AgentId i : blocked)
     text += (i == blocked.front() ? " " : " and ") + std::to_string(i.index());
-  return text + " cannot both reach their goals, even without the others";
+  return text + " cannot " + (blocked.size() == 2 ? "both" : "all") +
+         " reach their goals, even without the others";
+}
+
+void keep_cheaper(std::optional<Plan>& best, std::optional<Plan> plan, Objective objective) {
+  if (plan && (!best || cost(*plan, objective) < cost(*best, objective))) best = std::move(plan);
 }
 
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
@@ -51,27 +57,40 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   Scene scene(instance, limits);
   if (!scene.is_complete()) return;
   Model model(scene);
+  const auto is_blocked = [&](const std::vector<AgentId>& blocked) {
+    if (blocked.empty()) return false;
+    outcome.status = Status::infeasible;
+    outcome.explanation = blocked_text(blocked, instance.num_agents());
+    return true;
+  };
   Cost floor = 0;
   std::optional<Plan> some_plan;
+  /// Whether that is all.
+  const auto learn = [&](Cost bound, std::optional<Plan> plan) {
+    floor = outcome.lower_bound = std::max(floor, bound);
+    keep_cheaper(some_plan, std::move(plan), options.objective);
+    if (!some_plan || cost(*some_plan, options.objective) != floor) return false;
+    outcome.plan = std::move(some_plan);
+    outcome.status = Status::optimal;
+    return true;
+  };
+  const bool is_joint_first =
+      options.joint_work > 0 && options.system == System::dpll && is_small(instance);
+  if (is_joint_first) {
+    SmallReport report = search_small_instance(scene, options.objective, options.joint_work);
+    if (is_blocked(report.blocked) || learn(report.lower_bound, std::move(report.plan))) return;
+  }
   if (options.route_work > 0 && options.system == System::dpll &&
       instance.num_agents() <= kMaxRouteAgents) {
     auto routes = search_routes(scene, options.objective, options.route_work);
-    floor = outcome.lower_bound = routes.lower_bound;
-    some_plan = std::move(routes.plan);
-    if (some_plan && cost(*some_plan, options.objective) == floor) {
-      outcome.plan = std::move(some_plan);
-      outcome.status = Status::optimal;
-      return;
-    }
+    if (learn(routes.lower_bound, std::move(routes.plan))) return;
   }
-  if (!some_plan) some_plan = find_first_plan(scene, options.objective);
-  if (!some_plan) {
-    const std::vector<AgentId> blocked = find_blocked_agents(model);
-    if (!blocked.empty()) {
-      outcome.status = Status::infeasible;
-      outcome.explanation = blocked_text(blocked, instance.num_agents());
-      return;
-    }
+  if (!some_plan || is_joint_first)
+    keep_cheaper(some_plan, find_first_plan(scene, options.objective), options.objective);
+  if (!some_plan && !is_joint_first) {
+    Feasibility feasibility = check_feasibility(scene);
+    if (is_blocked(feasibility.blocked)) return;
+    some_plan = std::move(feasibility.plan);
   }
   ContinuousTheory theory(model);
   std::optional<KnownPlanAuditor> auditor;

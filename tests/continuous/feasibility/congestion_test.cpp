@@ -11,6 +11,7 @@
 #include "continuous/support/oracle_check.hpp"
 #include "continuous/support/random_instance.hpp"
 #include "continuous/support/roads.hpp"
+#include "joint/joint_search.hpp"
 #include "quadrille/continuous/generator.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "support/environment.hpp"
@@ -125,6 +126,7 @@ class Congestion : public testing::TestWithParam<std::tuple<Objective, Case>> {
     SolveOptions options;
     options.objective = objective;
     options.limits.conflicts = conflicts;
+    options.joint_work = 0;
     for (const std::int64_t work : route_work) {
       options.route_work = work;
       check_against(oracle, kMaxMoves, instance, options, tally);
@@ -183,6 +185,20 @@ TEST_P(CongestionHard, AllButOneAreSolvedByTheSearchOfRoutes) {
   EXPECT_EQ(answer(1, {SolveOptions().route_work}).optimal, has_many_routes ? 0 : 1);
 }
 
+TEST_P(CongestionSolved, ByTheJointSearchAlone) {
+  const auto& [objective, entry] = GetParam();
+  const Instance instance = instance_of(entry);
+  LimitMonitor limits({});
+  Scene scene(instance, limits);
+  std::int64_t work = 100'000'000;
+  JointReport report = find_cheapest_joint_plan(scene, objective, {}, work);
+  ASSERT_EQ(report.end, JointReport::End::found);
+  const Plan plan{IdVector<AgentId, Path>(std::move(report.paths))};
+  EXPECT_TRUE(verify(instance, plan).valid());
+  EXPECT_EQ(cost(plan, objective), report.lower_bound);
+  EXPECT_EQ(search_orders(instance, objective, kMaxMoves).best, report.lower_bound);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, CongestionHard,
     testing::Combine(
@@ -212,7 +228,7 @@ TEST(CongestionRandom, AgreesWithTheOracle) {
     const OrderSearch oracle = search_orders(instance, Objective::sum_of_costs, 5);
     SolveOptions options;
     options.limits.conflicts = 10'000;
-    options.route_work = 0;
+    options.route_work = options.joint_work = 0;
     options.limits.cpu_s = 2;
     check_against(oracle, 5, instance, options, tally);
     if (HasFatalFailure()) return;

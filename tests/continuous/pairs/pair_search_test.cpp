@@ -117,8 +117,7 @@ TEST(BlockedAgents, HaveNoPlan) {
     const Instance instance = random_pair(6'000'000 + seed);
     LimitMonitor limits({});
     Scene scene(instance, limits);
-    Model model(scene);
-    const bool is_blocked = !find_blocked_agents(model).empty();
+    const bool is_blocked = !check_feasibility(scene).blocked.empty();
     const bool is_solvable = !known_plans(instance, 4).empty();
     ASSERT_FALSE(is_blocked && is_solvable)
         << "seed " << 6'000'000 + seed << ": " << describe(instance);

@@ -36,6 +36,7 @@ TEST_P(RouteSearch, ItsBoundHoldsWhereverItsWorkEnds) {
       SolveOptions options;
       options.objective = GetParam();
       options.route_work = work;
+      options.joint_work = 0;
       options.limits.conflicts = 1;
       const SolveOutcome outcome = solve(instance, options);
       ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;

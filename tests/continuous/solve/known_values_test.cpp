@@ -91,8 +91,8 @@ TEST_P(KnownValue, ASidingThatIsNotDeepEnoughMakesItInfeasible) {
     SolveOptions options;
     options.system = GetParam();
     options.limits.cpu_s = 20;
-    for (const std::int64_t route_work : {SolveOptions().route_work, std::int64_t{0}}) {
-      options.route_work = route_work;
+    for (const bool is_joint_first : {true, false}) {
+      if (!is_joint_first) options.route_work = options.joint_work = 0;
       const SolveOutcome outcome = solve(instance, options);
       EXPECT_EQ(outcome.status, radius == 400 ? Status::optimal : Status::infeasible);
       EXPECT_EQ(outcome.explanation.empty(), radius == 400) << outcome.explanation;

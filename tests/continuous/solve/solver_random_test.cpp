@@ -38,7 +38,9 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     options.objective = objective;
     options.system = system;
     options.limits.conflicts = 3000;
-    // Half of them without the search of routes, the others with little of it or as much as usual.
+    // Without the joint search. Half of them without the search of routes, the others with little
+    // of it or as much as usual.
+    options.joint_work = 0;
     const std::int64_t route_work[] = {0, 1000, 0, SolveOptions().route_work};
     options.route_work = route_work[seed / 24 % 4];
     // The latter may have no plan, and no conflicts either.

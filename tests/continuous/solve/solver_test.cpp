@@ -124,7 +124,7 @@ TEST(ContinuousSolverLimits, APlanAndABoundAreKnownWhenALimitEndsTheSearch) {
 TEST(ContinuousSolverLimits, CongestionTakesFewConflicts) {
   SolveOptions options;
   options.limits.conflicts = 600;
-  options.route_work = 0;
+  options.route_work = options.joint_work = 0;
   const auto instance = Instance::make(alcove(), {agent(0, 2, 300), agent(2, 0, 300)}).value();
   const SolveOutcome outcome = solve(instance, options);
   EXPECT_EQ(outcome.status, Status::optimal);

@@ -8,8 +8,8 @@
 
 namespace quadrille::continuous::test {
 
-/// What the system finds to be the optimal cost, with the search of routes and without, by a valid
-/// plan; -1, and a failure, if it does not.
+/// What the system finds to be the optimal cost, with the searches that come first and without, by
+/// a valid plan; -1, and a failure, if it does not.
 inline Cost least_cost(const Instance& instance, System system, Objective objective) {
   SolveOptions options;
   options.system = system;
@@ -19,6 +19,8 @@ inline Cost least_cost(const Instance& instance, System system, Objective object
   EXPECT_EQ(outcome.status, Status::optimal) << outcome.explanation;
   if (!outcome.plan) return -1;
   EXPECT_TRUE(verify(instance, *outcome.plan).valid());
+  options.joint_work = 0;
+  EXPECT_EQ(solve(instance, options).cost, outcome.cost);
   options.route_work = 0;
   EXPECT_EQ(solve(instance, options).cost, outcome.cost);
   return *outcome.cost;

@@ -46,6 +46,9 @@ struct SolveOptions {
   /// Of dpll: effort, in comparisons of times, for looking at all routes of at most kMaxRouteAgents
   /// agents before the search; about 10^8 take a second. 0: none.
   std::int64_t route_work = 50'000'000;
+  /// Of dpll: effort for the joint search of small instances, which comes before everything else:
+  /// about 10^8 take a second. 0: none.
+  std::int64_t joint_work = 50'000'000;
   /// Called on the solving thread, at most a few times a second. May be empty.
   std::function<void(const Progress&)> on_progress;
   /// Debugging: a valid plan. Every clause is checked to allow it; no clause may exclude a valid
@@ -66,9 +69,9 @@ struct SolveOutcome {
 };
 
 /// Finds a plan of least cost among all plans whose departures are at whole ticks. `infeasible` is
-/// a proof: found at once for two agents that cannot pass each other, and for all agents of small
-/// instances that cannot, leaving the times out. A search for a plan where none exists for other
-/// reasons may also go on until a limit ends it: `unknown` then. If a limit ends the search and
+/// a proof: found at once for two agents that cannot pass each other, and for all agents if they
+/// are few on a small roadmap. On other instances without a plan the search may also go on until a
+/// limit ends it: `unknown` then. If a limit ends the search and
 /// some plan is known, that is `feasible`. Deterministic for the same instance, options and seed as
 /// long as no limit is met. Does not print. Thread-safe.
 [[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "joint/joint_space.hpp"
+#include "quadrille/continuous/plan.hpp"
+
+namespace quadrille::continuous {
+
+/// What a joint search found out.
+struct JointReport {
+  enum class End {
+    found,      ///< `paths` are a plan; of least cost, if that was looked for.
+    exhausted,  ///< There is no plan; none below `below`, if that was given.
+    stopped,    ///< By the work or the limits.
+  };
+  End end = End::stopped;
+  std::vector<Path> paths;  ///< By position among the agents.
+  Cost lower_bound = 0;     ///< No plan costs less, whatever `end` is. Of cheapest plans only.
+};
+
+/// Whether some agents, at most kMaxJointAgents, can reach their goals if there are no others; a
+/// plan if they can, which may cost a lot. Exact: moments are not sampled but kept in zones, so
+/// that neither the resolution nor the durations matter. `work` counts down, whatever the clock
+/// says, by some 10^8 in a second; the search ends when it is below 0.
+[[nodiscard]] JointReport find_joint_plan(Scene& scene, const std::vector<AgentId>& agents,
+                                          std::int64_t& work);
+
+/// A plan of least cost for all agents, at most kMaxJointAgents. `below`: only plans that cost less
+/// are looked for.
+[[nodiscard]] JointReport find_cheapest_joint_plan(Scene& scene, Objective objective,
+                                                   std::optional<Cost> below, std::int64_t& work);
+
+}  // namespace quadrille::continuous

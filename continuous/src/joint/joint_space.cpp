@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "joint/joint_space.hpp"
+
+#include <utility>
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::continuous {
+
+JointSpace::JointSpace(Scene& scene, std::vector<AgentId> agents)
+    : instance_(scene.instance()),
+      contacts_(scene.contacts()),
+      agents_(std::move(agents)),
+      num_edges_(instance_.roadmap().num_edges()) {
+  QUADRILLE_REQUIRE(agents_.size() <= kMaxJointAgents, "a joint search is for few agents");
+}
+
+bool JointSpace::stands_at_goal(const JointPlaces& places, std::size_t k) const {
+  return places.place[k] == num_edges_ + instance_.agent(agents_[k]).goal.index();
+}
+
+JointPlaces JointSpace::starts() const {
+  JointPlaces places;
+  for (std::size_t k = 0; k < size(); ++k)
+    places.place[k] =
+        static_cast<std::uint32_t>(num_edges_ + instance_.agent(agents_[k]).start.index());
+  return places;
+}
+
+bool JointSpace::are_goals(const JointPlaces& places) const {
+  for (std::size_t k = 0; k < size(); ++k)
+    if (!stands_at_goal(places, k)) return false;
+  return true;
+}
+
+JointSpace::Ages JointSpace::bad_ages(const JointPlaces& places, const JointStep& step,
+                                      std::size_t mover) {
+  const ClassId a = class_of(mover), b = class_of(step.agent);
+  const EdgeId e = edge(places, mover), f(step.edge);
+  if (step.begins) {
+    const auto& offsets = contacts_.offsets(a, e, b, f);
+    return offsets ? Ages({offsets->lo - 1, offsets->hi + 1}) : std::nullopt;
+  }
+  // A stay begins, which has to end before the contact, or to begin after it.
+  const auto& window = contacts_.window(a, e, b, instance_.roadmap().edge(f).to);
+  return window ? Ages({window->first, window->last}) : std::nullopt;
+}
+
+Ticks JointSpace::latest_leave(const JointPlaces& places, std::size_t mover, std::size_t k) {
+  if ((places.late & bit(mover, k)) != 0) return kForever;
+  const auto& window =
+      contacts_.window(class_of(mover), edge(places, mover), class_of(k), vertex(places, k));
+  return window ? window->first : kForever;
+}
+
+void JointSpace::list_steps(const JointPlaces& places, std::vector<JointStep>& steps) {
+  steps.clear();
+  for (std::uint32_t k = 0; k < size(); ++k) {
+    if (is_moving(places, k)) {
+      add_variants(places, {k, places.place[k], false, 0}, steps);
+      continue;
+    }
+    for (const EdgeId e : instance_.roadmap().out_edges(vertex(places, k))) {
+      bool can_begin = true;
+      for (std::size_t j = 0; j < size() && can_begin; ++j) {
+        if (j == k || is_moving(places, j)) continue;
+        const auto& window = contacts_.window(class_of(k), e, class_of(j), vertex(places, j));
+        can_begin = !window || window->first >= 0;
+      }
+      if (can_begin) add_variants(places, {k, e.value(), true, 0}, steps);
+    }
+  }
+}
+
+void JointSpace::add_variants(const JointPlaces& places, JointStep step,
+                              std::vector<JointStep>& steps) {
+  const std::size_t first = steps.size();
+  steps.push_back(step);
+  for (std::size_t j = 0; j < size(); ++j) {
+    if (j == step.agent || !is_moving(places, j)) continue;
+    const Ages ages = bad_ages(places, step, j);
+    if (!ages) continue;
+    const bool can_be_young = ages->young >= 0;
+    const bool can_be_old = ages->old <= duration(j, edge(places, j));
+    const std::uint32_t old = std::uint32_t{1} << j;
+    const std::size_t last = steps.size();
+    if (!can_be_young && !can_be_old) {
+      steps.resize(first);
+      return;
+    }
+    for (std::size_t s = first; s < last; ++s) {
+      if (can_be_young && can_be_old) steps.push_back(steps[s]);
+      if (can_be_old) steps[s].old_moves |= old;
+    }
+  }
+}
+
+void JointSpace::list_limits(const JointPlaces& places, const JointStep& step,
+                             std::vector<AgeLimit>& limits) {
+  limits.clear();
+  if (!step.begins) {
+    const Ticks age = duration(step.agent, EdgeId(step.edge));
+    limits.push_back({step.agent, true, age});
+    limits.push_back({step.agent, false, age});
+  }
+  for (std::uint32_t j = 0; j < size(); ++j) {
+    if (j == step.agent || !is_moving(places, j)) continue;
+    if (step.begins) {
+      const Ticks leave = latest_leave(places, j, step.agent);
+      if (leave < kForever) limits.push_back({j, false, leave});
+    }
+    const Ages ages = bad_ages(places, step, j);
+    if (!ages) continue;
+    const bool is_old = (step.old_moves >> j & 1) != 0;
+    limits.push_back({j, is_old, is_old ? ages->old : ages->young});
+  }
+}
+
+JointPlaces JointSpace::after(const JointPlaces& places, const JointStep& step) {
+  JointPlaces next = places;
+  // Nothing that was said about the agent is true any longer.
+  for (std::size_t j = 0; j < size(); ++j) next.late &= ~(bit(step.agent, j) | bit(j, step.agent));
+  if (step.begins) {
+    next.place[step.agent] = step.edge;
+    return next;
+  }
+  next.place[step.agent] = static_cast<std::uint32_t>(
+      num_edges_ + instance_.roadmap().edge(EdgeId(step.edge)).to.index());
+  for (std::size_t j = 0; j < size(); ++j)
+    if ((step.old_moves >> j & 1) != 0) next.late |= bit(j, step.agent);
+  return next;
+}
+
+void JointSpace::list_deadlines(const JointPlaces& places, std::vector<AgeLimit>& limits) {
+  limits.clear();
+  for (std::uint32_t j = 0; j < size(); ++j) {
+    if (!is_moving(places, j)) continue;
+    Ticks most = duration(j, edge(places, j));
+    for (std::size_t k = 0; k < size(); ++k)
+      if (k != j && !is_moving(places, k)) most = std::min(most, latest_leave(places, j, k));
+    limits.push_back({j, false, most});
+  }
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "paths/scene.hpp"
+#include "paths/timed_path.hpp"
+
+namespace quadrille::continuous {
+
+/// Of a joint search.
+inline constexpr std::size_t kMaxJointAgents = 8;
+
+/// What some agents do at a moment, without the times.
+struct JointPlaces {
+  /// By position among the agents: an edge, or a vertex after all edges.
+  std::array<std::uint32_t, kMaxJointAgents> place{};
+  /// A set of pairs (mover, stander): the stander's place is in contact with the mover's move, and
+  /// the stander arrived there during this move, when the contact was over. Any other stander that
+  /// is in contact with a move has to leave before the contact begins.
+  std::uint64_t late = 0;
+  friend bool operator==(const JointPlaces&, const JointPlaces&) = default;
+};
+
+/// An event: an agent begins a move or ends it.
+struct JointStep {
+  std::uint32_t agent = 0;  ///< Position among the agents.
+  std::uint32_t edge = 0;   ///< Begun or ended.
+  bool begins = false;
+  /// For each agent that is moving: whether its move is so old that it is no longer in the way, or
+  /// so young that it is not yet (if it can be in the way at all). One bit per agent.
+  std::uint32_t old_moves = 0;
+};
+
+/// A limit on how old the move of `agent` is: on the difference between now and its begin.
+struct AgeLimit {
+  std::uint32_t agent;
+  bool is_least;  ///< At least this age, otherwise at most.
+  Ticks age;
+};
+
+/// The places of some agents and the events that lead from one to the next, with the limits on the
+/// times at which these may happen. Every plan is a sequence of such events, ordered by time, and
+/// every sequence with times that keep the limits, from the starts to the goals, is a plan.
+/// docs/soundness.md
+class JointSpace {
+ public:
+  /// At most kMaxJointAgents agents. The scene outlives this.
+  JointSpace(Scene& scene, std::vector<AgentId> agents);
+
+  [[nodiscard]] std::size_t size() const noexcept { return agents_.size(); }
+  [[nodiscard]] AgentId agent(std::size_t k) const { return agents_[k]; }
+  [[nodiscard]] bool is_moving(const JointPlaces& places, std::size_t k) const {
+    return places.place[k] < num_edges_;
+  }
+  /// Of one that stands.
+  [[nodiscard]] VertexId vertex(const JointPlaces& places, std::size_t k) const {
+    return VertexId(places.place[k] - num_edges_);
+  }
+  /// Of one that moves.
+  [[nodiscard]] EdgeId edge(const JointPlaces& places, std::size_t k) const {
+    return EdgeId(places.place[k]);
+  }
+  [[nodiscard]] Ticks duration(std::size_t k, EdgeId e) const {
+    return instance_.duration(class_of(k), e);
+  }
+  [[nodiscard]] bool stands_at_goal(const JointPlaces& places, std::size_t k) const;
+
+  [[nodiscard]] JointPlaces starts() const;
+  [[nodiscard]] bool are_goals(const JointPlaces& places) const;
+  /// The events that may come next, as far as one can say without times.
+  void list_steps(const JointPlaces& places, std::vector<JointStep>& steps);
+  /// What the ages of moves have to be when the event happens.
+  void list_limits(const JointPlaces& places, const JointStep& step, std::vector<AgeLimit>& limits);
+  [[nodiscard]] JointPlaces after(const JointPlaces& places, const JointStep& step);
+  /// How old each move may become before something else has to happen. Upper limits only.
+  void list_deadlines(const JointPlaces& places, std::vector<AgeLimit>& limits);
+
+ private:
+  /// Ages of a move at which an event must not happen: those strictly between.
+  struct BadAges {
+    Ticks young, old;
+  };
+  using Ages = std::optional<BadAges>;
+  [[nodiscard]] ClassId class_of(std::size_t k) const { return instance_.class_of(agents_[k]); }
+  [[nodiscard]] static std::uint64_t bit(std::size_t mover, std::size_t stander) {
+    return std::uint64_t{1} << (mover * kMaxJointAgents + stander);
+  }
+  /// Of the move of agent `mover`, for an event of agent k.
+  [[nodiscard]] Ages bad_ages(const JointPlaces& places, const JointStep& step, std::size_t mover);
+  /// Until when agent k may stand where it does after the begin of another's move; kForever: for
+  /// ever.
+  [[nodiscard]] Ticks latest_leave(const JointPlaces& places, std::size_t mover, std::size_t k);
+  void add_variants(const JointPlaces& places, JointStep step, std::vector<JointStep>& steps);
+
+  const Instance& instance_;
+  Contacts& contacts_;
+  const std::vector<AgentId> agents_;
+  const std::size_t num_edges_;
+};
+
+}  // namespace quadrille::continuous
