@@ -13,7 +13,7 @@ bool Explainer::has_path(const PathTask& task, BanTable& bans, Ticks bound) {
 
 // Deletion, in chunks that become smaller, as most candidates are of no use.
 void Explainer::explain(const PathTask& task, BanTable& bans, Ticks bound,
-                        const std::vector<double>& priority, std::vector<std::size_t>& slots) {
+                        std::vector<std::size_t>& slots) {
   relevant_.assign(bans.num_slots(), 0);
   const auto arrival = finder_.find(task, bans, bound, nullptr, &relevant_);
   QUADRILLE_REQUIRE(!arrival.has_value(), "only what cannot be is explained");
@@ -22,8 +22,6 @@ void Explainer::explain(const PathTask& task, BanTable& bans, Ticks bound,
     bans.enable(slot, relevant_[slot] != 0);
     if (relevant_[slot] != 0) candidates_.push_back(slot);
   }
-  std::stable_sort(candidates_.begin(), candidates_.end(),
-                   [&](std::size_t a, std::size_t b) { return priority[a] < priority[b]; });
   for (std::size_t chunk = std::max<std::size_t>(candidates_.size() / 2, 1); !candidates_.empty();
        chunk /= 2) {
     for (std::size_t at = 0; at < candidates_.size();) {

@@ -14,10 +14,8 @@ class Explainer {
 
   /// Switches slots of `bans`, all of which are on, off until no path arrives before `bound` but
   /// switching off any other one would give one. Requires that there is no path before `bound`.
-  /// The slots left are appended to `slots`; all are switched on again afterwards. Those with the
-  /// lower `priority` (one per slot) are tried first.
-  void explain(const PathTask& task, BanTable& bans, Ticks bound,
-               const std::vector<double>& priority, std::vector<std::size_t>& slots);
+  /// The slots left are appended to `slots`; all are switched on again afterwards.
+  void explain(const PathTask& task, BanTable& bans, Ticks bound, std::vector<std::size_t>& slots);
 
  private:
   [[nodiscard]] bool has_path(const PathTask& task, BanTable& bans, Ticks bound);

@@ -9,10 +9,11 @@
 #include "paths/bans.hpp"
 #include "paths/scene.hpp"
 #include "quadrille/sat/lemma.hpp"
+#include "quadrille/sat/obstacle_trail.hpp"
 
 namespace quadrille::continuous {
 
-using ObstacleId = StrongId<struct ObstacleTag>;
+using sat::ObstacleId;
 
 /// Where new literals and clauses go: to the engine between solves, or to it by way of the theory.
 class FormulaWriter {

@@ -36,7 +36,7 @@ class PathCache {
     KnownPathRef best;
     for (const KnownPathRef& known : paths_)
       if (known->path.arrival <= cap && (!best || known->path.arrival < best->path.arrival) &&
-          is_good(*known))
+          is_good(known))
         best = known;
     return best;
   }

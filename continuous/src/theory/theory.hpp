@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "quadrille/sat/theory.hpp"
+#include "theory/current_paths.hpp"
 #include "theory/encounters.hpp"
-#include "theory/explanation.hpp"
 #include "theory/model.hpp"
 #include "theory/pair_lemmas.hpp"
 #include "theory/path_cache.hpp"
+#include "theory/path_search.hpp"
 
 namespace quadrille::continuous {
 
@@ -18,16 +19,19 @@ class CountingWriter;
 
 /// Keeps one current path per agent: the theory of MAPF_R.
 ///
-/// Each agent has a stack of active obstacles, a cap on its cost and a cost from which on its stay
-/// at the goal is final, as the assignment says, and a path. A path that an obstacle is in the way
-/// of, or that is dearer than the cap, is replaced by a known one or by a cheapest one; if there is
-/// none within the cap, a path lemma says why. On complete assignments the collisions of all paths
+/// A trail knows each agent's active obstacles, the cap on its cost, and a cost from which on its
+/// stay at the goal is final, as the assignment says. A path that an obstacle is in the way of, or
+/// that costs more than the cap, is replaced by a known one or by a cheapest one; if there is none
+/// within the cap, a path lemma says why. On complete assignments the collisions of all paths
 /// become clauses.
 class ContinuousTheory final : public sat::Theory {
  public:
   /// `model` outlives the theory.
   explicit ContinuousTheory(Model& model);
 
+  /// The current path of an agent. After a check that added no lemma, it keeps the cap and obeys
+  /// the bans of all active obstacles.
+  [[nodiscard]] const TimedPath& path(AgentId agent) const { return paths_.path(agent)->path; }
   /// The paths of the last complete assignment that was accepted.
   [[nodiscard]] const std::optional<Plan>& accepted() const noexcept { return accepted_; }
   void forget_accepted() { accepted_.reset(); }
@@ -58,59 +62,43 @@ class ContinuousTheory final : public sat::Theory {
   sat::Lemma explain(sat::Lit implied, std::vector<sat::Lit>& clause) override;
 
  private:
-  struct AgentState {
-    std::vector<ObstacleId> active;
-    Cost cap = kForever;
-    Cost floor = 0;  // the cost that literals claim: its stay at the goal is final from then on
-    KnownPathRef path;
-    PathCache cache;
-    bool is_violated = false;  // the path may be hindered or dearer than the cap
-  };
-  /// What a literal on the stack brought about.
-  struct Change {
-    enum class Kind : std::uint8_t { activation, cap, floor, path };
-    Kind kind;
-    AgentId agent;
-    ObstacleId obstacle;  // activation
-    Cost cost = 0;        // cap and floor: the one before
-  };
+  using ObstacleIds = std::vector<ObstacleId>;
 
-  [[nodiscard]] sat::Truth value(sat::Lit lit) const;
-  void notice_new_obstacles();
-  void activate(ObstacleId id);
-  void set_cap(AgentId i, Cost cap);
-  void set_floor(AgentId i, Cost floor);
-  void undo(const Change& change);
   /// Whether the path keeps clear of all active obstacles.
-  [[nodiscard]] bool obeys(const AgentState& agent, const KnownPath& known) const;
+  [[nodiscard]] bool obeys(AgentId i, const KnownPathRef& known) const;
 
   /// Replaces violated paths. False if lemmas say that some agent has none.
   bool replan_all(FormulaWriter& writer);
   bool replan(AgentId i, FormulaWriter& writer);
-  void load_bans(AgentId i);
-  /// Adds "i costs `bound` or more, or one of these usages is allowed"; i's bans are loaded.
-  void explain_bound(AgentId i, Cost bound, FormulaWriter& writer);
-  /// Tries to find a stronger lemma of two agents for one that explains a bound by `slots`.
-  void blame_pairs(AgentId i, Cost bound, const std::vector<std::size_t>& slots,
-                   FormulaWriter& writer);
+  /// Searches around all active obstacles.
+  [[nodiscard]] PathSearch::Cheapest search(AgentId i, Cost bound);
+  /// Adds "i costs `bound` or more, or one of these usages is allowed", as the search has shown.
+  void explain_bound(AgentId i, const PathSearch::Cheapest& search, Cost bound,
+                     FormulaWriter& writer);
+  /// Tries to find a stronger lemma of two agents for one that explains a bound by `blamed`.
+  void blame_pairs(AgentId i, Cost bound, const ObstacleIds& blamed, FormulaWriter& writer);
   /// A known path that obeys all active bans and the cap, if no lemma about a cost would be found
   /// by looking for a cheapest one. Null: none.
   [[nodiscard]] KnownPathRef recall(AgentId i) const;
-  void set_path(AgentId i, TimedPath path);
-  /// As set_path, if the path was violated: a dearer path is taken back later.
-  void replace_path(AgentId i, KnownPathRef path);
+  [[nodiscard]] KnownPathRef remember(AgentId i, const TimedPath& path);
+  /// What i costs at least: its path does, or literals say so.
+  [[nodiscard]] Cost current_cost(AgentId i) const;
   /// False if the paths cost more than the budget; lemmas say so then.
   bool check_budget(FormulaWriter& writer);
   /// The literal that i costs as much as its path, after explaining why. No literal if the path was
   /// not a cheapest one; then it is now.
   [[nodiscard]] sat::Lit claim_cost(AgentId i, FormulaWriter& writer);
   void check_paths(CountingWriter& writer);
+  /// True if a lemma of the two agents excludes the encounter.
+  bool note_collision(const Encounter& encounter, FormulaWriter& writer);
   [[nodiscard]] std::vector<Encounter> encounters();
 
   Model& model_;
-  PathFinder finder_;
+  CurrentPaths paths_;
+  PathTrail trail_;
+  PathSearch search_;
+  PathFinder finder_;  // of clauses_, as the next one
   BanTable bans_;
-  Explainer explainer_;
   EncounterClauses clauses_;
   PairLemmas pair_lemmas_;
   Mode mode_ = Mode::always;
@@ -118,14 +106,8 @@ class ContinuousTheory final : public sat::Theory {
   Cost budget_ = kForever;
   sat::Lit above_budget_;
 
-  IdVector<AgentId, AgentState> agents_;
-  std::vector<sat::Lit> stack_;
-  std::vector<std::size_t> changes_before_;  // by stack place: size of changes_ when it was pushed
-  std::vector<Change> changes_;
-  std::vector<KnownPathRef> replaced_paths_;       // of the path changes
-  std::vector<sat::Truth> values_;                 // by variable
-  std::vector<std::vector<ObstacleId>> watchers_;  // by variable: obstacles that it controls
-  std::size_t num_noticed_ = 0;                    // obstacles that are in watchers_
+  IdVector<AgentId, PathCache> caches_;
+  ObstacleIds active_, other_active_;  // scratch
   std::uint64_t last_version_ = 0;
   /// By pair of agents: the versions of their paths when they were last found not to collide.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> apart_;

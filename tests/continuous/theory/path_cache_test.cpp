@@ -8,7 +8,7 @@
 namespace quadrille::continuous::test {
 namespace {
 
-bool any(const KnownPath& /*known*/) { return true; }
+bool any(const KnownPathRef& /*known*/) { return true; }
 
 /// One agent, who goes along a road of length 1000 after a wait.
 class ContinuousPathCache : public testing::Test {
@@ -54,8 +54,9 @@ TEST_F(ContinuousPathCache, FindsACheapestPathThatKeepsTheCap) {
 TEST_F(ContinuousPathCache, ReturnsNoPathThatBreaksABan) {
   for (const Ticks wait : {7, 3, 5}) static_cast<void>(remember(wait));
   const auto obeys = [](Ticks end) {
-    return
-        [=](const KnownPath& known) { return !known.uses.breaks(Ban::start(EdgeId(0), 0, end)); };
+    return [=](const KnownPathRef& known) {
+      return !known->uses.breaks(Ban::start(EdgeId(0), 0, end));
+    };
   };
   EXPECT_EQ(cache_.cheapest(kForever, obeys(4))->path, after(5));
   EXPECT_EQ(cache_.cheapest(1006, obeys(6)), nullptr);
@@ -70,7 +71,7 @@ TEST_F(ContinuousPathCache, ForgetsWhatWasUsedLongestAgo) {
   static_cast<void>(remember(0));  // now it is 1 that comes next
   static_cast<void>(remember(size));
   EXPECT_EQ(cache_.cheapest(1000, any)->path, after(0));
-  const auto not_first = [](const KnownPath& known) { return known.path.arrival > 1000; };
+  const auto not_first = [](const KnownPathRef& known) { return known->path.arrival > 1000; };
   EXPECT_EQ(cache_.cheapest(kForever, not_first)->path, after(2));
   EXPECT_EQ(cache_.cheapest(1001, not_first), nullptr);
 }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "theory/path_search.hpp"
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::continuous {
+
+PathSearch::PathSearch(const Model& model)
+    : model_(model),
+      finder_(model.instance()),
+      bans_(model.instance().roadmap()),
+      explainer_(finder_) {}
+
+PathSearch::Cheapest PathSearch::find(AgentId agent, std::span<const ObstacleId> obstacles,
+                                      Cost bound) {
+  ++num_searches_;
+  loaded_.assign(obstacles.begin(), obstacles.end());
+  bans_.clear();
+  for (const ObstacleId id : obstacles) bans_.add(model_.obstacles()[id].bans);
+  const auto arrival = finder_.find(model_.task(agent), bans_, bound, &path_);
+  return {*this, agent, arrival.has_value()};
+}
+
+const TimedPath* PathSearch::Cheapest::path() const {
+  QUADRILLE_REQUIRE(number_ == search_.num_searches_, "the last search is asked");
+  return is_found_ ? &search_.path_ : nullptr;
+}
+
+std::vector<ObstacleId> PathSearch::Cheapest::blame(Cost bound) const {
+  QUADRILLE_REQUIRE(number_ == search_.num_searches_, "the last search is asked");
+  std::vector<std::size_t> slots;
+  search_.explainer_.explain(search_.model_.task(agent_), search_.bans_, bound, slots);
+  std::vector<ObstacleId> blamed;
+  for (const std::size_t slot : slots) blamed.push_back(search_.loaded_[slot]);
+  return blamed;
+}
+
+}  // namespace quadrille::continuous

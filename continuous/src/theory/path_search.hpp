@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "theory/explanation.hpp"
+#include "theory/model.hpp"
+
+namespace quadrille::continuous {
+
+/// Searches for paths of one agent that obey the bans of some of its obstacles, and says why there
+/// is no cheaper one.
+class PathSearch {
+ public:
+  /// `model` outlives the object.
+  explicit PathSearch(const Model& model);
+
+  /// What a search has found. To be asked before the next search only.
+  class Cheapest {
+   public:
+    /// Null: none arrives before the bound.
+    [[nodiscard]] const TimedPath* path() const;
+    /// Some of the obstacles, such that every path that arrives before `bound` breaks a ban of one
+    /// of them; none can be left out. Requires that no path around all of them arrives before
+    /// `bound`. Time: some searches for each obstacle that matters.
+    [[nodiscard]] std::vector<ObstacleId> blame(Cost bound) const;
+
+   private:
+    friend class PathSearch;
+    Cheapest(PathSearch& search, AgentId agent, bool is_found)
+        : search_(search), agent_(agent), is_found_(is_found), number_(search.num_searches_) {}
+    PathSearch& search_;
+    AgentId agent_;
+    bool is_found_;
+    std::int64_t number_;
+  };
+  /// A cheapest path that obeys the bans of the obstacles and arrives before `bound`.
+  [[nodiscard]] Cheapest find(AgentId agent, std::span<const ObstacleId> obstacles, Cost bound);
+
+ private:
+  const Model& model_;
+  PathFinder finder_;
+  BanTable bans_;
+  Explainer explainer_;
+  std::int64_t num_searches_ = 0;
+  std::vector<ObstacleId> loaded_;  // by slot of bans_
+  TimedPath path_;
+};
+
+}  // namespace quadrille::continuous
