@@ -138,7 +138,7 @@ bool BodyPair::can_meet(const Motion& a, const Motion& b) const {
   return exact::sides_within(places, corners(), reach_);
 }
 
-std::optional<OffsetInterval> BodyPair::unsafe_offsets(const Motion& a, const Motion& b) const {
+std::optional<TickInterval> BodyPair::unsafe_offsets(const Motion& a, const Motion& b) const {
   require_valid(a, b);
   if (boxes_apart(relative_places(a, b), corners(), reach_)) return std::nullopt;
   RealInterval likely;
@@ -176,17 +176,17 @@ std::optional<OffsetInterval> BodyPair::unsafe_offsets(const Motion& a, const Mo
   const Ticks hi = last_true(std::max(high, *seed), *seed, most, unsafe);
   const auto unsafe_mirrored = [&](Ticks offset) { return unsafe(-offset); };
   const Ticks lo = -last_true(std::max(-low, -*seed), -*seed, -least, unsafe_mirrored);
-  return OffsetInterval{lo, hi};
+  return TickInterval::closed(lo, hi);
 }
 
 // A stander present during [arrive, duration], arrive >= 0, is a rest of that duration at the
 // offset `arrive`, which collides iff the contact reaches beyond `arrive`; one present during [0,
 // leave] is in contact while both are there iff a rest that starts leave - duration early is. So
 // the run of unsafe offsets tells both ends of the contact.
-std::optional<ContactWindow> BodyPair::contact_window(const Motion& a, const Point& place) const {
-  const std::optional<OffsetInterval> run = unsafe_offsets(a, rest(place, a.duration));
+std::optional<TickInterval> BodyPair::contact_window(const Motion& a, const Point& place) const {
+  const std::optional<TickInterval> run = unsafe_offsets(a, rest(place, a.duration));
   if (!run) return std::nullopt;
-  return ContactWindow{a.duration + run->lo - 1, run->hi + 1};
+  return TickInterval{a.duration + run->first() - 1, run->end};
 }
 
 bool BodyPair::overlap(const Point& place_a, const Point& place_b) const {

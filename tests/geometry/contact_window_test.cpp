@@ -8,7 +8,7 @@
 namespace quadrille::geometry {
 namespace {
 
-using Contact = std::optional<ContactWindow>;
+using Contact = std::optional<TickInterval>;
 
 TEST(ContactWindow, DrivingThrough) {
   const BodyPair pair(Disc{10}, Disc{10});
@@ -49,7 +49,7 @@ TEST(ContactWindow, TellsExactlyWhichStandersCollide) {
     const Contact contact = BodyPair(c.body_a, c.body_b).contact_window(c.a, place);
     if (contact) {
       ++contacts;
-      EXPECT_LT(contact->first, contact->last);
+      EXPECT_LT(contact->begin, contact->end);
     }
     const Ticks longest = c.a.duration + 4;
     const oracle::Oracle<oracle::SmallInteger> oracle(c.body_a, c.a, c.body_b,

@@ -13,7 +13,7 @@ namespace {
 using oracle::BigInteger;
 using oracle::Oracle;
 using oracle::SmallInteger;
-using Offsets = std::optional<OffsetInterval>;
+using Offsets = std::optional<TickInterval>;
 
 ConvexPolygon square(Length half) {
   return ConvexPolygon::make({{-half, -half}, {half, -half}, {half, half}, {-half, half}}).value();
@@ -23,19 +23,25 @@ TEST(UnsafeOffsets, CrossingAtARightAngle) {
   const Motion east{{-100, 0}, {100, 0}, 200};
   const Motion north{{0, -100}, {0, 100}, 200};
   // Both at speed 1: with b late by d, the closest approach is |d| / sqrt(2) < 20 iff |d| <= 28.
-  EXPECT_EQ(unsafe_offsets(Disc{10}, east, Disc{10}, north), Offsets({-28, 28}));
+  EXPECT_EQ(unsafe_offsets(Disc{10}, east, Disc{10}, north),
+            Offsets(TickInterval::closed(-28, 28)));
   // The squares meet while |t| < 20 and |t - d| < 20.
-  EXPECT_EQ(unsafe_offsets(square(10), east, square(10), north), Offsets({-39, 39}));
+  EXPECT_EQ(unsafe_offsets(square(10), east, square(10), north),
+            Offsets(TickInterval::closed(-39, 39)));
 }
 
 TEST(UnsafeOffsets, FollowingAtEqualSpeedMayTouch) {
   const Motion first{{0, 0}, {1000, 0}, 1000};
-  EXPECT_EQ(unsafe_offsets(Disc{10}, first, Disc{5}, first), Offsets({-14, 14}));
-  EXPECT_EQ(unsafe_offsets(square(10), first, square(5), first), Offsets({-14, 14}));
-  EXPECT_EQ(unsafe_offsets(square(10), first, Disc{5}, first), Offsets({-14, 14}));
+  EXPECT_EQ(unsafe_offsets(Disc{10}, first, Disc{5}, first),
+            Offsets(TickInterval::closed(-14, 14)));
+  EXPECT_EQ(unsafe_offsets(square(10), first, square(5), first),
+            Offsets(TickInterval::closed(-14, 14)));
+  EXPECT_EQ(unsafe_offsets(square(10), first, Disc{5}, first),
+            Offsets(TickInterval::closed(-14, 14)));
   // The next edge of the same line, at the same speed: b must be 15 behind or ahead.
   const Motion next{{1000, 0}, {2000, 0}, 1000};
-  EXPECT_EQ(unsafe_offsets(Disc{10}, first, Disc{5}, next), Offsets({986, 1000}));
+  EXPECT_EQ(unsafe_offsets(Disc{10}, first, Disc{5}, next),
+            Offsets(TickInterval::closed(986, 1000)));
 }
 
 TEST(UnsafeOffsets, PassingAtExactlyTheSumOfTheRadiiIsAllowed) {
@@ -43,7 +49,7 @@ TEST(UnsafeOffsets, PassingAtExactlyTheSumOfTheRadiiIsAllowed) {
   const Motion back{{-4 * 5 + 30, 3 * 5 + 40}, {-4 * 5, 3 * 5}, 9};  // 25 to the left.
   EXPECT_EQ(unsafe_offsets(Disc{12}, east, Disc{13}, back), std::nullopt);
   EXPECT_FALSE(BodyPair(Disc{12}, Disc{13}).can_meet(east, back));
-  EXPECT_EQ(unsafe_offsets(Disc{13}, east, Disc{13}, back), Offsets({-9, 7}));
+  EXPECT_EQ(unsafe_offsets(Disc{13}, east, Disc{13}, back), Offsets(TickInterval::closed(-9, 7)));
   EXPECT_TRUE(BodyPair(Disc{13}, Disc{13}).can_meet(east, back));
 }
 
@@ -67,7 +73,8 @@ TEST(UnsafeOffsets, SquaresSideBySideOnAGrid) {
   EXPECT_FALSE(BodyPair(unit, wedge).can_meet(rest({4, 3}, 1), rest({0, 0}, 1)));
   EXPECT_TRUE(BodyPair(wedge, unit).can_meet(rest({0, 0}, 1), rest({4, 2}, 1)));
   EXPECT_EQ(unsafe_offsets(tile, slope, tile, {{-3, 4}, {37, 34}, 10}), std::nullopt);
-  EXPECT_EQ(unsafe_offsets(unit, lower, unit, {{0, 9}, {10, 9}, 10}), Offsets({-9, 9}));
+  EXPECT_EQ(unsafe_offsets(unit, lower, unit, {{0, 9}, {10, 9}, 10}),
+            Offsets(TickInterval::closed(-9, 9)));
 }
 
 TEST(UnsafeOffsets, OnlyAtOneEnd) {
@@ -75,7 +82,7 @@ TEST(UnsafeOffsets, OnlyAtOneEnd) {
   // and b's begins has both in reach.
   const Motion a{{0, 0}, {100, 0}, 10};
   const Motion b{{119, 0}, {1119, 0}, 10};
-  EXPECT_EQ(unsafe_offsets(Disc{10}, a, Disc{10}, b), Offsets({10, 10}));
+  EXPECT_EQ(unsafe_offsets(Disc{10}, a, Disc{10}, b), Offsets(TickInterval::closed(10, 10)));
   EXPECT_EQ(unsafe_offsets(Disc{10}, a, Disc{10}, {{120, 0}, {1120, 0}, 10}), std::nullopt);
 }
 
@@ -87,7 +94,8 @@ TEST(UnsafeOffsets, RunShorterThanATick) {
   EXPECT_TRUE(BodyPair(Disc{10}, Disc{10}).can_meet(a, b));
   EXPECT_EQ(unsafe_offsets(square(10), a, square(10), b), std::nullopt);
   EXPECT_TRUE(BodyPair(square(10), square(10)).can_meet(a, b));
-  EXPECT_EQ(unsafe_offsets(Disc{10}, a, Disc{10}, {{0, -1000}, {0, 1000}, 2}), Offsets({0, 0}));
+  EXPECT_EQ(unsafe_offsets(Disc{10}, a, Disc{10}, {{0, -1000}, {0, 1000}, 2}),
+            Offsets(TickInterval::closed(0, 0)));
 }
 
 // Everything by hand for small numbers: each offset is tried.
@@ -104,7 +112,7 @@ void every_offset(Generator generate, int count) {
     if (offsets) ++unsafe_cases;
     for (Ticks d = -c.b.duration - 2; d <= c.a.duration + 2; ++d) {
       const bool expected = oracle.collide(d);
-      ASSERT_EQ(offsets && offsets->lo <= d && d <= offsets->hi, expected) << "offset " << d;
+      ASSERT_EQ(offsets && offsets->contains(d), expected) << "offset " << d;
       ASSERT_EQ(pair.collide(c.a, c.b, d), expected) << "offset " << d;
       ASSERT_TRUE(!expected || pair.can_meet(c.a, c.b));
     }
@@ -136,20 +144,20 @@ bool any_unsafe(const Oracle<BigInteger>& oracle, const Case& c) {
 
 // At both ends of the run: the last unsafe offset is unsafe and the next one is not. The offsets
 // are one run, which the small cases show.
-void expect_ends(const Oracle<BigInteger>& oracle, const OffsetInterval& run) {
-  ASSERT_LE(run.lo, run.hi);
-  EXPECT_TRUE(oracle.collide(run.lo));
-  EXPECT_TRUE(oracle.collide(run.hi));
-  EXPECT_FALSE(oracle.collide(run.lo - 1));
-  EXPECT_FALSE(oracle.collide(run.hi + 1));
+void expect_ends(const Oracle<BigInteger>& oracle, const TickInterval& run) {
+  ASSERT_LE(run.first(), run.last());
+  EXPECT_TRUE(oracle.collide(run.first()));
+  EXPECT_TRUE(oracle.collide(run.last()));
+  EXPECT_FALSE(oracle.collide(run.first() - 1));
+  EXPECT_FALSE(oracle.collide(run.last() + 1));
 }
 
 void expect_symmetric(const Case& c, const BodyPair& pair, const Offsets& offsets) {
   const Offsets mirrored = pair.swapped().unsafe_offsets(c.b, c.a);
   ASSERT_EQ(mirrored.has_value(), offsets.has_value());
   if (offsets) {
-    EXPECT_EQ(mirrored->lo, -offsets->hi);
-    EXPECT_EQ(mirrored->hi, -offsets->lo);
+    EXPECT_EQ(mirrored->first(), -offsets->last());
+    EXPECT_EQ(mirrored->last(), -offsets->first());
   }
   EXPECT_EQ(pair.can_meet(c.a, c.b), pair.swapped().can_meet(c.b, c.a));
 }
@@ -216,8 +224,8 @@ TEST(UnsafeOffsets, ExactSearchFindsAnOffsetIfThereIsOne) {
     const Offsets offsets = unsafe_offsets(c.body_a, c.a, c.body_b, c.b);
     ASSERT_EQ(found.has_value(), offsets.has_value());
     if (found) {
-      ASSERT_LE(offsets->lo, *found);
-      ASSERT_GE(offsets->hi, *found);
+      ASSERT_LE(offsets->first(), *found);
+      ASSERT_GE(offsets->last(), *found);
     }
   }
 }

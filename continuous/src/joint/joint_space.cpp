@@ -39,18 +39,18 @@ JointSpace::Ages JointSpace::bad_ages(const JointPlaces& places, const JointStep
   const EdgeId e = edge(places, mover), f(step.edge);
   if (step.begins) {
     const auto& offsets = contacts_.offsets(a, e, b, f);
-    return offsets ? Ages({offsets->lo - 1, offsets->hi + 1}) : std::nullopt;
+    return offsets ? Ages({offsets->begin - 1, offsets->end}) : std::nullopt;
   }
   // A stay begins, which has to end before the contact, or to begin after it.
   const auto& window = contacts_.window(a, e, b, instance_.roadmap().edge(f).to);
-  return window ? Ages({window->first, window->last}) : std::nullopt;
+  return window ? Ages({window->begin, window->end}) : std::nullopt;
 }
 
 Ticks JointSpace::latest_leave(const JointPlaces& places, std::size_t mover, std::size_t k) {
   if ((places.late & bit(mover, k)) != 0) return kForever;
   const auto& window =
       contacts_.window(class_of(mover), edge(places, mover), class_of(k), vertex(places, k));
-  return window ? window->first : kForever;
+  return window ? window->begin : kForever;
 }
 
 void JointSpace::list_steps(const JointPlaces& places, std::vector<JointStep>& steps) {
@@ -65,7 +65,7 @@ void JointSpace::list_steps(const JointPlaces& places, std::vector<JointStep>& s
       for (std::size_t j = 0; j < size() && can_begin; ++j) {
         if (j == k || is_moving(places, j)) continue;
         const auto& window = contacts_.window(class_of(k), e, class_of(j), vertex(places, j));
-        can_begin = !window || window->first >= 0;
+        can_begin = !window || window->begin >= 0;
       }
       if (can_begin) add_variants(places, {k, e.value(), true, 0}, steps);
     }

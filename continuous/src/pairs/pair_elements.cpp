@@ -68,7 +68,7 @@ bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& othe
       TimedEdge edge{e, ticks, by_cap + raise, by_cap, false};
       // From its cap on at the latest the other one stands at its goal.
       if (const auto w = window(side.c, e, other_class, other_goal, reach_of_bodies)) {
-        const Ticks by_goal = other.cap - w->last;
+        const Ticks by_goal = other.cap - w->end;
         edge.last = std::min(edge.last, by_goal + other_raise);
         edge.last_without_raise = std::min(edge.last_without_raise, by_goal);
       }
@@ -106,7 +106,7 @@ void PairSearch::find_contacts(Side& x, Side& y) {
         const Ticks least = other.first - e.last, most = other.last - e.first;
         if (least > duration || most < -instance.duration(y.c, f)) continue;
         const auto offsets = scene_.contacts().offsets(x.c, e.edge, y.c, f);
-        if (offsets && offsets->lo <= most && least <= offsets->hi)
+        if (offsets && offsets->overlaps(TickInterval::closed(least, most)))
           e.matters = other.matters = true;
       }
     }
@@ -114,7 +114,7 @@ void PairSearch::find_contacts(Side& x, Side& y) {
       const Ticks arrive = y.from_start[v.index()];
       if (arrive > e.last + duration) continue;
       const auto w = scene_.contacts().window(x.c, e.edge, y.c, v);
-      if (w && arrive < e.last + w->last && leave_by(y, v) > e.first + w->first) {
+      if (w && arrive < e.last + w->end && leave_by(y, v) > e.first + w->begin) {
         e.matters = true;
         y.stay_matters[v.index()] = 1;
       }
@@ -134,8 +134,8 @@ void PairSearch::list_allowed(const Side& side, const TimedEdge& e) {
     const auto place = bans.stays_of(v);
     if (place == BanTable::kFree) return;
     for (const BanTable::Entry& entry : bans.entries(place))
-      if (bans.is_enabled(entry.slot) && entry.begin + 1 < entry.end)
-        forbidden_.push_back({entry.begin + 1 - after, entry.end - after});
+      if (bans.is_enabled(entry.slot) && !entry.when.inner_ticks().is_empty())
+        forbidden_.push_back(entry.when.inner_ticks().shifted(-after));
   };
   add_stays(edge.from, 0);
   add_stays(edge.to, scene_.instance().duration(side.c, e.edge));
@@ -143,12 +143,12 @@ void PairSearch::list_allowed(const Side& side, const TimedEdge& e) {
             [](const auto& a, const auto& b) { return a.begin < b.begin; });
   allowed_.clear();
   Ticks from = e.first;
-  for (const BanTable::Span& span : forbidden_) {
-    if (span.begin > from) allowed_.push_back({from, std::min(span.begin - 1, e.last)});
-    from = std::max(from, span.end);
+  for (const TickInterval& starts : forbidden_) {
+    if (starts.begin > from) allowed_.push_back({from, std::min(starts.begin, e.last + 1)});
+    from = std::max(from, starts.end);
     if (from > e.last) return;
   }
-  allowed_.push_back({from, e.last});
+  allowed_.push_back(TickInterval::closed(from, e.last));
 }
 
 // As no allowed move arrives or sets out during a ban, a stay breaks one only if it lasts from
@@ -158,8 +158,8 @@ bool PairSearch::breaks_ban(const Side& side, const Element& from, const Element
   if (place == BanTable::kFree) return false;
   const auto& entries = side.bans->entries(place);
   return std::any_of(entries.begin(), entries.end(), [&](const BanTable::Entry& entry) {
-    return side.bans->is_enabled(entry.slot) && from.end + from.duration <= entry.begin &&
-           to.begin >= entry.end;
+    return side.bans->is_enabled(entry.slot) && from.last + from.duration <= entry.when.begin &&
+           to.first >= entry.when.end;
   });
 }
 
@@ -190,10 +190,10 @@ void PairSearch::make_elements(Side& side) {
       const Ticks duration = instance.duration(side.c, e.edge);
       list_allowed(side, e);
       // The earliest start is by itself.
-      for (const BanTable::Span& span : allowed_)
-        for (Ticks begin = span.begin, end = span.begin; begin <= span.end;
-             begin = end + 1, end = std::min(begin + side.width - 1, span.end))
-          side.elements.push_back({true, e.matters, stay_matters, e.edge, to, begin, end, duration,
+      for (const TickInterval& starts : allowed_)
+        for (Ticks first = starts.first(), last = first; first <= starts.last();
+             first = last + 1, last = std::min(first + side.width - 1, starts.last()))
+          side.elements.push_back({true, e.matters, stay_matters, e.edge, to, first, last, duration,
                                    e.last_without_raise});
       if (e.matters && side.may_matter_later[v.index()] == 0) {
         side.may_matter_later[v.index()] = 1;
@@ -215,8 +215,8 @@ void PairSearch::make_elements(Side& side) {
 }
 
 Cost PairSearch::raise_for_end(const Element& element, Ticks tick) {
-  if (tick > element.end) return kForever;
-  return std::max<Cost>(0, tick - element.end_without_raise);
+  if (tick > element.last) return kForever;
+  return std::max<Cost>(0, tick - element.last_without_raise);
 }
 
 const PairSearch::Next& PairSearch::next_of(Side& side, VertexId from) {

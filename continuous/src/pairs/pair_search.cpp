@@ -84,28 +84,29 @@ PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start
     const Edge& edge = instance.roadmap().edge(b.edge);
     if (!are_far(next.edge, edge.from, edge.to, reach)) {
       const auto offsets = scene_.contacts().offsets(x.c, next.edge, y.c, b.edge);
-      if (offsets && offsets->lo <= 0) {
-        // t - s < lo or t - s > hi
-        const Ticks late_s = std::max(first_s, first_t - offsets->lo + 1);
-        const Ticks late_t = std::max(first_t, first_s + offsets->hi + 1);
+      if (offsets && offsets->first() <= 0) {
+        // t - s is before the first unsafe offset or after the last one.
+        const Ticks late_s = std::max(first_s, starts_before(*offsets, first_t).end);
+        const Ticks late_t = std::max(first_t, starts_against(*offsets, first_s).end);
         result.late = {raise_for_start(late_s), late_s, first_t};
-        result.early = {offsets->hi >= 0 ? kForever : raise_for_end(b, late_t), first_s, late_t};
+        result.early = {offsets->last() >= 0 ? kForever : raise_for_end(b, late_t), first_s,
+                        late_t};
       }
     }
     // x's stay before `next` and b's move: x comes late, or leaves early.
     if (a.stay_matters)
       if (const auto w = window(y.c, b.edge, x.c, a.to, reach))
-        both = std::max(both, std::min(raise_for_end(a, first_t + w->last - a.duration),
-                                       raise_for_end(b, first_s - w->first)));
+        both = std::max(both, std::min(raise_for_end(a, first_t + w->end - a.duration),
+                                       raise_for_end(b, first_s - w->begin)));
   }
   if (b.stay_matters) {
     // `next` sets out where b stands in its way: b comes late.
-    if (const auto w = window(x.c, next.edge, y.c, b.to, reach); w && w->first < 0)
-      both = std::max(both, raise_for_end(b, first_s + w->last - b.duration));
+    if (const auto w = window(x.c, next.edge, y.c, b.to, reach); w && w->begin < 0)
+      both = std::max(both, raise_for_end(b, first_s + w->end - b.duration));
     // a's move passed where b stands: b comes late.
     if (a.is_move)
-      if (const auto w = window(x.c, a.edge, y.c, b.to, reach); w && w->first < a.duration)
-        both = std::max(both, raise_for_end(b, start_a + w->last - b.duration));
+      if (const auto w = window(x.c, a.edge, y.c, b.to, reach); w && w->begin < a.duration)
+        both = std::max(both, raise_for_end(b, start_a + w->end - b.duration));
   }
   result.late.raise = std::max(result.late.raise, both);
   result.early.raise = std::max(result.early.raise, both);
@@ -150,8 +151,8 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
     for (auto k = x.first_element[way.vertex.index()]; k < x.end_element[way.vertex.index()]; ++k) {
       const Element& to = x.elements[k];
       ++effort_;
-      if (!to.matters || to.end < arrive || (way.ticks == 0 && breaks_ban(x, a, to))) continue;
-      const Ticks first = std::max({to.begin, arrive, start_y});
+      if (!to.matters || to.last < arrive || (way.ticks == 0 && breaks_ban(x, a, to))) continue;
+      const Ticks first = std::max({to.first, arrive, start_y});
       if (at_y == kDone) {
         visit(k, raise_for_end(to, first), first, start_y);
         continue;

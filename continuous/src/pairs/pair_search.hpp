@@ -45,17 +45,17 @@ class PairSearch {
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 
  private:
-  /// A move that begins at a tick in [begin, end]. The first element is the stay at the start, the
-  /// second one says that nothing more matters.
+  /// A move that begins at a tick from `first` to `last`. The first element is the stay at the
+  /// start, the second one says that nothing more matters.
   struct Element {
     bool is_move = false;
     bool matters = false;
     bool stay_matters = false;  // the one after it; then all that can follow matters
     EdgeId edge;
     VertexId to;
-    Ticks begin = 0, end = 0;
+    Ticks first = 0, last = 0;
     Ticks duration = 0;
-    Ticks end_without_raise = 0;  // grows with the raise until it is `end`, or is larger
+    Ticks last_without_raise = 0;  // grows with the raise until it is `last`, or is larger
   };
   static constexpr std::uint32_t kStart = 0, kDone = 1;
   struct TimedEdge {
@@ -157,7 +157,7 @@ class PairSearch {
 
   Scene& scene_;
   BanTable bans_[2];
-  std::vector<BanTable::Span> forbidden_, allowed_;
+  std::vector<TickInterval> forbidden_, allowed_;
   Side sides_[2];
   Reached reached_;
   struct Open {

@@ -29,13 +29,14 @@ void PathUses::assign(const Instance& instance, AgentId agent, const TimedPath& 
 bool PathUses::breaks(const Ban& ban) const {
   if (!(ban.kind == Ban::Kind::start ? edges_ : vertices_)[ban.place % kBits]) return false;
   if (ban.kind == Ban::Kind::start) {
-    const auto at = std::lower_bound(starts_.begin(), starts_.end(), Start{ban.place, ban.begin});
-    return at != starts_.end() && at->edge == ban.place && at->tick < ban.end;
+    const auto at =
+        std::lower_bound(starts_.begin(), starts_.end(), Start{ban.place, ban.when.begin});
+    return at != starts_.end() && at->edge == ban.place && at->tick < ban.when.end;
   }
   auto at = std::lower_bound(stays_.begin(), stays_.end(), ban.place,
                              [](const Stay& stay, std::uint32_t v) { return stay.vertex < v; });
   for (; at != stays_.end() && at->vertex == ban.place; ++at)
-    if (at->arrive < ban.end && at->depart > ban.begin) return true;
+    if (ban.when.meets(at->arrive, at->depart)) return true;
   return false;
 }
 
@@ -70,7 +71,7 @@ void BanTable::add(std::span<const Ban> bans) {
       places_[num_used_++].resource = resource;
     }
     Place& place = places_[index_[resource]];
-    place.entries.push_back({ban.begin, ban.end, slot});
+    place.entries.push_back({ban.when, slot});
     place.is_sorted = false;
   }
 }
@@ -84,43 +85,44 @@ void BanTable::enable(std::size_t slot, bool on) {
 bool BanTable::refresh(Place& place) {
   if (place.version == version_) return false;
   place.version = version_;
-  place.spans.clear();
+  place.forbidden.clear();
+  place.safe.clear();
   if (!place.is_sorted) {
     std::sort(place.entries.begin(), place.entries.end(), [](const Entry& a, const Entry& b) {
-      return a.begin != b.begin ? a.begin < b.begin : a.slot < b.slot;
+      return a.when.begin != b.when.begin ? a.when.begin < b.when.begin : a.slot < b.slot;
     });
     place.is_sorted = true;
   }
   return true;
 }
 
-const std::vector<BanTable::Span>& BanTable::forbidden_starts(std::uint32_t index) {
+const std::vector<TickInterval>& BanTable::forbidden_starts(std::uint32_t index) {
   Place& place = places_[index];
-  if (!refresh(place)) return place.spans;
-  for (const Entry& entry : place.entries) {
-    if (enabled_[entry.slot] == 0) continue;
-    if (!place.spans.empty() && entry.begin <= place.spans.back().end)
-      place.spans.back().end = std::max(place.spans.back().end, entry.end);
+  if (!refresh(place)) return place.forbidden;
+  for (const auto& [when, slot] : place.entries) {
+    if (enabled_[slot] == 0) continue;
+    if (!place.forbidden.empty() && when.begin <= place.forbidden.back().end)
+      place.forbidden.back().end = std::max(place.forbidden.back().end, when.end);
     else
-      place.spans.push_back({entry.begin, entry.end});
+      place.forbidden.push_back(when);
   }
-  return place.spans;
+  return place.forbidden;
 }
 
-// A stay [arrive, depart] obeys the ban (begin, end) if it ends by `begin` or begins at `end` or
-// later. So between two bans whose open intervals do not overlap there is a safe stay, even if it
-// is one tick without length.
-const std::vector<BanTable::Span>& BanTable::safe_stays(std::uint32_t index) {
+// A stay obeys a ban if it ends by the begin of its stretch or begins at its end or later. So
+// between two bans whose stretches do not overlap there is a safe stay, even if it is one tick
+// without length.
+const std::vector<BanTable::SafeStay>& BanTable::safe_stays(std::uint32_t index) {
   Place& place = places_[index];
-  if (!refresh(place)) return place.spans;
+  if (!refresh(place)) return place.safe;
   Ticks free_from = 0;
-  for (const Entry& entry : place.entries) {
-    if (enabled_[entry.slot] == 0 || entry.end <= free_from) continue;
-    if (entry.begin >= free_from) place.spans.push_back({free_from, entry.begin});
-    free_from = entry.end;
+  for (const auto& [when, slot] : place.entries) {
+    if (enabled_[slot] == 0 || when.end <= free_from) continue;
+    if (when.begin >= free_from) place.safe.push_back({free_from, when.begin});
+    free_from = when.end;
   }
-  if (free_from < kForever) place.spans.push_back({free_from, kForever});
-  return place.spans;
+  if (free_from < kForever) place.safe.push_back({free_from, kForever});
+  return place.safe;
 }
 
 }  // namespace quadrille::continuous

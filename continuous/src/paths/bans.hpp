@@ -8,28 +8,27 @@
 #include <vector>
 
 #include "paths/timed_path.hpp"
+#include "paths/unsafe_starts.hpp"
 
 namespace quadrille::continuous {
 
 /// Something that one agent may not do.
 ///
-/// - start: begin to move along an edge at a tick in [begin, end).
-/// - stay: be at a vertex from `arrive` to `depart` with arrive < end and depart > begin. That is:
-///   be there at some moment strictly between begin and end. Passing through (arrive == depart)
-///   counts as well; arriving at `end` or departing at `begin` is allowed.
-/// `end` is kForever for bans without end.
+/// - start: begin to move along an edge at one of the ticks `when`.
+/// - stay: be at a vertex at some moment of the stretch `when`. Passing through counts as well;
+///   arriving at its end or departing at its begin is allowed.
+/// Bans without end end with kForever.
 struct Ban {
   enum class Kind : std::uint8_t { start, stay };
   Kind kind = Kind::start;
   std::uint32_t place = 0;  ///< An edge or a vertex.
-  Ticks begin = 0;
-  Ticks end = 0;
+  TickInterval when;
 
-  [[nodiscard]] static Ban start(EdgeId edge, Ticks begin, Ticks end) {
-    return {Kind::start, edge.value(), begin, end};
+  [[nodiscard]] static Ban start(EdgeId edge, const TickInterval& when) {
+    return {Kind::start, edge.value(), when};
   }
-  [[nodiscard]] static Ban stay(VertexId vertex, Ticks begin, Ticks end) {
-    return {Kind::stay, vertex.value(), begin, end};
+  [[nodiscard]] static Ban stay(VertexId vertex, const TickInterval& when) {
+    return {Kind::stay, vertex.value(), when};
   }
   friend auto operator<=>(const Ban&, const Ban&) = default;
 };
@@ -72,8 +71,10 @@ class BanTable {
   /// After this, what `safe_*` gave is stale.
   void enable(std::size_t slot, bool on);
 
-  struct Span {
-    Ticks begin, end;  // of a stay: both included, begin <= end; of starts: end excluded
+  /// A stay that obeys all bans, as does each that is part of it: [from, until], both included. It
+  /// may be one tick without length.
+  struct SafeStay {
+    Ticks from, until;
   };
   /// Index of a place with bans, or kFree. Switched-off slots count.
   static constexpr std::uint32_t kFree = 0xffffffffu;
@@ -81,13 +82,13 @@ class BanTable {
   [[nodiscard]] std::uint32_t stays_of(VertexId v) const { return index_[num_edges_ + v.index()]; }
 
   /// Forbidden starts, united, increasing. Valid until the table changes.
-  [[nodiscard]] const std::vector<Span>& forbidden_starts(std::uint32_t place);
-  /// The maximal allowed stays, increasing, none of which contains another. The first may begin at
-  /// 0 only; the last may end with kForever.
-  [[nodiscard]] const std::vector<Span>& safe_stays(std::uint32_t place);
+  [[nodiscard]] const std::vector<TickInterval>& forbidden_starts(std::uint32_t place);
+  /// The maximal safe stays, increasing, none of which contains another. None is from before 0; the
+  /// last may be until kForever.
+  [[nodiscard]] const std::vector<SafeStay>& safe_stays(std::uint32_t place);
 
   struct Entry {
-    Ticks begin, end;
+    TickInterval when;
     std::uint32_t slot;
   };
   /// All bans of a place, switched off or not.
@@ -100,7 +101,8 @@ class BanTable {
   struct Place {
     std::size_t resource = 0;  // into index_
     std::vector<Entry> entries;
-    std::vector<Span> spans;  // of version `version`
+    std::vector<TickInterval> forbidden;  // of an edge, of version `version`
+    std::vector<SafeStay> safe;           // of a vertex, likewise
     std::uint64_t version = 0;
     bool is_sorted = false;
   };

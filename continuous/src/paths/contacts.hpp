@@ -48,13 +48,14 @@ class Contacts {
   /// `instance` outlives this.
   explicit Contacts(const Instance& instance);
 
-  /// Offsets d = start of f - start of e, both ends included, at which an agent of class a on edge
-  /// e and one of class b on edge f collide.
-  using Offsets = std::optional<geometry::OffsetInterval>;
+  /// Offsets d = start of f - start of e at which an agent of class a on edge e and one of class b
+  /// on edge f collide.
+  using Offsets = std::optional<geometry::TickInterval>;
   [[nodiscard]] const Offsets& offsets(ClassId a, EdgeId e, ClassId b, EdgeId f);
 
-  /// When an agent of class b that stands at `v` is in the way of one of class a on edge e.
-  using Window = std::optional<geometry::ContactWindow>;
+  /// The stretch during which an agent of class b that stands at `v` is in the way of one of class
+  /// a on edge e, in ticks since the latter's start.
+  using Window = std::optional<geometry::TickInterval>;
   [[nodiscard]] const Window& window(ClassId a, EdgeId e, ClassId b, VertexId v);
 
   /// Whether two standing agents collide.

@@ -10,15 +10,15 @@ namespace {
 constexpr std::uint32_t kNoParent = 0xffffffffu;
 
 /// The first start at `tick` or later that no ban forbids.
-Ticks allowed_start(const std::vector<BanTable::Span>& forbidden, Ticks tick) {
+Ticks allowed_start(const std::vector<TickInterval>& forbidden, Ticks tick) {
   auto at = std::partition_point(forbidden.begin(), forbidden.end(),
-                                 [&](const BanTable::Span& span) { return span.end <= tick; });
+                                 [&](const TickInterval& starts) { return starts.end <= tick; });
   for (; at != forbidden.end() && at->begin <= tick; ++at) tick = at->end;
   return tick;
 }
 
-const std::vector<BanTable::Span> kNothingForbidden;
-const std::vector<BanTable::Span> kAlwaysSafe{{0, kForever}};
+const std::vector<TickInterval> kNothingForbidden;
+const std::vector<BanTable::SafeStay> kAlwaysSafe{{0, kForever}};
 
 }  // namespace
 
@@ -97,11 +97,11 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
   if (task.distances[agent.start] >= bound) return std::nullopt;
   const std::uint32_t start_place = bans.stays_of(agent.start);
   const auto& stays = start_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(start_place);
-  if (stays.empty() || stays.front().begin > 0) {
+  if (stays.empty() || stays.front().from > 0) {
     // Only the bans that cover tick 0 are to blame, and one of them is enough.
     if (relevant != nullptr)
       for (const BanTable::Entry& entry : bans.entries(start_place))
-        if (bans.is_enabled(entry.slot) && entry.begin < 0 && entry.end > 0) {
+        if (bans.is_enabled(entry.slot) && entry.when.meets(0, 0)) {
           (*relevant)[entry.slot] = 1;
           break;
         }
@@ -110,7 +110,7 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
   const std::size_t first = state(bans, agent.start, 0);
   best_[first] = 0;
   stamp_[first] = run_;
-  visit({agent.start, 0, 0, stays.front().end, kNoParent, {}}, task.distances[agent.start]);
+  visit({agent.start, 0, 0, stays.front().until, kNoParent, {}}, task.distances[agent.start]);
   while (!heap_.empty()) {
     std::pop_heap(heap_.begin(), heap_.end(), is_later);
     const std::uint32_t index = heap_.back().node;
@@ -138,20 +138,20 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
     const auto& forbidden =
         start_place == BanTable::kFree ? kNothingForbidden : bans.forbidden_starts(start_place);
     const auto& stays = stay_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(stay_place);
-    auto stay = std::partition_point(stays.begin(), stays.end(), [&](const BanTable::Span& span) {
-      return span.end < node.arrive + duration;
+    auto stay = std::partition_point(stays.begin(), stays.end(), [&](const BanTable::SafeStay& s) {
+      return s.until < node.arrive + duration;
     });
     for (; stay != stays.end(); ++stay) {
-      const Ticks start = allowed_start(forbidden, std::max(node.arrive, stay->begin - duration));
+      const Ticks start = allowed_start(forbidden, std::max(node.arrive, stay->from - duration));
       const Ticks arrive = start + duration;
       if (start > node.leave_by || arrive + rest >= bound) break;
-      if (arrive > stay->end) continue;
+      if (arrive > stay->until) continue;
       const auto k = static_cast<std::uint32_t>(stay - stays.begin());
       const std::size_t s = state(bans, w, k);
       if (stamp_[s] == run_ && best_[s] <= arrive) continue;
       stamp_[s] = run_;
       best_[s] = arrive;
-      visit({w, k, arrive, stay->end, index, {e, start}}, arrive + rest);
+      visit({w, k, arrive, stay->until, index, {e, start}}, arrive + rest);
     }
   }
 }
@@ -164,7 +164,7 @@ void PathFinder::mark(const PathTask& task, const BanTable& bans, const Node& no
   const auto mark_entries = [&](std::uint32_t place, Ticks from, Ticks to) {
     if (place == BanTable::kFree) return;
     for (const BanTable::Entry& entry : bans.entries(place))
-      if (bans.is_enabled(entry.slot) && entry.begin <= to && entry.end >= from)
+      if (bans.is_enabled(entry.slot) && entry.when.begin <= to && entry.when.end >= from)
         relevant[entry.slot] = 1;
   };
   // What ends this stay, unless it is too late to go on then. At the goal an agent could stay.

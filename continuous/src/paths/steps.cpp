@@ -29,9 +29,8 @@ bool collide(Scene& scene, ClassId a, const Step& p, ClassId b, const Step& q) {
   if (are_far(scene.instance(), p, q, scene.instance().radius(a) + scene.instance().radius(b)))
     return false;
   if (p.is_move && q.is_move) {
-    const auto offsets = scene.contacts().offsets(a, p.edge, b, q.edge);
-    const Ticks offset = q.begin - p.begin;
-    return offsets && offsets->lo <= offset && offset <= offsets->hi;
+    const auto& offsets = scene.contacts().offsets(a, p.edge, b, q.edge);
+    return offsets && offsets->contains(q.begin - p.begin);
   }
   // Two stays that are too near: whoever came later collides on its way already, as a move.
   if (!p.is_move && !q.is_move) return false;

@@ -27,16 +27,14 @@ std::vector<Ban> bans_around(Scene& scene, ClassId a, ClassId b, const std::vect
       const auto& near = contacts.near_edge(b, step.edge, a);
       for (const EdgeId e : near.edges)
         if (const auto offsets = contacts.offsets(b, step.edge, a, e))
-          bans.push_back(Ban::start(e, step.begin + offsets->lo, step.begin + offsets->hi + 1));
+          bans.push_back(Ban::start(e, starts_against(*offsets, step.begin)));
       for (const VertexId v : near.vertices)
         if (const auto w = contacts.window(b, step.edge, a, v))
-          bans.push_back(Ban::stay(v, step.begin + w->first, step.begin + w->last));
+          bans.push_back(Ban::stay(v, w->shifted(step.begin)));
     } else {
-      // A move that begins at s meets the stay if begin < s + last and end > s + first.
       for (const EdgeId e : contacts.near_vertex(b, step.vertex, a).edges)
         if (const auto w = contacts.window(a, e, b, step.vertex))
-          bans.push_back(Ban::start(e, step.begin - w->last + 1,
-                                    step.end >= kForever ? kForever : step.end - w->first));
+          bans.push_back(Ban::start(e, starts_meeting(*w, step.begin, step.end)));
     }
   }
   return bans;

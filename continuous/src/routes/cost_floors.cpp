@@ -42,7 +42,7 @@ Ticks last_pass(Scene& scene, AgentId resident, AgentId passer, const std::vecto
   std::vector<std::pair<EdgeId, Ticks>> touching;  // edges, and how long they are in contact
   for (const EdgeId e : scene.contacts().near_vertex(stander, place, mover).edges)
     if (const auto window = scene.contacts().window(mover, e, stander, place))
-      touching.emplace_back(e, window->last);
+      touching.emplace_back(e, window->end);
   if (touching.empty()) return 0;
   const auto touches = [&](EdgeId e) {
     return std::any_of(touching.begin(), touching.end(),

@@ -57,8 +57,8 @@ void RouteOrders::add_moves(const Traveller& i, const Traveller& j) {
     for (std::size_t l = 0; l < j.route->edges.size(); ++l)
       if (const auto& unsafe =
               contacts_.offsets(class_of(i), i.route->edges[k], class_of(j), j.route->edges[l]))
-        choices_.push_back({Constraint{i.first + k, j.first + l, unsafe->hi + 1},
-                            Constraint{j.first + l, i.first + k, -(unsafe->lo - 1)}});
+        choices_.push_back({Constraint{i.first + k, j.first + l, unsafe->end},
+                            Constraint{j.first + l, i.first + k, unsafe->mirrored().end}});
 }
 
 // Stay number l of agent j is before its move number l.
@@ -73,8 +73,8 @@ void RouteOrders::add_stays(const Traveller& i, const Traveller& j) {
       // It arrives late enough, or leaves early enough.
       const std::size_t arrival = l == 0 ? 0 : j.first + l - 1;
       const Ticks travel = l == 0 ? 0 : duration(j, l - 1);
-      Choice choice{{move, arrival, window->last - travel}, std::nullopt};
-      if (l < j.route->edges.size()) choice.second = Constraint{j.first + l, move, -window->first};
+      Choice choice{{move, arrival, window->end - travel}, std::nullopt};
+      if (l < j.route->edges.size()) choice.second = Constraint{j.first + l, move, -window->begin};
       choices_.push_back(choice);
     }
 }

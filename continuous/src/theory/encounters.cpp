@@ -7,6 +7,14 @@
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::continuous {
+namespace {
+
+/// Whether starts add much to a set of bans: none before tick 0 does.
+bool is_worth_a_ban(const TickInterval& starts, Ticks min_length) {
+  return !starts.is_empty() && starts.length() >= min_length && starts.end > 0;
+}
+
+}  // namespace
 
 void EncounterClauses::exclude(const Encounter& encounter, Ticks stay_i, Ticks stay_j,
                                FormulaWriter& writer) {
@@ -21,60 +29,53 @@ void EncounterClauses::exclude(const Encounter& encounter, Ticks stay_i, Ticks s
     exclude_stay(j, encounter.b, i, encounter.a, stay_i, writer);
 }
 
-// With offsets lo <= t - s <= hi unsafe, every start of e in [s, t - lo] collides with every start
-// of f in [t, s + hi]: the offsets of the corners are t - (t - lo) = lo and (s + hi) - s = hi, and
-// the others are between them.
+// Every start of e in [s, t - lo] collides with every start of f in [t, s + hi], where lo and hi
+// are the first and the last unsafe offset: those of the corners are t - (t - lo) = lo and (s + hi)
+// - s = hi, and the others are between them.
 void EncounterClauses::exclude_moves(Party i, const Step& a, Party j, const Step& b,
                                      FormulaWriter& writer) {
   const auto offsets = model_.contacts().offsets(i.c, a.edge, j.c, b.edge);
   QUADRILLE_REQUIRE(offsets.has_value(), "the moves collide");
   const Ticks s = a.begin, t = b.begin;
-  std::vector<Ban> bans_i{Ban::start(a.edge, s, t - offsets->lo + 1)};
-  std::vector<Ban> bans_j{Ban::start(b.edge, t, s + offsets->hi + 1)};
-  lift(i, bans_i, j, (bans_j[0].end - bans_j[0].begin) / 2, bans_j);
-  lift(j, bans_j, i, (bans_i[0].end - bans_i[0].begin) / 2, bans_i);
+  std::vector<Ban> bans_i{Ban::start(a.edge, {s, starts_before(*offsets, t).end})};
+  std::vector<Ban> bans_j{Ban::start(b.edge, {t, starts_against(*offsets, s).end})};
+  lift(i, bans_i, j, bans_j[0].when.length() / 2, bans_j);
+  lift(j, bans_j, i, bans_i[0].when.length() / 2, bans_i);
   add_pair(i.agent, std::move(bans_i), j.agent, std::move(bans_j), writer);
 }
 
-// Start s of a along e collides with start t of b along f if lo <= t - s <= hi. For all s of a ban
-// [x, y) that is t >= lo + y - 1 and t <= hi + x; for all bans of a together the largest of the
-// former and the smallest of the latter bound t.
+// What collides with all bans of a together is what collides with each of them.
 void EncounterClauses::lift(Party a, std::span<const Ban> bans_of_a, Party b, Ticks min_length,
                             std::vector<Ban>& bans_of_b) {
   const EdgeId known(bans_of_b.front().place);
   const auto& near = model_.contacts().near_edge(a.c, EdgeId(bans_of_a.front().place), b.c);
   for (const EdgeId f : near.edges) {
     if (f == known) continue;
-    Ticks begin = -kForever, end = kForever;
+    TickInterval starts{-kForever, kForever};
     for (const Ban& ban : bans_of_a) {
-      const auto offsets = model_.contacts().offsets(a.c, EdgeId(ban.place), b.c, f);
+      const auto& offsets = model_.contacts().offsets(a.c, EdgeId(ban.place), b.c, f);
       if (!offsets) {
-        end = begin;
+        starts = {};
         break;
       }
-      begin = std::max(begin, offsets->lo + ban.end - 1);
-      end = std::min(end, offsets->hi + ban.begin + 1);
-      if (end - begin < min_length) break;
+      const TickInterval hit = starts_against_all(*offsets, ban.when);
+      starts = {std::max(starts.begin, hit.begin), std::min(starts.end, hit.end)};
+      if (starts.length() < min_length) break;
     }
-    if (end > begin && end - begin >= min_length && end > 0)
-      bans_of_b.push_back(Ban::start(f, begin, end));
+    if (is_worth_a_ban(starts, min_length)) bans_of_b.push_back(Ban::start(f, starts));
   }
 }
 
-// A stay [arrive, depart] that breaks the ban (x, y) has arrive <= y - 1 and depart >= x + 1. A
-// move that starts at s with contact window (first, last) meets it if arrive < s + last and depart
-// > s + first; s >= y - last and s <= x - first are enough.
 void EncounterClauses::lift_over_stay(Party a, Party b, const Ban& stay, Ticks min_length,
                                       std::vector<Ban>& bans_of_a) {
   const VertexId v(stay.place);
   const EdgeId known(bans_of_a.front().place);
   for (const EdgeId e : model_.contacts().near_vertex(b.c, v, a.c).edges) {
     if (e == known) continue;
-    const auto window = model_.contacts().window(a.c, e, b.c, v);
+    const auto& window = model_.contacts().window(a.c, e, b.c, v);
     if (!window) continue;
-    const Ticks begin = stay.end - window->last, end = stay.begin - window->first + 1;
-    if (end > begin && end - begin >= min_length && end > 0)
-      bans_of_a.push_back(Ban::start(e, begin, end));
+    const TickInterval starts = starts_meeting_all(*window, stay.when);
+    if (is_worth_a_ban(starts, min_length)) bans_of_a.push_back(Ban::start(e, starts));
   }
 }
 
@@ -82,24 +83,24 @@ void EncounterClauses::exclude_stay(Party mover, const Step& move, Party stander
                                     Ticks final_from, FormulaWriter& writer) {
   const auto window = model_.contacts().window(mover.c, move.edge, stander.c, stay.vertex);
   QUADRILLE_REQUIRE(window.has_value(), "the move meets the stay");
-  const Ticks s = move.begin, until = s + window->last;
-  if (stay.end == kForever && final_from < until) {
-    // Whoever stays for good before `until` is in the way of this move; see keep_off_goal.
+  const TickInterval contact = window->shifted(move.begin);
+  if (stay.end == kForever && final_from < contact.end) {
+    // Whoever stays for good before the contact ends is in the way of this move; see keep_off_goal.
     bool is_new = false;
-    const ObstacleId id = model_.keep_off_goal(mover.agent, stander.agent, until, writer, is_new);
+    const ObstacleId id =
+        model_.keep_off_goal(mover.agent, stander.agent, contact.end, writer, is_new);
     if (is_new) add_price(id, writer);
     return;
   }
-  // Any `from` in [s + first, depart) gives a sound pair: starts in [s, from - first] are in
-  // contact during all of (from, until), see lift_over_stay. It is chosen half-way through the
-  // contact.
-  const Ticks middle = s + window->first + (window->last - window->first) / 2;
-  const Ticks depart = stay.end == kForever ? until : stay.end;
-  const Ticks from = std::min({depart - 1, until - 1, std::max(stay.begin, middle)});
-  std::vector<Ban> bans_mover{Ban::start(move.edge, s, from - window->first + 1)};
-  const Ban ban_stander = Ban::stay(stay.vertex, from, until);
-  lift_over_stay(mover, stander, ban_stander, (bans_mover[0].end - bans_mover[0].begin) / 4,
-                 bans_mover);
+  // Any `from` before the departure gives a sound pair: all starts of the mover's ban are in
+  // contact during all of the stander's. It is chosen half-way through the contact.
+  const Ticks middle = contact.begin + contact.length() / 2;
+  const Ticks depart = stay.end == kForever ? contact.end : stay.end;
+  const Ticks from = std::min({depart - 1, contact.end - 1, std::max(stay.begin, middle)});
+  const Ban ban_stander = Ban::stay(stay.vertex, {from, contact.end});
+  const TickInterval starts{move.begin, starts_meeting_all(*window, ban_stander.when).end};
+  std::vector<Ban> bans_mover{Ban::start(move.edge, starts)};
+  lift_over_stay(mover, stander, ban_stander, starts.length() / 4, bans_mover);
   add_pair(mover.agent, std::move(bans_mover), stander.agent, {ban_stander}, writer);
 }
 

@@ -87,10 +87,9 @@ ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
   return at->second;
 }
 
-// Let the resident arrive for good before `tick`, that is at tick - 1 or earlier. A move that
-// begins at s and is in contact with the goal until s + last collides with it if the arrival is
-// before s + last, and s >= tick - last is enough for that. A stay near the goal collides if it
-// ends after the arrival, and ending after tick - 1 is enough.
+// Let the resident arrive for good before `tick`, that is at tick - 1 or earlier. Moves that
+// collide with a stay from tick - 1 on for ever collide with one from earlier on. A stay near the
+// goal collides if it ends after the arrival, and ending after tick - 1 is enough.
 ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, FormulaWriter& writer,
                                 bool& is_new) {
   const auto [at, inserted] =
@@ -104,9 +103,9 @@ ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, For
   std::vector<Ban> bans;
   for (const EdgeId e : near.edges)
     if (const auto window = contacts().window(a, e, b, goal))
-      bans.push_back(Ban::start(e, tick - window->last, kForever));
+      bans.push_back(Ban::start(e, starts_meeting(*window, tick - 1, kForever)));
   for (const VertexId v : near.vertices)
-    if (contacts().overlap(a, v, b, goal)) bans.push_back(Ban::stay(v, tick - 1, kForever));
+    if (contacts().overlap(a, v, b, goal)) bans.push_back(Ban::stay(v, {tick - 1, kForever}));
   obstacles_.push_back({agent, later, std::move(bans), {resident}});
   return at->second;
 }

@@ -42,8 +42,8 @@ void add_bans(const Instance& instance, AgentId agent, const Path& path, Draw& d
       return static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(size) - 1));
     };
     const Ban ban = roadmap.num_edges() > 0 && draw.number(0, 1) == 0
-                        ? Ban::start(EdgeId(random_index(roadmap.num_edges())), begin, end)
-                        : Ban::stay(VertexId(random_index(roadmap.num_vertices())), begin, end);
+                        ? Ban::start(EdgeId(random_index(roadmap.num_edges())), {begin, end})
+                        : Ban::stay(VertexId(random_index(roadmap.num_vertices())), {begin, end});
     if (!uses.breaks(ban)) table.add(std::vector<Ban>{ban});
   }
 }

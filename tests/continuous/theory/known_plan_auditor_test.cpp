@@ -39,7 +39,7 @@ class KnownPlanAudit : public testing::Test {
   }
   Lit start_within(std::size_t agent, Ticks begin, Ticks end) {
     bool is_new = false;
-    const ObstacleId id = model_.usage(AgentId(agent), {Ban::start(EdgeId(agent), begin, end)},
+    const ObstacleId id = model_.usage(AgentId(agent), {Ban::start(EdgeId(agent), {begin, end})},
                                        AgentId(1 - agent), writer_, is_new);
     return model_.obstacles()[id].allowed;
   }

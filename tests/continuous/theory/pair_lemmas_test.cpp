@@ -95,7 +95,7 @@ class PairLemmaAudit {
       }
       if (vertex == instance_.agent(i).start && begin < 0) continue;
       bool is_new = false;
-      const ObstacleId id = model.usage(i, {Ban::stay(vertex, begin, end)}, i, writer, is_new);
+      const ObstacleId id = model.usage(i, {Ban::stay(vertex, {begin, end})}, i, writer, is_new);
       if (is_new) active.push_back(id);
     }
   }

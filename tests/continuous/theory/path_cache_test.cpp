@@ -27,8 +27,8 @@ class ContinuousPathCache : public testing::Test {
 TEST_F(ContinuousPathCache, KnowsWhatFollowsFromAPath) {
   const KnownPathRef known = remember(5);
   EXPECT_EQ(known->path, after(5));
-  EXPECT_TRUE(known->uses.breaks(Ban::start(EdgeId(0), 5, 6)));
-  EXPECT_FALSE(known->uses.breaks(Ban::start(EdgeId(0), 6, kForever)));
+  EXPECT_TRUE(known->uses.breaks(Ban::start(EdgeId(0), {5, 6})));
+  EXPECT_FALSE(known->uses.breaks(Ban::start(EdgeId(0), {6, kForever})));
   ASSERT_EQ(known->steps.size(), 3u);  // the wait, the move, and the stay at the goal
   EXPECT_EQ(known->steps[1].begin, 5);
   EXPECT_EQ(known->steps[2].begin, 1005);
@@ -55,7 +55,7 @@ TEST_F(ContinuousPathCache, ReturnsNoPathThatBreaksABan) {
   for (const Ticks wait : {7, 3, 5}) static_cast<void>(remember(wait));
   const auto obeys = [](Ticks end) {
     return [=](const KnownPathRef& known) {
-      return !known->uses.breaks(Ban::start(EdgeId(0), 0, end));
+      return !known->uses.breaks(Ban::start(EdgeId(0), {0, end}));
     };
   };
   EXPECT_EQ(cache_.cheapest(kForever, obeys(4))->path, after(5));

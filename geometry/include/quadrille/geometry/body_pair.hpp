@@ -7,35 +7,9 @@
 
 #include "quadrille/geometry/body.hpp"
 #include "quadrille/geometry/motion.hpp"
+#include "quadrille/geometry/tick_interval.hpp"
 
 namespace quadrille::geometry {
-
-/// Start-time differences t_b - t_a, in ticks; both ends belong to it; lo <= hi.
-struct OffsetInterval {
-  Ticks lo = 0;
-  Ticks hi = 0;
-
-  friend constexpr bool operator==(const OffsetInterval&, const OffsetInterval&) = default;
-};
-
-/// When a moving body is in contact with a place, in ticks since the motion began.
-///
-/// A body that stands at the place during the closed real interval [arrive, leave], arrive <= leave
-/// whole ticks since the motion began, collides with the moving one if and only if
-///     arrive < last  and  leave > first.
-/// With the real times of contact forming the open interval (a, b): first = floor(a), last =
-/// ceil(b). An overlap at the very start of the motion gives first = -1, one at its very end last =
-/// duration + 1, because there the end of the motion itself belongs to the contact. first < last.
-struct ContactWindow {
-  Ticks first = 0;
-  Ticks last = 0;
-
-  /// The condition above.
-  [[nodiscard]] constexpr bool meets(Ticks arrive, Ticks leave) const noexcept {
-    return arrive < last && leave > first;
-  }
-  friend constexpr bool operator==(const ContactWindow&, const ContactWindow&) = default;
-};
 
 /// The free space between two bodies in length units, as a certified pair of bounds:
 /// at_least <= exact value <= at_most. Both are 0 when the bodies touch or collide, which `collide`
@@ -65,16 +39,20 @@ class BodyPair {
   /// The offsets d = t_b - t_a at which the bodies collide at some moment while both motions run:
   /// a's during [t_a, t_a + a.duration], b's during [t_b, t_b + b.duration], ends included. They
   /// form one run of integers; none if there is no such integer. With the arguments and the bodies
-  /// swapped the result is [-hi, -lo].
-  [[nodiscard]] std::optional<OffsetInterval> unsafe_offsets(const Motion& a,
-                                                             const Motion& b) const;
+  /// swapped the result is mirrored.
+  [[nodiscard]] std::optional<TickInterval> unsafe_offsets(const Motion& a, const Motion& b) const;
 
   /// Whether `offset` is in unsafe_offsets(a, b). Any offset is allowed.
   [[nodiscard]] bool collide(const Motion& a, const Motion& b, Ticks offset) const;
 
-  /// When b's body, standing at `place`, is in the way of a's motion; none if never.
-  [[nodiscard]] std::optional<ContactWindow> contact_window(const Motion& a,
-                                                            const Point& place) const;
+  /// When b's body, standing at `place`, is in the way of a's motion, as a stretch in ticks since
+  /// the motion began; none if never. A body that stands there during [arrive, leave] collides with
+  /// the moving one if and only if the stretch meets that. With the real times of contact forming
+  /// the open interval (x, y): begin = floor(x), end = ceil(y). An overlap at the very start of the
+  /// motion gives begin = -1, one at its very end end = duration + 1, because there the end of the
+  /// motion itself belongs to the contact. Not empty.
+  [[nodiscard]] std::optional<TickInterval> contact_window(const Motion& a,
+                                                           const Point& place) const;
 
   /// Whether the interiors meet when a is at `place_a` and b at `place_b`.
   [[nodiscard]] bool overlap(const Point& place_a, const Point& place_b) const;
@@ -104,10 +82,9 @@ class BodyPair {
 };
 
 /// BodyPair(body_a, body_b).unsafe_offsets(a, b).
-[[nodiscard]] inline std::optional<OffsetInterval> unsafe_offsets(const Body& body_a,
-                                                                  const Motion& a,
-                                                                  const Body& body_b,
-                                                                  const Motion& b) {
+[[nodiscard]] inline std::optional<TickInterval> unsafe_offsets(const Body& body_a, const Motion& a,
+                                                                const Body& body_b,
+                                                                const Motion& b) {
   return BodyPair(body_a, body_b).unsafe_offsets(a, b);
 }
 
