@@ -13,6 +13,7 @@ enum class ExitCode : int {
   usage = 64,       ///< The command line is wrong.
   bad_input = 65,   ///< A file cannot be read, or what it says is wrong.
   internal = 70,    ///< A check of the program's own work failed.
+  memory = 71,      ///< The system has no more memory, other than within a search.
   output = 74,      ///< An output cannot be written.
 };
 
@@ -27,6 +28,7 @@ inline constexpr const char* kExitCodesHelp =
     "  64  wrong command line\n"
     "  65  bad input: a file that cannot be read, or that is wrong\n"
     "  70  a check of the program's own work failed\n"
+    "  71  the system has no more memory, other than within a search\n"
     "  74  an output cannot be written\n";
 
 }  // namespace quadrille::cli

@@ -68,8 +68,8 @@ int main(int argc, char** argv) {
   try {
     code = quadrille::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    quadrille::cli::print_stderr("quadrille: the system has no more memory\n");
-    code = ExitCode::unknown;
+    quadrille::cli::print_stderr("quadrille: error: the system has no more memory\n");
+    code = ExitCode::memory;
   } catch (const std::exception& error) {
     quadrille::cli::report_error({quadrille::ErrorCode::internal, error.what(), {}});
   }

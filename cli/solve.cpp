@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <new>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -259,14 +258,7 @@ SolveOutcome SolveRun::search(const discrete::Instance& instance) {
   discrete::SolveOptions options = arguments_.request.options;
   if (line.active())
     options.on_progress = [&line](const auto& progress) { line.show(progress_text(progress)); };
-  try {
-    return solve(instance, options);
-  } catch (const std::bad_alloc&) {
-    SolveOutcome outcome;
-    outcome.stop = StopReason::memory;
-    outcome.explanation = "the system has no more memory";
-    return outcome;
-  }
+  return solve(instance, options);
 }
 
 ExitCode SolveRun::deliver(const Input& input, SolveOutcome outcome) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <new>
 #include <sstream>
 #include <utility>
 
@@ -42,14 +41,7 @@ SolveOutcome search(const Instance& instance, const RoadmapSolveRequest& request
     options.on_progress = [&](const continuous::Progress& progress) {
       line.show(progress_text(progress, instance.resolution()));
     };
-  try {
-    return solve(instance, options);
-  } catch (const std::bad_alloc&) {
-    SolveOutcome outcome;
-    outcome.stop = StopReason::memory;
-    outcome.explanation = "the system has no more memory";
-    return outcome;
-  }
+  return solve(instance, options);
 }
 
 Result<std::string> plan_text(const RoadmapInput& input, const continuous::Plan& plan,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,6 +93,7 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     if (is_blocked(feasibility.blocked)) return;
     some_plan = std::move(feasibility.plan);
   }
+  outcome.plan = some_plan;  // the answer if memory runs out
   ContinuousTheory theory(model);
   std::optional<KnownPlanAuditor> auditor;
   if (options.known_plan) auditor.emplace(model, *options.known_plan);
@@ -103,14 +105,16 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   CostProblem problem(model, engine, theory, in_search);
 
   std::optional<Cost> best;
-  limits.set_ticker(0.25, [&] {
+  limits.set_ticker(options.progress_interval_s, [&] {
     if (options.on_progress)
       options.on_progress({outcome.lower_bound, best, limits.elapsed_wall(), limits.conflicts()});
   });
   const auto on_report = [&](const CostReport& report) {
     outcome.lower_bound = std::max(floor, report.lower_bound);
     if (!report.plan) return;
-    best = cost(*report.plan, options.objective);
+    const Cost cost_of_plan = cost(*report.plan, options.objective);
+    if (best != cost_of_plan) outcome.plan = report.plan;  // the answer if memory runs out
+    best = cost_of_plan;
     if (is_close(options, *best, outcome.lower_bound)) limits.stop(StopReason::gap);
   };
   const auto report =
@@ -120,6 +124,7 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
                              limits, outcome.statistics, on_report)
           : search_makespan(problem, std::move(some_plan), limits, outcome.statistics, on_report);
   outcome.lower_bound = std::max(floor, report.lower_bound);
+  outcome.plan.reset();
   engine.add_statistics(outcome.statistics);
   outcome.statistics.checks = theory.num_checks();
   if (auditor && auditor->complaint()) {
@@ -167,6 +172,36 @@ void check_plan(const Instance& instance, const SolveOptions& options, SolveOutc
   outcome.cost = cost;
 }
 
+/// Fills in what was found and proved, and checks its plan. Throws what callbacks throw.
+void answer(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
+            SolveOutcome& outcome) {
+  try {
+    try {
+      find_plan(instance, options, limits, outcome);
+    } catch (const std::bad_alloc&) {
+      // The search's memory is free again: the bound and the best plan are the answer.
+      outcome.stop = StopReason::memory;
+      outcome.status = outcome.plan ? Status::feasible : Status::unknown;
+      if (outcome.plan && cost(*outcome.plan, options.objective) == outcome.lower_bound)
+        outcome.status = Status::optimal;
+    }
+    if (outcome.plan && !outcome.internal_error) check_plan(instance, options, outcome);
+  } catch (const std::bad_alloc&) {
+    outcome.stop = StopReason::memory;
+    outcome.status = Status::unknown;
+    outcome.plan.reset();
+    outcome.cost.reset();
+  }
+  if (outcome.status == Status::optimal || outcome.status == Status::infeasible)
+    outcome.stop = StopReason::none;
+}
+
+std::string stop_text(StopReason reason) {
+  if (reason == StopReason::gap) return "the gap is as small as was asked for";
+  if (reason == StopReason::memory) return "no more memory";  // short: needs no memory itself
+  return "stopped by a limit: " + std::string(to_string(reason));
+}
+
 }  // namespace
 
 std::string_view to_string(System system) noexcept {
@@ -185,19 +220,16 @@ SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
   if (auto error = check_options(instance, options))
     outcome.internal_error = std::move(error);
   else
-    find_plan(instance, options, limits, outcome);
+    answer(instance, options, limits, outcome);
   if (options.known_plan && !outcome.internal_error) check_known_plan(options, outcome);
-  if (outcome.plan && !outcome.internal_error) check_plan(instance, options, outcome);
   if (outcome.internal_error) {
     outcome.status = Status::unknown;
     outcome.plan.reset();
     outcome.cost.reset();
     outcome.explanation = outcome.internal_error->message;
   } else if (outcome.status == Status::unknown || outcome.status == Status::feasible) {
-    outcome.stop = limits.reason();
-    outcome.explanation = outcome.stop == StopReason::gap
-                              ? "the gap is as small as was asked for"
-                              : "stopped by a limit: " + std::string(to_string(outcome.stop));
+    if (outcome.stop == StopReason::none) outcome.stop = limits.reason();
+    outcome.explanation = stop_text(outcome.stop);
   }
   outcome.statistics.cpu_s = limits.elapsed_cpu();
   outcome.statistics.wall_s = limits.elapsed_wall();

@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <thread>
 #include <tuple>
@@ -38,7 +39,7 @@ class Rounds {
     decide();
     changed_.notify_all();
     changed_.wait(lock, [&] {
-      return winner_ || std::all_of(workers_.begin(), workers_.end(), [&](const Worker& other) {
+      return over_ || std::all_of(workers_.begin(), workers_.end(), [&](const Worker& other) {
                return other.has_ended || other.round >= me.round;
              });
     });
@@ -50,6 +51,13 @@ class Rounds {
     workers_[worker].has_ended = true;
     workers_[worker].has_proof = has_proof;
     decide();
+    changed_.notify_all();
+  }
+
+  /// Ends all searches, without an answer.
+  void cancel() {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
     changed_.notify_all();
   }
 
@@ -136,21 +144,28 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
     try {
       WorkerCompanion companion(rounds, worker, account);
       outcomes[worker] = solve_alone(instance, options_of(instance, options, worker), &companion);
+    } catch (const std::bad_alloc&) {
+      outcomes[worker].stop = StopReason::memory;  // the others may still come to an end
     } catch (...) {
       failures[worker] = std::current_exception();
+      rounds.cancel();
     }
     rounds.end(worker, !failures[worker] && is_proof(outcomes[worker]));
   };
   {
     std::vector<std::jthread> threads;
-    for (std::size_t worker = 1; worker < options.threads; ++worker)
-      threads.emplace_back(work, worker);
+    for (std::size_t worker = 1; worker < options.threads; ++worker) {
+      try {
+        threads.emplace_back(work, worker);
+      } catch (const std::exception&) {  // no more threads, or no more memory for one
+        rounds.end(worker, false);
+      }
+    }
     work(0);
   }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
   const auto winner = rounds.winner();
-  if (!winner)
-    for (const std::exception_ptr& failure : failures)
-      if (failure) std::rethrow_exception(failure);
   SolveOutcome& answer = outcomes[winner.value_or(0)];
   for (const SolveOutcome& other : outcomes)
     if (!winner) answer.lower_bound = std::max(answer.lower_bound, other.lower_bound);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -39,7 +40,13 @@ class Search final : private sat::PlanStore {
       upper_->start(limits_);
       consider_stop();
     }
-    if (!limits_.exhausted_now()) search(distances);
+    try {
+      if (!limits_.exhausted_now()) search(distances);
+    } catch (const std::bad_alloc&) {
+      // The search's memory is free again: the bound and the best plan are the answer.
+      run_ = nullptr;
+      outcome_.stop = StopReason::memory;
+    }
     if (!outcome_.internal_error && !outcome_.plan && upper_ && upper_->cost()) {
       outcome_.plan = upper_->plan();
       outcome_.status =
@@ -66,7 +73,7 @@ class Search final : private sat::PlanStore {
   }
 
   void listen() {
-    limits_.set_ticker(0.25, [this] {
+    limits_.set_ticker(options_.progress_interval_s, [this] {
       if (!options_.on_progress) return;
       options_.on_progress({outcome_.lower_bound, upper_ ? upper_->cost() : std::nullopt,
                             limits_.elapsed_wall(), limits_.conflicts()});
@@ -224,6 +231,33 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   return std::nullopt;
 }
 
+/// Fills in what was found, proved and checked. Throws what callbacks throw, and bad_alloc when
+/// memory does not even suffice for the answer.
+void answer(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
+            Companion* companion, SolveOutcome& outcome) {
+  const Feasibility feasibility = check_feasibility(instance);
+  if (!feasibility.feasible) {
+    outcome.status = Status::infeasible;
+    outcome.explanation = feasibility.reason;
+    return;
+  }
+  Search(instance, options, limits, outcome, companion).run();
+  if (!outcome.plan) return;
+  check_plan(instance, options, outcome);
+  if (outcome.internal_error && outcome.stop == StopReason::memory) {
+    // It was being changed when memory ran out.
+    outcome.internal_error.reset();
+    outcome.plan.reset();
+    outcome.status = Status::unknown;
+  }
+}
+
+std::string stop_text(StopReason reason) {
+  if (reason == StopReason::none) return "a path needs more timesteps than the solver supports";
+  if (reason == StopReason::memory) return "no more memory";  // short: needs no memory itself
+  return "stopped by the limit: " + std::string(to_string(reason));
+}
+
 }  // namespace
 
 SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
@@ -247,20 +281,19 @@ SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
     outcome.internal_error = std::move(error);
     return finish();
   }
-  const Feasibility feasibility = check_feasibility(instance);
-  if (!feasibility.feasible) {
-    outcome.status = Status::infeasible;
-    outcome.explanation = feasibility.reason;
-    return finish();
+  try {
+    answer(instance, options, limits, companion, outcome);
+  } catch (const std::bad_alloc&) {
+    outcome.status = Status::unknown;
+    outcome.plan.reset();
+    outcome.cost.reset();
+    outcome.stop = StopReason::memory;
   }
-  Search(instance, options, limits, outcome, companion).run();
-  if (outcome.plan) check_plan(instance, options, outcome);
-  if (outcome.status == Status::feasible) outcome.stop = limits.reason();
-  if (outcome.status == Status::unknown) {
-    outcome.stop = limits.reason();
-    outcome.explanation = outcome.stop == StopReason::none
-                              ? "a path needs more timesteps than the solver supports"
-                              : "stopped by the limit: " + std::string(to_string(outcome.stop));
+  if (outcome.status == Status::feasible || outcome.status == Status::unknown) {
+    if (outcome.stop == StopReason::none) outcome.stop = limits.reason();
+    if (outcome.status == Status::unknown) outcome.explanation = stop_text(outcome.stop);
+  } else {
+    outcome.stop = StopReason::none;
   }
   return finish();
 }

@@ -3,6 +3,8 @@
 #include "quadrille/sat/engine.hpp"
 
 #include <cadical.hpp>
+#include <exception>
+#include <memory>
 #include <tracer.hpp>
 #include <utility>
 #include <vector>
@@ -13,19 +15,73 @@
 namespace quadrille::sat {
 namespace {
 
+/// The border between C++ with exceptions and CaDiCaL, whose state is lost when one passes through
+/// it.
+///
+/// What a callback throws is kept until CaDiCaL has returned; callbacks say no more than what lets
+/// it return soon. What CaDiCaL throws itself, for want of memory, passes; nothing may be done with
+/// the solver after that, not even destroy it.
+class Border {
+ public:
+  /// A callback's work; `otherwise` is the answer once something was thrown.
+  template <class Answer, class Work>
+  Answer callback(Answer otherwise, const Work& work) {
+    if (thrown_) return otherwise;
+    try {
+      return work();
+    } catch (...) {
+      if (is_solver_lost_) throw;  // by a call of the solver within the callback
+      thrown_ = std::current_exception();
+      return otherwise;
+    }
+  }
+  template <class Work>
+  void notification(const Work& work) {
+    static_cast<void>(callback(0, [&] {
+      work();
+      return 0;
+    }));
+  }
+  /// A call of the solver.
+  template <class Call>
+  decltype(auto) solver(const Call& call) {
+    try {
+      return call();
+    } catch (...) {
+      is_solver_lost_ = true;
+      throw;
+    }
+  }
+
+  [[nodiscard]] bool has_thrown() const noexcept { return thrown_ != nullptr; }
+  [[nodiscard]] bool is_solver_lost() const noexcept { return is_solver_lost_; }
+  void lose_solver() noexcept { is_solver_lost_ = true; }
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  std::exception_ptr thrown_;
+  bool is_solver_lost_ = false;
+};
+
 /// Hands each clause that the solver derives to the observer.
 class DerivedClauseTracer final : public CaDiCaL::Tracer {
  public:
-  explicit DerivedClauseTracer(ClauseObserver& observer) : observer_(observer) {}
+  DerivedClauseTracer(ClauseObserver& observer, Border& border)
+      : observer_(observer), border_(border) {}
   void add_derived_clause(std::uint64_t, bool, const std::vector<int>& clause,
                           const std::vector<std::uint64_t>&) override {
-    lits_.clear();
-    for (const int literal : clause) lits_.push_back(Lit::from_dimacs(literal));
-    observer_.on_learned(lits_);
+    border_.notification([&] {
+      lits_.clear();
+      for (const int literal : clause) lits_.push_back(Lit::from_dimacs(literal));
+      observer_.on_learned(lits_);
+    });
   }
 
  private:
   ClauseObserver& observer_;
+  Border& border_;
   std::vector<Lit> lits_;
 };
 
@@ -52,39 +108,25 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
         keeps_clauses_(options.keep_clauses),
         observer_(options.observer),
         host_(theory != nullptr ? *theory : no_theory_,
-              {[this] { return new_lit(); }, [this](const Lemma& lemma) { count(lemma); }}) {
-    // Options can be set only before anything else is done with the solver.
-    if (!options.inprocessing) solver_.configure("plain");
-    set("quiet", 1);
-    set("seed", static_cast<int>(options.seed));
-    // A propagator's clauses make these useless or wrong: incremental lazy backtracking, local
-    // search and lucky phases look at the clauses alone.
-    set("ilb", 0);
-    set("walk", 0);
-    set("lucky", 0);
-    set("phase", options.initial_phase ? 1 : 0);  // 0: few of the many usages happen
-    set("exteagerreasons", 0);
-    set("exteagerrecalc", 0);
-    set("chrono", options.chronological ? 1 : 0);
-    set("chronolevelim", 20);
-    set("bumpreason", options.bump_reasons ? 1 : 0);
-    are_reasons_forgettable = true;
-    solver_.connect_terminator(this);
-    solver_.connect_learner(this);
-    if (observer_ != nullptr) {
-      tracer_ = std::make_unique<DerivedClauseTracer>(*observer_);
-      solver_.connect_proof_tracer(tracer_.get(), false);
+              {[this] { return new_lit(); }, [this](const Lemma& lemma) { count(lemma); }}),
+        solver_(std::make_unique<CaDiCaL::Solver>()) {
+    try {
+      set_up(options);
+    } catch (...) {
+      abandon_solver();
+      throw;
     }
-    solver_.connect_external_propagator(this);
-    // Without any observed variable the solver would not ask the propagator for clauses.
-    if (observed_) static_cast<void>(new_lit());
   }
 
   ~Impl() override {
-    solver_.disconnect_external_propagator();
-    if (tracer_) solver_.disconnect_proof_tracer(tracer_.get());
-    solver_.disconnect_learner();
-    solver_.disconnect_terminator();
+    if (border_.is_solver_lost()) {
+      abandon_solver();
+      return;
+    }
+    solver_->disconnect_external_propagator();
+    if (tracer_) solver_->disconnect_proof_tracer(tracer_.get());
+    solver_->disconnect_learner();
+    solver_->disconnect_terminator();
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -93,7 +135,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     const int variable = ++num_variables_;
     host_.add_variable(variable);
     // Observed before it occurs anywhere: the solver is silently wrong otherwise.
-    if (observed_) solver_.add_observed_var(variable);
+    if (observed_) border_.solver([&] { solver_->add_observed_var(variable); });
     return Lit::from_dimacs(variable);
   }
 
@@ -112,27 +154,17 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   }
 
   Verdict solve(std::span<const Lit> assumptions, LimitMonitor& limits, const SolveBudget& budget) {
+    QUADRILLE_REQUIRE(!border_.has_thrown() && !border_.is_solver_lost(),
+                      "no earlier call has thrown an exception");
     ++num_solves_;
     limits_ = &limits;
     host_.begin_solve();
     assumptions_.assign(assumptions.begin(), assumptions.end());
-    for (const Lit lit : assumptions_) solver_.assume(lit.dimacs());
-    if (budget.conflicts) solver_.limit("conflicts", *budget.conflicts);
-    if (budget.decisions) solver_.limit("decisions", *budget.decisions);
-    const int answer = limits.exhausted_now() ? 0 : solver_.solve();
+    const int answer = limits.exhausted_now() ? 0 : border_.solver([&] { return search(budget); });
     limits_ = nullptr;
+    border_.rethrow();
     // Adding a clause ends the solver's knowledge of its answer: fetch that first.
-    failed_.clear();
-    if (answer == 20)
-      for (const Lit lit : assumptions_)
-        if (solver_.failed(lit.dimacs())) failed_.push_back(lit);
-    model_.clear();
-    if (answer == 10) {
-      model_.resize(static_cast<std::size_t>(num_variables_) + 1);
-      for (int v = 1; v <= num_variables_; ++v)
-        model_[static_cast<std::size_t>(v)] = solver_.val(v) > 0;
-    }
-    if (answer == 0) solver_.reset_assumptions();
+    fetch(answer);
     // After a conflict the solver leaves the rest of the queue alone; it is still true.
     for (const QueuedLemma& rest : host_.take_queue()) add_to_solver(rest.clause);
     // A theory that stops has not looked at the model.
@@ -160,8 +192,12 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     return std::exchange(kept_, {});
   }
 
-  void set_phase(Lit lit) { solver_.phase(lit.dimacs()); }
-  void clear_phase(Lit lit) { solver_.unphase(lit.variable()); }
+  void set_phase(Lit lit) {
+    border_.solver([&] { solver_->phase(lit.dimacs()); });
+  }
+  void clear_phase(Lit lit) {
+    border_.solver([&] { solver_->unphase(lit.variable()); });
+  }
 
   void add_statistics(Statistics& statistics) const {
     statistics.sat_calls += num_solves_;
@@ -174,37 +210,120 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   }
 
  private:
+  void set_up(const EngineOptions& options) {
+    // Options can be set only before anything else is done with the solver.
+    if (!options.inprocessing) solver_->configure("plain");
+    set("quiet", 1);
+    set("seed", static_cast<int>(options.seed));
+    // A propagator's clauses make these useless or wrong: incremental lazy backtracking, local
+    // search and lucky phases look at the clauses alone.
+    set("ilb", 0);
+    set("walk", 0);
+    set("lucky", 0);
+    set("phase", options.initial_phase ? 1 : 0);  // 0: few of the many usages happen
+    set("exteagerreasons", 0);
+    set("exteagerrecalc", 0);
+    set("chrono", options.chronological ? 1 : 0);
+    set("chronolevelim", 20);
+    set("bumpreason", options.bump_reasons ? 1 : 0);
+    are_reasons_forgettable = true;
+    solver_->connect_terminator(this);
+    solver_->connect_learner(this);
+    if (observer_ != nullptr) {
+      tracer_ = std::make_unique<DerivedClauseTracer>(*observer_, border_);
+      solver_->connect_proof_tracer(tracer_.get(), false);
+    }
+    solver_->connect_external_propagator(this);
+    // Without any observed variable the solver would not ask the propagator for clauses.
+    if (observed_) static_cast<void>(new_lit());
+  }
+
   void set(const char* name, int value) {
-    QUADRILLE_REQUIRE(solver_.set(name, value), "the solver knows its option");
+    QUADRILLE_REQUIRE(solver_->set(name, value), "the solver knows its option");
+  }
+
+  /// Its memory is not given back: only the solver knows where it is, and what it knows is wrong.
+  void abandon_solver() noexcept {
+    static_cast<void>(solver_.release());
+    static_cast<void>(tracer_.release());
+  }
+
+  int search(const SolveBudget& budget) {
+    for (const Lit lit : assumptions_) solver_->assume(lit.dimacs());
+    if (budget.conflicts) solver_->limit("conflicts", *budget.conflicts);
+    if (budget.decisions) solver_->limit("decisions", *budget.decisions);
+    return solver_->solve();
+  }
+
+  void fetch(int answer) {
+    failed_.clear();
+    model_.clear();
+    if (answer == 20) failed_.reserve(assumptions_.size());
+    if (answer == 10) model_.resize(static_cast<std::size_t>(num_variables_) + 1);
+    border_.solver([&] {
+      if (answer == 20)
+        for (const Lit lit : assumptions_)
+          if (solver_->failed(lit.dimacs())) failed_.push_back(lit);
+      for (std::size_t v = 1; v < model_.size(); ++v)
+        model_[v] = solver_->val(static_cast<int>(v)) > 0;
+      if (answer == 0) solver_->reset_assumptions();
+    });
   }
 
   void add_to_solver(std::span<const Lit> clause) {
-    for (const Lit lit : clause) solver_.add(lit.dimacs());
-    solver_.add(0);
+    border_.solver([&] {
+      for (const Lit lit : clause) solver_->add(lit.dimacs());
+      solver_->add(0);
+    });
+    border_.rethrow();
   }
 
   // CaDiCaL::ExternalPropagator
-  void notify_assignment(const std::vector<int>& lits) override { host_.notify_assignment(lits); }
-  void notify_new_decision_level() override { host_.notify_new_decision_level(); }
-  void notify_backtrack(std::size_t level) override { host_.notify_backtrack(level); }
-  bool cb_check_found_model(const std::vector<int>&) override { return host_.check_found_model(); }
-  int cb_propagate() override { return host_.propagate(); }
-  int cb_decide() override { return host_.decide(); }
-  int cb_add_reason_clause_lit(int propagated) override {
-    return host_.next_reason_literal(propagated);
+  void notify_assignment(const std::vector<int>& lits) override {
+    border_.notification([&] { host_.notify_assignment(lits); });
   }
-  bool cb_has_external_clause(bool& forgettable) override { return host_.has_clause(forgettable); }
-  int cb_add_external_clause_lit() override { return host_.next_clause_literal(); }
+  void notify_new_decision_level() override {
+    border_.notification([&] { host_.notify_new_decision_level(); });
+  }
+  void notify_backtrack(std::size_t level) override {
+    border_.notification([&] { host_.notify_backtrack(level); });
+  }
+  bool cb_check_found_model(const std::vector<int>&) override {
+    return border_.callback(true, [&] { return host_.check_found_model(); });
+  }
+  int cb_propagate() override {
+    return border_.callback(0, [&] { return host_.propagate(); });
+  }
+  int cb_decide() override {
+    return border_.callback(0, [&] { return host_.decide(); });
+  }
+  // Once something was thrown: that it was implied by nothing, which ends the search soon and is
+  // as good as any reason then.
+  int cb_add_reason_clause_lit(int propagated) override {
+    const int literal = border_.callback(0, [&] { return host_.next_reason_literal(propagated); });
+    if (!border_.has_thrown()) return literal;
+    is_bare_reason_told_ = !is_bare_reason_told_;
+    return is_bare_reason_told_ ? propagated : 0;
+  }
+  bool cb_has_external_clause(bool& forgettable) override {
+    return border_.callback(false, [&] { return host_.has_clause(forgettable); });
+  }
+  int cb_add_external_clause_lit() override {
+    return border_.callback(0, [&] { return host_.next_clause_literal(); });
+  }
 
   // CaDiCaL::Terminator
   bool terminate() override {
-    return host_.wants_stop() || (limits_ != nullptr && limits_->exhausted());
+    return border_.callback(
+        true, [&] { return host_.wants_stop() || (limits_ != nullptr && limits_->exhausted()); });
   }
 
   // CaDiCaL::Learner
   bool learning(int) override {
-    ++num_conflicts_;
-    if (limits_ != nullptr) limits_->add_conflicts(1);
+    border_.notification([&] {
+      ++num_conflicts_;
+      if (limits_ != nullptr) limits_->add_conflicts(1);
+    });
     return false;
   }
   void learn(int) override {}
@@ -212,11 +331,13 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   NoTheory no_theory_;
   const bool observed_, keeps_clauses_;
   ClauseObserver* const observer_;
+  Border border_;
   TheoryHost host_;
-  CaDiCaL::Solver solver_;
+  std::unique_ptr<CaDiCaL::Solver> solver_;
   std::unique_ptr<DerivedClauseTracer> tracer_;
   LimitMonitor* limits_ = nullptr;
   int num_variables_ = 0;
+  bool is_bare_reason_told_ = false;
   std::vector<Lit> assumptions_, failed_, kept_;
   std::vector<bool> model_;
   Verdict last_ = Verdict::unknown;

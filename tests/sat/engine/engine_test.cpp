@@ -219,5 +219,78 @@ TEST(Engine, IsDeterministicForASeed) {
   }
 }
 
+/// Throws when it is asked for the k-th time, whatever it is asked.
+class Throwing final : public Theory, public ClauseObserver {
+ public:
+  struct Thrown {};
+  Throwing(Theory& inner, int k) : inner_(inner), calls_left_(k) {}
+  void on_assign(std::span<const Lit> newly_true) override {
+    count();
+    inner_.on_assign(newly_true);
+  }
+  void on_retract(std::size_t kept) override {
+    if (calls_left_ > 0) count();  // an engine goes back to the start before it ends
+    inner_.on_retract(kept);
+  }
+  void check(Effort effort, TheoryContext& context) override {
+    count();
+    inner_.check(effort, context);
+  }
+  Lit decide(TheoryContext& context) override {
+    count();
+    return inner_.decide(context);
+  }
+  Lemma explain(Lit implied, Clause& clause) override {
+    count();
+    return inner_.explain(implied, clause);
+  }
+  void on_lemma(const Lemma&) override { count(); }
+  void on_learned(std::span<const Lit>) override { count(); }
+
+ private:
+  void count() {
+    ASSERT_GE(calls_left_, 1) << "asked after it had thrown";
+    if (--calls_left_ == 0) throw Thrown{};
+  }
+  Theory& inner_;
+  int calls_left_;
+};
+
+TEST(Engine, WhatATheoryThrowsComesOutOfIt) {
+  int num_thrown = 0;
+  for (int k = 1; k <= 400; ++k) {
+    SCOPED_TRACE(k);
+    ExactlySum sum(3, static_cast<ExactlySum::Style>(k % 3));
+    Throwing theory(sum, k);
+    EngineOptions options;
+    options.seed = static_cast<std::uint32_t>(k);
+    options.observer = &theory;
+    options.chronological = k % 2 == 0;
+    bool has_thrown = false;
+    try {
+      Engine engine(&theory, options);
+      std::vector<Lit> lits;
+      for (int i = 0; i < 10; ++i) {
+        lits.push_back(engine.new_lit());
+        sum.watch(lits.back());
+      }
+      std::mt19937_64 random(static_cast<std::uint64_t>(k));
+      for (int round = 0; round < 30; ++round) {
+        Clause clause;
+        for (int i = 0; i < 3; ++i) {
+          const Lit lit = lits[random() % lits.size()];
+          clause.push_back(random() % 2 == 0 ? lit : ~lit);
+        }
+        add(engine, clause);
+        static_cast<void>(solve(engine));
+      }
+    } catch (const Throwing::Thrown&) {
+      has_thrown = true;
+    }
+    num_thrown += has_thrown ? 1 : 0;
+  }
+  EXPECT_GT(num_thrown, 300);
+}
+
 }  // namespace
 }  // namespace quadrille::sat

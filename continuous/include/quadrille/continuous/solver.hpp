@@ -49,8 +49,10 @@ struct SolveOptions {
   /// Of dpll: effort for the joint search of small instances, which comes before everything else:
   /// about 10^8 take a second. 0: none.
   std::int64_t joint_work = 50'000'000;
-  /// Called on the solving thread, at most a few times a second. May be empty.
+  /// Called on the solving thread, at most once in `progress_interval_s` seconds. May be empty.
+  /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;
+  double progress_interval_s = 0.25;  ///< At least 0.
   /// Debugging: a valid plan. Every clause is checked to allow it; no clause may exclude a valid
   /// plan, whatever it costs. Slow.
   std::optional<Plan> known_plan;
@@ -74,6 +76,11 @@ struct SolveOutcome {
 /// limit ends it: `unknown` then. If a limit ends the search and
 /// some plan is known, that is `feasible`. Deterministic for the same instance, options and seed as
 /// long as no limit is met. Does not print. Thread-safe.
+///
+/// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
+/// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be
+/// lost to the process. Throws what `on_progress` throws, and std::bad_alloc if there is no memory
+/// even for the outcome.
 [[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
 
 }  // namespace quadrille::continuous

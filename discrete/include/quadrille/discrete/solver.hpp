@@ -114,8 +114,10 @@ struct SolveOptions {
   /// With several threads, take the proof that comes first in time. Otherwise it is the first one
   /// counted in steps, so that the answer is always the same.
   bool race = false;
-  /// Called on the solving thread, at most a few times a second. May be empty.
+  /// Called on the solving thread, at most once in `progress_interval_s` seconds. May be empty.
+  /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;
+  double progress_interval_s = 0.25;  ///< At least 0.
 
   /// Debugging: check every lemma against the rules. Slow.
   bool audit = false;
@@ -139,6 +141,11 @@ struct SolveOutcome {
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe.
+///
+/// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
+/// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be
+/// lost to the process. Throws what `on_progress` throws, and std::bad_alloc if there is no memory
+/// even for the outcome.
 [[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
 
 }  // namespace quadrille::discrete
