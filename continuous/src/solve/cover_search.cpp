@@ -11,7 +11,7 @@
 namespace quadrille::continuous {
 namespace {
 
-using End = sat::SearchReport::End;
+using End = sat::SearchEnd;
 using sat::Verdict;
 using Core = std::vector<CostProblem::Level>;
 

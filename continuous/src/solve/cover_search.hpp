@@ -11,7 +11,7 @@ namespace quadrille::continuous {
 
 /// What a search for the least cost found.
 struct CostReport {
-  sat::SearchReport::End end = sat::SearchReport::End::stopped;
+  sat::SearchEnd end = sat::SearchEnd::stopped;
   Cost lower_bound = 0;      ///< Proven.
   std::optional<Plan> plan;  ///< The cheapest one found; of cost `lower_bound` if `end` is found.
 };

@@ -129,12 +129,12 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   outcome.statistics.checks = theory.num_checks();
   if (auditor && auditor->complaint()) {
     outcome.internal_error = Error{ErrorCode::internal, *auditor->complaint(), {}};
-  } else if (report.end == sat::SearchReport::End::exhausted) {
+  } else if (report.end == sat::SearchEnd::exhausted) {
     outcome.status = Status::infeasible;
     outcome.explanation = "every combination of paths collides";
   } else if (report.plan) {
     outcome.plan = report.plan;
-    const bool is_proved = report.end == sat::SearchReport::End::found ||
+    const bool is_proved = report.end == sat::SearchEnd::found ||
                            cost(*report.plan, options.objective) == outcome.lower_bound;
     outcome.status = is_proved ? Status::optimal : Status::feasible;
   }

@@ -47,7 +47,7 @@ bool LazyProblem::accept_model() {
 
 Cost LazyProblem::next_bound(Cost refuted, std::span<const Lit>) { return refuted + 1; }
 
-std::optional<Lit> LazyProblem::cost_above(AgentId agent, Cost cost, LimitMonitor&) {
+Lit LazyProblem::cost_above(AgentId agent, Cost cost) {
   return model_.cost_above(agent, static_cast<Timestep>(cost), writer_);
 }
 

@@ -6,15 +6,14 @@
 #include "lazy/lazy_model.hpp"
 #include "lazy/lazy_theory.hpp"
 #include "quadrille/core/outcome.hpp"
-#include "quadrille/sat/core_guided_search.hpp"
-#include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/cost_problem.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
 namespace quadrille::discrete {
 
 /// The lazy path model as the cost searches see it. The theory has accepted every model that is
 /// found: there is nothing left to exclude.
-class LazyProblem final : public sat::BoundedProblem, public sat::AgentCostProblem {
+class LazyProblem final : public sat::CostProblem {
  public:
   /// All outlive the problem. `engine` consults `theory`.
   LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theory, Objective objective);
@@ -29,8 +28,9 @@ class LazyProblem final : public sat::BoundedProblem, public sat::AgentCostProbl
   [[nodiscard]] Cost free_cost(AgentId agent) const override {
     return model_.distances(agent).free_cost();
   }
-  [[nodiscard]] std::optional<sat::Lit> cost_above(AgentId agent, Cost cost,
-                                                   LimitMonitor& limits) override;
+  /// Nothing: paths have no clauses here.
+  [[nodiscard]] bool grow_to(AgentId, Cost, LimitMonitor&) override { return true; }
+  [[nodiscard]] sat::Lit cost_above(AgentId agent, Cost cost) override;
   void on_solve(bool all_present) override;
 
   /// The plan of the last accepted model.

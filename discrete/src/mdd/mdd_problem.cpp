@@ -65,11 +65,13 @@ bool MddProblem::accept_model() {
   return collisions.empty();
 }
 
-std::optional<Lit> MddProblem::cost_above(AgentId agent, Cost cost, LimitMonitor& limits) {
-  const auto delay = static_cast<Timestep>(cost - model_.mdd(agent).distance());
-  if (!model_.extend(agent, delay, limits)) return std::nullopt;
-  if (eager_ != nullptr && !eager_->extend(engine_, limits)) return std::nullopt;
-  return model_.delay_at_least(agent, delay + 1);
+bool MddProblem::grow_to(AgentId agent, Cost cost, LimitMonitor& limits) {
+  return model_.extend(agent, static_cast<Timestep>(cost - free_cost(agent)), limits) &&
+         (eager_ == nullptr || eager_->extend(engine_, limits));
+}
+
+Lit MddProblem::cost_above(AgentId agent, Cost cost) {
+  return model_.delay_at_least(agent, static_cast<Timestep>(cost - free_cost(agent)) + 1);
 }
 
 void MddProblem::on_solve(bool) {

@@ -7,8 +7,7 @@
 #include "mdd/eager_collisions.hpp"
 #include "mdd/mdd_model.hpp"
 #include "quadrille/discrete/solver.hpp"
-#include "quadrille/sat/core_guided_search.hpp"
-#include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/cost_problem.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
 namespace quadrille::discrete {
@@ -19,7 +18,7 @@ namespace quadrille::discrete {
 /// bound leaves to one agent, as published. With MddGrowth::on_demand caps start at 0 and only grow
 /// when a core names them: a core in which every named cap is at what the bound allows refutes the
 /// bound, because the unnamed ones do not matter. The core-guided search has caps of its own.
-class MddProblem final : public sat::BoundedProblem, public sat::AgentCostProblem {
+class MddProblem final : public sat::CostProblem {
  public:
   /// All outlive the problem; the model is attached to `engine`. `theory` and `eager` may be null.
   MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* theory, EagerCollisions* eager,
@@ -35,8 +34,8 @@ class MddProblem final : public sat::BoundedProblem, public sat::AgentCostProble
   [[nodiscard]] Cost free_cost(AgentId agent) const override {
     return model_.mdd(agent).distance();
   }
-  [[nodiscard]] std::optional<sat::Lit> cost_above(AgentId agent, Cost cost,
-                                                   LimitMonitor& limits) override;
+  [[nodiscard]] bool grow_to(AgentId agent, Cost cost, LimitMonitor& limits) override;
+  [[nodiscard]] sat::Lit cost_above(AgentId agent, Cost cost) override;
   void on_solve(bool all_present) override;
 
   /// The plan of the last accepted model.

@@ -52,8 +52,7 @@ class MddRun final : public Run {
   }
 
   sat::Engine& engine() override { return *engine_; }
-  sat::BoundedProblem& bounded_problem() override { return *problem_; }
-  sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
+  sat::CostProblem& problem() override { return *problem_; }
   const Plan& plan() const override { return problem_->plan(); }
   std::int64_t effort() const override { return theory_ ? 2 * theory_->effort() : 0; }
   std::int64_t num_checks() const override {
@@ -92,8 +91,7 @@ class LazyRun final : public Run {
   }
 
   sat::Engine& engine() override { return *engine_; }
-  sat::BoundedProblem& bounded_problem() override { return *problem_; }
-  sat::AgentCostProblem& agent_cost_problem() override { return *problem_; }
+  sat::CostProblem& problem() override { return *problem_; }
   const Plan& plan() const override { return problem_->plan(); }
   Plan draft() const override {
     Plan draft;

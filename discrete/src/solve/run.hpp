@@ -9,7 +9,6 @@
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/solver.hpp"
-#include "quadrille/sat/core_guided_search.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/engine.hpp"
 
@@ -23,8 +22,7 @@ class Run {
   [[nodiscard]] virtual bool prepare(std::shared_ptr<const GoalDistances> distances,
                                      LimitMonitor& limits) = 0;
   [[nodiscard]] virtual sat::Engine& engine() = 0;
-  [[nodiscard]] virtual sat::BoundedProblem& bounded_problem() = 0;
-  [[nodiscard]] virtual sat::AgentCostProblem& agent_cost_problem() = 0;
+  [[nodiscard]] virtual sat::CostProblem& problem() = 0;
   [[nodiscard]] virtual const Plan& plan() const = 0;
   /// The agents' paths as the search has them now, which may collide; empty if it has none.
   [[nodiscard]] virtual Plan draft() const { return {}; }

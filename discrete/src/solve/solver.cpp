@@ -13,6 +13,7 @@
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/sat/cost_search.hpp"
 #include "solve/portfolio.hpp"
 #include "solve/run.hpp"
 
@@ -20,7 +21,7 @@ namespace quadrille::discrete {
 namespace {
 
 /// One solve, with what all systems have in common: bounds from both sides.
-class Search final : private sat::PlanStore {
+class Search final : private sat::Bounds, private sat::YieldPoint {
  public:
   Search(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
          SolveOutcome& outcome, Companion* companion)
@@ -81,8 +82,9 @@ class Search final : private sat::PlanStore {
     limits_.set_conflict_listener([this] { improve(); });
   }
 
-  void raise_bound(Cost bound) {
-    outcome_.lower_bound = std::max(outcome_.lower_bound, bound);
+  // sat::YieldPoint
+  void yield() override {
+    outcome_.lower_bound = std::max(outcome_.lower_bound, lower());
     improve();
     consider_stop();
   }
@@ -106,12 +108,14 @@ class Search final : private sat::PlanStore {
       limits_.stop(StopReason::gap);
   }
 
-  // sat::PlanStore
-  [[nodiscard]] std::optional<Cost> best_cost() const override { return upper_->cost(); }
-  [[nodiscard]] Cost best_cost_of(AgentId agent) const override {
+  // sat::Bounds
+  [[nodiscard]] std::optional<Cost> upper() const override {
+    return upper_ ? upper_->cost() : std::nullopt;
+  }
+  [[nodiscard]] Cost incumbent_cost_of(AgentId agent) const override {
     return arrival(upper_->plan().paths[agent]);
   }
-  void take_accepted() override {
+  void offer_accepted() override {
     upper_->take(run_->plan());
     consider_stop();
   }
@@ -123,7 +127,7 @@ class Search final : private sat::PlanStore {
     sat::CoreGuidedOptions core_options;
     core_options.first_turn = options_.descend_after;
     if (options_.system != System::dpll) return core_options;
-    if (searches_from_above(options_)) core_options.plans = this;
+    core_options.from_above = searches_from_above(options_);
     const bool open = is_open(instance_.graph());
     const bool crowded = options_.crowded.value_or(open && is_crowded(instance_));
     if (options_.crowded.value_or(open)) {
@@ -139,33 +143,33 @@ class Search final : private sat::PlanStore {
     return core_options;
   }
 
-  [[nodiscard]] sat::SearchReport search_costs(Run& run) {
-    const auto on_bound = [this](Cost bound) { raise_bound(bound); };
+  [[nodiscard]] sat::SearchEnd search_costs(Run& run) {
+    const sat::CostSearchContext context{run.engine(), run.problem(), *this, limits_, *this};
     const CostSearch by_default =
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
     if (options_.objective == Objective::sum_of_costs &&
         options_.cost_search.value_or(by_default) == CostSearch::core_guided)
-      return sat::search_by_cores(run.engine(), run.agent_cost_problem(), core_options(), limits_,
-                                  outcome_.statistics, on_bound);
-    return sat::search_upwards(run.engine(), run.bounded_problem(), limits_, on_bound);
+      return sat::search_by_cores(context, core_options(), outcome_.statistics);
+    return sat::search_upwards(context);
   }
 
   void search(const std::shared_ptr<const GoalDistances>& distances) {
     const std::unique_ptr<Run> run = make_run(instance_, options_);
     if (!run->prepare(distances, limits_)) return;
     run_ = run.get();
-    raise_bound(run->bounded_problem().lower_bound());
-    const auto report = search_costs(*run);
-    outcome_.lower_bound = std::max(outcome_.lower_bound, report.lower_bound);
+    raise(run->problem().lower_bound());
+    yield();
+    const sat::SearchEnd end = search_costs(*run);
+    outcome_.lower_bound = std::max(outcome_.lower_bound, lower());
     run->engine().add_statistics(outcome_.statistics);
     outcome_.statistics.checks = run->num_checks();
     outcome_.statistics.rejected_models = run->num_rejected();
     if (const auto complaint = run->complaint()) {
       outcome_.internal_error = Error{ErrorCode::internal, *complaint, {}};
-    } else if (report.end == sat::SearchReport::End::exhausted) {
+    } else if (end == sat::SearchEnd::exhausted) {
       outcome_.internal_error =
           Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
-    } else if (report.end == sat::SearchReport::End::found) {
+    } else if (end == sat::SearchEnd::found) {
       outcome_.plan = run->plan();
       outcome_.status = Status::optimal;
     }

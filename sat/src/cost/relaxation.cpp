@@ -14,9 +14,8 @@ bool Relaxation::start() {
 }
 
 bool Relaxation::add_agent_soft(AgentId agent, Cost bound) {
-  const auto lit = problem_.cost_above(agent, bound, limits_);
-  if (!lit) return false;
-  softs_.emplace(*lit, Soft{nullptr, agent, bound});
+  if (!problem_.grow_to(agent, bound, limits_)) return false;
+  softs_.emplace(problem_.cost_above(agent, bound), Soft{nullptr, agent, bound});
   return true;
 }
 
@@ -60,14 +59,10 @@ bool Relaxation::relax(std::span<const Lit> core) {
 Totalizer::Input Relaxation::excess() const {
   std::vector<Soft> items;
   for (const auto& [lit, soft] : softs_) items.push_back(soft);
-  return [&problem = problem_, &limits = limits_, items](std::size_t input, int k) {
+  return [&problem = problem_, items](std::size_t input, int k) {
     const Soft& soft = items[input];
     const Cost beyond = soft.bound + k;
-    if (soft.counter == nullptr) {
-      const auto lit = problem.cost_above(soft.agent, beyond - 1, limits);
-      QUADRILLE_REQUIRE(lit.has_value(), "see CoreGuidedOptions::plans");
-      return *lit;
-    }
+    if (soft.counter == nullptr) return problem.cost_above(soft.agent, beyond - 1);
     if (beyond > static_cast<Cost>(soft.counter->num_inputs())) return Lit();
     return soft.counter->at_least(static_cast<int>(beyond));
   };

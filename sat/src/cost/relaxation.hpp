@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "quadrille/sat/core_guided_search.hpp"
+#include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
 namespace quadrille::sat {
@@ -17,7 +17,7 @@ namespace quadrille::sat {
 class Relaxation {
  public:
   /// All must outlive the relaxation. Adds nothing yet.
-  Relaxation(Engine& engine, AgentCostProblem& problem, LimitMonitor& limits)
+  Relaxation(Engine& engine, CostProblem& problem, LimitMonitor& limits)
       : engine_(engine), problem_(problem), limits_(limits) {}
 
   /// To be called first. False: a limit came before all softs were made.
@@ -32,7 +32,7 @@ class Relaxation {
 
   [[nodiscard]] std::size_t num_softs() const noexcept { return softs_.size(); }
   /// What plans cost beyond the bound: the sum of these inputs, one per soft as it is now. Valid
-  /// until the relaxation is retired. For problems whose `cost_above` never fails.
+  /// until the relaxation is retired. For problems that need no growth.
   [[nodiscard]] Totalizer::Input excess() const;
 
   /// Ends the use of all counters, for good. Only destruction may follow.
@@ -50,7 +50,7 @@ class Relaxation {
   void add_counter_soft(Totalizer& counter, Cost bound);
 
   Engine& engine_;
-  AgentCostProblem& problem_;
+  CostProblem& problem_;
   LimitMonitor& limits_;
   std::map<Lit, Soft> softs_;
   std::list<Totalizer> counters_;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "quadrille/sat/core_guided_search.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "quadrille/core/random.hpp"
+#include "quadrille/sat/cost_search.hpp"
 
 namespace quadrille::sat {
 namespace {
@@ -56,7 +55,7 @@ Cost cheapest_by_enumeration(const std::vector<Rule>& rules) {
 }
 
 /// The rules as clauses, and the plans that are their models.
-class RulesProblem final : public AgentCostProblem, public PlanStore {
+class RulesProblem final : public CostProblem, public Bounds {
  public:
   RulesProblem(Engine& engine, const std::vector<Rule>& rules) : engine_(engine), above_(kAgents) {
     for (std::vector<Lit>& lits : above_)
@@ -71,11 +70,15 @@ class RulesProblem final : public AgentCostProblem, public PlanStore {
 
   std::size_t num_agents() const override { return kAgents; }
   Cost free_cost(AgentId) const override { return 0; }
-  std::optional<Lit> cost_above(AgentId agent, Cost cost, LimitMonitor&) override {
+  bool grow_to(AgentId, Cost, LimitMonitor&) override { return true; }
+  Lit cost_above(AgentId agent, Cost cost) override {
     while (above_[agent.index()].size() <= static_cast<std::size_t>(cost))
       add_literal(above_[agent.index()]);
     return above(agent.index(), static_cast<int>(cost));
   }
+  Cost lower_bound() const override { return 0; }
+  bool assume_at_most(Cost, LimitMonitor&, std::vector<Lit>&) override { return false; }
+  Cost next_bound(Cost, std::span<const Lit>) override { return 0; }
   void on_solve(bool) override {}
   bool accept_model() override {
     accepted_.assign(kAgents, 0);
@@ -85,13 +88,13 @@ class RulesProblem final : public AgentCostProblem, public PlanStore {
     return true;
   }
 
-  std::optional<Cost> best_cost() const override {
+  std::optional<Cost> upper() const override {
     if (best_.empty()) return std::nullopt;
     return std::accumulate(best_.begin(), best_.end(), Cost{0});
   }
-  Cost best_cost_of(AgentId agent) const override { return best_[agent.index()]; }
-  void take_accepted() override {
-    EXPECT_TRUE(best_.empty() || accepted() < best_cost()) << "a plan from above is cheaper";
+  Cost incumbent_cost_of(AgentId agent) const override { return best_[agent.index()]; }
+  void offer_accepted() override {
+    EXPECT_TRUE(best_.empty() || accepted() < upper()) << "a plan from above is cheaper";
     best_ = accepted_;
     ++num_taken;
   }
@@ -118,6 +121,20 @@ class RulesProblem final : public AgentCostProblem, public PlanStore {
   std::vector<Cost> accepted_, best_;
 };
 
+/// Sees that the lower bound never falls.
+class WatchedBounds final : public YieldPoint {
+ public:
+  explicit WatchedBounds(const Bounds& bounds) : bounds_(bounds) {}
+  void yield() override {
+    EXPECT_GE(bounds_.lower(), last_);
+    last_ = bounds_.lower();
+  }
+
+ private:
+  const Bounds& bounds_;
+  Cost last_ = 0;
+};
+
 struct Answer {
   Cost cost = 0, lower_bound = 0;
   int num_taken = 0;
@@ -133,24 +150,19 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t shar
   LimitMonitor limits{Limits{}};
   Statistics statistics;
   CoreGuidedOptions options;
-  if (share > 0) {
-    options.plans = &problem;
-    if (has_plan) problem.take_dearest();
-  }
+  options.from_above = share > 0;
+  if (share > 0 && has_plan) problem.take_dearest();
   options.first_turn = 1;
   options.passes = passes;
   options.core_tries = passes - 1;  // the other orders of deletion, too
   options.descent_share = std::max<std::int64_t>(1, share);
   options.head_start = head_start;
-  Cost last = 0;
-  const auto on_bound = [&](Cost bound) {
-    EXPECT_GE(bound, last) << "bounds do not fall";
-    last = bound;
-  };
-  const auto report = search_by_cores(engine, problem, options, limits, statistics, on_bound);
-  const bool found = report.end == SearchReport::End::found;
-  EXPECT_TRUE(found || problem.best_cost() == report.lower_bound) << "the search ends with a proof";
-  return {found ? problem.accepted() : problem.best_cost().value_or(-1), report.lower_bound,
+  WatchedBounds watch(problem);
+  const SearchEnd end =
+      search_by_cores({engine, problem, problem, limits, watch}, options, statistics);
+  const bool found = end == SearchEnd::found;
+  EXPECT_TRUE(found || problem.are_closed()) << "the search ends with a proof";
+  return {found ? problem.accepted() : problem.upper().value_or(-1), problem.lower(),
           problem.num_taken};
 }
 
@@ -220,8 +232,7 @@ Agents first_core(const std::vector<Agents>& parts, int core_tries) {
   Engine engine(nullptr, engine_options);
   RulesProblem problem(engine, {});
   LimitMonitor limits{Limits{}};
-  for (const AgentId i : IdRange<AgentId>(kAgents))
-    above.push_back(problem.cost_above(i, 0, limits).value());
+  for (const AgentId i : IdRange<AgentId>(kAgents)) above.push_back(problem.cost_above(i, 0));
   const auto add = [&](const Agents& agents, std::vector<Lit> hidden_by) {
     std::vector<Lit> clause = std::move(hidden_by);
     for (const std::size_t i : agents) clause.push_back(above[i]);
@@ -236,8 +247,9 @@ Agents first_core(const std::vector<Agents>& parts, int core_tries) {
   CoreGuidedOptions options;
   options.core_tries = core_tries;
   Statistics statistics;
-  const auto report = search_by_cores(engine, problem, options, limits, statistics, {});
-  EXPECT_EQ(report.end, SearchReport::End::found);
+  WatchedBounds watch(problem);
+  EXPECT_EQ(search_by_cores({engine, problem, problem, limits, watch}, options, statistics),
+            SearchEnd::found);
   EXPECT_EQ(problem.accepted(), 1) << "of the agent in both parts";
   return observer.cores.at(0);
 }

@@ -1,51 +1,79 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <span>
-#include <vector>
+#include <cstdint>
 
 #include "quadrille/core/limits.hpp"
+#include "quadrille/core/statistics.hpp"
+#include "quadrille/sat/bounds.hpp"
+#include "quadrille/sat/cost_problem.hpp"
 #include "quadrille/sat/engine.hpp"
 
 namespace quadrille::sat {
 
-/// A problem whose plans are the models of an engine's clauses, bounded in cost by assumptions.
-class BoundedProblem {
+/// The named place where a cost search lets everything else have its turn: improvement of plans,
+/// progress, the test of the gap, other threads, the user. It is passed between two solves of the
+/// engine, never inside of one.
+class YieldPoint {
  public:
-  virtual ~BoundedProblem() = default;
-  /// No plan is cheaper.
-  [[nodiscard]] virtual Cost lower_bound() const = 0;
-  /// Appends assumptions that hold only in plans that cost at most `bound`, after adding the
-  /// clauses that such plans need. They may be stronger than that at first: `next_bound` weakens
-  /// them. Retracts nothing. False if `limits` ended that early.
-  [[nodiscard]] virtual bool assume_at_most(Cost bound, LimitMonitor& limits,
-                                            std::vector<Lit>& assumptions) = 0;
-  /// Looks at the engine's model. False: it is no plan, clauses that exclude it were added.
-  [[nodiscard]] virtual bool accept_model() = 0;
-  /// The assumptions in `core`, some of those for `bound`, cannot hold together. Returns a larger
-  /// bound that no plan is below; or `bound` itself if the core only shows that the assumptions
-  /// were stronger than need be, and the next ones for `bound` will be weaker.
-  [[nodiscard]] virtual Cost next_bound(Cost bound, std::span<const Lit> core) = 0;
+  virtual ~YieldPoint() = default;
+  /// Called whenever the lower bound may have risen, and after each slice of a solve. May stop the
+  /// limits.
+  virtual void yield() = 0;
 };
 
-struct SearchReport {
-  enum class End {
-    found,      ///< The accepted model costs `lower_bound`, which is optimal.
-    stopped,    ///< A limit, or another plan that is proved optimal, ended the search.
-    exhausted,  ///< The clauses allow no plan, whatever its cost.
-  };
-  End end = End::stopped;
-  Cost lower_bound = 0;  ///< Proven.
+/// What a cost search works with. All outlive it.
+struct CostSearchContext {
+  Engine& engine;
+  CostProblem& problem;
+  Bounds& bounds;
+  LimitMonitor& limits;
+  YieldPoint& yield_point;
 };
 
-/// Called between SAT calls with the bound under test.
-using BoundListener = std::function<void(Cost bound)>;
+/// How a cost search ended.
+enum class SearchEnd {
+  found,      ///< The plan accepted last costs `Bounds::lower`, which is optimal.
+  stopped,    ///< A limit, or the incumbent that is proved optimal, ended the search.
+  exhausted,  ///< The clauses allow no plan, whatever its cost.
+};
 
 /// Tries the bounds lb, lb+1, ... until a plan is found: the search of MDD-SAT and SMT-CBS (Surynek
 /// et al. 2016, ECAI; Surynek 2019, IJCAI). Never ends by itself if no plan exists.
-[[nodiscard]] SearchReport search_upwards(Engine& engine, BoundedProblem& problem,
-                                          LimitMonitor& limits, const BoundListener& on_bound);
+[[nodiscard]] SearchEnd search_upwards(CostSearchContext context);
+
+/// Of the core-guided search. The defaults are those of a search from below alone.
+struct CoreGuidedOptions {
+  bool minimise_cores = true;  ///< Drop what a core does not need, under a budget.
+  /// How often that is tried again in a random order during the passes, for the smallest core; at
+  /// least 0. If not 0, all tries are shorter.
+  int core_tries = 0;
+  /// Look for plans from above too, once cores take long. Only for problems that need no growth,
+  /// with an engine that keeps its clauses, for nobody else.
+  bool from_above = false;
+  std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
+  /// How often at most cores are extracted from the start: again when a core is hard, with all that
+  /// was learned, which makes for smaller ones; two times in a row without gain are the last. At
+  /// least 1. Measured: 2 to 6 make little difference, one is up to four times as slow.
+  int passes = 3;
+  /// The first turn after the passes is so many times as long as `first_turn`: cores alone often
+  /// come to the end in it. At least 1.
+  std::int64_t head_start = 1;
+  /// So many conflicts from above for each one from below. At least 1.
+  std::int64_t descent_share = 1;
+  /// How close the incumbent has to be to the lower bound before an offline solver, without the
+  /// theory, chooses costs for the engine to look at; 0: never.
+  Cost candidates_within = 8;
+};
+
+/// Finds a plan of least sum of costs from below: assumes that nobody costs more than its share of
+/// the lower bound, and relaxes the bounds that a core names by one unit in all (OLL: Andres et al.
+/// 2012, ICLP; Morgado et al. 2014, CP). When a core is hard, it starts again, and goes on from the
+/// best of its passes. With `from_above` and hard cores after that it takes turns with a search
+/// from above, which asks for plans that are cheaper than the incumbent by a bound on the sum of
+/// what the cores have left open (core-boosted search: Berg et al. 2019, CPAIOR). Never ends by
+/// itself if no plan exists. Deterministic as long as no limit is met. Adds to `statistics.cores`.
+[[nodiscard]] SearchEnd search_by_cores(CostSearchContext context, const CoreGuidedOptions& options,
+                                        Statistics& statistics);
 
 }  // namespace quadrille::sat

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "quadrille/core/ids.hpp"
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/sat/lit.hpp"
+
+namespace quadrille::sat {
+
+/// A problem whose plans are the models of an engine's clauses. Assumptions bound what they cost:
+/// in all, or agent by agent. An agent whose cost no assumption bounds is *absent*: it need not
+/// have a path, and nobody collides with it.
+class CostProblem {
+ public:
+  virtual ~CostProblem() = default;
+
+  [[nodiscard]] virtual std::size_t num_agents() const = 0;
+  /// Cost of the agent's cheapest path when it is alone.
+  [[nodiscard]] virtual Cost free_cost(AgentId agent) const = 0;
+  /// Adds what paths of the agent that cost up to `cost` need. False if `limits` ended that early.
+  /// Not during solve.
+  [[nodiscard]] virtual bool grow_to(AgentId agent, Cost cost, LimitMonitor& limits) = 0;
+  /// The literal "the agent costs more than `cost`", implied by those for larger costs. Requires
+  /// cost >= free_cost and that the problem has grown to it. Not during solve.
+  [[nodiscard]] virtual Lit cost_above(AgentId agent, Cost cost) = 0;
+
+  /// No plan is cheaper.
+  [[nodiscard]] virtual Cost lower_bound() const = 0;
+  /// Appends assumptions that hold only in plans that cost at most `bound`, after adding the
+  /// clauses that such plans need. They may be stronger than that at first: `next_bound` weakens
+  /// them. Retracts nothing. False if `limits` ended that early.
+  [[nodiscard]] virtual bool assume_at_most(Cost bound, LimitMonitor& limits,
+                                            std::vector<Lit>& assumptions) = 0;
+  /// The assumptions in `core`, some of those for `bound`, cannot hold together. Returns a larger
+  /// bound that no plan is below; or `bound` itself if the core only shows that the assumptions
+  /// were stronger than need be, and the next ones for `bound` will be weaker.
+  [[nodiscard]] virtual Cost next_bound(Cost bound, std::span<const Lit> core) = 0;
+
+  /// Called before each solve. `all_present`: the assumptions bound every agent's cost, one by one
+  /// or all together.
+  virtual void on_solve(bool all_present) = 0;
+  /// Looks at the engine's model for all agents. False: it is no plan, clauses that exclude it were
+  /// added.
+  [[nodiscard]] virtual bool accept_model() = 0;
+};
+
+}  // namespace quadrille::sat

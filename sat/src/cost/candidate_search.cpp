@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "cost/candidate_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "cost/plan_query.hpp"
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::sat {
+namespace {
+
+/// Of the engine, for one candidate; those near the lower bound are refuted by three on average.
+constexpr std::int64_t kCandidateConflicts = 1000;
+/// Conflicts of the offline solver for each of the slice.
+constexpr std::int64_t kOfflineShare = 16;
+
+}  // namespace
+
+Outcome CandidateSearch::advance(Slice slice) {
+  QUADRILLE_REQUIRE(slice.conflicts.has_value(), "the slice has an end");
+  Bounds& bounds = context_.bounds;
+  LimitMonitor& limits = context_.limits;
+  std::int64_t left = kOfflineShare * *slice.conflicts;
+  while (left > 0 && !limits.exhausted_now()) {
+    const auto best = bounds.upper();
+    if (*best <= bounds.lower()) break;
+    // The lower bound is at least the base, so that the incumbent, which costs more, is above it.
+    const Lit not_cheaper = counter_.above(*best - 1);
+    const std::array assumptions{~not_cheaper};
+    const std::int64_t before = limits.conflicts();
+    const auto budget = std::min<std::int64_t>(left, std::numeric_limits<int>::max());
+    const Verdict verdict = offline_.solve(assumptions, limits, {static_cast<int>(budget), {}});
+    if (verdict == Verdict::unsat) {
+      const std::array refuted{not_cheaper};
+      context_.engine.add_clause({LemmaKind::core, refuted, {}, false});
+      bounds.raise(*best);
+      break;
+    }
+    if (verdict == Verdict::sat) {
+      const Verdict answer = find_plan(context_, caps_of_candidate(), kCandidateConflicts);
+      if (answer == Verdict::sat) bounds.offer_accepted();
+      if (answer == Verdict::unsat) {
+        std::vector<Lit> core = context_.engine.core();
+        for (Lit& lit : core) lit = ~lit;
+        context_.engine.add_clause({LemmaKind::core, core, {}, false});
+      }
+    }
+    left -= limits.conflicts() - before + 1;
+  }
+  return limits.exhausted() ? Outcome::stopped : Outcome::working;
+}
+
+// The counter knows, for each agent, of costs so high that one of them alone is too much. So each
+// agent has a cap in the model, and together they cost what was asked for.
+std::vector<Lit> CandidateSearch::caps_of_candidate() {
+  CostProblem& problem = context_.problem;
+  std::vector<Lit> caps;
+  for (const AgentId i : IdRange<AgentId>(problem.num_agents())) {
+    Cost cost = problem.free_cost(i);
+    while (offline_.candidate_has(problem.cost_above(i, cost))) ++cost;
+    caps.push_back(~problem.cost_above(i, cost));
+  }
+  return caps;
+}
+
+}  // namespace quadrille::sat

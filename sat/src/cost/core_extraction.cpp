@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "cost/core_extraction.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "cost/plan_query.hpp"
+
+namespace quadrille::sat {
+namespace {
+
+/// So many passes in a row that are no better than the best one are the last. Measured: where
+/// passes gain anything, one that does not is soon followed by one that does.
+constexpr int kPassesWithoutGain = 2;
+/// Conflicts that make a core hard in later passes: one in so many of those of the first. What was
+/// learned makes all cores but the last ones easy.
+constexpr std::int64_t kLaterPassShare = 4;
+
+}  // namespace
+
+CoreExtraction::CoreExtraction(const CostSearchContext& context, const CoreGuidedOptions& options,
+                               Statistics& statistics)
+    : context_(context),
+      options_(options),
+      statistics_(statistics),
+      minimiser_(context.engine, context.problem, context.limits,
+                 {options.minimise_cores, options.core_tries}) {}
+
+Outcome CoreExtraction::advance(Slice slice) {
+  while (true) {
+    context_.bounds.raise(relaxation_->bound());
+    context_.yield_point.yield();
+    if (context_.limits.exhausted_now() || context_.bounds.are_closed()) return Outcome::stopped;
+    const Verdict verdict = solve(slice);
+    if (verdict == Verdict::sat) return Outcome::found;
+    if (verdict == Verdict::unknown) {
+      if (context_.limits.exhausted_now()) return Outcome::stopped;
+      if (!in_passes()) return Outcome::working;
+      if (!end_pass()) return Outcome::stopped;
+      continue;
+    }
+    const std::vector<Lit> core =
+        minimiser_.minimise(context_.engine.core(), conflicts_, in_passes());
+    if (core.empty()) return Outcome::exhausted;
+    ++statistics_.cores;
+    if (!relaxation_->relax(core)) return Outcome::stopped;
+  }
+}
+
+Verdict CoreExtraction::solve(Slice slice) {
+  const std::int64_t before = context_.limits.conflicts();
+  if (in_passes())
+    slice.conflicts = pass_ == 0 ? options_.first_turn
+                                 : std::max<std::int64_t>(1, options_.first_turn / kLaterPassShare);
+  const Verdict verdict = find_plan(context_, relaxation_->assumptions(), slice.conflicts);
+  conflicts_ += context_.limits.conflicts() - before;
+  return verdict;
+}
+
+bool CoreExtraction::start_pass() {
+  relaxation_ = std::make_unique<Relaxation>(context_.engine, context_.problem, context_.limits);
+  pass_begin_ = conflicts_;
+  return relaxation_->start();
+}
+
+/// Goes back to the start, or, after the last pass, to the best of all.
+bool CoreExtraction::end_pass() {
+  const std::int64_t conflicts = conflicts_ - pass_begin_;
+  const bool is_best =
+      !best_relaxation_ || relaxation_->bound() > best_relaxation_->bound() ||
+      (relaxation_->bound() == best_relaxation_->bound() && conflicts < best_conflicts_);
+  if (is_best) {
+    best_relaxation_.swap(relaxation_);
+    best_conflicts_ = conflicts;
+  }
+  passes_without_gain_ = is_best ? 0 : passes_without_gain_ + 1;
+  if (relaxation_) relaxation_->retire();
+  ++pass_;
+  if (passes_without_gain_ == kPassesWithoutGain) pass_ = options_.passes;
+  if (in_passes()) return start_pass();
+  relaxation_ = std::move(best_relaxation_);
+  return true;
+}
+
+}  // namespace quadrille::sat

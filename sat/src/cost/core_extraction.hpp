@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "cost/core_minimiser.hpp"
+#include "cost/relaxation.hpp"
+#include "cost/strategy.hpp"
+
+namespace quadrille::sat {
+
+/// The search from below: no soft constraint may be violated, and a core that says otherwise is
+/// paid for (OLL). When a core is hard, extraction starts again with all that was learned, a few
+/// times at most, and goes on from the best of these passes.
+class CoreExtraction final : public Strategy {
+ public:
+  CoreExtraction(const CostSearchContext& context, const CoreGuidedOptions& options,
+                 Statistics& statistics);
+
+  /// To be called first. False: a limit came before the soft constraints were made.
+  [[nodiscard]] bool start() { return start_pass(); }
+  /// Until a core takes more conflicts than the slice has. During the passes the options say how
+  /// many these are.
+  [[nodiscard]] Outcome advance(Slice slice) override;
+  [[nodiscard]] const Relaxation& relaxation() const noexcept { return *relaxation_; }
+
+ private:
+  [[nodiscard]] bool in_passes() const noexcept { return pass_ < options_.passes; }
+  /// Asks for a plan that violates nothing.
+  [[nodiscard]] Verdict solve(Slice slice);
+  [[nodiscard]] bool start_pass();
+  [[nodiscard]] bool end_pass();
+
+  const CostSearchContext context_;
+  const CoreGuidedOptions options_;
+  Statistics& statistics_;
+  CoreMinimiser minimiser_;
+  std::unique_ptr<Relaxation> relaxation_, best_relaxation_;
+  int pass_ = 0, passes_without_gain_ = 0;
+  std::int64_t conflicts_ = 0;  // of `solve`
+  std::int64_t pass_begin_ = 0, best_conflicts_ = 0;
+};
+
+}  // namespace quadrille::sat

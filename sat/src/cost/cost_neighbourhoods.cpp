@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "cost/cost_neighbourhoods.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "cost/plan_query.hpp"
+
+namespace quadrille::sat {
+namespace {
+
+/// Of one neighbourhood. Measured: 100 and 1000 are slower.
+constexpr std::int64_t kConflicts = 200;
+/// So many neighbourhoods without a cheaper plan end a slice; fewer if candidates come next.
+constexpr int kPatience = 64, kShortPatience = 32;
+
+}  // namespace
+
+CostNeighbourhoods::CostNeighbourhoods(const CostSearchContext& context, ExcessCounter& counter,
+                                       Cost close)
+    : context_(context),
+      counter_(counter),
+      close_(close),
+      num_free_(context.problem.num_agents() / 5 + 1) {}
+
+Outcome CostNeighbourhoods::advance(Slice slice) {
+  Bounds& bounds = context_.bounds;
+  LimitMonitor& limits = context_.limits;
+  const std::int64_t end = slice.conflicts ? limits.conflicts() + *slice.conflicts
+                                           : std::numeric_limits<std::int64_t>::max();
+  std::vector<AgentId> agents;
+  for (const AgentId i : IdRange<AgentId>(context_.problem.num_agents())) agents.push_back(i);
+  int failures = 0;
+  while (limits.conflicts() < end && !limits.exhausted_now()) {
+    const auto best = bounds.upper();
+    if (!best || *best <= bounds.lower() || *best > counter_.largest()) break;
+    if (failures >= (*best - bounds.lower() <= close_ ? kShortPatience : kPatience)) break;
+    random_.shuffle_front(agents, agents.size());
+    std::vector<Lit> assumptions;
+    for (std::size_t at = num_free_; at < agents.size(); ++at)
+      assumptions.push_back(
+          ~context_.problem.cost_above(agents[at], bounds.incumbent_cost_of(agents[at])));
+    // Last: with the others in front, most agents have their caps before it says anything.
+    const Lit not_cheaper = counter_.above(*best - 1);
+    assumptions.push_back(~not_cheaper);
+    const Verdict verdict =
+        find_plan(context_, assumptions, std::min(kConflicts, end - limits.conflicts()));
+    failures = verdict == Verdict::sat ? 0 : failures + 1;
+    if (verdict == Verdict::sat) {
+      bounds.offer_accepted();
+    } else if (verdict == Verdict::unsat) {
+      // A core of the sum alone holds for all plans: none is cheaper than the incumbent.
+      const std::vector<Lit> core = context_.engine.core();
+      if (core.empty() || (core.size() == 1 && core.front() == ~not_cheaper)) {
+        bounds.raise(*best);
+        break;
+      }
+      num_free_ = std::min(agents.size(), num_free_ + num_free_ / 20 + 1);
+    } else {
+      num_free_ = std::max<std::size_t>(1, num_free_ - num_free_ / 14);
+    }
+  }
+  return limits.exhausted() ? Outcome::stopped : Outcome::working;
+}
+
+}  // namespace quadrille::sat

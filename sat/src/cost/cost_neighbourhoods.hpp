@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "cost/excess_counter.hpp"
+#include "cost/strategy.hpp"
+#include "quadrille/core/random.hpp"
+#include "quadrille/sat/cost_search.hpp"
+
+namespace quadrille::sat {
+
+/// Large neighbourhood search over costs, not over paths: all but some agents may cost what they
+/// cost in the incumbent, and the sum has to fall.
+class CostNeighbourhoods final : public Strategy {
+ public:
+  /// All outlive it. `patience`: neighbourhoods without a cheaper plan that end a slice; fewer when
+  /// the incumbent is within `close` of the lower bound.
+  CostNeighbourhoods(const CostSearchContext& context, ExcessCounter& counter, Cost close);
+
+  /// `found` never: a plan that proves to be optimal closes the bounds.
+  [[nodiscard]] Outcome advance(Slice slice) override;
+
+ private:
+  const CostSearchContext context_;
+  ExcessCounter& counter_;
+  const Cost close_;
+  Random random_{1};
+  std::size_t num_free_;  // agents of a neighbourhood that may cost anything
+};
+
+}  // namespace quadrille::sat

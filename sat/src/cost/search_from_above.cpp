@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "cost/search_from_above.hpp"
+
+#include <algorithm>
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::sat {
+namespace {
+
+/// After so many more cores what they leave open is counted anew.
+constexpr Cost kRebaseAfter = 8;
+
+}  // namespace
+
+void SearchFromAbove::rebase(const Relaxation& relaxation) {
+  if (parts_ && relaxation.bound() < parts_->counter.base() + kRebaseAfter) return;
+  if (parts_) parts_->counter.retire();
+  parts_ = std::make_unique<Parts>(context_, offline_, relaxation, candidates_within_);
+}
+
+Outcome SearchFromAbove::advance(Slice slice) {
+  QUADRILLE_REQUIRE(parts_ && slice.conflicts, "rebase comes first, and the slice has an end");
+  const std::int64_t end = context_.limits.conflicts() + *slice.conflicts;
+  if (const Outcome outcome = parts_->neighbourhoods.advance(slice); outcome != Outcome::working)
+    return outcome;
+  const auto best = context_.bounds.upper();
+  if (best && *best - context_.bounds.lower() <= candidates_within_ &&
+      *best <= parts_->counter.largest())
+    return parts_->candidates.advance(slice);
+  return parts_->sum_descent.advance(
+      {std::max<std::int64_t>(0, end - context_.limits.conflicts())});
+}
+
+}  // namespace quadrille::sat
