@@ -61,15 +61,6 @@ void LimitMonitor::set_ticker(double interval_s, std::function<void()> listener)
   next_tick_ = elapsed_wall() + interval_s;
 }
 
-void LimitMonitor::set_conflict_listener(std::function<void()> listener) {
-  conflict_listener_ = std::move(listener);
-}
-
-void LimitMonitor::add_conflicts(std::int64_t count) {
-  conflicts_ += count;
-  if (conflict_listener_) conflict_listener_();
-}
-
 void LimitMonitor::stop(StopReason reason) noexcept {
   if (reason_ == StopReason::none) reason_ = reason;
 }

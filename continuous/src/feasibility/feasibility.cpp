@@ -9,14 +9,16 @@
 namespace quadrille::continuous {
 namespace {
 
+/// For all parts of some size together. About half a second.
+constexpr std::int64_t kWorkPerSize = 50'000'000;
+
 class PartSearch {
  public:
-  PartSearch(Scene& scene, std::int64_t work_per_size)
-      : scene_(scene), work_per_size_(work_per_size) {}
+  explicit PartSearch(Scene& scene) : scene_(scene) {}
 
   /// False once blocked agents or a plan for all were found.
   bool try_parts_of(std::size_t size) {
-    work_ = work_per_size_;
+    work_ = kWorkPerSize;
     std::vector<AgentId> part;
     return extend(part, 0, size);
   }
@@ -50,16 +52,15 @@ class PartSearch {
   }
 
   Scene& scene_;
-  const std::int64_t work_per_size_;
   std::int64_t work_ = 0;
   Feasibility found_;
 };
 
 }  // namespace
 
-Feasibility check_feasibility(Scene& scene, std::int64_t work) {
+Feasibility check_feasibility(Scene& scene) {
   const std::size_t num_agents = scene.instance().num_agents();
-  PartSearch search(scene, work);
+  PartSearch search(scene);
   // One agent alone reaches its goal: seen when the instance was made.
   if (num_agents >= 2 && !search.try_parts_of(2)) return search.take();
   if (num_agents == 4 && !search.try_parts_of(3)) return search.take();

@@ -41,7 +41,7 @@ class LazyTheory final : public sat::Theory {
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
   /// States that path searches have expanded.
-  [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
+  [[nodiscard]] std::int64_t effort() const noexcept override { return search_.effort(); }
 
   /// Called before each solve. Unless all agents will have a cap, only conflicts among those that
   /// have matter: the theory decides for them and ends the solve when they do not collide.
@@ -88,6 +88,7 @@ class LazyTheory final : public sat::Theory {
   PathCache cache_;
   PartDecisions decisions_;
   bool is_part_ = false;
+  std::vector<ObstacleId> active_;  // scratch
 
   std::optional<Plan> accepted_;
   std::int64_t num_checks_ = 0;

@@ -32,6 +32,7 @@ class Separation {
   PathSearch& search_;
   LimitMonitor& limits_;
   std::vector<Encounter> collisions_;
+  std::vector<ObstacleId> active_;  // scratch
 };
 
 }  // namespace quadrille::discrete

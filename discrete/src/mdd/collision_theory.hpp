@@ -26,9 +26,9 @@ class CollisionTheory final : public sat::Theory {
 
   /// To be called before a solve after the model was extended.
   void on_extended();
+  /// Two steps for each literal that was announced.
+  [[nodiscard]] std::int64_t effort() const noexcept override { return 2 * effort_; }
   /// Times the consistency of an assignment was looked at.
-  /// Literals that were announced so far.
-  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
   void on_assign(std::span<const sat::Lit> newly_true) override;

@@ -7,7 +7,7 @@
 namespace quadrille::discrete {
 namespace {
 
-constexpr std::int64_t kFirstEffort = 20'000'000, kSlice = 20'000;
+constexpr std::int64_t kFirstEffort = 20'000'000, kFirstSlice = 200'000, kSlice = 20'000;
 constexpr std::int64_t kPasses = 5;  // over each path of a draft: copied, reserved, taken out again
 constexpr std::int64_t kLargestShare = 8, kSmallestShare = 64;  // one in so many
 
@@ -24,9 +24,11 @@ UpperBound::UpperBound(const Instance& instance, Objective objective,
       share_(kLargestShare),
       due_(kLargestShare * kSlice) {}
 
-void UpperBound::start(LimitMonitor& limits) {
-  static_cast<void>(first_.advance(kFirstEffort, limits));
+bool UpperBound::start(LimitMonitor& limits) {
+  static_cast<void>(first_.advance(kFirstSlice, limits));
+  start_effort_ += kFirstSlice;
   take_first_plan();
+  return !improver_ && start_effort_ < kFirstEffort && !limits.exhausted_now();
 }
 
 void UpperBound::take_first_plan() {
@@ -41,19 +43,23 @@ std::optional<Cost> UpperBound::cost() const {
 
 bool UpperBound::advance(std::int64_t search_effort, const std::function<Plan()>& draft,
                          LimitMonitor& limits) {
-  if (search_effort < due_) return false;
-  extra_effort_ = 0;
-  const bool cheaper = work(draft, limits);
-  share_ = cheaper ? kLargestShare : std::min(kSmallestShare, share_ * 2);
-  due_ = search_effort + share_ * (kSlice + extra_effort_);
-  return cheaper;
+  bool is_cheaper = false;
+  for (bool is_first = true; search_effort >= due_ && !limits.exhausted(); is_first = false) {
+    extra_effort_ = 0;
+    // The search has one draft at a time.
+    const bool gains = work(is_first ? draft() : Plan(), limits);
+    is_cheaper = is_cheaper || gains;
+    share_ = gains ? kLargestShare : std::min(kSmallestShare, share_ * 2);
+    due_ += share_ * (kSlice + extra_effort_);
+  }
+  return is_cheaper;
 }
 
-bool UpperBound::work(const std::function<Plan()>& draft, LimitMonitor& limits) {
+bool UpperBound::work(const Plan& draft, LimitMonitor& limits) {
   if (improver_) {
     const Cost before = improver_->cost();
     static_cast<void>(improver_->improve(kSlice, limits));
-    try_draft(draft(), limits);
+    try_draft(draft, limits);
     return improver_->cost() < before;
   }
   static_cast<void>(first_.advance(kSlice, limits));

@@ -20,8 +20,9 @@ class UpperBound {
   UpperBound(const Instance& instance, Objective objective,
              std::shared_ptr<const GoalDistances> distances, std::uint32_t seed);
 
-  /// Looks for a first plan; gives up for now if it is hard to find.
-  void start(LimitMonitor& limits);
+  /// Looks for a first plan for a while. To be called until it returns false: there is a plan, or
+  /// it is hard to find and others should have their turn.
+  [[nodiscard]] bool start(LimitMonitor& limits);
   /// To be called often with the steps of the search so far; true if the best plan is cheaper now.
   /// `draft` tells the paths that the search has at the moment, see Run::draft.
   bool advance(std::int64_t search_effort, const std::function<Plan()>& draft,
@@ -36,7 +37,7 @@ class UpperBound {
   [[nodiscard]] const Plan& plan() const { return improver_->plan(); }
 
  private:
-  bool work(const std::function<Plan()>& draft, LimitMonitor& limits);
+  bool work(const Plan& draft, LimitMonitor& limits);
   /// Makes a plan of the search's paths, which cost little, and improves it for a while.
   void try_draft(const Plan& draft, LimitMonitor& limits);
   void take_first_plan();
@@ -51,7 +52,8 @@ class UpperBound {
   std::optional<PlanImprover> rival_;  // of plans made of drafts
   std::int64_t share_;                 // the search gets so many times the effort of a slice
   std::int64_t due_;                   // search effort
-  std::int64_t extra_effort_ = 0;      // of the last slice, for its draft
+  std::int64_t start_effort_ = 0;
+  std::int64_t extra_effort_ = 0;  // of the last slice, for its draft
 };
 
 }  // namespace quadrille::discrete

@@ -21,11 +21,6 @@ namespace {
 /// Elementary steps of a round: a fraction of a second.
 constexpr std::int64_t kRound = 500'000;
 
-bool is_proof(const SolveOutcome& outcome) {
-  return outcome.internal_error || outcome.status == Status::optimal ||
-         outcome.status == Status::infeasible || outcome.stop == StopReason::gap;
-}
-
 /// Who is in which round, and who has won.
 class Rounds {
  public:
@@ -135,6 +130,46 @@ SolveOptions options_of(const Instance& instance, const SolveOptions& options, s
 
 }  // namespace
 
+bool is_proof(const SolveOutcome& outcome) {
+  return !outcome.internal_error &&
+         (outcome.status == Status::optimal || outcome.status == Status::infeasible ||
+          (outcome.status == Status::feasible && outcome.stop == StopReason::gap));
+}
+
+SolveOutcome combine(std::vector<SolveOutcome> outcomes, std::optional<std::size_t> winner,
+                     const SolveOptions& options) {
+  if (winner) return std::move(outcomes[*winner]);
+  for (SolveOutcome& outcome : outcomes)
+    if (outcome.internal_error) return std::move(outcome);
+  std::size_t best = 0;
+  Cost bound = 0;
+  for (std::size_t w = 0; w < outcomes.size(); ++w) {
+    bound = std::max(bound, outcomes[w].lower_bound);
+    if (outcomes[w].cost && (!outcomes[best].cost || *outcomes[w].cost < *outcomes[best].cost))
+      best = w;
+  }
+  SolveOutcome answer = std::move(outcomes[best]);
+  answer.lower_bound = bound;
+  if (!answer.cost) return answer;
+  if (*answer.cost < bound) {
+    answer.internal_error = Error{ErrorCode::internal,
+                                  "a plan costs " + std::to_string(*answer.cost) +
+                                      " and the proven bound is " + std::to_string(bound),
+                                  {}};
+    answer.status = Status::unknown;
+    answer.explanation = answer.internal_error->message;
+    answer.plan.reset();
+    answer.cost.reset();
+  } else if (*answer.cost == bound) {
+    answer.status = Status::optimal;
+    answer.stop = StopReason::none;
+    answer.explanation.clear();
+  } else if (is_within_gap(options, *answer.cost, bound)) {
+    answer.stop = StopReason::gap;
+  }
+  return answer;
+}
+
 SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& options) {
   Rounds rounds(options.threads, options.race);
   std::vector<SolveOutcome> outcomes(options.threads);
@@ -165,14 +200,10 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
   }
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
-  const auto winner = rounds.winner();
-  SolveOutcome& answer = outcomes[winner.value_or(0)];
-  for (const SolveOutcome& other : outcomes)
-    if (!winner) answer.lower_bound = std::max(answer.lower_bound, other.lower_bound);
+  SolveOutcome answer = combine(std::move(outcomes), rounds.winner(), options);
   answer.statistics.cpu_s = account->cpu_s();
   answer.statistics.wall_s = account->wall_s();
-  if (!winner && answer.cost == answer.lower_bound) answer.status = Status::optimal;
-  return std::move(answer);
+  return answer;
 }
 
 }  // namespace quadrille::discrete

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/solver.hpp"
@@ -25,6 +27,15 @@ class Companion {
 /// One search in the calling thread. `companion` may be null.
 [[nodiscard]] SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
                                        Companion* companion);
+
+/// Whether nothing more is to be done: not so after an internal error, which proves nothing.
+[[nodiscard]] bool is_proof(const SolveOutcome& outcome);
+
+/// The answer of several searches of one instance, not empty; `winner` has a proof. Without a proof
+/// an internal error of any of them is the answer, because it has to be seen; otherwise that is the
+/// cheapest plan with the largest bound, which may be as close together as `options` ask for.
+[[nodiscard]] SolveOutcome combine(std::vector<SolveOutcome> outcomes,
+                                   std::optional<std::size_t> winner, const SolveOptions& options);
 
 /// Several searches in threads of their own, the first with `options` and the others with other
 /// systems; the first proof is the answer. Requires options.threads > 1.

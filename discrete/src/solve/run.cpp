@@ -52,9 +52,9 @@ class MddRun final : public Run {
   }
 
   sat::Engine& engine() override { return *engine_; }
+  const sat::Engine& engine() const override { return *engine_; }
   sat::CostProblem& problem() override { return *problem_; }
   const Plan& plan() const override { return problem_->plan(); }
-  std::int64_t effort() const override { return theory_ ? 2 * theory_->effort() : 0; }
   std::int64_t num_checks() const override {
     return problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);
   }
@@ -91,6 +91,7 @@ class LazyRun final : public Run {
   }
 
   sat::Engine& engine() override { return *engine_; }
+  const sat::Engine& engine() const override { return *engine_; }
   sat::CostProblem& problem() override { return *problem_; }
   const Plan& plan() const override { return problem_->plan(); }
   Plan draft() const override {
@@ -98,7 +99,6 @@ class LazyRun final : public Run {
     for (const AgentId i : instance_.agents()) draft.paths.push_back(theory_->path(i));
     return draft;
   }
-  std::int64_t effort() const override { return theory_->effort(); }
   std::int64_t num_checks() const override { return theory_->num_checks(); }
   std::int64_t num_rejected() const override { return 0; }
   std::optional<std::string> complaint() const override {

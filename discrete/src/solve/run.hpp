@@ -22,12 +22,11 @@ class Run {
   [[nodiscard]] virtual bool prepare(std::shared_ptr<const GoalDistances> distances,
                                      LimitMonitor& limits) = 0;
   [[nodiscard]] virtual sat::Engine& engine() = 0;
+  [[nodiscard]] virtual const sat::Engine& engine() const = 0;
   [[nodiscard]] virtual sat::CostProblem& problem() = 0;
   [[nodiscard]] virtual const Plan& plan() const = 0;
   /// The agents' paths as the search has them now, which may collide; empty if it has none.
   [[nodiscard]] virtual Plan draft() const { return {}; }
-  /// Elementary steps of the theory so far, of less than a microsecond each.
-  [[nodiscard]] virtual std::int64_t effort() const = 0;
   [[nodiscard]] virtual std::int64_t num_checks() const = 0;
   [[nodiscard]] virtual std::int64_t num_rejected() const = 0;
   [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
@@ -38,6 +37,13 @@ class Run {
 
 /// `instance` and `options` outlive the run.
 [[nodiscard]] std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options);
+
+/// Whether a plan of cost `cost` is as close to the proven bound as was asked for.
+[[nodiscard]] inline bool is_within_gap(const SolveOptions& options, Cost cost,
+                                        Cost bound) noexcept {
+  return options.gap_percent && static_cast<double>(cost - bound) * 100 <=
+                                    *options.gap_percent * static_cast<double>(cost);
+}
 
 /// Whether the search for the least cost also looks for plans from above. The MDD model would have
 /// to grow for plans far above the lower bound.

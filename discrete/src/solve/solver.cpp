@@ -35,10 +35,9 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
     const auto distances = GoalDistances::make(instance_, limits_);
     outcome_.lower_bound = free_bound(distances.get());
     if (!distances) return;
-    listen();
     if (options_.first_plan) {
       upper_.emplace(instance_, options_.objective, distances, options_.seed);
-      upper_->start(limits_);
+      while (upper_->start(limits_)) yield();
       consider_stop();
     }
     try {
@@ -73,26 +72,24 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
     return bound;
   }
 
-  void listen() {
-    limits_.set_ticker(options_.progress_interval_s, [this] {
-      if (!options_.on_progress) return;
-      options_.on_progress({outcome_.lower_bound, upper_ ? upper_->cost() : std::nullopt,
-                            limits_.elapsed_wall(), limits_.conflicts()});
-    });
-    limits_.set_conflict_listener([this] { improve(); });
-  }
-
   // sat::YieldPoint
   void yield() override {
     outcome_.lower_bound = std::max(outcome_.lower_bound, lower());
     improve();
     consider_stop();
+    report_progress();
+  }
+
+  void report_progress() {
+    if (!options_.on_progress || limits_.elapsed_wall() < next_report_s_) return;
+    options_.on_progress({outcome_.lower_bound, upper_ ? upper_->cost() : std::nullopt,
+                          limits_.elapsed_wall(), limits_.conflicts()});
+    next_report_s_ = limits_.elapsed_wall() + options_.progress_interval_s;
   }
 
   void improve() {
-    constexpr std::int64_t kEffortOfConflict = 300;
     if (run_ == nullptr) return;
-    const std::int64_t effort = limits_.conflicts() * kEffortOfConflict + run_->effort();
+    const std::int64_t effort = run_->engine().effort();
     if (companion_ != nullptr) companion_->on_effort(effort);
     if (upper_ && upper_->advance(
                       effort, [this] { return run_->draft(); }, limits_))
@@ -102,9 +99,8 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
   /// Ends the search when the bounds meet, or are as close as was asked for.
   void consider_stop() {
     if (!upper_ || !upper_->cost()) return;
-    const Cost cost = *upper_->cost(), gap = cost - outcome_.lower_bound;
-    if (gap == 0 || (options_.gap_percent && static_cast<double>(gap) * 100 <=
-                                                 *options_.gap_percent * static_cast<double>(cost)))
+    const Cost cost = *upper_->cost();
+    if (cost == outcome_.lower_bound || is_within_gap(options_, cost, outcome_.lower_bound))
       limits_.stop(StopReason::gap);
   }
 
@@ -182,6 +178,7 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
   Companion* const companion_;
   std::optional<UpperBound> upper_;
   const Run* run_ = nullptr;  // when it is prepared
+  double next_report_s_ = 0;
 };
 
 /// The plan has to pass `verify` and to cost what was proved.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "cost/plan_query.hpp"
 #include "quadrille/core/contract.hpp"
@@ -13,6 +12,8 @@ namespace {
 
 /// Of the engine, for one candidate; those near the lower bound are refuted by three on average.
 constexpr std::int64_t kCandidateConflicts = 1000;
+/// Of the offline solver between two yield points: less than a second.
+constexpr std::int64_t kOfflineSlice = 8000;
 /// Conflicts of the offline solver for each of the slice.
 constexpr std::int64_t kOfflineShare = 16;
 
@@ -30,9 +31,11 @@ Outcome CandidateSearch::advance(Slice slice) {
     const Lit not_cheaper = counter_.above(*best - 1);
     const std::array assumptions{~not_cheaper};
     const std::int64_t before = limits.conflicts();
-    const auto budget = std::min<std::int64_t>(left, std::numeric_limits<int>::max());
-    const Verdict verdict = offline_.solve(assumptions, limits, {static_cast<int>(budget), {}});
+    const std::int64_t conflicts = std::min(left, kOfflineSlice);
+    const Verdict verdict = offline_.solve(assumptions, limits, {static_cast<int>(conflicts)});
+    context_.yield_point.yield();
     if (verdict == Verdict::unsat) {
+      if (offline_.refutes_everything()) return Outcome::exhausted;
       const std::array refuted{not_cheaper};
       context_.engine.add_clause({LemmaKind::core, refuted, {}, false});
       bounds.raise(*best);
@@ -43,6 +46,7 @@ Outcome CandidateSearch::advance(Slice slice) {
       if (answer == Verdict::sat) bounds.offer_accepted();
       if (answer == Verdict::unsat) {
         std::vector<Lit> core = context_.engine.core();
+        if (core.empty()) return Outcome::exhausted;
         for (Lit& lit : core) lit = ~lit;
         context_.engine.add_clause({LemmaKind::core, core, {}, false});
       }

@@ -24,8 +24,7 @@ CoreExtraction::CoreExtraction(const CostSearchContext& context, const CoreGuide
     : context_(context),
       options_(options),
       statistics_(statistics),
-      minimiser_(context.engine, context.problem, context.limits,
-                 {options.minimise_cores, options.core_tries}) {}
+      minimiser_(context, {options.minimise_cores, options.core_tries}) {}
 
 Outcome CoreExtraction::advance(Slice slice) {
   while (true) {
@@ -35,7 +34,7 @@ Outcome CoreExtraction::advance(Slice slice) {
     const Verdict verdict = solve(slice);
     if (verdict == Verdict::sat) return Outcome::found;
     if (verdict == Verdict::unknown) {
-      if (context_.limits.exhausted_now()) return Outcome::stopped;
+      if (context_.limits.exhausted_now() || context_.bounds.are_closed()) return Outcome::stopped;
       if (!in_passes()) return Outcome::working;
       if (!end_pass()) return Outcome::stopped;
       continue;

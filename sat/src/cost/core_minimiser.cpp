@@ -22,7 +22,7 @@ std::vector<Lit> CoreMinimiser::minimise(const std::vector<Lit>& core, std::int6
   std::vector<Lit> best = drop(core, searched);
   if (!retry) return best;
   const std::int64_t before = conflicts_;
-  for (int k = 0; k < options_.retries && best.size() > 2 && !limits_.exhausted(); ++k) {
+  for (int k = 0; k < options_.retries && best.size() > 2 && !context_.limits.exhausted(); ++k) {
     std::vector<Lit> shuffled = core;
     random_.shuffle_front(shuffled, shuffled.size());
     std::vector<Lit> other = drop(std::move(shuffled), searched);
@@ -34,7 +34,7 @@ std::vector<Lit> CoreMinimiser::minimise(const std::vector<Lit>& core, std::int6
 
 std::vector<Lit> CoreMinimiser::drop(std::vector<Lit> core, std::int64_t searched) {
   for (std::size_t at = 0; at < core.size() && core.size() > 1;) {
-    if (conflicts_ > searched + kFreeConflicts || limits_.exhausted()) break;
+    if (conflicts_ > searched + kFreeConflicts || context_.limits.exhausted()) break;
     std::vector<Lit> part = core;
     part.erase(part.begin() + static_cast<std::ptrdiff_t>(at));
     if (solve_part(part) != Verdict::unsat) {
@@ -42,7 +42,7 @@ std::vector<Lit> CoreMinimiser::drop(std::vector<Lit> core, std::int64_t searche
       continue;
     }
     // Those before `at` are known to be needed by the last core; the new one may lack some.
-    const std::vector<Lit> smaller = engine_.core();
+    const std::vector<Lit> smaller = context_.engine.core();
     at = static_cast<std::size_t>(std::count_if(
         core.begin(), core.begin() + static_cast<std::ptrdiff_t>(at),
         [&](Lit lit) { return std::find(smaller.begin(), smaller.end(), lit) != smaller.end(); }));
@@ -52,11 +52,12 @@ std::vector<Lit> CoreMinimiser::drop(std::vector<Lit> core, std::int64_t searche
 }
 
 Verdict CoreMinimiser::solve_part(const std::vector<Lit>& part) {
-  problem_.on_solve(false);
-  const std::int64_t before = limits_.conflicts();
-  const Verdict verdict =
-      engine_.solve(part, limits_, options_.retries > 0 ? kShortTryBudget : kTryBudget);
-  conflicts_ += limits_.conflicts() - before;
+  context_.problem.on_solve(false);
+  const std::int64_t before = context_.limits.conflicts();
+  const Verdict verdict = context_.engine.solve(
+      part, context_.limits, options_.retries > 0 ? kShortTryBudget : kTryBudget);
+  conflicts_ += context_.limits.conflicts() - before;
+  context_.yield_point.yield();
   return verdict;
 }
 

@@ -20,9 +20,8 @@ class CoreMinimiser {
     /// If not 0, each try ends sooner.
     int retries = 0;
   };
-  /// All outlive the minimiser.
-  CoreMinimiser(Engine& engine, CostProblem& problem, LimitMonitor& limits, const Options& options)
-      : engine_(engine), problem_(problem), limits_(limits), options_(options) {}
+  CoreMinimiser(const CostSearchContext& context, const Options& options)
+      : context_(context), options_(options) {}
 
   /// A part of `core` that cannot hold either. `searched`: conflicts of the search so far; those of
   /// the minimiser exceed them by little. `retry`: as often as the options say. Conflicts of
@@ -32,12 +31,10 @@ class CoreMinimiser {
 
  private:
   [[nodiscard]] std::vector<Lit> drop(std::vector<Lit> core, std::int64_t searched);
-  /// Unsat: `part` cannot hold.
+  /// Unsat: `part` cannot hold. Passes the yield point.
   [[nodiscard]] Verdict solve_part(const std::vector<Lit>& part);
 
-  Engine& engine_;
-  CostProblem& problem_;
-  LimitMonitor& limits_;
+  const CostSearchContext context_;
   const Options options_;
   Random random_{1};
   std::int64_t conflicts_ = 0;

@@ -50,9 +50,10 @@ Outcome CostNeighbourhoods::advance(Slice slice) {
     if (verdict == Verdict::sat) {
       bounds.offer_accepted();
     } else if (verdict == Verdict::unsat) {
-      // A core of the sum alone holds for all plans: none is cheaper than the incumbent.
       const std::vector<Lit> core = context_.engine.core();
-      if (core.empty() || (core.size() == 1 && core.front() == ~not_cheaper)) {
+      if (core.empty()) return Outcome::exhausted;
+      // A core of the sum alone holds for all plans: none is cheaper than the incumbent.
+      if (core.size() == 1 && core.front() == ~not_cheaper) {
         bounds.raise(*best);
         break;
       }

@@ -11,7 +11,7 @@ namespace quadrille::sat {
 
 /// Asks the engine for a plan under some assumptions, which bound every agent's cost. Models that
 /// are no plans are excluded on the way. `unknown` when the limits, or so many conflicts, came
-/// before an answer. The yield point is passed after each slice.
+/// before an answer. Solves in slices of effort, and passes the yield point after each.
 [[nodiscard]] Verdict find_plan(const CostSearchContext& context, std::span<const Lit> assumptions,
                                 std::optional<std::int64_t> conflicts = std::nullopt);
 

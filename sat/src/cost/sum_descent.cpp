@@ -21,7 +21,10 @@ Outcome SumDescent::advance(Slice slice) {
     const std::array assumptions{~counter_.above(target)};
     const Verdict verdict = find_plan(context_, assumptions, end - limits.conflicts());
     if (verdict == Verdict::sat) bounds.offer_accepted();
-    if (verdict == Verdict::unsat) bounds.raise(target + 1);
+    if (verdict == Verdict::unsat) {
+      if (context_.engine.core().empty()) return Outcome::exhausted;
+      bounds.raise(target + 1);
+    }
     if (verdict == Verdict::unknown) {
       step_ *= 2;
       break;

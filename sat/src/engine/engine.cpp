@@ -4,6 +4,7 @@
 
 #include <cadical.hpp>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <tracer.hpp>
 #include <utility>
@@ -99,6 +100,10 @@ class NoTheory final : public Theory {
 
 }  // namespace
 
+/// Elementary steps that a conflict is worth, besides those of the theory.
+constexpr std::int64_t kEffortOfConflict = 300;
+constexpr std::int64_t kNoEnd = std::numeric_limits<std::int64_t>::max();
+
 class Engine::Impl final : public CaDiCaL::ExternalPropagator,
                            public CaDiCaL::Terminator,
                            public CaDiCaL::Learner {
@@ -107,7 +112,8 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
       : observed_(theory != nullptr),
         keeps_clauses_(options.keep_clauses),
         observer_(options.observer),
-        host_(theory != nullptr ? *theory : no_theory_,
+        theory_(theory != nullptr ? *theory : no_theory_),
+        host_(theory_,
               {[this] { return new_lit(); }, [this](const Lemma& lemma) { count(lemma); }}),
         solver_(std::make_unique<CaDiCaL::Solver>()) {
     try {
@@ -158,6 +164,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
                       "no earlier call has thrown an exception");
     ++num_solves_;
     limits_ = &limits;
+    last_effort_ = budget.effort ? effort() + *budget.effort : kNoEnd;
     host_.begin_solve();
     assumptions_.assign(assumptions.begin(), assumptions.end());
     const int answer = limits.exhausted_now() ? 0 : border_.solver([&] { return search(budget); });
@@ -186,6 +193,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   }
 
   int num_variables() const { return num_variables_; }
+  std::int64_t effort() const { return kEffortOfConflict * num_conflicts_ + theory_.effort(); }
 
   std::vector<Lit> take_clauses() {
     QUADRILLE_REQUIRE(keeps_clauses_, "the engine keeps its clauses");
@@ -314,8 +322,10 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
 
   // CaDiCaL::Terminator
   bool terminate() override {
-    return border_.callback(
-        true, [&] { return host_.wants_stop() || (limits_ != nullptr && limits_->exhausted()); });
+    return border_.callback(true, [&] {
+      return host_.wants_stop() || (limits_ != nullptr && limits_->exhausted()) ||
+             effort() >= last_effort_;
+    });
   }
 
   // CaDiCaL::Learner
@@ -332,11 +342,13 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   const bool observed_, keeps_clauses_;
   ClauseObserver* const observer_;
   Border border_;
+  Theory& theory_;
   TheoryHost host_;
   std::unique_ptr<CaDiCaL::Solver> solver_;
   std::unique_ptr<DerivedClauseTracer> tracer_;
   LimitMonitor* limits_ = nullptr;
   int num_variables_ = 0;
+  std::int64_t last_effort_ = kNoEnd;  // of the running solve
   bool is_bare_reason_told_ = false;
   std::vector<Lit> assumptions_, failed_, kept_;
   std::vector<bool> model_;
@@ -359,6 +371,7 @@ Verdict Engine::solve(std::span<const Lit> assumptions, LimitMonitor& limits,
 bool Engine::model_value(Lit lit) const { return impl_->model_value(lit); }
 std::vector<Lit> Engine::core() const { return impl_->failed(); }
 int Engine::num_variables() const { return impl_->num_variables(); }
+std::int64_t Engine::effort() const { return impl_->effort(); }
 std::vector<Lit> Engine::take_clauses() { return impl_->take_clauses(); }
 void Engine::add_statistics(Statistics& statistics) const { impl_->add_statistics(statistics); }
 

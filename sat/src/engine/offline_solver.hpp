@@ -19,6 +19,8 @@ class OfflineSolver {
   /// Learns first what the engine has been given since the last call.
   [[nodiscard]] Verdict solve(std::span<const Lit> assumptions, LimitMonitor& limits,
                               const SolveBudget& budget);
+  /// Requires that the last verdict was unsat: whether it did not take the assumptions.
+  [[nodiscard]] bool refutes_everything() const { return solver_.core().empty(); }
   /// Requires that the last verdict was sat. False for a literal that is younger than it.
   [[nodiscard]] bool candidate_has(Lit lit) const;
   /// Adds sat_calls, conflicts and decisions: the clauses are the engine's.

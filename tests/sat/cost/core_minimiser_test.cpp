@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "quadrille/core/random.hpp"
@@ -33,6 +34,19 @@ class NoProblem final : public CostProblem {
   int num_solves = 0;
 };
 
+class NoBounds final : public Bounds {
+ public:
+  std::optional<Cost> upper() const override { return std::nullopt; }
+  Cost incumbent_cost_of(AgentId) const override { return 0; }
+  void offer_accepted() override {}
+};
+
+class Nobody final : public YieldPoint {
+ public:
+  void yield() override { ++num_yields; }
+  int num_yields = 0;
+};
+
 class CoreMinimiserTest : public testing::Test {
  protected:
   /// The set of these assumptions cannot hold. Hidden behind two auxiliary variables, so that unit
@@ -48,7 +62,7 @@ class CoreMinimiserTest : public testing::Test {
   }
   std::vector<std::size_t> minimise(const CoreMinimiser::Options& options, bool retry,
                                     std::int64_t searched = 1000) {
-    CoreMinimiser minimiser(engine, problem, limits, options);
+    CoreMinimiser minimiser({engine, problem, bounds, limits, nobody}, options);
     std::vector<std::size_t> found;
     for (const Lit lit : minimiser.minimise(assumptions, searched, retry))
       found.push_back(static_cast<std::size_t>(
@@ -62,6 +76,8 @@ class CoreMinimiserTest : public testing::Test {
 
   Engine engine{nullptr};
   NoProblem problem;
+  NoBounds bounds;
+  Nobody nobody;
   LimitMonitor limits{Limits{}};
   std::vector<Lit> assumptions;
 };
@@ -72,6 +88,7 @@ TEST_F(CoreMinimiserTest, DropsWhatIsNotNeeded) {
   make_assumptions(8);
   forbid({2, 5, 6});
   EXPECT_EQ(minimise({}, false), (Set{2, 5, 6}));
+  EXPECT_EQ(nobody.num_yields, problem.num_solves) << "others have their turn after each try";
 }
 
 TEST_F(CoreMinimiserTest, LeavesCoresAloneWhenItIsSwitchedOff) {
@@ -118,7 +135,7 @@ TEST_F(CoreMinimiserTest, WhatIsLeftIsACoreAndMinimal) {
         });
       });
     };
-    CoreMinimiser minimiser(fresh, problem, limits, {true, round % 3});
+    CoreMinimiser minimiser({fresh, problem, bounds, limits, nobody}, {true, round % 3});
     const std::vector<Lit> core = minimiser.minimise(lits, 1000, true);
     ASSERT_TRUE(is_core(core)) << round;
     for (std::size_t at = 0; at < core.size(); ++at) {

@@ -56,12 +56,10 @@ class LimitMonitor {
 
   /// A second interrupt flag. May be null; must outlive the monitor otherwise.
   void set_cancel(const std::atomic<bool>* cancel) noexcept { cancel_ = cancel; }
-  /// Calls `listener` after each conflict that is counted.
-  void set_conflict_listener(std::function<void()> listener);
   /// From now on, and if no limit was met before, the search has to stop for that reason.
   void stop(StopReason reason) noexcept;
 
-  void add_conflicts(std::int64_t count);
+  void add_conflicts(std::int64_t count) noexcept { conflicts_ += count; }
   [[nodiscard]] std::int64_t conflicts() const noexcept { return conflicts_; }
   [[nodiscard]] StopReason reason() const noexcept { return reason_; }
   /// Since the account was made; CPU time is that of all its threads.
@@ -79,7 +77,7 @@ class LimitMonitor {
   std::int64_t conflicts_ = 0;
   std::uint32_t calls_ = 0;
   StopReason reason_ = StopReason::none;
-  std::function<void()> ticker_, conflict_listener_;
+  std::function<void()> ticker_;
   double tick_interval_ = 0, next_tick_ = 0;
 };
 

@@ -92,7 +92,7 @@ struct SolveOptions {
   std::optional<bool> chronological;
   /// Of the core-guided cost search: a core that takes more conflicts makes it start again with
   /// what it has learned and then, for dpll with `first_plan`, look for cheaper plans in turns. See
-  /// quadrille/sat/core_guided_search.hpp. With the settings for `crowded` maps half of it counts.
+  /// quadrille/sat/cost_search.hpp. With the settings for `crowded` maps half of it counts.
   /// 1 .. 2^31 - 1.
   std::int64_t descend_after = 8000;
   /// Of dpll with the core-guided cost search: its settings for open and crowded maps (longer turns

@@ -49,7 +49,7 @@ struct CoreGuidedOptions {
   /// least 0. If not 0, all tries are shorter.
   int core_tries = 0;
   /// Look for plans from above too, once cores take long. Only for problems that need no growth,
-  /// with an engine that keeps its clauses, for nobody else.
+  /// with an engine that records its clauses for this search alone.
   bool from_above = false;
   std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
   /// How often at most cores are extracted from the start: again when a core is hard, with all that

@@ -32,8 +32,10 @@ struct EngineOptions {
 
 /// Limits of one call of solve, besides those of the LimitMonitor. Meeting one gives `unknown`.
 struct SolveBudget {
-  std::optional<int> conflicts;
-  std::optional<int> decisions;
+  std::optional<int> conflicts = std::nullopt;
+  std::optional<int> decisions = std::nullopt;
+  std::optional<std::int64_t> effort =
+      std::nullopt;  ///< See Engine::effort; ends the solve soon after that.
 };
 
 /// The DPLL(MAPF) engine: an incremental SAT solver that consults a theory while it searches.
@@ -65,6 +67,9 @@ class Engine {
   /// in the order in which they were given; empty if the clauses alone are unsatisfiable.
   [[nodiscard]] std::vector<Lit> core() const;
 
+  /// What the engine and its theory have done so far, in elementary steps of less than a
+  /// microsecond each: slices that are counted in them are the same in each run.
+  [[nodiscard]] std::int64_t effort() const;
   /// Variables so far: 1 to this number.
   [[nodiscard]] int num_variables() const;
   /// All clauses that the engine was given since the last call, lemmas of the theory included, each

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -67,6 +68,8 @@ class Theory {
   /// of solve. Returns kind, usages (valid until the next call) and forgettability; the clause in
   /// the result is not looked at.
   virtual Lemma explain(Lit implied, std::vector<Lit>& clause) = 0;
+  /// Elementary steps so far, of less than a microsecond each. The same in each run.
+  [[nodiscard]] virtual std::int64_t effort() const { return 0; }
 };
 
 }  // namespace quadrille::sat
