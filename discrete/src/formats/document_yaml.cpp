@@ -6,8 +6,10 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <array>
 #include <exception>
-#include <sstream>
+#include <istream>
+#include <streambuf>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,13 +22,44 @@ namespace {
 
 constexpr std::string_view kTupleTag = "tag:yaml.org,2002:python/tuple";
 
+/// Hands a text to the parser. The parser collects the tokens of a flow collection that could yet
+/// turn out to be a key, with more than a hundred bytes of memory for each byte of text: how far it
+/// may read without telling of anything is limited.
+class LimitedInput final : public std::streambuf {
+ public:
+  explicit LimitedInput(std::string_view text) : rest_(text) {}
+
+  /// After the limit nothing that the parser tells of counts.
+  void note_event() {
+    if (!limit_exceeded()) silent_ = 0;
+  }
+  [[nodiscard]] bool limit_exceeded() const { return silent_ > kMaxYamlLookahead; }
+
+ protected:
+  int_type underflow() override {
+    // To the parser the text ends here; what it then says is of no interest.
+    if (rest_.empty() || limit_exceeded()) return traits_type::eof();
+    const std::size_t size = rest_.copy(chunk_.data(), chunk_.size());
+    rest_.remove_prefix(size);
+    silent_ += size;
+    setg(chunk_.data(), chunk_.data(), chunk_.data() + size);
+    return traits_type::to_int_type(chunk_.front());
+  }
+
+ private:
+  std::string_view rest_;
+  std::array<char, 2048> chunk_;
+  std::size_t silent_ = 0;  // Bytes read since the last event.
+};
+
 /// Leaves the parser after the builder has refused something.
 struct Stop : std::exception {};
 
 class YamlHandler final : public YAML::EventHandler {
  public:
-  explicit YamlHandler(const std::string& file) : builder_(file) {}
+  YamlHandler(const std::string& file, LimitedInput& input) : builder_(file), input_(input) {}
   DocumentBuilder& builder() { return builder_; }
+  [[nodiscard]] long last_line() const { return last_line_; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (!builder_.is_empty()) refuse("a second document", mark);
@@ -88,7 +121,10 @@ class YamlHandler final : public YAML::EventHandler {
   void refuse(std::string message, const YAML::Mark& mark) {
     require(builder_.fail(ErrorCode::syntax, std::move(message), line(mark)));
   }
+  /// Each value passes here.
   void check(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    input_.note_event();
+    if (!input_.limit_exceeded()) last_line_ = line(mark);
     if (anchor != YAML::NullAnchor) refuse("anchors are not accepted", mark);
     if (!tag.empty() && tag != "?" && tag != "!")
       refuse("the tag " + in_quotes(tag) + " is not accepted here", mark);
@@ -111,8 +147,10 @@ class YamlHandler final : public YAML::EventHandler {
   }
 
   DocumentBuilder builder_;
+  LimitedInput& input_;
   std::vector<Level> levels_;
   long key_line_ = 0;
+  long last_line_ = 1;
 };
 
 /// Whether more brackets are open somewhere than any file of these formats has, quoted ones
@@ -133,8 +171,9 @@ bool has_too_many_open_brackets(std::string_view text) {
 Result<Document> parse_yaml(const std::string& text, const std::string& file) {
   if (has_too_many_open_brackets(text))
     return Error{ErrorCode::out_of_range, "too many brackets are open at the same time", {file, 0}};
-  YamlHandler handler(file);
-  std::istringstream in(text);
+  LimitedInput input(text);
+  std::istream in(&input);
+  YamlHandler handler(file, input);
   try {
     YAML::Parser parser(in);
     while (parser.HandleNextDocument(handler)) {
@@ -145,6 +184,11 @@ Result<Document> parse_yaml(const std::string& text, const std::string& file) {
     const long line = e.mark.is_null() ? 0 : e.mark.line + 1;
     handler.builder().fail(ErrorCode::syntax, "not valid YAML: " + printable(e.msg, 200), line);
   }
+  if (input.limit_exceeded())
+    return Error{ErrorCode::out_of_range,
+                 "what begins here has more than " + std::to_string(kMaxYamlLookahead) +
+                     " bytes in one piece: lists of that length have to be in block style",
+                 {file, handler.last_line()}};
   if (handler.builder().error()) return *handler.builder().error();
   if (handler.builder().is_empty())
     return Error{ErrorCode::syntax, "the file has no content", {file, 1}};

@@ -2,6 +2,7 @@
 #include "quadrille/discrete/instance_yaml.hpp"
 
 #include "discrete/formats/io_support.hpp"
+#include "formats/document.hpp"
 #include "quadrille/discrete/instance_json.hpp"
 
 namespace quadrille::discrete {
@@ -39,6 +40,34 @@ TEST(InstanceYaml, AliasBombsAreRefusedAtOnce) {
   ASSERT_FALSE(instance.has_value());
   EXPECT_EQ(instance.error().where.line, 1);
   EXPECT_EQ(instance.error().message, "anchors are not accepted");
+}
+
+TEST(InstanceYaml, WhatTheParserHasToKeepIsLimited) {
+  const auto read = [](const std::string& text) {
+    std::istringstream in(text);
+    return read_instance_yaml(in, "f");
+  };
+  std::string pairs;
+  while (pairs.size() < 3 * kMaxYamlLookahead) pairs += "[1,1],";
+  pairs += "[0,0]";
+  const std::string head = "dimensions: [4, 4]";
+  // As the value of a key, a list is read as it comes.
+  EXPECT_TRUE(read("map:\n  " + head + "\n  obstacles: [" + pairs + "]\nagents: []\n").has_value());
+  for (const std::string& text :
+       {"{map: {" + head + ", obstacles: [" + pairs + "]}, agents: []}",
+        "map:\n  " + head + "\n  obstacles:\n  - [" + pairs + "]\nagents: []\n",
+        "# " + std::string(2 * kMaxYamlLookahead, 'x') + "\nmap:\n  " + head + "\nagents: []\n",
+        "[" + std::string(2 * kMaxYamlLookahead, ',') + "]"}) {
+    const auto refused = read(text);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::out_of_range);
+    EXPECT_NE(refused.error().message.find("in one piece"), std::string::npos)
+        << refused.error().to_string();
+  }
+  // Below the limit all is well.
+  pairs.resize(kMaxYamlLookahead / 2 / 6 * 6);
+  EXPECT_TRUE(
+      read("{map: {" + head + ", obstacles: [" + pairs + "[0,0]]}, agents: []}").has_value());
 }
 
 TEST(InstanceYaml, WhatIsWrittenIsReadBack) {
