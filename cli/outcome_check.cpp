@@ -24,4 +24,21 @@ std::string find_false_claim(const Claim& claim, const Replay& replay) {
   return "";
 }
 
+std::string find_contradiction(const StatedOutcome& stated, Cost sum_of_costs, Cost makespan) {
+  if (stated.status == Status::infeasible || stated.status == Status::unknown)
+    return fmt::format("the file states that the instance is {}, but has a plan",
+                       to_string(*stated.status));
+  if (!stated.lower_bound) return "";
+  const Cost bound = *stated.lower_bound;
+  const Cost cost = stated.objective == Objective::makespan ? makespan : sum_of_costs;
+  if (bound > cost)
+    return fmt::format("the file states a lower bound of {}, but the plan costs {}", bound, cost);
+  if ((stated.status == Status::optimal && bound < cost) ||
+      (stated.status == Status::feasible && bound == cost))
+    return fmt::format(
+        "the file states that the plan is {}, but the lower bound is {} and the cost {}",
+        stated.status == Status::optimal ? "optimal" : "no more than feasible", bound, cost);
+  return "";
+}
+
 }  // namespace quadrille::cli

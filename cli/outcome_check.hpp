@@ -8,6 +8,7 @@
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/result.hpp"
+#include "quadrille/core/stated_outcome.hpp"
 
 namespace quadrille::cli {
 
@@ -18,7 +19,7 @@ struct Claim {
   std::optional<Cost> cost;
   Cost lower_bound = 0;
 };
-/// What a replay of its plan says; of no account without one.
+/// What a replay of its plan says; without a plan it is not looked at.
 struct Replay {
   std::size_t num_violations = 0;
   std::string first_violation;
@@ -26,6 +27,11 @@ struct Replay {
 };
 /// What is wrong with the claim; empty if nothing is.
 [[nodiscard]] std::string find_false_claim(const Claim& claim, const Replay& replay);
+
+/// What a file says about its plan, beside costs, and the replay of a plan without violations does
+/// not confirm: a status, a lower bound. Empty if all is well.
+[[nodiscard]] std::string find_contradiction(const StatedOutcome& stated, Cost sum_of_costs,
+                                             Cost makespan);
 
 /// Replays the plan of an outcome with the `verify` of its domain and holds its claims against the
 /// replay, which is returned. A claim that fails turns the outcome into `unknown` with an internal

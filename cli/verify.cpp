@@ -8,6 +8,7 @@
 
 #include "grid/report.hpp"
 #include "input.hpp"
+#include "outcome_check.hpp"
 #include "output.hpp"
 #include "roadmap/roadmap_report.hpp"
 #include "subcommands.hpp"
@@ -29,32 +30,33 @@ struct VerifyArguments {
   bool quiet = false;
 };
 
-/// One line per cost that the file states and the replay does not confirm.
-template <class PlanFile, class VerifyReport>
-std::string find_false_costs(const PlanFile& file, const VerifyReport& replay) {
+/// One line for everything that the file states and the replay does not confirm.
+template <class VerifyReport>
+std::string find_false_statements(const StatedOutcome& stated, const VerifyReport& replay) {
   std::string text;
-  const auto compare = [&text](const char* name, std::optional<Cost> stated, Cost actual) {
-    if (stated && *stated != actual)
-      text += fmt::format("the file states a {} of {}, but it is {}\n", name, *stated, actual);
+  const auto compare = [&text](const char* name, std::optional<Cost> cost, Cost actual) {
+    if (cost && *cost != actual)
+      text += fmt::format("the file states a {} of {}, but it is {}\n", name, *cost, actual);
   };
-  compare("sum of costs", file.sum_of_costs, replay.sum_of_costs);
-  compare("makespan", file.makespan, replay.makespan);
-  return text;
+  compare("sum of costs", stated.sum_of_costs, replay.sum_of_costs);
+  compare("makespan", stated.makespan, replay.makespan);
+  const std::string wrong = find_contradiction(stated, replay.sum_of_costs, replay.makespan);
+  return wrong.empty() ? text : text + wrong + "\n";
 }
 
 /// Prints the verdict: `good` for a plan without fault, else its faults and `more`.
 template <class PlanFile, class VerifyReport>
 ExitCode pronounce(const VerifyArguments& arguments, const std::string& input, const PlanFile& file,
                    const VerifyReport& replay, const std::string& good, const std::string& more) {
-  const std::string false_costs = replay.valid() ? find_false_costs(file, replay) : "";
-  const bool valid = replay.valid() && false_costs.empty();
+  const std::string wrong = replay.valid() ? find_false_statements(file.stated, replay) : "";
+  const bool valid = replay.valid() && wrong.empty();
   Console console(arguments.quiet, false);
   console.print(input);
   if (valid)
     console.print(good);
   else if (replay.valid())
-    console.print("invalid    the plan breaks no rule, but its file states a wrong cost\n" +
-                  false_costs);
+    console.print("invalid    the plan breaks no rule, but its file states what is wrong\n" +
+                  wrong);
   else
     console.print(fmt::format("invalid    {} violation{}\n", replay.violations.size(),
                               replay.violations.size() == 1 ? "" : "s") +

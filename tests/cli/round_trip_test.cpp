@@ -43,6 +43,33 @@ TEST_F(RoundTripTest, VerifyAcceptsAResultAndHoldsItToItsCost) {
   EXPECT_THAT(lie.out, HasSubstr("states a sum of costs of 7, but it is 8"));
 }
 
+TEST_F(RoundTripTest, VerifyRefusesAResultThatContradictsItself) {
+  ASSERT_EQ(run(small("solve", {"--quiet", "--json", path("r.json")})).code, 0);
+  const json result = json::parse(read("r.json"));
+  const auto verdict = [&](const json& change) {
+    json changed = result;
+    changed.update(change);
+    return run(small("verify", {write("changed.json", changed.dump())}));
+  };
+  EXPECT_EQ(verdict({{"status", "feasible"}, {"lower_bound", 7}}).code, 0);
+  EXPECT_EQ(verdict({{"lower_bound", nullptr}}).code, 0);
+  const std::pair<json, std::string> cases[] = {
+      {{{"lower_bound", 9}}, "states a lower bound of 9, but the plan costs 8"},
+      {{{"lower_bound", 7}}, "the plan is optimal, but the lower bound is 7 and the cost 8"},
+      {{{"status", "feasible"}}, "no more than feasible, but the lower bound is 8 and the cost 8"},
+      {{{"status", "infeasible"}}, "states that the instance is infeasible, but has a plan"},
+      {{{"status", "unknown"}}, "states that the instance is unknown, but has a plan"},
+      {{{"objective", "makespan"}, {"cost", 3}},
+       "states a lower bound of 8, but the plan costs 3"}};
+  for (const auto& [change, message] : cases) {
+    SCOPED_TRACE(message);
+    const Finished finished = verdict(change);
+    EXPECT_EQ(finished.code, 1) << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr(message));
+  }
+  EXPECT_EQ(verdict({{"status", "solved"}}).code, 65);
+}
+
 TEST_F(RoundTripTest, VerifyNamesEachViolationAndExitsWith1) {
   const Finished finished =
       run(small("verify", {write("p",

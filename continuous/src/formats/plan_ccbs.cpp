@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ostream>
@@ -16,6 +17,24 @@ namespace {
 constexpr Ticks kMoveTolerance = 2;
 constexpr Ticks kMaxTick = Ticks{1} << 60;
 
+/// What the last digit of a number stands for: 0.01 for "1.25", 10 for "1.2e2". Requires a number.
+double last_digit(std::string_view text) {
+  const auto exponent = text.find_first_of("eE");
+  const std::string_view mantissa = text.substr(0, exponent);
+  const auto point = mantissa.find('.');
+  const auto digits = static_cast<std::int64_t>(
+      point == std::string_view::npos
+          ? 0
+          : std::count_if(mantissa.begin() + static_cast<std::ptrdiff_t>(point), mantissa.end(),
+                          [](char c) { return c >= '0' && c <= '9'; }));
+  const std::int64_t power =
+      exponent == std::string_view::npos
+          ? 0
+          : parse_integer(text.substr(exponent + (text[exponent + 1] == '+' ? 2 : 1)), -400, 400)
+                .value_or(0);
+  return std::pow(10.0, static_cast<double>(power - digits));
+}
+
 class LogReader {
  public:
   LogReader(const XmlFile& xml, const Instance& instance, const GridRoadmap* grid)
@@ -27,6 +46,7 @@ class LogReader {
     // CCBS repeats map and tasks in the file: agents with a start and a goal beside the log.
     if (auto error = xml_.misplaced({{"root"},
                                      {"root", "log"},
+                                     {"root", "log", "summary"},
                                      {"root", "log", "agent"},
                                      {"root", "agent"},
                                      {"root", "log", "agent", "path"},
@@ -39,10 +59,38 @@ class LogReader {
       if (auto error = read_agent(agent)) return *error;
     if (file_.plan.paths.empty() && instance_.num_agents() > 0)
       return xml_.error(*log, "there is no plan", ErrorCode::invalid_plan);
+    if (auto error = read_summary(*log)) return *error;
     return std::move(file_);
   }
 
  private:
+  std::optional<Error> read_summary(const pugi::xml_node& log) {
+    const auto summary = xml_.only_child(log, "summary");
+    if (!summary) return summary.error();
+    if (auto error =
+            read_cost(*summary, "flowtime", Objective::sum_of_costs, file_.stated.sum_of_costs))
+      return error;
+    return read_cost(*summary, "makespan", Objective::makespan, file_.stated.makespan);
+  }
+
+  std::optional<Error> read_cost(const pugi::xml_node& summary, const char* name,
+                                 Objective objective, std::optional<Cost>& cost) const {
+    const pugi::xml_attribute attribute = summary.attribute(name);
+    if (!attribute) return std::nullopt;
+    const auto seconds = parse_number(attribute.value());
+    const double units = seconds ? *seconds / instance_.resolution() : -1;
+    if (!(units >= 0 && units <= static_cast<double>(kMaxTick)))
+      return xml_.error(summary, "the " + std::string(name) + " is " + quoted(attribute.value()) +
+                                     ", not a time");
+    // Rounded as a whole there and section by section here.
+    const Cost actual = quadrille::continuous::cost(file_.plan, objective);
+    const double tolerance = last_digit(attribute.value()) / instance_.resolution() +
+                             static_cast<double>((kMoveTolerance + 1) * num_sections_);
+    const bool agrees = std::abs(units - static_cast<double>(actual)) <= tolerance;
+    cost = agrees ? actual : static_cast<Cost>(std::llround(units));
+    return std::nullopt;
+  }
+
   std::optional<Error> read_agent(const pugi::xml_node& node) {
     const std::size_t index = file_.plan.paths.size();
     const auto number = parse_integer(node.attribute("number").value(), 0, INT64_MAX);
@@ -62,6 +110,7 @@ class LogReader {
     for (const pugi::xml_node section : way->children("section")) {
       if (auto error = read_section(section, AgentId(index), is_first, path)) return error;
       is_first = false;
+      ++num_sections_;
     }
     if (is_first) return xml_.error(*way, "the path is empty", ErrorCode::invalid_plan);
     // Waiting at the end is no departure.
@@ -131,6 +180,7 @@ class LogReader {
   const Instance& instance_;
   const GridRoadmap* grid_;
   PlanFile file_;
+  std::int64_t num_sections_ = 0;
 };
 
 }  // namespace

@@ -24,8 +24,9 @@ class JsonPlanReader {
 
   Result<PlanFile> run() {
     std::optional<Node> kind, version, resolution, objective, cost, ticks, plan, agents, status;
+    std::optional<Node> bound, bound_ticks;
     // Of a result; not read.
-    std::optional<Node> unread[11];
+    std::optional<Node> unread[9];
     if (!check_.members(Document::kRoot, {{"quadrille", &kind, false},
                                           {"version", &version, false},
                                           {"resolution", &resolution},
@@ -35,19 +36,19 @@ class JsonPlanReader {
                                           {"plan", &plan, false},
                                           {"agents", &agents, false},
                                           {"status", &status, false},
-                                          {"lower_bound", &unread[0], false},
-                                          {"lower_bound_ticks", &unread[1], false},
-                                          {"statistics", &unread[2], false},
-                                          {"seed", &unread[3], false},
-                                          {"options", &unread[4], false},
-                                          {"stop_reason", &unread[5], false},
-                                          {"internal_error", &unread[6], false},
-                                          {"explanation", &unread[7], false},
-                                          {"claim", &unread[8], false},
-                                          {"radii", &unread[9], false},
-                                          {"least_clearance", &unread[10], false}}) ||
+                                          {"lower_bound", &bound, false},
+                                          {"lower_bound_ticks", &bound_ticks, false},
+                                          {"statistics", &unread[0], false},
+                                          {"seed", &unread[1], false},
+                                          {"options", &unread[2], false},
+                                          {"stop_reason", &unread[3], false},
+                                          {"internal_error", &unread[4], false},
+                                          {"explanation", &unread[5], false},
+                                          {"claim", &unread[6], false},
+                                          {"radii", &unread[7], false},
+                                          {"least_clearance", &unread[8], false}}) ||
         !read_kind(kind, version, status) || !read_resolution(*resolution) ||
-        !read_cost(objective, cost, ticks))
+        !read_cost(objective, cost, ticks) || !read_bound(objective, bound, bound_ticks))
       return check_.error();
     if (!plan || document_.kind(*plan) == Document::Kind::null) {
       check_.fail(plan.value_or(Document::kRoot), ErrorCode::invalid_plan, "there is no plan");
@@ -64,6 +65,7 @@ class JsonPlanReader {
     std::string_view name = status ? "result" : "plan";
     std::int64_t number = 0;
     if (kind && !check_.text(*kind, name)) return false;
+    if (status && !read_status(*status)) return false;
     if (name == "result") return true;
     if (name != "plan")
       return check_.fail(*kind, "expected 'plan' or 'result', found " + text::in_quotes(name));
@@ -79,25 +81,48 @@ class JsonPlanReader {
                        "the resolution of the instance is " + json_number(instance_.resolution()));
   }
 
+  [[nodiscard]] bool is_null(const std::optional<Node>& node) const {
+    return !node || document_.kind(*node) == Document::Kind::null;
+  }
+
+  bool read_status(Node node) {
+    std::string_view text;
+    if (!check_.text(node, text)) return false;
+    file_.stated.status = parse_status(text);
+    return file_.stated.status ||
+           check_.fail(node, "expected 'optimal', 'feasible', 'infeasible' or 'unknown', found " +
+                                 text::in_quotes(text));
+  }
+
   bool read_cost(std::optional<Node> objective, std::optional<Node> cost,
                  std::optional<Node> ticks) {
     std::string_view name;
     if (objective && !check_.text(*objective, name)) return false;
-    const bool sum = name == to_string(Objective::sum_of_costs);
-    if (objective && !sum && name != to_string(Objective::makespan))
+    const auto known = parse_objective(name);
+    if (objective && !known)
       return check_.fail(*objective,
                          "expected 'sum-of-costs' or 'makespan', found " + text::in_quotes(name));
-    const auto is_null = [&](const std::optional<Node>& node) {
-      return !node || document_.kind(*node) == Document::Kind::null;
-    };
+    if (known) file_.stated.objective = *known;
     if (is_null(ticks) && is_null(cost)) return true;
     if (is_null(ticks)) return check_.fail(*cost, "a cost needs the key 'cost_ticks'");
     if (!objective) return check_.fail(*ticks, "a cost needs the key 'objective'");
     Cost value = 0;
     if (!check_.integer(*ticks, 0, INT64_MAX, value)) return false;
     if (!is_null(cost) && !agrees(*cost, value)) return false;
-    (sum ? file_.sum_of_costs : file_.makespan) = value;
+    (*known == Objective::makespan ? file_.stated.makespan : file_.stated.sum_of_costs) = value;
     return true;
+  }
+
+  bool read_bound(std::optional<Node> objective, std::optional<Node> bound,
+                  std::optional<Node> ticks) {
+    if (is_null(ticks) && is_null(bound)) return true;
+    if (is_null(ticks))
+      return check_.fail(*bound, "a lower bound needs the key 'lower_bound_ticks'");
+    if (!objective) return check_.fail(*ticks, "a lower bound needs the key 'objective'");
+    Cost value = 0;
+    if (!check_.integer(*ticks, 0, INT64_MAX, value)) return false;
+    file_.stated.lower_bound = value;
+    return is_null(bound) || agrees(*bound, value);
   }
 
   /// A time that is stated beside its ticks.

@@ -18,7 +18,7 @@
 namespace quadrille::continuous {
 
 /// A parsed XML file that knows the lines of its elements. What the parser lets pass although it is
-/// not well-formed is refused: repeated attributes, entities that nobody has defined.
+/// not well-formed is refused: repeated attributes, entities that are not defined.
 class XmlFile {
  public:
   [[nodiscard]] static Result<XmlFile> parse(std::string text, const std::string& file);

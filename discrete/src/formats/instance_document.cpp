@@ -8,11 +8,11 @@ namespace {
 
 bool all_distinct(Checker& checker, const Graph& graph, const std::vector<PlacedTask>& tasks,
                   VertexId Task::*end, Document::Node PlacedTask::*place, const char* name) {
-  constexpr std::size_t kNobody = SIZE_MAX;
-  IdVector<VertexId, std::size_t> owner(graph.num_vertices(), kNobody);
+  constexpr std::size_t kNone = SIZE_MAX;
+  IdVector<VertexId, std::size_t> owner(graph.num_vertices(), kNone);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const VertexId v = tasks[i].task.*end;
-    if (owner[v] != kNobody)
+    if (owner[v] != kNone)
       return checker.fail(tasks[i].*place, ErrorCode::invalid_instance,
                           "agents " + std::to_string(owner[v]) + " and " + std::to_string(i) +
                               " have the same " + name + " " + vertex_name(graph, v));

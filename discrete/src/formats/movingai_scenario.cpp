@@ -103,12 +103,12 @@ Error refuse_row(const Scenario& scenario, const ScenarioRow& row, std::string m
 /// Finds rows among the first `count` that have the same start, or the same goal.
 std::optional<Error> find_shared(const GridLayout& grid, const Scenario& scenario,
                                  std::size_t count, Cell ScenarioRow::*end, const char* name) {
-  constexpr std::size_t kNobody = SIZE_MAX;
-  IdVector<VertexId, std::size_t> owner(grid.num_vertices(), kNobody);
+  constexpr std::size_t kNone = SIZE_MAX;
+  IdVector<VertexId, std::size_t> owner(grid.num_vertices(), kNone);
   for (std::size_t i = 0; i < count; ++i) {
     const ScenarioRow& row = scenario.rows[i];
     std::size_t& first = owner[*grid.vertex_at(row.*end)];
-    if (first == kNobody) {
+    if (first == kNone) {
       first = i;
       continue;
     }

@@ -20,7 +20,8 @@ class JsonPlanReader {
 
   Result<PlanFile> run() {
     std::optional<Node> kind, version, objective, cost, plan, agents, status;
-    std::optional<Node> bound, statistics, seed, options, stop, internal_error,
+    std::optional<Node> bound;
+    std::optional<Node> statistics, seed, options, stop, internal_error,
         explanation;  // Of a result; unread.
     if (!check_.members(Document::kRoot, {{"quadrille", &kind, false},
                                           {"version", &version, false},
@@ -36,7 +37,8 @@ class JsonPlanReader {
                                           {"stop_reason", &stop, false},
                                           {"internal_error", &internal_error, false},
                                           {"explanation", &explanation, false}}) ||
-        !read_kind(kind, version, status) || !read_cost(objective, cost))
+        !read_kind(kind, version, status) || !read_cost(objective, cost) ||
+        !read_bound(objective, bound))
       return check_.error();
     if (!plan || document_.kind(*plan) == Document::Kind::null) {
       check_.fail(plan.value_or(Document::kRoot), ErrorCode::invalid_plan, "there is no plan");
@@ -53,6 +55,7 @@ class JsonPlanReader {
     std::string_view name = status ? "result" : "plan";
     std::int64_t number = 0;
     if (kind && !check_.text(*kind, name)) return false;
+    if (status && !read_status(*status)) return false;
     if (name == "result") return true;
     if (name != "plan")
       return check_.fail(*kind, "expected 'plan' or 'result', found " + in_quotes(name));
@@ -60,19 +63,35 @@ class JsonPlanReader {
     return check_.integer(*version, kPlanJsonVersion, kPlanJsonVersion, number);
   }
 
+  bool read_status(Node node) {
+    std::string_view text;
+    if (!check_.text(node, text)) return false;
+    file_.stated.status = parse_status(text);
+    return file_.stated.status ||
+           check_.fail(node, "expected 'optimal', 'feasible', 'infeasible' or 'unknown', found " +
+                                 in_quotes(text));
+  }
+
   bool read_cost(std::optional<Node> objective, std::optional<Node> cost) {
     std::string_view name;
     if (objective && !check_.text(*objective, name)) return false;
-    const bool sum = name == to_string(Objective::sum_of_costs);
-    if (objective && !sum && name != to_string(Objective::makespan))
+    const auto known = parse_objective(name);
+    if (objective && !known)
       return check_.fail(*objective,
                          "expected 'sum-of-costs' or 'makespan', found " + in_quotes(name));
+    if (known) file_.stated.objective = *known;
     if (!cost || document_.kind(*cost) == Document::Kind::null) return true;
     if (!objective) return check_.fail(*cost, "a cost needs the key 'objective'");
     Cost value = 0;
     if (!check_.integer(*cost, 0, INT64_MAX, value)) return false;
-    (sum ? file_.sum_of_costs : file_.makespan) = value;
+    (*known == Objective::makespan ? file_.stated.makespan : file_.stated.sum_of_costs) = value;
     return true;
+  }
+
+  bool read_bound(std::optional<Node> objective, std::optional<Node> bound) {
+    if (!bound || document_.kind(*bound) == Document::Kind::null) return true;
+    if (!objective) return check_.fail(*bound, "a lower bound needs the key 'objective'");
+    return check_.integer(*bound, 0, INT64_MAX, file_.stated.lower_bound.emplace());
   }
 
   bool read_paths(Node plan) {

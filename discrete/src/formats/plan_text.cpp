@@ -177,7 +177,7 @@ Result<PlanFile> read_visualizer_plan(const std::string& text, const std::string
 }
 
 void write_cbsh2_plan(std::ostream& out, const Graph& graph, const Plan& plan) {
-  // An empty line tells the plan for no agents from a file that somebody failed to write.
+  // An empty line tells the plan for no agents from a file that could not be written.
   if (plan.paths.empty()) out << '\n';
   for (std::size_t i = 0; i < plan.paths.size(); ++i) {
     out << "Agent " << i << ": ";

@@ -35,7 +35,7 @@ class YamlPlanReader {
                                  {"runtime", &runtime, false},
                                  {"highLevelExpanded", &high, false},
                                  {"lowLevelExpanded", &low, false}}) &&
-           read_cost(cost, file_.sum_of_costs) && read_cost(makespan, file_.makespan);
+           read_cost(cost, file_.stated.sum_of_costs) && read_cost(makespan, file_.stated.makespan);
   }
 
   bool read_cost(std::optional<Node> node, std::optional<Cost>& cost) {

@@ -26,7 +26,7 @@ TEST(TimedPlanFiles, TheExamplesAreOnePlan) {
   const PlanFile json = read_plan(test::data("discs-plan.json"), discs()).value();
   const PlanFile log = read_plan(test::data("discs-log.xml"), discs()).value();
   EXPECT_EQ(json.plan, log.plan);
-  EXPECT_EQ(json.sum_of_costs, std::nullopt);
+  EXPECT_EQ(json.stated.sum_of_costs, std::nullopt);
   const VerifyReport report = verify(discs(), json.plan);
   EXPECT_TRUE(report.valid());
   EXPECT_EQ(report.sum_of_costs, 5015);
@@ -45,6 +45,14 @@ TEST(TimedPlanFiles, RefusesWrongJson) {
       {"0.001,", "0.001, \"cost_ticks\": 5,", "f:4: /cost_ticks: a cost needs the key 'objective'"},
       {"0.001,", "0.001, \"objective\": \"makespan\", \"cost\": 2, \"cost_ticks\": 2900,",
        "f:4: /cost: this is not 2900 times the resolution"},
+      {"0.001,", "0.001, \"status\": \"good\",", "f:4: /status: expected 'optimal', 'feasible'"},
+      {"0.001,", "0.001, \"lower_bound\": 5,",
+       "f:4: /lower_bound: a lower bound needs the key 'lower_bound_ticks'"},
+      {"0.001,", "0.001, \"lower_bound_ticks\": 5,",
+       "f:4: /lower_bound_ticks: a lower bound needs the key 'objective'"},
+      {"0.001,",
+       "0.001, \"objective\": \"makespan\", \"lower_bound\": 2, \"lower_bound_ticks\": 2900,",
+       "f:4: /lower_bound: this is not 2900 times the resolution"},
       {"0.001,", "0.001, \"agents\": 3,", "f:4: /agents: 3 agents, but 2 paths"},
       {"{\"vertex\": 0, \"at\"", "{\"vertex\": 4, \"at\"",
        "f:6: /plan/0/0/vertex: there is no vertex 4 among 4"},
@@ -122,6 +130,35 @@ TEST(TimedPlanFiles, LogsOfOtherProgramsMayDifferByTheirRounding) {
   const Plan longer = read_discs(in).value().plan;
   EXPECT_NE(longer, exact);
   EXPECT_FALSE(verify(discs(), longer).valid());
+}
+
+TEST(TimedPlanFiles, TheSummaryOfALogIsItsStatement) {
+  const std::string log = test::contents(test::data("discs-log.xml"));
+  const auto stated = [&](const std::string& summary) {
+    std::istringstream in(
+        test::with_fault(log, {"flowtime=\"5.015\" makespan=\"2.9\"", summary, ""}));
+    return read_discs(in).value().stated;
+  };
+  // As exactly as it is written, and give or take the rounding of each section.
+  for (const char* flowtime :
+       {"5.015", "5.0150", "5.014999", "5.036", "5.02", "5.0", "5", "0.5e1", "50.15E-1"}) {
+    const StatedOutcome file = stated("flowtime=\"" + std::string(flowtime) + "\"");
+    EXPECT_EQ(file.sum_of_costs, 5015) << flowtime;
+    EXPECT_EQ(file.makespan, std::nullopt);
+  }
+  EXPECT_EQ(stated("flowtime=\"5.100\"").sum_of_costs, 5100);
+  EXPECT_EQ(stated("flowtime=\"7\"").sum_of_costs, 7000);
+  EXPECT_EQ(stated("makespan=\"2.9\"").makespan, 2900);
+  EXPECT_EQ(stated("makespan=\"2.80\"").makespan, 2800);
+  const std::vector<test::Fault> faults = {
+      {"\"5.015\"", "\"long\"", "f:4: the flowtime is 'long', not a time"},
+      {"\"5.015\"", "\"-1\"", "f:4: the flowtime is '-1', not a time"},
+      {"makespan=\"2.9\"", "makespan=\"1e300\"", "f:4: the makespan is '1e300', not a time"},
+      {"<agent number=\"0\">", "<summary/><agent number=\"0\">",
+       "f:5: there is a second <summary>"},
+      {"</log>", "</log><summary/>", "f:20: <summary> outside of <log>"},
+  };
+  test::expect_refused(log, faults, read_discs);
 }
 
 TEST(TimedPlanFiles, WhatIsWrittenIsReadBack) {

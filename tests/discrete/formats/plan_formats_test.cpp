@@ -54,7 +54,7 @@ TEST(PlanFormats, APlanForNoAgentsIsReadBack) {
       EXPECT_TRUE(again->plan.paths.empty());
     }
   }
-  // A file that nobody managed to write is none.
+  // A file that could not be written is no plan.
   std::istringstream in("");
   EXPECT_FALSE(read_plan(in, "f", small_graph()).has_value());
 }
@@ -70,14 +70,17 @@ TEST(PlanFormats, AllFilesStateTheSamePlan) {
 
 TEST(PlanFormats, StatedCostsAreHandedOn) {
   const auto plan = read_plan(testing::data("valid/plan.json"), small_graph()).value();
-  EXPECT_EQ(plan.sum_of_costs, 2);
-  EXPECT_EQ(plan.makespan, std::nullopt);
+  EXPECT_EQ(plan.stated.sum_of_costs, 2);
+  EXPECT_EQ(plan.stated.makespan, std::nullopt);
   const auto result = read_plan(testing::data("valid/result.json"), small_graph()).value();
-  EXPECT_EQ(result.sum_of_costs, std::nullopt);
-  EXPECT_EQ(result.makespan, 1);
+  EXPECT_EQ(result.stated.sum_of_costs, std::nullopt);
+  EXPECT_EQ(result.stated.makespan, 1);
+  EXPECT_EQ(result.stated.status, Status::optimal);
+  EXPECT_EQ(result.stated.lower_bound, 1);
+  EXPECT_EQ(result.stated.objective, Objective::makespan);
   const auto yaml = read_plan(testing::data("valid/plan.yaml"), small_graph()).value();
-  EXPECT_EQ(yaml.sum_of_costs, 2);
-  EXPECT_EQ(yaml.makespan, 1);
+  EXPECT_EQ(yaml.stated.sum_of_costs, 2);
+  EXPECT_EQ(yaml.stated.makespan, 1);
 }
 
 TEST(PlanFormats, AnExplicitFormatWins) {
@@ -126,10 +129,10 @@ TEST(PlanFormats, WhatIsWrittenIsReadBack) {
       }
       EXPECT_EQ(again->plan, expected) << file.str();
       if (format == PlanFormat::json || format == PlanFormat::yaml) {
-        EXPECT_EQ(again->sum_of_costs, plan.cost(Objective::sum_of_costs));
+        EXPECT_EQ(again->stated.sum_of_costs, plan.cost(Objective::sum_of_costs));
       }
       if (format == PlanFormat::yaml) {
-        EXPECT_EQ(again->makespan, plan.cost(Objective::makespan));
+        EXPECT_EQ(again->stated.makespan, plan.cost(Objective::makespan));
       }
     }
   }

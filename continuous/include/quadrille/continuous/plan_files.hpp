@@ -10,6 +10,7 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/stated_outcome.hpp"
 
 namespace quadrille::continuous {
 
@@ -26,9 +27,8 @@ enum class PlanFormat {
 /// A plan as a file states it. Nothing is claimed about its validity: see verify.
 struct PlanFile {
   Plan plan;  ///< Vertices belong to the roadmap; no path is empty.
-  /// Costs in ticks that the file states; the reader does not compare them with the plan.
-  std::optional<Cost> sum_of_costs;
-  std::optional<Cost> makespan;
+  /// In ticks. A cost that a log states with its own rounding counts as that of the plan.
+  StatedOutcome stated;
 };
 
 /// Reads a plan for `instance`; without `format` the first character that is no white space

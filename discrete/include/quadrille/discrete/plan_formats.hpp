@@ -9,6 +9,7 @@
 
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/result.hpp"
+#include "quadrille/core/stated_outcome.hpp"
 #include "quadrille/discrete/graph.hpp"
 #include "quadrille/discrete/plan.hpp"
 
@@ -32,9 +33,7 @@ enum class PlanFormat {
 /// A plan as a file states it. Nothing is claimed about its validity: see verify.
 struct PlanFile {
   Plan plan;  ///< Paths are as long as in the file; never empty. Vertices belong to the graph.
-  /// Costs that the file states; the reader does not compare them with the plan.
-  std::optional<Cost> sum_of_costs;
-  std::optional<Cost> makespan;
+  StatedOutcome stated;
 };
 
 /// Reads a plan on `graph`; without `format` the content decides. Errors, with file and line: io,
