@@ -105,6 +105,13 @@ std::string check(const ConvertArguments& arguments) {
   return "";
 }
 
+/// Why the output may not be written; empty if it may.
+std::string check_files(const ConvertArguments& arguments) {
+  return check_outputs({{"--output", &arguments.output}},
+                       {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
+                        &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan});
+}
+
 std::string check_roadmap(const ConvertArguments& arguments) {
   std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
   if (wrong.empty()) wrong = arguments.to.why_not_continuous("--to");
@@ -135,6 +142,8 @@ Subcommand add_convert(CLI::App& program) {
             const bool continuous = is_roadmap(arguments->input, arguments->roadmap);
             const std::string wrong = continuous ? check_roadmap(*arguments) : check(*arguments);
             if (!wrong.empty()) return usage_error(*app, wrong);
+            const std::string clash = check_files(*arguments);
+            if (!clash.empty()) return usage_error(*app, clash);
             if (!continuous) return run(*arguments, [&] { return load_input(arguments->input); });
             return run(*arguments,
                        [&] { return load_roadmap_input(arguments->roadmap, arguments->input); });

@@ -204,9 +204,9 @@ std::string settle(const CLI::App& app, GenerateArguments& arguments) {
   if (arguments.scen_output.empty() == arguments.agents.has_value())
     return arguments.agents ? "--agents needs --scen-output" : "--agents is missing";
   if (arguments.any_goal && arguments.scen_output.empty()) return "--any-goal needs --scen-output";
-  if (arguments.map_output == arguments.scen_output)
-    return "--map-output and --scen-output name the same output";
-  return "";
+  return check_outputs(
+      {{"--map-output", &arguments.map_output}, {"--scen-output", &arguments.scen_output}},
+      {&arguments.map});
 }
 
 void add_options(CLI::App& app, GenerateArguments& arguments) {

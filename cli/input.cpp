@@ -109,12 +109,18 @@ std::string describe_graph(const discrete::Graph& graph) {
   return fmt::format("{}, {} vertices, {} edges", shape, graph.num_vertices(), graph.num_edges());
 }
 
+std::string describe_letters(const std::vector<discrete::LetterCount>& letters) {
+  std::string text;
+  for (const discrete::LetterCount& letter : letters)
+    text += fmt::format("letters    {} cells '{}' read as {}\n", letter.cells, letter.letter,
+                        letter.passable ? "passable" : "blocked");
+  return text;
+}
+
 std::string describe_input(const Input& input) {
   std::string text =
       fmt::format("map        {}: {}\n", input.source, describe_graph(input.instance.graph()));
-  for (const discrete::LetterCount& letter : input.other_letters)
-    text += fmt::format("letters    {} cells '{}' read as {}\n", letter.cells, letter.letter,
-                        letter.passable ? "passable" : "blocked");
+  text += describe_letters(input.other_letters);
   if (input.task_source.empty()) return text;
   text += fmt::format("agents     {} from {}", input.instance.num_agents(), input.task_source);
   if (input.rows > 0) text += fmt::format(" (of {} rows)", input.rows);

@@ -39,17 +39,77 @@ int create_temporary(const std::string& name) {
   return ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
+/// Where a name leads, whether or not there is a file. Links are followed, to nothing as well.
+std::filesystem::path resolve(const std::filesystem::path& name) {
+  constexpr int kMaxLinks = 40;
+  std::error_code ignored;
+  std::filesystem::path path = name;
+  if (std::filesystem::exists(path, ignored)) {
+    path = std::filesystem::canonical(path, ignored);
+    // What /proc names by a link, such as a pipe, may have no other name.
+    return path.empty() ? name : path;
+  }
+  for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(path, ignored); ++i)
+    path = path.parent_path() / std::filesystem::read_symlink(path, ignored);
+  path = std::filesystem::weakly_canonical(path, ignored);
+  return path.empty() ? name : path;
+}
+
+/// What tells files apart: the number of one that exists, or the place of one that does not.
+class Identity {
+ public:
+  explicit Identity(const std::string& file) {
+    const bool is_stdout = file == "-";
+    exists_ = (is_stdout ? ::fstat(STDOUT_FILENO, &status_) : ::stat(file.c_str(), &status_)) == 0;
+    if (!exists_ && !is_stdout) place_ = resolve(file);
+  }
+
+  /// Whether what is written to one of them spoils the other.
+  [[nodiscard]] bool clashes(const Identity& other) const {
+    if (exists_ != other.exists_) return false;
+    if (!exists_) return !place_.empty() && place_ == other.place_;
+    if (status_.st_dev != other.status_.st_dev || status_.st_ino != other.status_.st_ino)
+      return false;
+    return !S_ISCHR(status_.st_mode);
+  }
+  [[nodiscard]] bool is_regular() const { return exists_ && S_ISREG(status_.st_mode); }
+
+ private:
+  bool exists_;
+  struct stat status_ {};
+  std::filesystem::path place_;
+};
+
 }  // namespace
+
+std::string check_outputs(std::initializer_list<NamedOutput> outputs,
+                          std::initializer_list<const std::string*> inputs) {
+  for (auto one = outputs.begin(); one != outputs.end(); ++one) {
+    if (one->file->empty()) continue;
+    const Identity identity(*one->file);
+    for (auto other = one + 1; other != outputs.end(); ++other) {
+      if (other->file->empty()) continue;
+      const bool both_stdout = *one->file == "-" && *other->file == "-";
+      if (both_stdout || identity.clashes(Identity(*other->file)))
+        return fmt::format("{} and {} name the same output", one->option, other->option);
+    }
+    for (const std::string* input : inputs) {
+      if (input->empty()) continue;
+      const Identity read(*input);
+      if (read.is_regular() && identity.clashes(read))
+        return (*one->file == "-" ? "standard output" : *one->file) + " is an input of this run";
+    }
+  }
+  return "";
+}
 
 OutputFile::OutputFile(std::string path, std::string target, bool replace)
     : path_(std::move(path)), target_(std::move(target)), replace_(replace) {}
 
 Result<OutputFile> OutputFile::probe(std::string path) {
   if (path == "-") return OutputFile(path, path, false);
-  std::error_code ignored;
   // Replacing a symbolic link itself would surprise.
-  std::string target = std::filesystem::weakly_canonical(path, ignored).string();
-  if (target.empty()) target = path;
+  std::string target = resolve(path).string();
 
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
@@ -105,7 +165,7 @@ void Console::print(std::string_view text) {
 void reserve_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
-    // Takes the lowest free number, which is this one; in the direction that nobody uses.
+    // Takes the lowest free number, which is this one; opened in the direction that is not used.
     if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -30,6 +31,18 @@ class OutputFile {
   std::string target_;  // where symbolic links lead
   bool replace_;  // else written in place: a device, a pipe, or a folder that takes no new files
 };
+
+/// An output as the user named it.
+struct NamedOutput {
+  const char* option;
+  const std::string* file;  ///< Empty: there is none.
+};
+
+/// Why these files may not be written in one run; empty if they may: two outputs go to one file, or
+/// one goes to an input. It does not matter whether the file exists, nor whether links lead to it.
+/// Devices such as /dev/null may be named twice.
+[[nodiscard]] std::string check_outputs(std::initializer_list<NamedOutput> outputs,
+                                        std::initializer_list<const std::string*> inputs);
 
 /// Human text: to stdout, or to stderr when stdout carries a file, or nowhere.
 class Console {

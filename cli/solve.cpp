@@ -52,12 +52,6 @@ struct SolveArguments {
   bool quiet = false;
 };
 
-std::optional<Objective> parse_objective(std::string_view text) {
-  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan})
-    if (text == to_string(objective)) return objective;
-  return std::nullopt;
-}
-
 std::optional<std::optional<System>> choose_system(std::string_view text) {
   const auto system = discrete::parse_system(text);
   if (!system) return std::nullopt;
@@ -167,16 +161,12 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
       ->group("Debugging");
 }
 
-/// Whether both name one regular file, or would if they existed.
-bool same_file(const std::string& a, const std::string& b) {
-  if (a.empty() || b.empty()) return false;
-  if (a == "-" || b == "-") return a == b;
-  std::error_code ignored;
-  const auto where = std::filesystem::weakly_canonical(a, ignored);
-  if (std::filesystem::exists(where, ignored) && !std::filesystem::is_regular_file(where, ignored))
-    return false;
-  return std::filesystem::equivalent(a, b, ignored) ||
-         where == std::filesystem::weakly_canonical(b, ignored);
+/// Why the outputs may not be written; empty if they may.
+std::string check_files(const SolveArguments& arguments) {
+  const SolveRequest& request = arguments.request;
+  return check_outputs({{"--plan", &arguments.plan}, {"--json", &arguments.json}},
+                       {&request.input.map, &request.input.scen, &request.input.instance,
+                        &arguments.roadmap.roadmap, &arguments.roadmap.task, &request.known_plan});
 }
 
 /// What is wrong with the combination of options; empty if nothing is. Settles the system.
@@ -184,12 +174,8 @@ std::string settle(SolveArguments& arguments) {
   const InputOptions& input = arguments.request.input;
   std::string wrong = check_input_options(input, Need::tasks);
   if (!wrong.empty()) return wrong;
-  if (same_file(arguments.plan, arguments.json)) return "--plan and --json name the same output";
-  const std::vector<const std::string*> inputs = {&input.map, &input.scen, &input.instance,
-                                                  &arguments.request.known_plan};
-  for (const std::string* output : {&arguments.plan, &arguments.json})
-    for (const std::string* in : inputs)
-      if (*output != "-" && same_file(*output, *in)) return *output + " is an input of this run";
+  wrong = check_files(arguments);
+  if (!wrong.empty()) return wrong;
   if (arguments.plan_format.is_given() && arguments.plan.empty())
     return "--plan-format needs --plan";
   wrong = arguments.plan_format.why_not_discrete("--plan-format");
@@ -327,15 +313,8 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
   if (!wrong.empty()) return refuse(wrong);
   if (arguments.plan_format.is_given() && arguments.plan.empty())
     return refuse("--plan-format needs --plan");
-  if (same_file(arguments.plan, arguments.json))
-    return refuse("--plan and --json name the same output");
-  const std::vector<const std::string*> inputs = {&arguments.roadmap.roadmap,
-                                                  &arguments.roadmap.task, &input.instance,
-                                                  &arguments.request.known_plan};
-  for (const std::string* output : {&arguments.plan, &arguments.json})
-    for (const std::string* in : inputs)
-      if (*output != "-" && same_file(*output, *in))
-        return refuse(*output + " is an input of this run");
+  wrong = check_files(arguments);
+  if (!wrong.empty()) return refuse(wrong);
   const auto system = continuous::parse_system(to_string(arguments.system.value_or(System::dpll)));
   if (!system) return refuse("a roadmap needs --system dpll or smt-cbs");
 

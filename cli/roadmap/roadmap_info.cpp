@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph_shape.hpp"
 #include "output.hpp"
 #include "quadrille/continuous/quantise.hpp"
 
@@ -23,9 +24,9 @@ using continuous::Instance;
 using continuous::Roadmap;
 using continuous::Ticks;
 
-/// Vertices that are connected by edges, whatever their direction; sizes, largest first.
-std::vector<std::size_t> component_sizes(const Roadmap& roadmap) {
-  std::vector<std::size_t> sizes;
+/// Components are connected by edges of any direction; degrees count the edges that leave.
+GraphShape shape_of(const Roadmap& roadmap) {
+  GraphShape shape;
   std::vector<bool> seen(roadmap.num_vertices(), false);
   std::vector<VertexId> queue;
   const auto visit = [&](VertexId v) {
@@ -33,39 +34,18 @@ std::vector<std::size_t> component_sizes(const Roadmap& roadmap) {
     seen[v.index()] = true;
     queue.push_back(v);
   };
-  for (std::size_t root = 0; root < roadmap.num_vertices(); ++root) {
+  for (const VertexId root : IdRange<VertexId>(roadmap.num_vertices())) {
+    ++shape.degrees[roadmap.out_edges(root).size()];
     queue.clear();
-    visit(VertexId(root));
+    visit(root);
     for (std::size_t head = 0; head < queue.size(); ++head) {
       const VertexId v = queue[head];
       for (const EdgeId e : roadmap.out_edges(v)) visit(roadmap.edge(e).to);
       for (const EdgeId e : roadmap.in_edges(v)) visit(roadmap.edge(e).from);
     }
-    if (!queue.empty()) sizes.push_back(queue.size());
+    if (!queue.empty()) shape.components.push_back(queue.size());
   }
-  std::sort(sizes.rbegin(), sizes.rend());
-  return sizes;
-}
-
-std::string describe_roadmap(const Roadmap& roadmap) {
-  constexpr std::size_t kShown = 8;
-  const std::vector<std::size_t> sizes = component_sizes(roadmap);
-  std::string text = fmt::format("components {}", sizes.size());
-  for (std::size_t i = 0; i < std::min(kShown, sizes.size()); ++i)
-    text += fmt::format("{}{}", i == 0 ? ", of " : ", ", sizes[i]);
-  if (sizes.size() > kShown) text += ", ...";
-  text += sizes.empty() ? "\n" : " vertices\n";
-
-  std::map<std::size_t, std::size_t> count;
-  for (std::size_t v = 0; v < roadmap.num_vertices(); ++v)
-    ++count[roadmap.out_edges(VertexId(v)).size()];
-  text += "degrees    ";
-  const char* separator = "";
-  for (const auto& [degree, vertices] : count) {
-    text += fmt::format("{}{}: {}", separator, degree, vertices);
-    separator = ", ";
-  }
-  return text + "  (edges out of a vertex)\n";
+  return shape;
 }
 
 /// The least duration of the agent's path, alone on the roadmap. The goal can be reached.
@@ -118,7 +98,7 @@ ExitCode print_roadmap_info(const RoadmapOptions& options, const InputOptions& i
   }
   Console console(false, false);
   console.print(describe_input(*input));
-  console.print(describe_roadmap(input->instance.roadmap()));
+  console.print(describe_shape(shape_of(input->instance.roadmap())));
   if (!input->task_source.empty()) console.print(describe_agents(input->instance));
   if (console.failure() == 0) return ExitCode::success;
   report_write_failure("-", console.failure());

@@ -105,6 +105,73 @@ TEST_F(OutputTest, WithoutAPlanAnOldPlanFileStays) {
   EXPECT_THAT(finished.out, HasSubstr("p.json is not written"));
 }
 
+TEST_F(OutputTest, TwoOutputsToOneFileAreRefused) {
+  // Names that lead to one file: `file` exists in the second round, and not in the first.
+  std::filesystem::create_symlink("file", path("link"));
+  std::filesystem::create_symlink("link", path("link-to-link"));
+  std::filesystem::create_directory(path("folder"));
+  std::filesystem::create_symlink("../file", path("folder/link"));
+  std::filesystem::create_directory_symlink("folder", path("alias"));
+  std::vector<std::string> names = {"file",         "./file",      "folder/../file", "link",
+                                    "link-to-link", "folder/link", "alias/link"};
+  for (const bool exists : {false, true}) {
+    if (exists) {
+      write("file", "old");
+      std::filesystem::create_hard_link(path("file"), path("hard"));
+      names.push_back("hard");
+    }
+    for (const std::string& a : names)
+      for (const std::string& b : names) {
+        SCOPED_TRACE(a + " " + b + (exists ? " exists" : ""));
+        const Finished solved = run(small("solve", {"--plan", path(a), "--json", path(b)}));
+        EXPECT_EQ(solved.code, 64);
+        EXPECT_THAT(solved.err, HasSubstr("--plan and --json name the same output"));
+        const Finished generated = run({"generate", "--kind", "empty", "--agents", "2",
+                                        "--map-output", path(a), "--scen-output", path(b)});
+        EXPECT_EQ(generated.code, 64);
+        EXPECT_THAT(generated.err, HasSubstr("--map-output and --scen-output name the same"));
+      }
+  }
+  EXPECT_EQ(read("file"), "old");
+  EXPECT_EQ(run(small("solve", {"--plan", "-", "--json", "-"})).code, 64);
+  // Standard output is a file like others.
+  EXPECT_EQ(run(small("solve", {"--plan", "-", "--json", path("file")}), path("file")).code, 64);
+}
+
+TEST_F(OutputTest, AnInputIsNeverOverwritten) {
+  ASSERT_EQ(run(small("solve", {"--quiet", "--plan", path("p.json")})).code, 0);
+  ASSERT_EQ(run(small("convert", {"--to", "json", "--output", path("i.json")})).code, 0);
+  const std::string map = path("small.map");
+  const std::pair<std::vector<std::string>, std::string> cases[] = {
+      {{"convert", "--map", map, "--to", "cbsh2", path("p.json"), "--output"}, "p.json"},
+      {{"convert", "--map", map, "--to", "cbsh2", path("p.json"), "--output"}, "small.map"},
+      {small("convert", {"--to", "json", "--output"}), "small.scen"},
+      {{"convert", "--instance", path("i.json"), "--to", "yaml", "--output"}, "i.json"},
+      {{"generate", "--map", map, "--agents", "2", "--scen-output"}, "small.map"},
+      {small("solve", {"--json"}), "small.map"}};
+  for (const auto& [arguments, input] : cases) {
+    const std::string before = read(input);
+    std::filesystem::remove(path("link"));
+    std::filesystem::remove(path("hard"));
+    std::filesystem::create_symlink(input, path("link"));
+    std::filesystem::create_hard_link(path(input), path("hard"));
+    for (const std::string& output : {input, std::string("link"), std::string("hard")}) {
+      SCOPED_TRACE(testing::PrintToString(arguments) + output);
+      const Finished finished = run(arguments + std::vector<std::string>{path(output)});
+      EXPECT_EQ(finished.code, 64);
+      EXPECT_THAT(finished.err, HasSubstr(path(output) + " is an input of this run"));
+      EXPECT_EQ(read(input), before);
+    }
+  }
+}
+
+TEST_F(OutputTest, ALinkToNothingIsWrittenThrough) {
+  std::filesystem::create_symlink("target.json", path("link"));
+  ASSERT_EQ(run(small("solve", {"--quiet", "--json", path("link")})).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_TRUE(json::accept(read("target.json")));
+}
+
 TEST_F(OutputTest, TwoOutputsMayBothBeDevNull) {
   EXPECT_EQ(run(small("solve", {"--plan", "/dev/null", "--json", "/dev/null"})).code, 0);
 }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "exit_codes.hpp"
+#include "input.hpp"
+
+namespace quadrille::cli {
+
+/// `info` on an instance with timesteps, or on a map alone, of which no graph is made: the largest
+/// maps have 2^26 cells. Requires options that pass check_input_options.
+[[nodiscard]] ExitCode print_grid_info(const InputOptions& options);
+
+}  // namespace quadrille::cli
