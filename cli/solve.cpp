@@ -306,7 +306,7 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
   };
   const InputOptions& input = arguments.request.input;
   for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
-                             "--backtracking", "--no-first-plan", "--threads", "--race", "--audit"})
+                             "--backtracking", "--no-first-plan", "--threads", "--race"})
     if (app.count(option) > 0) return refuse(std::string(option) + " does not apply to roadmaps");
   std::string wrong = check_roadmap_options(arguments.roadmap, input, Need::tasks);
   if (wrong.empty()) wrong = arguments.plan_format.why_not_continuous("--plan-format");
@@ -329,6 +329,7 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
   if (arguments.memory_mib)
     request.options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (arguments.seed) request.options.seed = static_cast<std::uint32_t>(*arguments.seed);
+  request.options.audit = options.audit;
   request.known_plan = arguments.request.known_plan;
   request.plan = arguments.plan;
   request.plan_format = arguments.plan_format.continuous.value_or(

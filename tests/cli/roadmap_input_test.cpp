@@ -62,8 +62,7 @@ TEST_F(RoadmapInputTest, OptionsThatMeanNothingForRoadmapsAreRefused) {
                                              {"--backtracking", "jump"},
                                              {"--no-first-plan"},
                                              {"--threads", "2"},
-                                             {"--race"},
-                                             {"--audit"}})
+                                             {"--race"}})
     for (const auto& command : {discs("solve", option), xml("solve", option)}) {
       SCOPED_TRACE(testing::PrintToString(command));
       const Finished finished = run(command);
@@ -72,6 +71,12 @@ TEST_F(RoadmapInputTest, OptionsThatMeanNothingForRoadmapsAreRefused) {
       EXPECT_THAT(finished.err,
                   HasSubstr("quadrille: " + option.front() + " does not apply to roadmaps\n"));
     }
+}
+
+TEST_F(RoadmapInputTest, LemmasOfRoadmapsAreAudited) {
+  const Finished finished = run(discs("solve", {"--audit", "--json", "-"}));
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("\"audit\":true"));
 }
 
 TEST_F(RoadmapInputTest, WrongCommandLinesExitWith64AndNameTheCulprit) {

@@ -17,6 +17,7 @@
 #include "solve/cover_search.hpp"
 #include "solve/small_instances.hpp"
 #include "theory/known_plan_auditor.hpp"
+#include "theory/lemma_auditor.hpp"
 #include "theory/model.hpp"
 #include "theory/theory.hpp"
 
@@ -52,6 +53,32 @@ std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_ag
 void keep_cheaper(std::optional<Plan>& best, std::optional<Plan> plan, Objective objective) {
   if (plan && (!best || cost(*plan, objective) < cost(*best, objective))) best = std::move(plan);
 }
+
+/// Those that the options ask for.
+class Auditors final : public sat::ClauseObserver {
+ public:
+  Auditors(const Model& model, const SolveOptions& options) {
+    if (options.known_plan) of_plan_.emplace(model, *options.known_plan);
+    if (options.audit) of_lemmas_.emplace(model);
+  }
+  [[nodiscard]] bool is_needed() const { return of_plan_ || of_lemmas_; }
+  void on_lemma(const sat::Lemma& lemma) override {
+    if (of_plan_) of_plan_->on_lemma(lemma);
+    if (of_lemmas_) of_lemmas_->on_lemma(lemma);
+  }
+  void on_learned(std::span<const sat::Lit> clause) override {
+    if (of_plan_) of_plan_->on_learned(clause);
+  }
+  /// The first of each kind.
+  [[nodiscard]] std::optional<std::string> complaint() const {
+    if (of_lemmas_ && of_lemmas_->complaint()) return of_lemmas_->complaint();
+    return of_plan_ ? of_plan_->complaint() : std::nullopt;
+  }
+
+ private:
+  std::optional<KnownPlanAuditor> of_plan_;
+  std::optional<LemmaAuditor> of_lemmas_;
+};
 
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
                SolveOutcome& outcome) {
@@ -95,12 +122,11 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   }
   outcome.plan = some_plan;  // the answer if memory runs out
   ContinuousTheory theory(model);
-  std::optional<KnownPlanAuditor> auditor;
-  if (options.known_plan) auditor.emplace(model, *options.known_plan);
+  Auditors auditors(model, options);
   const bool in_search = options.system == System::dpll;
   sat::EngineOptions engine_options;
   engine_options.seed = options.seed;
-  engine_options.observer = auditor ? &*auditor : nullptr;
+  engine_options.observer = auditors.is_needed() ? &auditors : nullptr;
   sat::Engine engine(in_search ? &theory : nullptr, engine_options);
   CostProblem problem(model, engine, theory, in_search);
 
@@ -127,8 +153,8 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   outcome.plan.reset();
   engine.add_statistics(outcome.statistics);
   outcome.statistics.checks = theory.num_checks();
-  if (auditor && auditor->complaint()) {
-    outcome.internal_error = Error{ErrorCode::internal, *auditor->complaint(), {}};
+  if (const auto complaint = auditors.complaint()) {
+    outcome.internal_error = Error{ErrorCode::internal, *complaint, {}};
   } else if (report.end == sat::SearchEnd::exhausted) {
     outcome.status = Status::infeasible;
     outcome.explanation = "every combination of paths collides";

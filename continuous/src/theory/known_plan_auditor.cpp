@@ -11,6 +11,7 @@ KnownPlanAuditor::KnownPlanAuditor(const Model& model, const Plan& plan) : model
     const TimedPath path = without_stops(instance, i, plan.paths[i]);
     PathUses uses;
     uses.assign(instance, i, path);
+    total_ += path.arrival;
     paths_.push_back(path);
     uses_.push_back(uses);
   }
@@ -22,6 +23,9 @@ bool KnownPlanAuditor::holds(sat::Lit lit) const {
   switch (meaning.kind) {
     case Model::VariableKind::auxiliary:
       return true;
+    case Model::VariableKind::total:
+      value = total_ > meaning.cost;
+      return value == lit.positive();
     case Model::VariableKind::cost:
       value = paths_[meaning.agent].arrival >= meaning.cost;
       return value == lit.positive();

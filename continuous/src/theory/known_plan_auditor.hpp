@@ -29,6 +29,7 @@ class KnownPlanAuditor final : public sat::ClauseObserver {
   const Model& model_;
   IdVector<AgentId, TimedPath> paths_;
   IdVector<AgentId, PathUses> uses_;
+  Cost total_ = 0;
   std::optional<std::string> complaint_;
 };
 

@@ -19,6 +19,7 @@ void Model::remember(Lit lit, const Variable& variable) {
   const auto index = static_cast<std::size_t>(lit.variable());
   if (variables_.size() <= index) variables_.resize(index + 1);
   variables_[index] = variable;
+  if (variable.kind == VariableKind::total) return;
   literals_.push_back(lit.positive() ? lit : ~lit);
 }
 
@@ -61,6 +62,7 @@ Lit Model::total_above(Cost total, FormulaWriter& writer) {
   if (known != totals_.end()) return known->second;
   const Lit made = writer.new_lit();
   const auto at = totals_.emplace(total, made).first;
+  remember(made, {VariableKind::total, AgentId(), total, ObstacleId()});
   const auto order = [&](Lit stronger, Lit weaker) {
     const Lit clause[] = {~stronger, weaker};
     writer.add({sat::LemmaKind::order, clause, {}, false});

@@ -84,11 +84,11 @@ class Model {
   [[nodiscard]] ObstacleId keep_off_goal(AgentId agent, AgentId resident, Ticks tick,
                                          FormulaWriter& writer, bool& is_new);
 
-  enum class VariableKind { auxiliary, usage, cost };
+  enum class VariableKind { auxiliary, usage, cost, total };
   struct Variable {
     VariableKind kind = VariableKind::auxiliary;
     AgentId agent;
-    Cost cost = 0;        // cost: true says "costs this or more"
+    Cost cost = 0;        // cost: true says "costs this or more"; total: "all cost more"
     ObstacleId obstacle;  // usage: true says that it is forbidden
   };
   /// auxiliary for variables that are not of this model.

@@ -53,6 +53,9 @@ struct SolveOptions {
   /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;
   double progress_interval_s = 0.25;  ///< At least 0.
+  /// Debugging: derive every lemma again from what it rests on, by other means. An error of the
+  /// program then ends in an internal error instead of a wrong answer. Slow.
+  bool audit = false;
   /// Debugging: a valid plan. Every clause is checked to allow it; no clause may exclude a valid
   /// plan, whatever it costs. Slow.
   std::optional<Plan> known_plan;

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "theory/lemma_auditor.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <utility>
+
+#include "theory/pair_replay.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+using Kind = Model::VariableKind;
+
+/// Of lemmas of pairs.
+constexpr std::size_t kMaxStates = 200'000;
+
+bool contains(std::span<const sat::Lit> clause, sat::Lit lit) {
+  return std::find(clause.begin(), clause.end(), lit) != clause.end();
+}
+
+struct SafeStay {
+  Ticks from, until;  // both included
+  Ticks arrival = kForever;
+};
+
+/// Stays at `v` that break no ban, as long as possible: one from each moment at which a ban ends,
+/// and from the start.
+std::vector<SafeStay> safe_stays(const std::vector<Ban>& bans, VertexId v) {
+  std::vector<TickInterval> stretches;
+  std::vector<Ticks> moments{0};
+  for (const Ban& ban : bans)
+    if (ban.kind == Ban::Kind::stay && ban.place == v.value()) {
+      stretches.push_back(ban.when);
+      if (ban.when.end > 0) moments.push_back(ban.when.end);
+    }
+  std::vector<SafeStay> stays;
+  for (const Ticks from : moments) {
+    if (from >= kForever) continue;
+    Ticks until = kForever;
+    for (const TickInterval& s : stretches)
+      if (s.end > from) until = std::min(until, s.begin);
+    if (until >= from) stays.push_back({from, until});
+  }
+  return stays;
+}
+
+/// The first start at `tick` or later that no ban forbids.
+Ticks next_start(const std::vector<Ban>& bans, EdgeId e, Ticks tick) {
+  for (bool is_moved = true; is_moved;) {
+    is_moved = false;
+    for (const Ban& ban : bans)
+      if (ban.kind == Ban::Kind::start && ban.place == e.value() && ban.when.contains(tick)) {
+        tick = ban.when.end;
+        is_moved = true;
+      }
+  }
+  return tick;
+}
+
+}  // namespace
+
+LemmaAuditor::LemmaAuditor(const Model& model) : model_(model) {}
+
+void LemmaAuditor::on_lemma(const sat::Lemma& lemma) {
+  if (complaint_) return;
+  std::string wrong;
+  switch (lemma.kind) {
+    case sat::LemmaKind::path:
+      wrong = audit_path(lemma);
+      break;
+    case sat::LemmaKind::collision:
+      wrong = audit_collision(lemma);
+      break;
+    case sat::LemmaKind::order:
+      wrong = audit_order(lemma);
+      break;
+    case sat::LemmaKind::counting:
+      wrong = audit_budget(lemma);
+      break;
+    case sat::LemmaKind::core:
+      return;
+  }
+  ++num_derived_;
+  if (wrong.empty()) return;
+  complaint_ = wrong + " (" + std::string(to_string(lemma.kind)) + "):";
+  for (const sat::Lit lit : lemma.clause) *complaint_ += " " + std::to_string(lit.dimacs());
+}
+
+std::string LemmaAuditor::audit_usages(const sat::Lemma& lemma) const {
+  for (const sat::Usage& usage : lemma.usages) {
+    if (usage.resource >= model_.obstacles().size()) return "a lemma names an unknown obstacle";
+    const Obstacle& o = obstacle(usage);
+    if (o.agent != usage.agent) return "a lemma mistakes the agent of an obstacle";
+    const auto meaning = model_.variable(o.allowed);
+    if (meaning.kind == Kind::cost) {
+      if (!o.allowed.positive() || meaning.agent == o.agent)
+        return "an obstacle has a literal that says something else";
+      if (std::string wrong = audit_goal_bans(o, meaning.agent, meaning.cost); !wrong.empty())
+        return wrong;
+    } else if (meaning.kind != Kind::usage || o.allowed.positive() ||
+               meaning.obstacle.index() != usage.resource) {
+      return "an obstacle has the literal of another one";
+    }
+  }
+  return "";
+}
+
+// The resident is at its goal from tick - 1 at the latest. What begins later meets no less of that.
+std::string LemmaAuditor::audit_goal_bans(const Obstacle& o, AgentId resident, Ticks tick) const {
+  const Instance& instance = model_.instance();
+  const VertexId goal = instance.agent(resident).goal;
+  const geometry::BodyPair pair = bodies(o.agent, resident);
+  for (const Ban& ban : o.bans) {
+    bool holds = false;
+    if (ban.kind == Ban::Kind::stay) {
+      holds = ban.when.begin >= tick - 1 &&
+              pair.overlap(instance.roadmap().position(VertexId(ban.place)),
+                           instance.roadmap().position(goal));
+    } else {
+      const Ticks duration = instance.duration(instance.class_of(o.agent), EdgeId(ban.place));
+      const Ticks arrive = std::max(ban.when.begin, tick - 1);
+      const Ticks leave = ban.when.begin + duration;
+      holds = arrive <= leave &&
+              collides(o.agent, EdgeId(ban.place), ban.when.begin, resident, goal, arrive, leave);
+    }
+    if (!holds) return "an agent may pass where another one stands at its goal";
+  }
+  return "";
+}
+
+std::string LemmaAuditor::audit_path(const sat::Lemma& lemma) const {
+  if (lemma.usages.empty()) return "a path lemma without obstacles";
+  if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
+  const AgentId i = lemma.usages[0].agent;
+  std::vector<Ban> bans;
+  for (const sat::Usage& usage : lemma.usages) {
+    const Obstacle& o = obstacle(usage);
+    if (o.agent != i) return "a path lemma of several agents";
+    if (!contains(lemma.clause, o.allowed)) return "a path lemma lacks the literal of an obstacle";
+    bans.insert(bans.end(), o.bans.begin(), o.bans.end());
+  }
+  Ticks bound = kForever;
+  for (const sat::Lit lit : lemma.clause) {
+    const auto meaning = model_.variable(lit);
+    if (meaning.kind == Kind::cost && meaning.agent == i && lit.positive())
+      bound = std::min(bound, meaning.cost);
+  }
+  return has_path(i, bans, bound) ? "some path breaks a path lemma" : "";
+}
+
+bool LemmaAuditor::has_path(AgentId i, const std::vector<Ban>& bans, Ticks bound) const {
+  const Instance& instance = model_.instance();
+  const Roadmap& roadmap = instance.roadmap();
+  const ClassId c = instance.class_of(i);
+  IdVector<VertexId, std::vector<SafeStay>> stays;
+  for (std::size_t v = 0; v < roadmap.num_vertices(); ++v)
+    stays.push_back(safe_stays(bans, VertexId(v)));
+  std::deque<std::pair<VertexId, std::size_t>> queue;
+  const auto reach = [&](VertexId v, std::size_t k, Ticks arrival) {
+    if (arrival >= bound || arrival >= stays[v][k].arrival) return;
+    stays[v][k].arrival = arrival;
+    queue.emplace_back(v, k);
+  };
+  const VertexId start = instance.agent(i).start;
+  for (std::size_t k = 0; k < stays[start].size(); ++k)
+    if (stays[start][k].from == 0) reach(start, k, 0);
+  while (!queue.empty()) {
+    const auto [v, k] = queue.front();
+    queue.pop_front();
+    const SafeStay stay = stays[v][k];
+    if (v == instance.agent(i).goal && stay.until >= kForever) return true;
+    for (const EdgeId e : roadmap.out_edges(v)) {
+      const Ticks duration = instance.duration(c, e);
+      const VertexId w = roadmap.edge(e).to;
+      for (std::size_t l = 0; l < stays[w].size(); ++l) {
+        const Ticks s = next_start(bans, e, std::max(stay.arrival, stays[w][l].from - duration));
+        if (s <= stay.until && s < kForever && s + duration <= stays[w][l].until)
+          reach(w, l, s + duration);
+      }
+    }
+  }
+  return false;
+}
+
+std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) {
+  if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
+  for (const sat::Lit lit : lemma.clause)
+    if (const auto meaning = model_.variable(lit); meaning.kind == Kind::cost)
+      return audit_pair(lemma);
+  if (lemma.usages.size() != 2 || lemma.clause.size() != 2) return "a collision has two sides";
+  const Obstacle &a = obstacle(lemma.usages[0]), &b = obstacle(lemma.usages[1]);
+  if (a.agent == b.agent) return "a collision has two agents";
+  if (!contains(lemma.clause, ~a.allowed) || !contains(lemma.clause, ~b.allowed))
+    return "a collision lemma does not say what its obstacles say";
+  for (const Ban& x : a.bans)
+    for (const Ban& y : b.bans)
+      if (!all_collide(a.agent, x, b.agent, y))
+        return "two agents can do what a collision lemma says they cannot";
+  return "";
+}
+
+// Unsafe offsets have no gaps and contacts neither, so that the extreme cases decide.
+bool LemmaAuditor::all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b) const {
+  if (a.kind == Ban::Kind::stay) return b.kind == Ban::Kind::start && all_collide(j, b, i, a);
+  const Instance& instance = model_.instance();
+  if (a.when.end >= kForever || b.when.end >= kForever) return false;
+  if (b.kind == Ban::Kind::start) {
+    const geometry::BodyPair pair = bodies(i, j);
+    const geometry::Motion e = instance.motion(instance.class_of(i), EdgeId(a.place));
+    const geometry::Motion f = instance.motion(instance.class_of(j), EdgeId(b.place));
+    return pair.collide(e, f, b.when.first() - a.when.last()) &&
+           pair.collide(e, f, b.when.last() - a.when.first());
+  }
+  // Of the stays that break b, each contains one of a tick or less.
+  const Ticks early = b.when.begin + 1, late = b.when.end - 1;
+  for (const Ticks s : {a.when.first(), a.when.last()})
+    if (!collides(i, EdgeId(a.place), s, j, VertexId(b.place), std::min(early, late), early) ||
+        !collides(i, EdgeId(a.place), s, j, VertexId(b.place), late, std::max(early, late)))
+      return false;
+  return true;
+}
+
+bool LemmaAuditor::collides(AgentId i, EdgeId e, Ticks start, AgentId j, VertexId place,
+                            Ticks arrive, Ticks leave) const {
+  const Instance& instance = model_.instance();
+  return bodies(i, j).collide(instance.motion(instance.class_of(i), e),
+                              geometry::rest(instance.roadmap().position(place), leave - arrive),
+                              arrive - start);
+}
+
+geometry::BodyPair LemmaAuditor::bodies(AgentId i, AgentId j) const {
+  const Instance& instance = model_.instance();
+  return {geometry::Disc{instance.radius(instance.class_of(i))},
+          geometry::Disc{instance.radius(instance.class_of(j))}};
+}
+
+std::string LemmaAuditor::audit_pair(const sat::Lemma& lemma) {
+  PairReplay::Party parties[2];
+  for (const std::size_t side : {0U, 1U}) {
+    const auto meaning =
+        side < lemma.clause.size() ? model_.variable(lemma.clause[side]) : Model::Variable{};
+    if (meaning.kind != Kind::cost || !lemma.clause[side].positive())
+      return "a lemma of a pair begins with two costs";
+    parties[side] = {meaning.agent, meaning.cost, {}};
+  }
+  if (parties[0].agent == parties[1].agent) return "a pair has two agents";
+  for (const sat::Usage& usage : lemma.usages) {
+    const Obstacle& o = obstacle(usage);
+    if (!contains(lemma.clause, o.allowed))
+      return "a lemma of a pair lacks the literal of an obstacle";
+    const std::size_t side = usage.agent == parties[0].agent ? 0 : 1;
+    if (usage.agent != parties[side].agent) return "a lemma of a pair has an obstacle of a third";
+    parties[side].bans.insert(parties[side].bans.end(), o.bans.begin(), o.bans.end());
+  }
+  const auto has_plan = PairReplay(model_.instance(), parties[0], parties[1]).has_plan(kMaxStates);
+  if (!has_plan) ++num_skipped_;
+  return has_plan.value_or(false) ? "some plan breaks a lemma of a pair" : "";
+}
+
+std::string LemmaAuditor::audit_order(const sat::Lemma& lemma) const {
+  if (lemma.clause.size() != 2) return "an order has two sides";
+  const auto stronger = model_.variable(lemma.clause[0]), weaker = model_.variable(lemma.clause[1]);
+  const bool holds = stronger.kind == weaker.kind && stronger.agent == weaker.agent &&
+                     (stronger.kind == Kind::cost || stronger.kind == Kind::total) &&
+                     !lemma.clause[0].positive() && lemma.clause[1].positive() &&
+                     stronger.cost >= weaker.cost;
+  return holds ? "" : "an order that does not hold";
+}
+
+// What is claimed of some agents, and free costs for the others, sum up to more than the total.
+std::string LemmaAuditor::audit_budget(const sat::Lemma& lemma) const {
+  if (lemma.clause.empty()) return "a budget without a total";
+  const auto total = model_.variable(lemma.clause[0]);
+  if (total.kind != Kind::total || !lemma.clause[0].positive()) return "a budget has a total";
+  IdVector<AgentId, Cost> costs;
+  for (const AgentId i : model_.instance().agent_ids()) costs.push_back(model_.free_cost(i));
+  for (const sat::Lit lit : lemma.clause.subspan(1)) {
+    const auto meaning = model_.variable(lit);
+    if (meaning.kind != Kind::cost || lit.positive()) return "a budget is spent by costs";
+    costs[meaning.agent] = std::max(costs[meaning.agent], meaning.cost);
+  }
+  Cost left = total.cost;
+  for (const Cost cost : costs) {
+    left -= cost;
+    if (left < 0) return "";
+  }
+  return "a budget that is not spent";
+}
+
+}  // namespace quadrille::continuous

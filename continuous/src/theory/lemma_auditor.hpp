@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quadrille/geometry/body_pair.hpp"
+#include "theory/model.hpp"
+
+namespace quadrille::continuous {
+
+/// Derives every lemma again from its usages while the solver runs, by other means than those that
+/// found it: path lemmas by a search of its own, which looks at bans one by one; collision lemmas
+/// by asking the geometry whether extreme starts collide, never for intervals; lemmas of pairs by a
+/// joint search of the two agents tick by tick, if that takes few states. Keeps the first
+/// complaint. Core clauses are consequences of the others and are not looked at. Slow.
+class LemmaAuditor final : public sat::ClauseObserver {
+ public:
+  /// `model` outlives the auditor.
+  explicit LemmaAuditor(const Model& model);
+
+  void on_lemma(const sat::Lemma& lemma) override;
+  void on_learned(std::span<const sat::Lit> /*clause*/) override {}
+
+  [[nodiscard]] const std::optional<std::string>& complaint() const noexcept { return complaint_; }
+  /// Lemmas that were derived again.
+  [[nodiscard]] std::int64_t num_derived() const noexcept { return num_derived_; }
+  /// Lemmas of pairs that would have taken too many states.
+  [[nodiscard]] std::int64_t num_skipped() const noexcept { return num_skipped_; }
+
+ private:
+  /// Each returns what is wrong, empty if nothing is.
+  [[nodiscard]] std::string audit_path(const sat::Lemma& lemma) const;
+  [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma);
+  [[nodiscard]] std::string audit_pair(const sat::Lemma& lemma);
+  [[nodiscard]] std::string audit_order(const sat::Lemma& lemma) const;
+  [[nodiscard]] std::string audit_budget(const sat::Lemma& lemma) const;
+  /// Whether the literals of the usages say what their bans say, and whether the clause has them.
+  [[nodiscard]] std::string audit_usages(const sat::Lemma& lemma) const;
+  [[nodiscard]] std::string audit_goal_bans(const Obstacle& obstacle, AgentId resident,
+                                            Ticks tick) const;
+
+  [[nodiscard]] const Obstacle& obstacle(const sat::Usage& usage) const {
+    return model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))];
+  }
+  /// Whether agent i has a path that arrives before `bound` and breaks none of the bans.
+  [[nodiscard]] bool has_path(AgentId i, const std::vector<Ban>& bans, Ticks bound) const;
+  /// Whether all that breaks `a`, by agent i, collides with all that breaks `b`, by j.
+  [[nodiscard]] bool all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b) const;
+  /// Whether i's move from `start` on collides with a stay of j at `place`.
+  [[nodiscard]] bool collides(AgentId i, EdgeId e, Ticks start, AgentId j, VertexId place,
+                              Ticks arrive, Ticks leave) const;
+  [[nodiscard]] geometry::BodyPair bodies(AgentId i, AgentId j) const;
+
+  const Model& model_;
+  std::optional<std::string> complaint_;
+  std::int64_t num_derived_ = 0, num_skipped_ = 0;
+};
+
+}  // namespace quadrille::continuous

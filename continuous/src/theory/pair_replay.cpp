@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "theory/pair_replay.hpp"
+
+#include <algorithm>
+
+namespace quadrille::continuous {
+namespace {
+
+geometry::BodyPair bodies_of(const Instance& instance, AgentId i, AgentId j) {
+  return {geometry::Disc{instance.radius(instance.class_of(i))},
+          geometry::Disc{instance.radius(instance.class_of(j))}};
+}
+
+}  // namespace
+
+PairReplay::PairReplay(const Instance& instance, Party first, Party second)
+    : instance_(instance),
+      first_(std::move(first)),
+      second_(std::move(second)),
+      bodies_(bodies_of(instance, first_.agent, second_.agent)),
+      swapped_(bodies_.swapped()) {
+  fill_rest(first_);
+  fill_rest(second_);
+}
+
+void PairReplay::fill_rest(Party& party) const {
+  const Roadmap& roadmap = instance_.roadmap();
+  party.rest.assign(roadmap.num_vertices(), kForever);
+  party.rest[instance_.agent(party.agent).goal.index()] = 0;
+  for (bool is_changed = true; is_changed;) {
+    is_changed = false;
+    for (std::uint32_t e = 0; e < roadmap.num_edges(); ++e) {
+      const Edge& edge = roadmap.edge(EdgeId(e));
+      const Ticks via = party.rest[edge.to.index()] + duration(party, e);
+      if (via >= party.rest[edge.from.index()]) continue;
+      party.rest[edge.from.index()] = via;
+      is_changed = true;
+    }
+  }
+}
+
+std::optional<bool> PairReplay::has_plan(std::size_t max_states) {
+  using Both = std::pair<State, State>;
+  std::set<Both> now, next;
+  const auto start = [&](const Party& party) {
+    return State{Kind::stands, instance_.agent(party.agent).start.value(), 0};
+  };
+  const State a = start(first_), b = start(second_);
+  if (may_be_at(first_, a.place, 0, 0) && may_be_at(second_, b.place, 0, 0)) now.insert({a, b});
+  std::size_t num_states = 0;
+  for (Ticks t = 0; !now.empty(); ++t) {
+    num_states += now.size();
+    if (num_states > max_states) return std::nullopt;
+    next.clear();
+    for (const auto& [x, y] : now) {
+      if (x.kind == Kind::parks && y.kind == Kind::parks) return true;
+      const std::vector<Step> steps_of_y = steps(second_, y, t);
+      for (const Step& p : steps(first_, x, t))
+        for (const Step& q : steps_of_y)
+          if (!collide(p.during, q.during)) next.insert({p.after, q.after});
+    }
+    now.swap(next);
+  }
+  return false;
+}
+
+// What cannot park before its bound is left out.
+std::vector<PairReplay::Step> PairReplay::steps(const Party& party, const State& state,
+                                                Ticks now) const {
+  std::vector<Step> result;
+  if (state.kind == Kind::parks) return {{state, state}};
+  const auto go_on = [&](std::uint32_t edge, Ticks progress) {
+    const State during{Kind::moves, edge, progress};
+    const VertexId end = instance_.roadmap().edge(EdgeId(edge)).to;
+    if (now + duration(party, edge) - progress + party.rest[end.index()] >= party.bound) return;
+    if (progress + 1 < duration(party, edge)) {
+      result.push_back({during, {Kind::moves, edge, progress + 1}});
+      return;
+    }
+    const std::uint32_t to = instance_.roadmap().edge(EdgeId(edge)).to.value();
+    if (may_be_at(party, to, now + 1, now + 1)) result.push_back({during, {Kind::stands, to, 0}});
+  };
+  if (state.kind == Kind::moves) {
+    go_on(state.place, state.progress);
+    return result;
+  }
+  if (now + party.rest[state.place] >= party.bound) return result;
+  if (may_be_at(party, state.place, now, now + 1)) result.push_back({state, state});
+  if (state.place == instance_.agent(party.agent).goal.value() &&
+      may_be_at(party, state.place, now, kForever))
+    result.push_back({state, {Kind::parks, state.place, 0}});
+  for (const EdgeId e : instance_.roadmap().out_edges(VertexId(state.place)))
+    if (std::none_of(party.bans.begin(), party.bans.end(), [&](const Ban& ban) {
+          return ban.kind == Ban::Kind::start && ban.place == e.value() && ban.when.contains(now);
+        }))
+      go_on(e.value(), 0);
+  return result;
+}
+
+bool PairReplay::may_be_at(const Party& party, std::uint32_t vertex, Ticks from, Ticks to) const {
+  return std::none_of(party.bans.begin(), party.bans.end(), [&](const Ban& ban) {
+    return ban.kind == Ban::Kind::stay && ban.place == vertex && ban.when.meets(from, to);
+  });
+}
+
+// A move is looked at as a whole: the two collide, if not now, then later or before.
+bool PairReplay::collide(const State& a, const State& b) const {
+  const auto position = [&](const State& s) {
+    return instance_.roadmap().position(VertexId(s.place));
+  };
+  const auto motion = [&](const Party& party, const State& s) {
+    return instance_.motion(instance_.class_of(party.agent), EdgeId(s.place));
+  };
+  const bool a_moves = a.kind == Kind::moves, b_moves = b.kind == Kind::moves;
+  if (a_moves && b_moves)
+    return bodies_.collide(motion(first_, a), motion(second_, b), a.progress - b.progress);
+  if (a_moves)
+    return bodies_.collide(motion(first_, a), geometry::rest(position(b), 1), a.progress);
+  if (b_moves)
+    return swapped_.collide(motion(second_, b), geometry::rest(position(a), 1), b.progress);
+  return bodies_.overlap(position(a), position(b));
+}
+
+Ticks PairReplay::duration(const Party& party, std::uint32_t edge) const {
+  return instance_.duration(instance_.class_of(party.agent), EdgeId(edge));
+}
+
+}  // namespace quadrille::continuous
