@@ -277,6 +277,9 @@ VerifyReport verify(const Instance& instance, const Plan& plan) {
   check_pairs(instance, plan, sound, report);
   report.sum_of_costs = cost(plan, Objective::sum_of_costs);
   report.makespan = cost(plan, Objective::makespan);
+  if (report.sum_of_costs == std::numeric_limits<Cost>::max())
+    report.violations.push_back({Kind::bad_time, AgentId(0), std::nullopt, report.makespan,
+                                 "the costs of all agents sum up to more than is supported"});
   return report;
 }
 

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "continuous/support/roads.hpp"
+
 namespace quadrille::continuous {
 namespace {
 
@@ -152,6 +154,31 @@ TEST(ContinuousVerify, NamesEachBrokenRule) {
   EXPECT_EQ(with_first_path({{v(0), 0, 0}}), Kinds{Kind::wrong_goal});
   Plan short_plan;
   EXPECT_EQ(kinds(verify(instance, short_plan)), Kinds{Kind::path_count});
+}
+
+TEST(Verify, SumsOfCostsThatDoNotFitAreRefused) {
+  constexpr Ticks kLate = Ticks{1} << 60;
+  for (const std::size_t num_agents : {7U, 8U, 9U}) {
+    std::vector<Point> points;
+    std::vector<Agent> agents;
+    test::Roads roads;
+    Plan plan;
+    for (std::size_t i = 0; i < num_agents; ++i) {
+      const auto y = static_cast<Length>(100 * i);
+      points.push_back({0, y});
+      points.push_back({100, y});
+      roads.emplace_back(2 * i, 2 * i + 1);
+      agents.push_back(test::agent(2 * i, 2 * i + 1, 10));
+      plan.paths.push_back(
+          {{VertexId(2 * i), 0, kLate - 100}, {VertexId(2 * i + 1), kLate, kLate}});
+    }
+    const Instance instance = Instance::make(test::roadmap(points, roads), agents).value();
+    const VerifyReport report = verify(instance, plan);
+    EXPECT_EQ(report.makespan, kLate);
+    // 2^63 is one more than the largest sum.
+    EXPECT_EQ(report.valid(), num_agents < 8) << num_agents;
+    EXPECT_GT(report.sum_of_costs, 0);
+  }
 }
 
 }  // namespace

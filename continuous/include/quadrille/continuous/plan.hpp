@@ -28,6 +28,8 @@ struct Plan {
 
 /// When the path arrives at its last stop; 0 for an empty path.
 [[nodiscard]] inline Cost cost(const Path& path) { return path.empty() ? 0 : path.back().arrive; }
+/// Sum or maximum of the costs of the paths, none of which is negative. A sum that does not fit is
+/// the largest Cost.
 [[nodiscard]] Cost cost(const Plan& plan, Objective objective);
 
 }  // namespace quadrille::continuous
