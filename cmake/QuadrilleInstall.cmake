@@ -46,8 +46,33 @@ if(TARGET quadrille)
   set_target_properties(quadrille PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
 endif()
 
-install(TARGETS ${quadrille_targets} EXPORT quadrilleTargets FILE_SET HEADERS)
+install(TARGETS ${quadrille_targets} EXPORT quadrilleTargets)
 install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION "${quadrille_package_dir}")
+
+# For users without CMake. The libraries that others depend on come last.
+get_property(libraries GLOBAL PROPERTY QUADRILLE_LIBRARIES)
+list(REVERSE libraries)
+list(TRANSFORM libraries PREPEND "-l")
+set(quadrille_pc_requires "")
+if(NOT BUILD_SHARED_LIBS)
+  set(quadrille_pc_requires "yaml-cpp pugixml fcl")
+  if(quadrille_bundled_cadical)
+    list(APPEND libraries "\${prefix}/${quadrille_bundled_cadical}")
+  else()
+    list(APPEND libraries -lcadical)
+  endif()
+  if(quadrille_link_glibc_shim)
+    list(APPEND libraries -lquadrille_glibc_shim)
+  endif()
+  list(APPEND libraries -pthread)
+endif()
+list(JOIN libraries " " quadrille_pc_libraries)
+# Relative, so that the prefix may move.
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
+  BASE_DIRECTORY "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" OUTPUT_VARIABLE quadrille_pc_prefix)
+configure_file(cmake/quadrille.pc.in quadrille.pc @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/quadrille.pc"
+  DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 
 configure_package_config_file(cmake/quadrilleConfig.cmake.in quadrilleConfig.cmake
   INSTALL_DESTINATION "${quadrille_package_dir}"

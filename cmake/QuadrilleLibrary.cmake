@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+include(GNUInstallDirs)
+
 # One library target per folder: quadrille_<folder>, alias quadrille::<folder>.
 
 # What every target of this project is compiled with; nothing of it reaches users of the library.
@@ -21,14 +23,15 @@ endfunction()
 function(quadrille_add_library folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK;PRIVATE_LINK")
   set(target quadrille_${folder})
-  list(TRANSFORM arg_HEADERS PREPEND "include/quadrille/${folder}/")
   list(TRANSFORM arg_SOURCES PREPEND "src/")
   list(TRANSFORM arg_LINK PREPEND "quadrille_")
   add_library(${target} ${arg_SOURCES})
   add_library(quadrille::${folder} ALIAS ${target})
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
-  # Private headers are named with their room: "cost/descent.hpp".
-  target_include_directories(${target} PRIVATE src)
+  target_include_directories(${target}
+    PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
+      "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
+    # Private headers are named with their room: "cost/descent.hpp".
+    PRIVATE src)
   target_link_libraries(${target} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
   quadrille_compile_options(${target})
   set_target_properties(${target} PROPERTIES
@@ -39,7 +42,37 @@ function(quadrille_add_library folder)
     POSITION_INDEPENDENT_CODE ON
     # Nothing depends on <target>_EXPORTS; without it, static and shared objects are the same.
     DEFINE_SYMBOL ""
-    INSTALL_RPATH "$ORIGIN"
-    VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
+    # Public headers say what is visible; see quadrille/core/export.hpp.
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
+    INSTALL_RPATH "$ORIGIN")
+  if(BUILD_SHARED_LIBS AND NOT APPLE AND NOT WIN32)
+    # CaDiCaL's archive was compiled for all to see.
+    target_link_options(${target} PRIVATE "LINKER:--exclude-libs,ALL")
+  endif()
+  foreach(header IN LISTS arg_HEADERS)
+    set_property(GLOBAL APPEND PROPERTY QUADRILLE_HEADERS "quadrille/${folder}/${header}")
+    if(QUADRILLE_INSTALL)
+      install(FILES "include/quadrille/${folder}/${header}"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder}")
+    endif()
+  endforeach()
   set_property(GLOBAL APPEND PROPERTY QUADRILLE_LIBRARIES ${target})
+endfunction()
+
+# The target quadrille_headers, which is built on demand: each public header compiles on its own, as
+# in the build of a user who takes warnings for errors.
+function(quadrille_check_headers)
+  get_property(headers GLOBAL PROPERTY QUADRILLE_HEADERS)
+  get_property(libraries GLOBAL PROPERTY QUADRILLE_LIBRARIES)
+  set(sources)
+  foreach(header IN LISTS headers)
+    set(source "${CMAKE_CURRENT_BINARY_DIR}/headers/${header}.cpp")
+    file(CONFIGURE OUTPUT "${source}" CONTENT "#include <${header}>\n#include <${header}>\n" @ONLY)
+    list(APPEND sources "${source}")
+  endforeach()
+  add_library(quadrille_headers OBJECT EXCLUDE_FROM_ALL ${sources})
+  target_link_libraries(quadrille_headers PRIVATE ${libraries})
+  target_compile_features(quadrille_headers PRIVATE cxx_std_20)
+  target_compile_options(quadrille_headers PRIVATE -O2 -Wall -Wextra -Werror)
 endfunction()

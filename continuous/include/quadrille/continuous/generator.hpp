@@ -5,7 +5,10 @@
 #include <cstdint>
 
 #include "quadrille/continuous/instance.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -36,3 +39,5 @@ struct RandomInstanceOptions {
                                                std::uint64_t seed);
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

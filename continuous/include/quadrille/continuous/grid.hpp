@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "quadrille/continuous/roadmap.hpp"
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -63,3 +66,5 @@ class GridRoadmap {
 };
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

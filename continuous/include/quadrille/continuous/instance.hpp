@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "quadrille/continuous/roadmap.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/geometry/motion.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -86,3 +89,5 @@ class Instance {
 };
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

@@ -7,7 +7,10 @@
 #include <string>
 
 #include "quadrille/continuous/instance.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -30,3 +33,5 @@ inline constexpr int kInstanceJsonVersion = 1;
                                                        const Instance& instance);
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "quadrille/continuous/roadmap.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/outcome.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -33,3 +36,5 @@ struct Plan {
 [[nodiscard]] Cost cost(const Plan& plan, Objective objective);
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

@@ -10,7 +10,10 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/stated_outcome.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -59,3 +62,5 @@ struct PlanFile {
 [[nodiscard]] std::string plan_to_json(const Instance& instance, const Plan& plan);
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

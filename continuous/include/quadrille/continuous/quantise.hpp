@@ -5,10 +5,13 @@
 #include <optional>
 
 #include "quadrille/continuous/instance.hpp"
+#include "quadrille/core/export.hpp"
 
 // From the numbers of an input, in its own units of length and time, to whole length units and
 // ticks. `resolution` is the size of both in the input's units. nullopt where the number is not
 // finite, the resolution is not positive, or the result would be out of range.
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -32,3 +35,5 @@ namespace quadrille::continuous {
 [[nodiscard]] bool is_about(double value, std::int64_t units, double resolution);
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

@@ -6,9 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/geometry/point.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -64,3 +67,5 @@ class Roadmap {
 };
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

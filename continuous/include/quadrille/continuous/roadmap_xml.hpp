@@ -11,10 +11,13 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/export.hpp"
 
 // The XML files of continuous-time planners; docs/formats.md has examples. Errors of the readers
 // carry file and, once the XML is well formed, line: io, syntax, out_of_range, invalid_instance.
 // Nothing is repaired, nothing is printed.
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -59,3 +62,5 @@ struct TaskXml {
                                                    Speed speed);
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

@@ -9,10 +9,13 @@
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/core/statistics.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -87,3 +90,5 @@ struct SolveOutcome {
 [[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

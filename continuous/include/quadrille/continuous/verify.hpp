@@ -7,6 +7,9 @@
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
@@ -55,3 +58,5 @@ struct VerifyReport {
 [[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan);
 
 }  // namespace quadrille::continuous
+
+QUADRILLE_API_END

@@ -8,6 +8,11 @@
 #include <initializer_list>
 #include <vector>
 
+#include "quadrille/core/contract.hpp"
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
+
 namespace quadrille {
 
 /// An index that names one kind of thing and converts to nothing else. Ordered; hashable.
@@ -17,7 +22,10 @@ class StrongId {
   using Value = std::uint32_t;
 
   constexpr StrongId() = default;  ///< Id 0.
-  constexpr explicit StrongId(std::size_t value) : value_(static_cast<Value>(value)) {}
+  /// Requires a value below 2^32.
+  constexpr explicit StrongId(std::size_t value) : value_(static_cast<Value>(value)) {
+    QUADRILLE_REQUIRE(value_ == value, "ids have 32 bits");
+  }
 
   /// The id as an index into a plain array.
   [[nodiscard]] constexpr std::size_t index() const noexcept { return value_; }
@@ -106,3 +114,5 @@ template <class Tag>
 struct std::hash<quadrille::StrongId<Tag>> {
   std::size_t operator()(quadrille::StrongId<Tag> id) const noexcept { return id.index(); }
 };
+
+QUADRILLE_API_END

@@ -7,8 +7,11 @@
 #include <memory>
 #include <optional>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/resource_meter.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille {
 
@@ -82,3 +85,5 @@ class LimitMonitor {
 };
 
 }  // namespace quadrille
+
+QUADRILLE_API_END

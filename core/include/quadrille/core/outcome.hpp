@@ -3,6 +3,10 @@
 
 #include <string_view>
 
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
+
 namespace quadrille {
 
 /// What is minimised. The cost of an agent is the time at which it arrives at its goal for the last
@@ -28,3 +32,5 @@ enum class StopReason { none, wall_time, cpu_time, memory, conflicts, interrupt,
     StopReason reason) noexcept;  ///< "none" | "wall-time" | ...
 
 }  // namespace quadrille
+
+QUADRILLE_API_END

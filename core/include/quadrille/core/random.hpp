@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille {
 
@@ -46,3 +49,5 @@ class Random {
 };
 
 }  // namespace quadrille
+
+QUADRILLE_API_END

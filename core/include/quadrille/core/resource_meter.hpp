@@ -5,6 +5,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
+
 namespace quadrille {
 
 /// What the threads of one solve have used so far, together. Safe to read from any thread.
@@ -62,3 +66,5 @@ class ResourceMeter {
 };
 
 }  // namespace quadrille
+
+QUADRILLE_API_END

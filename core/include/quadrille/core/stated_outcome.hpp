@@ -4,8 +4,11 @@
 #include <optional>
 #include <string_view>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/outcome.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille {
 
@@ -24,3 +27,5 @@ struct StatedOutcome {
 [[nodiscard]] std::optional<Status> parse_status(std::string_view text) noexcept;
 
 }  // namespace quadrille
+
+QUADRILLE_API_END

@@ -3,6 +3,10 @@
 
 #include <cstdint>
 
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
+
 namespace quadrille {
 
 /// Counters of one search. All start at zero and only grow.
@@ -25,3 +29,5 @@ struct Statistics {
 };
 
 }  // namespace quadrille
+
+QUADRILLE_API_END

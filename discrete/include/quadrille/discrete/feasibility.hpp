@@ -3,7 +3,10 @@
 
 #include <string>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/discrete/instance.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -23,3 +26,5 @@ struct Feasibility {
 [[nodiscard]] Feasibility check_feasibility(const Instance& instance);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

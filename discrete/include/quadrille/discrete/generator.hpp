@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <string>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/movingai.hpp"
 
 // Maps and scenarios for tests and trials. The same arguments and seed give the same result on
 // every platform. All functions return out_of_range for arguments outside the stated ranges and for
 // maps of more than kMaxMapCells cells.
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -63,3 +66,5 @@ struct ScenarioOptions {
                                                const ScenarioOptions& options = {});
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

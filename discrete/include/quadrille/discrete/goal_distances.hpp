@@ -5,8 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/instance.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -54,3 +57,5 @@ class GoalDistances {
 };
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

@@ -8,8 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -83,3 +86,5 @@ inline constexpr Timestep kUnreachable = INT32_MAX;
 [[nodiscard]] std::string vertex_name(const Graph& graph, VertexId vertex);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

@@ -4,7 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/discrete/graph.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -38,3 +41,5 @@ class Instance {
 };
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

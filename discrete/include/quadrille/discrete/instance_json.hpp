@@ -6,8 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -26,3 +29,5 @@ inline constexpr int kInstanceJsonVersion = 1;
                                                        const Instance& instance);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

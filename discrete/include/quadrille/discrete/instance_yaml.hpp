@@ -6,8 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -23,3 +26,5 @@ namespace quadrille::discrete {
                                                        const Instance& instance);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

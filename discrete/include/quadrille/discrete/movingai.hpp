@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/text/text_input.hpp"
@@ -21,6 +22,8 @@
 //     not followed; a NUL byte), out_of_range (larger than the limits below), invalid_instance.
 //   - LF and CR LF line ends are both accepted. Nothing is repaired, nothing is printed.
 //   - Writers return io when the stream fails, which includes a failing flush at the end.
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -109,3 +112,5 @@ struct Scenario {
                                              const Scenario& scenario, std::size_t num_agents);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

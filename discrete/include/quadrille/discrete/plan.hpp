@@ -3,8 +3,11 @@
 
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/outcome.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -34,3 +37,5 @@ struct Plan {
 void trim(Plan& plan);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

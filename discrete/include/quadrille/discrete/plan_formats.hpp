@@ -7,11 +7,14 @@
 #include <string>
 #include <string_view>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/core/stated_outcome.hpp"
 #include "quadrille/discrete/graph.hpp"
 #include "quadrille/discrete/plan.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -58,3 +61,5 @@ struct PlanFile {
 [[nodiscard]] std::string plan_to_json(const Graph& graph, const Plan& plan);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
@@ -16,6 +17,8 @@
 // proves anything about costs. Both can be run in slices of a given *effort*, a count of elementary
 // steps (a fraction of a microsecond each): what they do depends on instance, options, seed and the
 // efforts asked for, never on clocks; limits only cut them short.
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -95,3 +98,5 @@ class PlanImprover {
 };
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

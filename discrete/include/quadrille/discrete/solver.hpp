@@ -8,12 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/core/statistics.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -149,3 +152,5 @@ struct SolveOutcome {
 [[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

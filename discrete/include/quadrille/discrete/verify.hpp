@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
@@ -46,3 +49,5 @@ struct VerifyReport {
 [[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan);
 
 }  // namespace quadrille::discrete
+
+QUADRILLE_API_END

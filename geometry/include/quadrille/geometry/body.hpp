@@ -5,8 +5,11 @@
 #include <variant>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/geometry/point.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::geometry {
 
@@ -49,3 +52,5 @@ class ConvexPolygon {
 using Body = std::variant<Disc, ConvexPolygon>;
 
 }  // namespace quadrille::geometry
+
+QUADRILLE_API_END

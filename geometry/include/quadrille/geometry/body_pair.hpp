@@ -5,9 +5,12 @@
 #include <optional>
 #include <span>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/geometry/body.hpp"
 #include "quadrille/geometry/motion.hpp"
 #include "quadrille/geometry/tick_interval.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::geometry {
 
@@ -95,3 +98,5 @@ class BodyPair {
 }
 
 }  // namespace quadrille::geometry
+
+QUADRILLE_API_END

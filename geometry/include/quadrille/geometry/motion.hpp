@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/geometry/point.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::geometry {
 
@@ -31,3 +34,5 @@ struct Motion {
 }
 
 }  // namespace quadrille::geometry
+
+QUADRILLE_API_END

@@ -3,6 +3,10 @@
 
 #include <cstdint>
 
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
+
 namespace quadrille::geometry {
 
 /// Time, in whole ticks. A time *difference* may be negative.
@@ -32,3 +36,5 @@ struct Point {
 }
 
 }  // namespace quadrille::geometry
+
+QUADRILLE_API_END

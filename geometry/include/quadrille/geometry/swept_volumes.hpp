@@ -5,8 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/geometry/body.hpp"
 #include "quadrille/geometry/motion.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::geometry {
 
@@ -41,3 +44,5 @@ class SweptVolumes {
 };
 
 }  // namespace quadrille::geometry
+
+QUADRILLE_API_END

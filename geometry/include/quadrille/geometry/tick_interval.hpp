@@ -3,7 +3,10 @@
 
 #include <compare>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/geometry/point.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::geometry {
 
@@ -53,3 +56,5 @@ struct TickInterval {
 };
 
 }  // namespace quadrille::geometry
+
+QUADRILLE_API_END

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/outcome.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -36,3 +39,5 @@ class Bounds {
 };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

@@ -5,10 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/sat/lit.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -50,3 +53,5 @@ class CostProblem {
 };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

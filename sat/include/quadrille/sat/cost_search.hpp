@@ -3,11 +3,14 @@
 
 #include <cstdint>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/statistics.hpp"
 #include "quadrille/sat/bounds.hpp"
 #include "quadrille/sat/cost_problem.hpp"
 #include "quadrille/sat/engine.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -77,3 +80,5 @@ struct CoreGuidedOptions {
                                         Statistics& statistics);
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

@@ -7,10 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/statistics.hpp"
 #include "quadrille/sat/lemma.hpp"
 #include "quadrille/sat/theory.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -86,3 +89,5 @@ class Engine {
 };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

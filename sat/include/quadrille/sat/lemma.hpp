@@ -5,8 +5,11 @@
 #include <span>
 #include <string_view>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/sat/lit.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -48,3 +51,5 @@ class ClauseObserver {
 };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

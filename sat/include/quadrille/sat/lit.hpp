@@ -6,6 +6,9 @@
 #include <cstdlib>
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -38,3 +41,5 @@ class Lit {
 enum class Truth : std::uint8_t { unassigned, is_true, is_false };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

@@ -8,8 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/sat/lit.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -259,3 +262,5 @@ class ObstacleTrail {
 };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

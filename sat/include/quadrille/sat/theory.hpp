@@ -6,8 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/sat/lemma.hpp"
 #include "quadrille/sat/lit.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -73,3 +76,5 @@ class Theory {
 };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

@@ -5,7 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/sat/engine.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
@@ -50,3 +53,5 @@ class Totalizer {
 };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

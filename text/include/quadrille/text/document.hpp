@@ -10,7 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::text {
 
@@ -131,3 +134,5 @@ class Checker {
 };
 
 }  // namespace quadrille::text
+
+QUADRILLE_API_END

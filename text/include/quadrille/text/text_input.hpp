@@ -10,9 +10,12 @@
 #include <string>
 #include <string_view>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 
 // Reading text files; every error carries the file.
+
+QUADRILLE_API_BEGIN
 
 namespace quadrille::text {
 
@@ -60,3 +63,5 @@ struct Natural {
 [[nodiscard]] std::string printable(std::string_view text, std::size_t max_length);
 
 }  // namespace quadrille::text
+
+QUADRILLE_API_END
