@@ -113,7 +113,7 @@ PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start
   return result;
 }
 
-bool PairSearch::is_dearer(const Pending& a, const Pending& b) {
+bool PairSearch::costs_more(const Pending& a, const Pending& b) {
   return a.raise != b.raise ? a.raise > b.raise : a.pair > b.pair;
 }
 
@@ -140,7 +140,7 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
       reach(pair, starts);
     } else {
       pending_.push_back({raise, pair, starts});
-      std::push_heap(pending_.begin(), pending_.end(), is_dearer);
+      std::push_heap(pending_.begin(), pending_.end(), costs_more);
     }
   };
   const Next& next = next_of(x, a.to);
@@ -165,7 +165,7 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
 
 bool PairSearch::next_raise() {
   while (open_.empty() && !pending_.empty()) {
-    std::pop_heap(pending_.begin(), pending_.end(), is_dearer);
+    std::pop_heap(pending_.begin(), pending_.end(), costs_more);
     const Pending next = pending_.back();
     pending_.pop_back();
     raise_ = next.raise;

@@ -171,7 +171,7 @@ class PairSearch {
   };
   static bool is_later(const Open& a, const Open& b);
   void reach(std::uint64_t pair, const Starts& starts);
-  static bool is_dearer(const Pending& a, const Pending& b);
+  static bool costs_more(const Pending& a, const Pending& b);
   /// Goes on with the least raise that is pending. False: there is none.
   bool next_raise();
 
