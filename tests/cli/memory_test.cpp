@@ -54,6 +54,9 @@ class MemoryTest : public CliTest {
 };
 
 TEST_F(MemoryTest, RunsOutOnGrids) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer needs more address space than any limit leaves";
+#endif
   ASSERT_EQ(run({"generate", "--kind", "empty", "--width", "60", "--height", "60", "--map-output",
                  path("m.map"), "--scen-output", path("m.scen"), "--agents", "500"})
                 .code,
@@ -68,6 +71,9 @@ TEST_F(MemoryTest, RunsOutOnGrids) {
 }
 
 TEST_F(MemoryTest, RunsOutOnRoadmaps) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer needs more address space than any limit leaves";
+#endif
   ASSERT_EQ(run({"generate", "--kind", "roadmap", "--vertices", "300", "--width", "40", "--height",
                  "40", "--agents", "100", "--mixed", "--instance-output", path("d.json")})
                 .code,
