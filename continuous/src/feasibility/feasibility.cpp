@@ -9,16 +9,14 @@
 namespace quadrille::continuous {
 namespace {
 
-/// For all parts of some size together. About half a second.
-constexpr std::int64_t kWorkPerSize = 50'000'000;
-
 class PartSearch {
  public:
-  explicit PartSearch(Scene& scene) : scene_(scene) {}
+  PartSearch(Scene& scene, std::int64_t work_per_size)
+      : scene_(scene), work_per_size_(work_per_size) {}
 
   /// False once blocked agents or a plan for all were found.
   bool try_parts_of(std::size_t size) {
-    work_ = kWorkPerSize;
+    work_ = work_per_size_;
     std::vector<AgentId> part;
     return extend(part, 0, size);
   }
@@ -52,15 +50,16 @@ class PartSearch {
   }
 
   Scene& scene_;
+  const std::int64_t work_per_size_;
   std::int64_t work_ = 0;
   Feasibility found_;
 };
 
 }  // namespace
 
-Feasibility check_feasibility(Scene& scene) {
+Feasibility check_feasibility(Scene& scene, std::int64_t work) {
   const std::size_t num_agents = scene.instance().num_agents();
-  PartSearch search(scene);
+  PartSearch search(scene, work);
   // One agent alone reaches its goal: seen when the instance was made.
   if (num_agents >= 2 && !search.try_parts_of(2)) return search.take();
   if (num_agents == 4 && !search.try_parts_of(3)) return search.take();

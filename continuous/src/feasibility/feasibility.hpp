@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "quadrille/continuous/plan.hpp"
 
 namespace quadrille::continuous {
+
+/// About half a second.
+inline constexpr std::int64_t kUsualFeasibilityWork = 50'000'000;
 
 /// Whether there is a plan at all, whatever it costs.
 struct Feasibility {
@@ -21,6 +25,8 @@ struct Feasibility {
 /// Looks for agents that block each other: every two, then every three of four, then all, if they
 /// are few enough for a joint search. Exact both ways: if neither blocked agents nor a plan are
 /// found, the work was too much, the agents too many, or the limits of the scene were met.
-[[nodiscard]] Feasibility check_feasibility(Scene& scene);
+/// `work`, as in find_joint_plan, bounds the effort for the parts of each size.
+[[nodiscard]] Feasibility check_feasibility(Scene& scene,
+                                            std::int64_t work = kUsualFeasibilityWork);
 
 }  // namespace quadrille::continuous

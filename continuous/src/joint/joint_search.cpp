@@ -2,7 +2,7 @@
 #include "joint/joint_search.hpp"
 
 #include <algorithm>
-#include <unordered_map>
+#include <deque>
 #include <utility>
 
 #include "joint/joint_times.hpp"
@@ -13,9 +13,9 @@ namespace {
 
 enum class Aim { any_plan, sum_of_costs, makespan };
 
-/// Best-first search over pairs of places and zones. The variables of a zone are tick 0 (nobody
-/// asks for it when costs do not matter), now, and one per agent: when the move began that it is
-/// on; for the sum of costs, of an agent that stands at its goal, when it arrived there, or later.
+/// Best-first search over pairs of places and zones. The variables of a zone are now, one per
+/// agent, and, if costs matter, tick 0. That of an agent is when the move began that it is on; for
+/// the sum of costs, of an agent that stands at its goal, when it arrived there, or later.
 class JointSearch {
  public:
   JointSearch(Scene& scene, Aim aim, const std::vector<AgentId>& agents, Cost below,
@@ -26,7 +26,11 @@ class JointSearch {
         work_(work),
         instance_(scene.instance()),
         space_(scene, agents),
-        work_per_step_(static_cast<std::int64_t>(num_variables() * num_variables())) {
+        zero_(kFirstAgent + agents.size()),
+        num_variables_(aim == Aim::any_plan ? zero_ : zero_ + 1),
+        work_per_step_(static_cast<std::int64_t>(num_variables_ * num_variables_)),
+        known_(kFirstSize, kNone),
+        next_{space_.starts(), Zone(num_variables_), kNone, kNone, {}} {
     for (const AgentId i : agents) tasks_.push_back(scene.task(i));
   }
 
@@ -55,13 +59,16 @@ class JointSearch {
  private:
   /// Of keeping a node, in steps; so that memory is bounded by work, too.
   static constexpr std::int64_t kWorkOfNode = 8;
-  static constexpr std::size_t kZero = 0, kNow = 1, kFirstAgent = 2;
+  static constexpr std::size_t kNow = 0, kFirstAgent = 1;
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  static constexpr std::size_t kFirstSize = 1024;  // a power of two, of the hash table
 
   struct Node {
     JointPlaces places;
     Zone zone;
     std::uint32_t parent;
-    JointStep step;  // that led here
+    std::uint32_t next_known;  // of the same places
+    JointStep step;            // that led here
     bool is_covered = false;
   };
   struct Entry {
@@ -74,52 +81,44 @@ class JointSearch {
     if (a.left != b.left) return a.left > b.left;
     return a.node < b.node;
   }
-  struct PlacesHash {
-    std::size_t operator()(const JointPlaces& places) const {
-      std::uint64_t hash = places.late;
-      for (const std::uint32_t place : places.place)
-        hash = (hash ^ place ^ hash >> 29) * 0x9E3779B97F4A7C15ull;
-      return static_cast<std::size_t>(hash ^ hash >> 32);
-    }
-  };
-
   [[nodiscard]] Ticks distance(std::size_t k, VertexId v) const { return tasks_[k].distances[v]; }
-  [[nodiscard]] std::size_t num_variables() const { return kFirstAgent + space_.size(); }
   [[nodiscard]] static std::size_t variable(std::size_t k) { return kFirstAgent + k; }
 
   void add_start() {
-    Node start{space_.starts(), Zone(num_variables()), 0, {}};
     for (std::size_t k = 0; k < space_.size(); ++k)
-      if (distance(k, space_.vertex(start.places, k)) >= kForever) return;
+      if (distance(k, space_.vertex(next_.places, k)) >= kForever) return;
     if (aim_ != Aim::any_plan) {
       // Now is tick 0 or later.
-      static_cast<void>(start.zone.restrict(kZero, kNow, 0));
+      static_cast<void>(next_.zone.restrict(zero_, kNow, 0));
       if (aim_ == Aim::sum_of_costs)
         for (std::size_t k = 0; k < space_.size(); ++k)
-          if (space_.stands_at_goal(start.places, k))
-            static_cast<void>(start.zone.restrict(kZero, variable(k), 0));
+          if (space_.stands_at_goal(next_.places, k))
+            static_cast<void>(next_.zone.restrict(zero_, variable(k), 0));
     }
-    add(std::move(start));
+    add_next();
   }
 
   void expand(std::uint32_t parent) {
-    space_.list_steps(nodes_[parent].places, steps_);
+    const JointPlaces places = nodes_[parent].places;
+    space_.list_steps(places, steps_);
     for (const JointStep& step : steps_) {
       work_ -= work_per_step_;
-      const JointPlaces& places = nodes_[parent].places;
       if (!step.begins &&
           distance(step.agent, instance_.roadmap().edge(EdgeId(step.edge)).to) >= kForever)
         continue;
-      Node next{space_.after(places, step), nodes_[parent].zone, parent, step};
+      next_.zone = nodes_[parent].zone;
       space_.list_limits(places, step, ages_);
-      if (!restrict_ages(next.zone)) continue;
-      set_variables(next);
+      if (!restrict_ages(next_.zone)) continue;
+      next_.places = space_.after(places, step);
+      next_.parent = parent;
+      next_.step = step;
+      set_variables(next_);
       // Time may go by until something has to happen.
-      space_.list_deadlines(next.places, ages_);
-      if (!restrict_ages(next.zone)) continue;
-      next.zone.free_above(kNow);
-      if (!restrict_ages(next.zone)) continue;
-      add(std::move(next));
+      space_.list_deadlines(next_.places, ages_);
+      if (!restrict_ages(next_.zone)) continue;
+      next_.zone.free_above(kNow);
+      if (!restrict_ages(next_.zone)) continue;
+      add_next();
     }
   }
 
@@ -143,27 +142,61 @@ class JointSearch {
     if (is_done) next.zone.free_above(variable(k));
   }
 
-  void add(Node next) {
-    const auto [cost, left] = estimate(next);
+  /// Keeps it, unless another one includes it.
+  void add_next() {
+    const auto [cost, left] = estimate(next_);
     if (cost >= below_) return;
-    auto& known = known_[next.places];
-    for (const std::uint32_t other : known) {
+    if (nodes_.size() >= kNone) work_ = -1;
+    std::uint32_t& first = known(next_.places);
+    for (std::uint32_t other = first; other != kNone; other = nodes_[other].next_known) {
       work_ -= work_per_step_ / 4;
-      if (nodes_[other].zone.includes(next.zone)) return;
+      if (nodes_[other].zone.includes(next_.zone)) return;
     }
-    std::erase_if(known, [&](std::uint32_t other) {
-      nodes_[other].is_covered = next.zone.includes(nodes_[other].zone);
-      return nodes_[other].is_covered;
-    });
+    for (std::uint32_t* at = &first; *at != kNone;) {
+      Node& other = nodes_[*at];
+      other.is_covered = next_.zone.includes(other.zone);
+      if (other.is_covered)
+        *at = other.next_known;
+      else
+        at = &other.next_known;
+    }
     work_ -= kWorkOfNode * work_per_step_;
     const auto index = static_cast<std::uint32_t>(nodes_.size());
-    known.push_back(index);
-    nodes_.push_back(std::move(next));
+    next_.next_known = first;
+    first = index;
+    nodes_.push_back(next_);
     heap_.push_back({cost, left, index});
     std::push_heap(heap_.begin(), heap_.end(), is_later);
   }
 
-  [[nodiscard]] Ticks least(const Zone& zone, std::size_t x) const { return -zone.most(kZero, x); }
+  [[nodiscard]] static std::size_t hash(const JointPlaces& places) {
+    std::uint64_t hash = places.late;
+    for (const std::uint32_t place : places.place)
+      hash = (hash ^ place ^ hash >> 29) * 0x9E3779B97F4A7C15ull;
+    return static_cast<std::size_t>(hash ^ hash >> 32);
+  }
+
+  /// The last node of these places that is not covered, in a table with open addresses: this is
+  /// where the time goes.
+  [[nodiscard]] std::uint32_t& known(const JointPlaces& places) {
+    if (2 * num_known_ >= known_.size()) {
+      std::vector<std::uint32_t> old(2 * known_.size(), kNone);
+      std::swap(old, known_);
+      for (const std::uint32_t first : old)
+        if (first != kNone) slot(nodes_[first].places) = first;
+    }
+    std::uint32_t& first = slot(places);
+    if (first == kNone) ++num_known_;
+    return first;
+  }
+  [[nodiscard]] std::uint32_t& slot(const JointPlaces& places) {
+    std::size_t at = hash(places) & (known_.size() - 1);
+    while (known_[at] != kNone && !(nodes_[known_[at]].places == places))
+      at = (at + 1) & (known_.size() - 1);
+    return known_[at];
+  }
+
+  [[nodiscard]] Ticks least(const Zone& zone, std::size_t x) const { return -zone.most(zero_, x); }
 
   /// What plans from here cost at least, and how much of that is left to be done.
   [[nodiscard]] std::pair<Cost, Cost> estimate(const Node& node) const {
@@ -203,11 +236,14 @@ class JointSearch {
   std::int64_t& work_;
   const Instance& instance_;
   JointSpace space_;
+  const std::size_t zero_, num_variables_;
   const std::int64_t work_per_step_;
   std::vector<PathTask> tasks_;
-  std::vector<Node> nodes_;
+  std::deque<Node> nodes_;
   std::vector<Entry> heap_;
-  std::unordered_map<JointPlaces, std::vector<std::uint32_t>, PlacesHash> known_;
+  std::vector<std::uint32_t> known_;
+  std::size_t num_known_ = 0;
+  Node next_;  // being made
   std::vector<JointStep> steps_;
   std::vector<AgeLimit> ages_;
 };

@@ -76,8 +76,7 @@ KnownPathRef ContinuousTheory::recall(AgentId i) const {
 }
 
 PathSearch::Cheapest ContinuousTheory::search(AgentId i, Cost bound) {
-  trail_.list_active(i, active_);
-  return search_.find(i, active_, bound);
+  return search_.find(i, trail_.active(i), bound);
 }
 
 bool ContinuousTheory::replan_all(FormulaWriter& writer) {
@@ -146,9 +145,8 @@ void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const ObstacleIds& bla
     for (const AgentId j : model_.obstacles()[id].partners) ++due_to[j];
   for (const auto& [j, count] : due_to) {
     if (count < 2) continue;
-    trail_.list_active(j, other_active_);
     if (pair_lemmas_.note_explanation({i, std::min(bound - 1, trail_.cap(i)), blamed},
-                                      {j, trail_.cap(j), other_active_}, writer))
+                                      {j, trail_.cap(j), trail_.active(j)}, writer))
       return;
   }
 }
@@ -258,10 +256,10 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
 
 bool ContinuousTheory::note_collision(const Encounter& e, FormulaWriter& writer) {
   if (!uses_pair_lemmas_) return false;
-  trail_.list_active(e.first, active_);
-  trail_.list_active(e.second, other_active_);
-  return pair_lemmas_.note_collision({e.first, trail_.cap(e.first), active_},
-                                     {e.second, trail_.cap(e.second), other_active_}, writer);
+  const auto party = [&](AgentId i) {
+    return PairLemmas::Party{i, trail_.cap(i), trail_.active(i)};
+  };
+  return pair_lemmas_.note_collision(party(e.first), party(e.second), writer);
 }
 
 sat::Lemma ContinuousTheory::explain(Lit, std::vector<Lit>&) {

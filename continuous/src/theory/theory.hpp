@@ -107,7 +107,6 @@ class ContinuousTheory final : public sat::Theory {
   sat::Lit above_budget_;
 
   IdVector<AgentId, PathCache> caches_;
-  ObstacleIds active_, other_active_;  // scratch
   std::uint64_t last_version_ = 0;
   /// By pair of agents: the versions of their paths when they were last found not to collide.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> apart_;

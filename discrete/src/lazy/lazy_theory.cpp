@@ -110,8 +110,7 @@ bool LazyTheory::replan(AgentId i, FormulaWriter& writer) {
     trail_.replace_path(i, *remembered);
     return true;
   }
-  trail_.list_active(i, active_);
-  const auto search = search_.find_cheapest(i, active_, cap);
+  const auto search = search_.find_cheapest(i, trail_.active(i), cap);
   if (search.path() == nullptr) {
     explain_bound(i, search, cap, writer);
     return false;

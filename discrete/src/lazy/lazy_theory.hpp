@@ -88,7 +88,6 @@ class LazyTheory final : public sat::Theory {
   PathCache cache_;
   PartDecisions decisions_;
   bool is_part_ = false;
-  std::vector<ObstacleId> active_;  // scratch
 
   std::optional<Plan> accepted_;
   std::int64_t num_checks_ = 0;

@@ -14,8 +14,7 @@ const std::vector<Encounter>& Separation::collisions() {
 }
 
 bool Separation::bypass(AgentId i) {
-  trail_.list_active(i, active_);
-  const Path* quieter = search_.find_quieter(i, active_, trail_.cap(i));
+  const Path* quieter = search_.find_quieter(i, trail_.active(i), trail_.cap(i));
   if (quieter == nullptr) return false;
   trail_.replace_path(i, *quieter);
   return true;

@@ -32,7 +32,6 @@ class Separation {
   PathSearch& search_;
   LimitMonitor& limits_;
   std::vector<Encounter> collisions_;
-  std::vector<ObstacleId> active_;  // scratch
 };
 
 }  // namespace quadrille::discrete

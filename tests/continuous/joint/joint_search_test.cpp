@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(All, JointRandom,
 // What is asked of the program as a whole: a proof or a refutation, each time.
 class TinyRandom : public testing::TestWithParam<Objective> {};
 
-TEST_P(TinyRandom, IsAnsweredWithinTwoSeconds) {
+TEST_P(TinyRandom, IsSolvedOrRefuted) {
   const auto count = static_cast<std::uint32_t>(support::scaled(1000));
   const std::uint32_t first = GetParam() == Objective::makespan ? 30'000'000 : 40'000'000;
   Answers answers;
@@ -152,18 +152,13 @@ TEST_P(TinyRandom, IsAnsweredWithinTwoSeconds) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
     SolveOptions options;
     options.objective = GetParam();
-    options.limits.cpu_s = 2;
+    options.limits.cpu_s = 20;  // Measured: 1.6 at most.
     const SolveOutcome outcome = solve(instance, options);
     ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
-    if (outcome.status == Status::optimal)
-      ++answers.plans;
-    else if (outcome.status == Status::infeasible)
-      ++answers.none;
-    else
-      ++answers.unknown;
+    ASSERT_TRUE(outcome.status == Status::optimal || outcome.status == Status::infeasible)
+        << to_string(outcome.status);
+    ++(outcome.plan ? answers.plans : answers.none);
   }
-  // Measured: 1 of the first 1,400.
-  EXPECT_LE(200 * answers.unknown, static_cast<int>(count));
   if (count < 1000) return;
   EXPECT_GT(10 * answers.plans, static_cast<int>(count));
   EXPECT_GT(10 * answers.none, static_cast<int>(count));

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "discrete/lazy/watched_theory.hpp"
@@ -16,8 +16,8 @@
 #include "support/environment.hpp"
 #include "support/generators.hpp"
 #include "support/joint_search.hpp"
-#include "support/mock_solver.hpp"
 #include "support/patience.hpp"
+#include "support/theory_driver.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -43,148 +43,61 @@ Instance random_instance(Random& random) {
   }
 }
 
-/// Clauses and literals outlive a sequence, and so does the theory: as from solve to solve.
 class Session final : private FormulaWriter {
  public:
   Session(Random& random, Count& count)
-      : random_(random), instance_(random_instance(random)), count_(count) {
-    model_ = std::make_unique<LazyModel>(instance_, support::distances_of(instance_));
-    theory_ = std::make_unique<WatchedTheory>(*model_, count);
-    const auto answer = support::joint_search(instance_, Objective::makespan);
-    const bool is_feasible = answer.status == Status::optimal;
-    auditor_ = std::make_unique<LazyAuditor>(
-        *model_, true, is_feasible ? std::optional(answer.plan) : std::nullopt);
-  }
+      : random_(random),
+        instance_(random_instance(random)),
+        count_(count),
+        model_(instance_, support::distances_of(instance_)),
+        theory_(model_, count),
+        auditor_(model_, true, some_plan(instance_)),
+        driver_(theory_, random,
+                {[this](const sat::Lemma& lemma) { auditor_.on_lemma(lemma); },
+                 [this] { begin_solve(); }, [this] { return draw(VariableKind::usage); },
+                 [this] { return draw(VariableKind::cost); }}) {}
 
   void run_sequence(std::uint64_t seed) {
-    host_ = std::make_unique<sat::TheoryHost>(
-        *theory_,
-        sat::TheoryHost::Hooks{[this] { return new_lit(); },
-                               [this](const sat::Lemma& lemma) { auditor_->on_lemma(lemma); }});
-    for (int v = 1; v < end_; ++v) host_->add_variable(v);
-    solver_ = std::make_unique<quadrille::support::MockSolver>(*host_, end_ - 1, seed);
-    for (auto& clause : clauses_) solver_->add_clause(std::move(clause));
-    begin_solve();
-    for (std::size_t step = 0; step < 40 && goes_on(); ++step) make_move();
-    for (int tries = 0; tries < 4 && goes_on() && !check_model(); ++tries) {
-    }
-    EXPECT_EQ(auditor_->complaint().value_or(""), "");
-    EXPECT_TRUE(solver_->reasons().empty());
-    count_.dead += solver_->dead() ? 1 : 0;
-    clauses_ = solver_->clauses();
-    for (const auto& rest : host_->take_queue()) clauses_.push_back(rest.clause);
-    theory_->forget();
+    count_.dead += driver_.run_sequence(seed) ? 1 : 0;
+    EXPECT_EQ(auditor_.complaint().value_or(""), "");
+    theory_.forget();
   }
   /// Whether an agent has got explicit paths.
-  [[nodiscard]] bool has_explicit_paths() { return draw_literal(VariableKind::vertex).has_value(); }
+  [[nodiscard]] bool has_explicit_paths() { return draw(VariableKind::vertex).valid(); }
 
  private:
-  [[nodiscard]] Lit new_lit() override {
-    host_->add_variable(end_);
-    return Lit::from_dimacs(end_++);
+  static std::optional<Plan> some_plan(const Instance& instance) {
+    auto answer = support::joint_search(instance, Objective::makespan);
+    return answer.status == Status::optimal ? std::optional(std::move(answer.plan)) : std::nullopt;
   }
-  void add(const sat::Lemma& lemma) override {
-    auditor_->on_lemma(lemma);
-    solver_->add_clause({lemma.clause.begin(), lemma.clause.end()});
-  }
-  [[nodiscard]] bool goes_on() const { return !solver_->dead() && !testing::Test::HasFailure(); }
+  [[nodiscard]] Lit new_lit() override { return driver_.new_lit(); }
+  void add(const sat::Lemma& lemma) override { driver_.add(lemma); }
 
   /// Between solves: cost literals are made, then assumed.
   void begin_solve() {
-    solver_->backtrack(0);
-    host_->begin_solve();
     const bool all_present = random_.percent(50);
-    theory_->on_solve(all_present);
+    theory_.on_solve(all_present);
     for (const AgentId i : instance_.agents()) {
       const auto delay = static_cast<Timestep>(random_.below(5));
-      const Lit above = model_->cost_above(i, model_->distances(i).free_cost() + delay, *this);
-      if (!all_present && random_.percent(40)) continue;
-      solver_->open_level();
-      solver_->assign(~above);
+      const Lit above = model_.cost_above(i, model_.distances(i).free_cost() + delay, *this);
+      if (all_present || random_.percent(60)) driver_.assume(~above);
     }
   }
-  /// A literal at random; `usage` and `cost` are those that do something.
-  [[nodiscard]] std::optional<Lit> draw_literal(VariableKind kind) {
+  /// A literal at random; those of kind `usage` and `cost` do something.
+  [[nodiscard]] Lit draw(VariableKind kind) {
     std::vector<Lit> fitting;
-    for (int v = 1; v < end_; ++v)
-      if (model_->variable(Lit::from_dimacs(v)).kind == kind)
-        fitting.push_back(Lit::from_dimacs(v));
-    if (fitting.empty()) return std::nullopt;
-    return random_.pick(fitting);
-  }
-  /// True if the theory agrees with a complete assignment.
-  bool check_model() {
-    for (int tries = 0; tries < 8 && goes_on(); ++tries) {
-      if (random_.percent(80) && !solver_->propagate()) continue;
-      if (!solver_->complete(end_)) continue;
-      if (random_.percent(80) && !solver_->propagate()) continue;
-      if (solver_->num_assigned() + 1 != static_cast<std::size_t>(end_)) continue;  // new literals
-      if (solver_->check_found_model()) return true;
-      solver_->fetch_clauses();
-      solver_->resolve_conflicts();
-    }
-    return false;
-  }
-  void decide() {
-    bool forgettable = false;
-    if (!solver_->propagate() || solver_->dead() || host_->has_clause(forgettable)) return;
-    // Without an answer, the solver may decide for a literal that it does not announce.
-    while (!solver_->decide().valid() && random_.percent(50)) {
-    }
-    if (host_->wants_stop()) begin_solve();
-  }
-  void make_move() {
-    switch (random_.below(16)) {
-      case 0:
-        solver_->open_level();
-        break;
-      case 1:
-      case 2:
-        solver_->backtrack(random_.below(solver_->level() + 1));
-        break;
-      case 3:
-        solver_->backtrack_unannounced_levels();
-        break;
-      case 4:
-        solver_->ask_late_reason();
-        break;
-      case 5:
-        solver_->assign(Lit::from_dimacs(
-            -1 - static_cast<int>(random_.below(static_cast<std::size_t>(end_ - 1)))));
-        break;
-      case 6:
-        if (const auto cost = draw_literal(VariableKind::cost)) solver_->assign(*cost);
-        break;
-      case 7:
-        begin_solve();
-        break;
-      case 8:
-      case 9:
-        decide();
-        break;
-      case 10:
-        static_cast<void>(check_model());
-        break;
-      case 11:
-        solver_->announce();  // and do not ask
-        break;
-      default:
-        if (random_.percent(50)) solver_->open_level();
-        if (const auto usage = draw_literal(VariableKind::usage)) solver_->assign(*usage);
-        if (random_.percent(70)) static_cast<void>(solver_->propagate());
-    }
+    for (int v = 1; v < driver_.end(); ++v)
+      if (model_.variable(Lit::from_dimacs(v)).kind == kind) fitting.push_back(Lit::from_dimacs(v));
+    return fitting.empty() ? Lit() : random_.pick(fitting);
   }
 
   Random& random_;
   const Instance instance_;
   Count& count_;
-  std::unique_ptr<LazyModel> model_;
-  std::unique_ptr<WatchedTheory> theory_;
-  std::unique_ptr<LazyAuditor> auditor_;
-  std::unique_ptr<sat::TheoryHost> host_;
-  std::unique_ptr<quadrille::support::MockSolver> solver_;
-  std::vector<std::vector<Lit>> clauses_;
-  int end_ = 1;  // of the variables
+  LazyModel model_;
+  WatchedTheory theory_;
+  LazyAuditor auditor_;
+  quadrille::support::TheoryDriver driver_;
 };
 
 class LazyTheoryCallbacks : public testing::TestWithParam<int> {};

@@ -10,6 +10,7 @@
 #include "discrete/lazy/situation.hpp"
 #include "lazy/lazy_theory.hpp"
 #include "support/joint_search.hpp"
+#include "support/recording_context.hpp"
 
 // The lazy path theory between its host and a judge.
 namespace quadrille::discrete::support {
@@ -18,43 +19,7 @@ using sat::Lit;
 using sat::Truth;
 using VariableKind = LazyModel::VariableKind;
 
-/// Passes everything on, and remembers what the theory said.
-class Recorder final : public sat::TheoryContext {
- public:
-  explicit Recorder(sat::TheoryContext& context) : context_(context) {}
-
-  std::vector<std::vector<Lit>> lemmas;
-  bool made_literal = false, stopped = false;
-
-  [[nodiscard]] bool has_conflict(const Situation& now) const {
-    return std::any_of(lemmas.begin(), lemmas.end(),
-                       [&](const auto& clause) { return now.is_false(clause); });
-  }
-
-  [[nodiscard]] Truth value(Lit lit) const override { return context_.value(lit); }
-  [[nodiscard]] std::size_t level(Lit lit) const override { return context_.level(lit); }
-  [[nodiscard]] std::size_t num_assigned() const override { return context_.num_assigned(); }
-  [[nodiscard]] std::size_t num_variables() const override { return context_.num_variables(); }
-  void add_lemma(const sat::Lemma& lemma) override {
-    lemmas.emplace_back(lemma.clause.begin(), lemma.clause.end());
-    if (!is_trial) context_.add_lemma(lemma);
-  }
-  void propagate(Lit implied) override { context_.propagate(implied); }
-  [[nodiscard]] Lit new_lit() override {
-    made_literal = true;
-    EXPECT_FALSE(is_trial) << "a literal for something that is known already";
-    return context_.new_lit();
-  }
-  void stop() override {
-    stopped = true;
-    context_.stop();
-  }
-
-  bool is_trial = false;  // lemmas stay here
-
- private:
-  sat::TheoryContext& context_;
-};
+using quadrille::support::RecordingContext;
 
 struct Count {
   std::size_t silent = 0, conflicts = 0, accepted = 0, rejected = 0, decisions = 0, stops = 0,
@@ -90,7 +55,7 @@ class WatchedTheory final : public sat::Theory {
     return theory_.explain(implied, clause);
   }
   void check(sat::Effort effort, sat::TheoryContext& context) override {
-    Recorder said(context);
+    RecordingContext said(context);
     std::vector<Path> before;
     for (const AgentId i : model_.instance().agents()) before.push_back(theory_.path(i));
     theory_.check(effort, said);
@@ -106,7 +71,7 @@ class WatchedTheory final : public sat::Theory {
     }
   }
   [[nodiscard]] Lit decide(sat::TheoryContext& context) override {
-    Recorder said(context);
+    RecordingContext said(context);
     const Lit choice = theory_.decide(said);
     const Situation now(model_, stack_);
     EXPECT_TRUE(!choice.valid() || !now.is_assigned(choice));
@@ -125,18 +90,22 @@ class WatchedTheory final : public sat::Theory {
   }
 
  private:
-  void judge_partial(const Recorder& said, const Situation& now) {
+  [[nodiscard]] static bool has_conflict(const RecordingContext& said, const Situation& now) {
+    return std::any_of(said.lemmas.begin(), said.lemmas.end(),
+                       [&](const auto& clause) { return now.is_false(clause); });
+  }
+  void judge_partial(const RecordingContext& said, const Situation& now) {
     const bool is_feasible = has_all_paths(now);
     if (!is_feasible) {
-      EXPECT_TRUE(said.has_conflict(now)) << "an agent without a path went unnoticed";
-    } else if (!said.has_conflict(now)) {
+      EXPECT_TRUE(has_conflict(said, now)) << "an agent without a path went unnoticed";
+    } else if (!has_conflict(said, now)) {
       expect_good_paths(theory_, now);
     }
     ++(is_feasible ? count_.silent : count_.conflicts);
   }
   /// A new path that is costlier than a bound which nobody has spoken of comes with a lemma that
   /// refutes the bound: the search that found the path has proved it.
-  void expect_bound_told(AgentId i, const Recorder& said, const Situation& now) {
+  void expect_bound_told(AgentId i, const RecordingContext& said, const Situation& now) {
     const auto cost = static_cast<Timestep>(theory_.path(i).size()) - 1;
     Lit open;  // the largest one; ordered literals imply the others
     for (const auto& literal : model_.cost_literals(i))
@@ -153,8 +122,8 @@ class WatchedTheory final : public sat::Theory {
                             }))
         << "agent " << i.value();
   }
-  void judge_full(const Recorder& said, const Situation& now) {
-    if (said.made_literal || said.has_conflict(now)) {
+  void judge_full(const RecordingContext& said, const Situation& now) {
+    if (said.made_literal || has_conflict(said, now)) {
       ++count_.rejected;
       return;
     }
@@ -174,11 +143,11 @@ class WatchedTheory final : public sat::Theory {
     LimitMonitor limits{Limits{}};
     LazyTheory fresh(model_, limits);
     if (!stack_.empty()) fresh.on_assign(stack_);
-    Recorder said(context);
+    RecordingContext said(context);
     said.is_trial = true;
     fresh.check(sat::Effort::partial, said);
-    EXPECT_EQ(said.has_conflict(now), !has_all_paths(now));
-    if (said.has_conflict(now)) return;
+    EXPECT_EQ(has_conflict(said, now), !has_all_paths(now));
+    if (has_conflict(said, now)) return;
     expect_good_paths(fresh, now);
   }
 

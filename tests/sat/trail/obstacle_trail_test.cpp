@@ -212,8 +212,7 @@ class Checked final : public Theory {
   void compare(AgentId i) {
     EXPECT_EQ(trail_.cap(i), expected_cap(i));
     EXPECT_EQ(trail_.floor(i), expected_floor(i));
-    std::vector<ObstacleId> active;
-    trail_.list_active(i, active);
+    const std::vector<ObstacleId>& active = trail_.active(i);
     EXPECT_EQ(active, expected_active_[i]);
     count_.out_of_order += std::is_sorted(active.begin(), active.end()) ? 0 : 1;
     for (const ObstacleId id : active) EXPECT_TRUE(trail_.is_active(id));
@@ -301,10 +300,8 @@ class TrailOfOne : public testing::Test {
     obstacles_.push_back(obstacle);
   }
   [[nodiscard]] std::vector<std::size_t> active() const {
-    std::vector<ObstacleId> ids;
-    trail_.list_active(kAgent, ids);
     std::vector<std::size_t> indices;
-    for (const ObstacleId id : ids) indices.push_back(id.index());
+    for (const ObstacleId id : trail_.active(kAgent)) indices.push_back(id.index());
     return indices;
   }
   static Lit lit(int dimacs) { return Lit::from_dimacs(dimacs); }

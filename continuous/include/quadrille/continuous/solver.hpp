@@ -51,7 +51,7 @@ struct SolveOptions {
   std::int64_t route_work = 50'000'000;
   /// Of dpll: effort for the joint search of small instances, which comes before everything else:
   /// about 10^8 take a second. 0: none.
-  std::int64_t joint_work = 50'000'000;
+  std::int64_t joint_work = 200'000'000;
   /// Called on the solving thread, at most once in `progress_interval_s` seconds. May be empty.
   /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;

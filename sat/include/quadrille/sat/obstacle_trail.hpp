@@ -42,7 +42,8 @@ concept TrailPaths = std::copyable<typename P::Path> && std::totally_ordered<typ
 /// was retracted since.
 ///
 /// Pushing and retracting take O(1) for each literal, for each obstacle that it controls, and for
-/// each bound and path that is taken back.
+/// each bound and path that is taken back. Obstacles that stay active take no time, except where
+/// one of the same agent ceases to be active that became so earlier.
 template <TrailPaths Paths>
 class ObstacleTrail {
  public:
@@ -78,6 +79,7 @@ class ObstacleTrail {
       var.value = Truth::unassigned;
       if (var.controls) for_each_controlled(lit, [this](ObstacleId id) { deactivate(id); });
     }
+    for (; !thinned_.empty(); thinned_.pop_back()) drop_inactive(agents_[thinned_.back()]);
   }
   /// Hears of obstacles that were made since the last call. `all` has them in the order of their
   /// ids, each with its `agent` and its literal `allowed`.
@@ -115,16 +117,13 @@ class ObstacleTrail {
     agent.floor = floor;
   }
   [[nodiscard]] bool is_active(ObstacleId id) const { return obstacles_[id].is_active; }
-  /// The active obstacles of an agent, in the order in which they became active.
-  void list_active(AgentId i, std::vector<ObstacleId>& active) const {
-    active.clear();
-    for (std::uint32_t at = agents_[i].first; at != kNone; at = obstacles_[ObstacleId(at)].next)
-      active.push_back(ObstacleId(at));
-  }
+  /// The active obstacles of an agent, in the order in which they became active. Valid until the
+  /// trail changes.
+  [[nodiscard]] const std::vector<ObstacleId>& active(AgentId i) const { return agents_[i].active; }
   /// The first active obstacle of the agent that the path breaks.
   [[nodiscard]] std::optional<ObstacleId> find_broken(AgentId i, const Path& path) const {
-    for (std::uint32_t at = agents_[i].first; at != kNone; at = obstacles_[ObstacleId(at)].next)
-      if (paths_.breaks(path, ObstacleId(at))) return ObstacleId(at);
+    for (const ObstacleId id : agents_[i].active)
+      if (paths_.breaks(path, id)) return id;
     return std::nullopt;
   }
 
@@ -162,7 +161,6 @@ class ObstacleTrail {
   }
 
  private:
-  static constexpr std::uint32_t kNone = UINT32_MAX;
   struct Variable {
     Truth value = Truth::unassigned;  // of the positive literal
     bool controls = false;            // some obstacle
@@ -171,14 +169,14 @@ class ObstacleTrail {
     AgentId agent;
     Lit allowed;
     bool is_active = false;
-    std::uint32_t previous = kNone, next = kNone;  // in the agent's list
   };
   struct Agent {
     Cost cap;
     Cost floor = Cost();
-    bool is_violated = false;                   // then it is listed, too
-    bool is_listed = false;                     // in listed_
-    std::uint32_t first = kNone, last = kNone;  // of the list of its active obstacles
+    bool is_violated = false;  // then it is listed, too
+    bool is_listed = false;    // in listed_
+    std::vector<ObstacleId> active = {};
+    std::size_t num_dropped = 0;  // obstacles in `active` that are so no longer
   };
   struct Change {
     enum class Kind : std::uint8_t { cap, floor, path };
@@ -203,22 +201,22 @@ class ObstacleTrail {
     Obstacle& obstacle = obstacles_[id];
     Agent& agent = agents_[obstacle.agent];
     obstacle.is_active = true;
-    obstacle.previous = agent.last;
-    obstacle.next = kNone;
-    (agent.last == kNone ? agent.first : obstacles_[ObstacleId(agent.last)].next) = id.value();
-    agent.last = id.value();
+    agent.active.push_back(id);
     if (!agent.is_violated && paths_.breaks(paths_.path(obstacle.agent), id))
       mark_violated(obstacle.agent);
   }
   void deactivate(ObstacleId id) {
     Obstacle& obstacle = obstacles_[id];
-    Agent& agent = agents_[obstacle.agent];
     obstacle.is_active = false;
-    const auto link = [&](std::uint32_t at, std::uint32_t Obstacle::*side, std::uint32_t& end) {
-      return at == kNone ? &end : &(obstacles_[ObstacleId(at)].*side);
-    };
-    *link(obstacle.previous, &Obstacle::next, agent.first) = obstacle.next;
-    *link(obstacle.next, &Obstacle::previous, agent.last) = obstacle.previous;
+    if (agents_[obstacle.agent].num_dropped++ == 0) thinned_.push_back(obstacle.agent);
+  }
+  // They are at the end; between them are only such as became active late.
+  void drop_inactive(Agent& agent) {
+    const auto is_dropped = [&](ObstacleId id) { return !obstacles_[id].is_active; };
+    auto at = agent.active.end();
+    while (agent.num_dropped > 0)
+      if (is_dropped(*--at)) --agent.num_dropped;
+    agent.active.erase(std::remove_if(at, agent.active.end(), is_dropped), agent.active.end());
   }
   void mark_violated(AgentId i) {
     agents_[i].is_violated = true;
@@ -252,7 +250,8 @@ class ObstacleTrail {
 
   Paths& paths_;
   IdVector<AgentId, Agent> agents_;
-  std::vector<AgentId> listed_;  // those that are violated or were so lately
+  std::vector<AgentId> thinned_;  // those with num_dropped > 0, during a retraction
+  std::vector<AgentId> listed_;   // those that are violated or were so lately
   IdVector<ObstacleId, Obstacle> obstacles_;
   std::vector<Variable> variables_;                  // by variable
   std::vector<std::vector<ObstacleId>> controlled_;  // by variable
