@@ -96,15 +96,16 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
       "How the least sum of costs is searched for: core-guided (default of dpll) or\n"
       "iterative (default of the others)")
       ->group(group);
-  add_choice<discrete::MddGrowth>(app, "--mdd-growth", options.mdd_growth, "on-demand or full",
+  add_choice<discrete::MddGrowth>(app, "--mdd-growth", options.mdd.growth, "on-demand or full",
                                   discrete::parse_mdd_growth,
                                   "How far the MDDs reach at first: on-demand (default) or full")
       ->group(group);
-  app.add_flag("--forbid-first", options.forbid_first,
+  app.add_flag("--forbid-first", options.lazy.forbid_first,
                "dpll: try first to forbid usages; faster on some hard instances, slower on others")
       ->group(group);
   add_choice<std::optional<bool>>(
-      app, "--backtracking", options.chronological, "chronological or jump", choose_backtracking,
+      app, "--backtracking", options.lazy.chronological, "chronological or jump",
+      choose_backtracking,
       "dpll: backtrack chronologically (default with 175 agents or more) or jump back as\n"
       "far as each lemma asks")
       ->group(group);
@@ -153,7 +154,7 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
       ->group(group);
   app.add_flag("--quiet", arguments.quiet, "Print nothing but errors and what is asked for")
       ->group(group);
-  app.add_flag("--audit", arguments.request.options.audit,
+  app.add_flag("--audit", arguments.request.options.debug.audit,
                "Check every lemma against the rules; slow")
       ->group("Debugging");
   add_file(app, "--known-plan", arguments.request.known_plan,
@@ -187,7 +188,7 @@ std::string settle(SolveArguments& arguments) {
     // Schedules are a matter of the MDD path model: DPLL(MAPF) as published.
     if (options.system == System::dpll) options.system = System::dpll_mdd;
     if (!has_schedule(options.system)) return "--check belongs to --system dpll-mdd";
-    options.check = *arguments.check;
+    options.mdd.check = *arguments.check;
   }
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
   if (options.race && options.threads == 1) return "--race needs --threads";
@@ -217,7 +218,7 @@ class SolveRun {
 
  private:
   std::optional<Error> read_known_plan(const discrete::Instance& instance);
-  SolveOutcome search(const discrete::Instance& instance);
+  Result<SolveOutcome> search(const discrete::Instance& instance);
   ExitCode deliver(const Input& input, SolveOutcome outcome);
 
   SolveArguments& arguments_;
@@ -235,11 +236,11 @@ std::optional<Error> SolveRun::read_known_plan(const discrete::Instance& instanc
     return Error{ErrorCode::invalid_plan,
                  "not a valid plan: " + replay.violations.front().message,
                  {request.known_plan, 0}};
-  request.options.known_plan = file->plan;
+  request.options.debug.known_plan = file->plan;
   return std::nullopt;
 }
 
-SolveOutcome SolveRun::search(const discrete::Instance& instance) {
+Result<SolveOutcome> SolveRun::search(const discrete::Instance& instance) {
   ProgressLine line(!arguments_.quiet);
   discrete::SolveOptions options = arguments_.request.options;
   if (line.active())
@@ -294,9 +295,14 @@ ExitCode SolveRun::run() {
   delivery_.console().print(describe_input(*input));
   delivery_.console().print(
       fmt::format("system     {}{}, objective {}, seed {}\n", to_string(options.system),
-                  has_schedule(options.system) ? " with check " + to_string(options.check) : "",
+                  has_schedule(options.system) ? " with check " + to_string(options.mdd.check) : "",
                   to_string(options.objective), options.seed));
-  return deliver(*input, search(input->instance));
+  auto outcome = search(input->instance);
+  if (!outcome) {
+    report_error(outcome.error());
+    return ExitCode::bad_input;
+  }
+  return deliver(*input, *std::move(outcome));
 }
 
 /// The options of a solve in continuous time. Errors are usage errors.
@@ -329,7 +335,7 @@ Result<RoadmapSolveRequest> settle_roadmap(const CLI::App& app, SolveArguments& 
   if (arguments.memory_mib)
     request.options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (arguments.seed) request.options.seed = static_cast<std::uint32_t>(*arguments.seed);
-  request.options.audit = options.audit;
+  request.options.debug.audit = options.debug.audit;
   request.known_plan = arguments.request.known_plan;
   request.plan = arguments.plan;
   request.plan_format = arguments.plan_format.continuous.value_or(

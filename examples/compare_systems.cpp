@@ -41,8 +41,8 @@ int main() {
       SolveOptions options;
       options.objective = objective;
       options.system = system;
-      if (system == System::dpll_mdd) options.check = parse_check_schedule("1/2,3/4").value();
-      const SolveOutcome outcome = solve(*instance, options);
+      if (system == System::dpll_mdd) options.mdd.check = parse_check_schedule("1/2,3/4").value();
+      const SolveOutcome outcome = solve(*instance, options).value();
       std::cout << to_string(objective) << " by " << to_string(system) << ": "
                 << to_string(outcome.status);
       if (outcome.cost) std::cout << ", " << *outcome.cost;

@@ -29,7 +29,7 @@ void try_out(const char* title, Length radius, Speed leader_speed) {
     std::cout << instance.error().message << "\n";
     return;
   }
-  const SolveOutcome outcome = solve(*instance, {});
+  const SolveOutcome outcome = solve(*instance, {}).value();
   std::cout << to_string(outcome.status) << ", sum of costs " << outcome.cost.value_or(-1);
   if (!outcome.plan) {
     std::cout << "\n";

@@ -41,7 +41,7 @@ int main() {
     std::cerr << instance.error().to_string() << "\n";
     return 1;
   }
-  const SolveOutcome outcome = solve(*instance, {});
+  const SolveOutcome outcome = solve(*instance, {}).value();
   std::cout << to_string(outcome.status) << ", sum of costs " << outcome.cost.value_or(-1)
             << " ms, lower bound " << outcome.lower_bound << " ms\n";
   if (!outcome.plan) return 1;

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     return 1;
   }
 
-  const SolveOutcome outcome = solve(*instance, {});
+  const SolveOutcome outcome = solve(*instance, {}).value();
   std::cout << to_string(outcome.status) << "\n";
   if (!outcome.plan) {
     std::cout << outcome.explanation << "\n";

@@ -37,7 +37,7 @@ int main() {
     looks.wait(0);  // until the search has shown itself once
     stop = true;
   });
-  const SolveOutcome outcome = solve(*instance, options);
+  const SolveOutcome outcome = solve(*instance, options).value();
   ++looks;  // should the search have ended by itself
   looks.notify_one();
   watcher.join();

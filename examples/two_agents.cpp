@@ -10,6 +10,7 @@ int main() {
   const auto instance = Instance::make(graph, {{left, right}, {right, left}});
   if (!instance) std::cerr << instance.error().to_string() << "\n";
   if (!instance) return 1;
-  const SolveOutcome outcome = solve(*instance, {});  // a plan, verified, or why there is none
+  // A plan, verified, or why there is none.
+  const SolveOutcome outcome = solve(*instance, {}).value();
   std::cout << to_string(outcome.status) << ", sum of costs " << outcome.cost.value_or(-1) << "\n";
 }

@@ -24,13 +24,13 @@ Json options_json(const SolveRequest& request) {
   json["blocked"] = request.input.letters.blocked;
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
-  json["check"] = has_schedule(options.system) ? Json(to_string(options.check)) : Json(nullptr);
+  json["check"] = has_schedule(options.system) ? Json(to_string(options.mdd.check)) : Json(nullptr);
   json["cost_search"] = options.cost_search ? Json(to_string(*options.cost_search)) : Json(nullptr);
-  json["mdd_growth"] = to_string(options.mdd_growth);
-  json["forbid_first"] = options.forbid_first;
+  json["mdd_growth"] = to_string(options.mdd.growth);
+  json["forbid_first"] = options.lazy.forbid_first;
   json["backtracking"] = Json(nullptr);
-  if (options.chronological)
-    json["backtracking"] = *options.chronological ? "chronological" : "jump";
+  if (options.lazy.chronological)
+    json["backtracking"] = *options.lazy.chronological ? "chronological" : "jump";
   json["first_plan"] = options.first_plan;
   json["gap"] = or_null(options.gap_percent);
   json["threads"] = options.threads;
@@ -40,7 +40,7 @@ Json options_json(const SolveRequest& request) {
   json["cpu_limit"] = or_null(options.limits.cpu_s);
   json["memory_limit"] = or_null(options.limits.memory_mib);
   json["conflict_limit"] = or_null(options.limits.conflicts);
-  json["audit"] = options.audit;
+  json["audit"] = options.debug.audit;
   json["known_plan"] = text_or_null(request.known_plan);
   return json;
 }

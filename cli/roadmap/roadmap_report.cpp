@@ -59,7 +59,7 @@ Json options_json(const RoadmapSolveRequest& request) {
   json["cpu_limit"] = or_null(options.limits.cpu_s);
   json["memory_limit"] = or_null(options.limits.memory_mib);
   json["conflict_limit"] = or_null(options.limits.conflicts);
-  json["audit"] = options.audit;
+  json["audit"] = options.debug.audit;
   json["known_plan"] = text_or_null(request.known_plan);
   return json;
 }

@@ -28,13 +28,13 @@ std::optional<Error> read_known_plan(const RoadmapInput& input, RoadmapSolveRequ
     return Error{ErrorCode::invalid_plan,
                  "not a valid plan: " + replay.violations.front().message,
                  {request.known_plan, 0}};
-  request.options.known_plan = std::move(file.value().plan);
+  request.options.debug.known_plan = std::move(file.value().plan);
   // Neither of these searches makes clauses that could be checked.
   request.options.route_work = request.options.joint_work = 0;
   return std::nullopt;
 }
 
-SolveOutcome search(const Instance& instance, const RoadmapSolveRequest& request) {
+Result<SolveOutcome> search(const Instance& instance, const RoadmapSolveRequest& request) {
   ProgressLine line(!request.quiet);
   continuous::SolveOptions options = request.options;
   if (line.active())
@@ -85,7 +85,12 @@ ExitCode solve_roadmap(RoadmapSolveRequest request) {
                                        to_string(request.options.system),
                                        to_string(request.options.objective), request.options.seed));
   const Instance& instance = input->instance;
-  SolveOutcome outcome = search(instance, request);
+  auto answer = search(instance, request);
+  if (!answer) {
+    report_error(answer.error());
+    return ExitCode::bad_input;
+  }
+  SolveOutcome outcome = *std::move(answer);
   const auto replay = check_outcome(instance, request.options.objective, outcome);
   if (outcome.internal_error) {
     report_error({ErrorCode::internal, "internal check failed: " + outcome.internal_error->message,

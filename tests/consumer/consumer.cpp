@@ -15,7 +15,7 @@ int main() {
     std::cerr << instance.error().to_string() << "\n";
     return 1;
   }
-  const SolveOutcome outcome = solve(*instance, {});
+  const SolveOutcome outcome = solve(*instance, {}).value();
   if (!outcome.plan || !verify(*instance, *outcome.plan).valid()) return 1;
   std::cout << to_string(outcome.status) << ", sum of costs " << *outcome.cost << "\n";
 }

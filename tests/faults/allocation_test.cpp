@@ -26,10 +26,10 @@ template <class Instance, class Options>
 void solve_starved(const Instance& instance, const Options& options, Cost optimum, std::int64_t n,
                    std::int64_t length, Tally& tally) {
   SCOPED_TRACE("allocation " + std::to_string(n) + ", " + std::to_string(length));
-  std::optional<decltype(solve(instance, options))> outcome;
+  std::optional<std::decay_t<decltype(solve(instance, options).value())>> outcome;
   fail_allocations(n, length);
   try {
-    outcome.emplace(solve(instance, options));
+    outcome.emplace(solve(instance, options).value());
   } catch (const std::bad_alloc&) {
   }
   stop_failing();
@@ -59,7 +59,7 @@ template <class Instance, class Options>
 Tally starve_everywhere(const Instance& instance, const Options& options, std::uint64_t seed) {
   Tally tally;
   fail_allocations(0, 0);
-  const auto free = solve(instance, options);
+  const auto free = solve(instance, options).value();
   const std::int64_t all = stop_failing();
   EXPECT_EQ(free.status, Status::optimal);
   Random random(seed);
@@ -73,7 +73,7 @@ Tally starve_everywhere(const Instance& instance, const Options& options, std::u
       if (testing::Test::HasFatalFailure()) return tally;
     }
   }
-  EXPECT_EQ(solve(instance, options).cost, free.cost);
+  EXPECT_EQ(solve(instance, options).value().cost, free.cost);
   return tally;
 }
 

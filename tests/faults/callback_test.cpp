@@ -23,7 +23,7 @@ bool throws_at(const Instance& instance, Options options, int k) {
     EXPECT_LT(calls, k) << "called after it had thrown";
   };
   try {
-    static_cast<void>(solve(instance, options));
+    static_cast<void>(solve(instance, options).value());
   } catch (const Thrown& thrown) {
     EXPECT_EQ(thrown.call, k);
     return true;
@@ -43,7 +43,7 @@ void expect_thrown_at_each_call(const std::vector<Options>& systems, const Insta
       if (!throws_at(hard, systems[i], k)) break;
       ++num_thrown;
     }
-    EXPECT_EQ(solve(easy, systems[i]).status, Status::optimal);
+    EXPECT_EQ(solve(easy, systems[i]).value().status, Status::optimal);
   }
   EXPECT_GT(num_thrown, num_tried * 4 / 5);
 }

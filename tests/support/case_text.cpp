@@ -86,7 +86,7 @@ class CaseReader {
     } else if (word == "expect") {
       read_expectation(words);
     } else if (word == "options") {
-      options_ = SolveOptions();
+      options_ = TunedOptions();
       while (!error_ && words >> word) read_option(word);
       return;
     } else {
@@ -129,9 +129,9 @@ class CaseReader {
     if (word == "no-first-plan") {
       options_->first_plan = false;
     } else if (word == "forbid-first") {
-      options_->forbid_first = true;
+      options_->lazy.forbid_first = true;
     } else if (word == "chronological" || word == "not-chronological") {
-      options_->chronological = word == "chronological";
+      options_->lazy.chronological = word == "chronological";
     } else if (word == "crowded" || word == "not-crowded") {
       options_->crowded = word == "crowded";
     } else if (word == "race") {
@@ -139,7 +139,7 @@ class CaseReader {
     } else if (key == "threads" && value.size() == 1 && value[0] >= '1' && value[0] <= '9') {
       options_->threads = static_cast<std::size_t>(value[0] - '0');
     } else if (word == "audit") {
-      options_->audit = true;
+      options_->debug.audit = true;
     } else if (word == "known-plan") {
       known_plan_ = true;
     } else if (word == "objective=sum-of-costs") {
@@ -149,17 +149,17 @@ class CaseReader {
     } else if (key == "system" && parse_system(value)) {
       options_->system = *parse_system(value);
     } else if (key == "check" && parse_check_schedule(value)) {
-      options_->check = *parse_check_schedule(value);
+      options_->mdd.check = *parse_check_schedule(value);
     } else if (key == "search" && parse_cost_search(value)) {
       options_->cost_search = parse_cost_search(value);
     } else if (key == "growth" && parse_mdd_growth(value)) {
-      options_->mdd_growth = *parse_mdd_growth(value);
+      options_->mdd.growth = *parse_mdd_growth(value);
     } else if (key == "seed" && !value.empty() &&
                value.find_first_not_of("0123456789") == std::string::npos) {
       options_->seed = static_cast<std::uint32_t>(std::stoul(value));
-    } else if (key == "descend-after" && !value.empty() && value.size() < 10 &&
+    } else if (key == "first-turn" && !value.empty() && value.size() < 10 &&
                value.find_first_not_of("0123456789") == std::string::npos) {
-      options_->descend_after = std::stol(value);
+      options_->first_turn = std::stol(value);
     } else {
       fail("unknown option '" + word + "'");
     }
@@ -219,7 +219,7 @@ class CaseReader {
   std::vector<std::pair<Cell, Cell>> places_;
   std::optional<Cost> sum_of_costs_, makespan_;
   bool infeasible_ = false, known_plan_ = false;
-  std::optional<SolveOptions> options_;
+  std::optional<TunedOptions> options_;
   std::optional<Case> result_;
 };
 
@@ -242,26 +242,25 @@ std::string instance_text(const Instance& instance) {
   return text;
 }
 
-std::string options_text(const SolveOptions& options) {
+std::string options_text(const TunedOptions& options) {
   std::string text = "options objective=" + std::string(to_string(options.objective)) +
                      " system=" + std::string(to_string(options.system));
   if (options.system == System::dpll || options.system == System::dpll_mdd)
-    text += " check=" + to_string(options.check);
+    text += " check=" + to_string(options.mdd.check);
   if (options.cost_search) text += " search=" + std::string(to_string(*options.cost_search));
-  if (options.mdd_growth != SolveOptions().mdd_growth)
-    text += " growth=" + std::string(to_string(options.mdd_growth));
+  if (options.mdd.growth != TunedOptions().mdd.growth)
+    text += " growth=" + std::string(to_string(options.mdd.growth));
   text += " seed=" + std::to_string(options.seed);
   if (options.threads > 1) text += " threads=" + std::to_string(options.threads);
   if (options.race) text += " race";
-  if (options.forbid_first) text += " forbid-first";
-  if (options.chronological)
-    text += *options.chronological ? " chronological" : " not-chronological";
-  if (options.descend_after != SolveOptions().descend_after)
-    text += " descend-after=" + std::to_string(options.descend_after);
+  if (options.lazy.forbid_first) text += " forbid-first";
+  if (options.lazy.chronological)
+    text += *options.lazy.chronological ? " chronological" : " not-chronological";
+  if (options.first_turn) text += " first-turn=" + std::to_string(*options.first_turn);
   if (options.crowded) text += *options.crowded ? " crowded" : " not-crowded";
   if (!options.first_plan) text += " no-first-plan";
-  if (options.audit) text += " audit";
-  if (options.known_plan) text += " known-plan";
+  if (options.debug.audit) text += " audit";
+  if (options.debug.known_plan) text += " known-plan";
   return text + "\n";
 }
 

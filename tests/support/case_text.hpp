@@ -8,6 +8,7 @@
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/solver.hpp"
+#include "support/tuned_options.hpp"
 
 namespace quadrille::discrete::support {
 
@@ -28,14 +29,14 @@ struct Case {
   std::optional<Cost> sum_of_costs;  ///< Expected.
   std::optional<Cost> makespan;      ///< Expected.
   bool infeasible = false;           ///< Expected.
-  std::optional<SolveOptions> options;
+  std::optional<TunedOptions> options;
   bool known_plan = false;  ///< Give the solver an optimal plan to check its clauses against.
 };
 
 /// The lines of a graph and its tasks, with a picture of a grid as a comment.
 [[nodiscard]] std::string instance_text(const Instance& instance);
 /// The `options` line.
-[[nodiscard]] std::string options_text(const SolveOptions& options);
+[[nodiscard]] std::string options_text(const TunedOptions& options);
 
 /// Errors (syntax, invalid_instance) name `file` and the line.
 [[nodiscard]] Result<Case> parse_case(const std::string& text, const std::string& file);

@@ -31,9 +31,9 @@ TEST(CaseText, ReadsAGridWithOptions) {
   ASSERT_TRUE(read->options);
   EXPECT_EQ(read->options->objective, Objective::makespan);
   EXPECT_EQ(read->options->system, System::dpll_mdd);
-  EXPECT_EQ(to_string(read->options->check), "1/3,2/3");
+  EXPECT_EQ(to_string(read->options->mdd.check), "1/3,2/3");
   EXPECT_EQ(read->options->seed, 7U);
-  EXPECT_TRUE(read->options->audit);
+  EXPECT_TRUE(read->options->debug.audit);
   EXPECT_TRUE(read->known_plan);
   EXPECT_EQ(options_text(*read->options),
             "options objective=makespan system=dpll-mdd check=1/3,2/3 seed=7 audit\n");
@@ -71,8 +71,8 @@ TEST(CaseText, WritesTheOptionsThatItReads) {
   Random random(7);
   for (int round = 0; round < 100; ++round) {
     const std::string grid = instance_text(random_grid(random, {}));
-    for (SolveOptions& options : random_systems(random, Objective::sum_of_costs)) {
-      options.known_plan.reset();  // the reader leaves finding one to its user
+    for (TunedOptions& options : random_systems(random, Objective::sum_of_costs)) {
+      options.debug.known_plan.reset();  // the reader leaves finding one to its user
       const std::string text = options_text(options);
       const auto read = parse_case(grid + text, "case.txt");
       ASSERT_TRUE(read) << read.error().to_string() << "\n" << text;

@@ -17,11 +17,11 @@ using Kind = CheckSchedule::Kind;
 /// Nothing that is compared with the oracle needs a tenth of this; a search that does is a fault.
 constexpr double kPatience = 60;
 
-SolveOptions make_options(Objective objective, System system, CheckSchedule check = {}) {
-  SolveOptions options;
+TunedOptions make_options(Objective objective, System system, CheckSchedule check = {}) {
+  TunedOptions options;
   options.objective = objective;
   options.system = system;
-  options.check = std::move(check);
+  options.mdd.check = std::move(check);
   options.limits.wall_s = kPatience;
   options.first_plan = false;
   return options;
@@ -96,18 +96,18 @@ std::optional<Instance> without_vertex(const Instance& instance, VertexId vertex
   return Instance::make(Graph::make(graph.num_vertices() - 1, edges).value(), tasks).value();
 }
 
-SolveOutcome solve_noted(const Instance& instance, const SolveOptions& options,
+SolveOutcome solve_noted(const Instance& instance, const TunedOptions& options,
                          const std::string& origin) {
   const quadrille::support::AbortNote note("# aborted: " + origin + "\n" + instance_text(instance) +
                                            options_text(options));
-  return solve(instance, options);
+  return solve(instance, options).value();
 }
 
 }  // namespace
 
-std::vector<SolveOptions> all_systems(Objective objective) {
+std::vector<TunedOptions> all_systems(Objective objective) {
   // Elsewhere a lucky first plan could spare the search that is to be tested.
-  SolveOptions with_first_plan = make_options(objective, System::dpll);
+  TunedOptions with_first_plan = make_options(objective, System::dpll);
   with_first_plan.first_plan = true;
   return {with_first_plan,
           make_options(objective, System::dpll),
@@ -120,35 +120,35 @@ std::vector<SolveOptions> all_systems(Objective objective) {
           make_options(objective, System::mdd_sat)};
 }
 
-std::vector<SolveOptions> random_systems(Random& random, Objective objective) {
-  std::vector<SolveOptions> systems{
+std::vector<TunedOptions> random_systems(Random& random, Objective objective) {
+  std::vector<TunedOptions> systems{
       make_options(objective, System::dpll),
       make_options(objective, System::dpll_mdd, {Kind::watch, {}}),
       make_options(objective, System::dpll_mdd, {Kind::propagate, {}}),
       make_options(objective, System::dpll_mdd, random_fractions(random)),
       make_options(objective, System::smt_cbs),
       make_options(objective, System::mdd_sat)};
-  for (SolveOptions& options : systems) {
+  for (TunedOptions& options : systems) {
     options.seed = random.percent(50) ? 0 : static_cast<std::uint32_t>(random.below(2'000'000'001));
-    options.mdd_growth = random.percent(50) ? MddGrowth::on_demand : MddGrowth::full;
+    options.mdd.growth = random.percent(50) ? MddGrowth::on_demand : MddGrowth::full;
     if (random.percent(50))
       options.cost_search = random.percent(50) ? CostSearch::iterative : CostSearch::core_guided;
-    options.audit = random.percent(30);
+    options.debug.audit = random.percent(30);
     options.first_plan = random.percent(30);
-    options.forbid_first = random.percent(30);
-    if (random.percent(60)) options.chronological = random.percent(50);
-    if (random.percent(50)) options.descend_after = 1 + static_cast<std::int64_t>(random.below(20));
+    options.lazy.forbid_first = random.percent(30);
+    if (random.percent(60)) options.lazy.chronological = random.percent(50);
+    if (random.percent(50)) options.first_turn = 1 + static_cast<std::int64_t>(random.below(20));
     if (random.percent(50)) options.crowded = random.percent(80);
     if (random.percent(5)) {
       options.threads = 2 + random.below(2);
       options.race = random.percent(50);
     }
-    if (random.percent(30)) options.known_plan = Plan();  // replaced by the oracle's
+    if (random.percent(30)) options.debug.known_plan = Plan();  // replaced by the oracle's
   }
   return systems;
 }
 
-std::string find_inconsistency(const Instance& instance, const SolveOptions& options,
+std::string find_inconsistency(const Instance& instance, const TunedOptions& options,
                                const SolveOutcome& outcome) {
   if (outcome.internal_error) return "an internal error";
   // The other systems have all that they need inside the solver: it may not call collisions a
@@ -175,7 +175,7 @@ std::string find_inconsistency(const Instance& instance, const SolveOptions& opt
   return "";
 }
 
-std::string find_fault(const Instance& instance, const SolveOptions& options,
+std::string find_fault(const Instance& instance, const TunedOptions& options,
                        const SolveOutcome& outcome, const JointAnswer& expected) {
   if (std::string fault = find_inconsistency(instance, options, outcome); !fault.empty())
     return fault;
@@ -185,16 +185,16 @@ std::string find_fault(const Instance& instance, const SolveOptions& options,
   return "";
 }
 
-std::string solve_and_compare(const Instance& instance, const SolveOptions& options,
+std::string solve_and_compare(const Instance& instance, const TunedOptions& options,
                               const JointAnswer& expected, const std::string& origin) {
   std::string fault;
   SolveOutcome outcome;
   JointAnswer answer = expected;
   const auto fails = [&](const Instance& candidate) {
-    SolveOptions complete = options;
-    if (complete.known_plan) {
-      complete.known_plan.reset();
-      if (answer.status == Status::optimal) complete.known_plan = answer.plan;
+    TunedOptions complete = options;
+    if (complete.debug.known_plan) {
+      complete.debug.known_plan.reset();
+      if (answer.status == Status::optimal) complete.debug.known_plan = answer.plan;
     }
     outcome = solve_noted(candidate, complete, origin);
     fault = answer.status == Status::unknown ? find_inconsistency(candidate, options, outcome)

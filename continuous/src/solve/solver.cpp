@@ -29,7 +29,10 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return Error{ErrorCode::out_of_range, "the seed is larger than 2000000000", {}};
   if (options.gap_percent && !(*options.gap_percent >= 0))
     return Error{ErrorCode::out_of_range, "the gap is not a number of at least 0", {}};
-  if (options.known_plan && !verify(instance, *options.known_plan).valid())
+  if (!(options.progress_interval_s >= 0))
+    return Error{
+        ErrorCode::out_of_range, "the progress interval is not a number of at least 0", {}};
+  if (options.debug.known_plan && !verify(instance, *options.debug.known_plan).valid())
     return Error{ErrorCode::invalid_plan, "the known plan is not a plan of this instance", {}};
   return std::nullopt;
 }
@@ -58,8 +61,8 @@ void keep_cheaper(std::optional<Plan>& best, std::optional<Plan> plan, Objective
 class Auditors final : public sat::ClauseObserver {
  public:
   Auditors(const Model& model, const SolveOptions& options) {
-    if (options.known_plan) of_plan_.emplace(model, *options.known_plan);
-    if (options.audit) of_lemmas_.emplace(model);
+    if (options.debug.known_plan) of_plan_.emplace(model, *options.debug.known_plan);
+    if (options.debug.audit) of_lemmas_.emplace(model);
   }
   [[nodiscard]] bool is_needed() const { return of_plan_ || of_lemmas_; }
   void on_lemma(const sat::Lemma& lemma) override {
@@ -145,9 +148,10 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   };
   const auto report =
       options.objective == Objective::sum_of_costs
-          ? search_by_covers(problem, std::move(some_plan),
-                             options.known_plan ? cost(*options.known_plan, options.objective) : 0,
-                             limits, outcome.statistics, on_report)
+          ? search_by_covers(
+                problem, std::move(some_plan),
+                options.debug.known_plan ? cost(*options.debug.known_plan, options.objective) : 0,
+                limits, outcome.statistics, on_report)
           : search_makespan(problem, std::move(some_plan), limits, outcome.statistics, on_report);
   outcome.lower_bound = std::max(floor, report.lower_bound);
   outcome.plan.reset();
@@ -168,7 +172,7 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
 
 /// What is claimed must not contradict the known plan.
 void check_known_plan(const SolveOptions& options, SolveOutcome& outcome) {
-  const Cost known = cost(*options.known_plan, options.objective);
+  const Cost known = cost(*options.debug.known_plan, options.objective);
   if (outcome.status == Status::infeasible)
     outcome.internal_error = Error{ErrorCode::internal, "infeasible, but a plan is known", {}};
   else if (known < outcome.lower_bound)
@@ -240,14 +244,12 @@ std::optional<System> parse_system(std::string_view text) noexcept {
   return std::nullopt;
 }
 
-SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
+Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {
+  if (auto error = check_options(instance, options)) return *std::move(error);
   SolveOutcome outcome;
   LimitMonitor limits(options.limits);
-  if (auto error = check_options(instance, options))
-    outcome.internal_error = std::move(error);
-  else
-    answer(instance, options, limits, outcome);
-  if (options.known_plan && !outcome.internal_error) check_known_plan(options, outcome);
+  answer(instance, options, limits, outcome);
+  if (options.debug.known_plan && !outcome.internal_error) check_known_plan(options, outcome);
   if (outcome.internal_error) {
     outcome.status = Status::unknown;
     outcome.plan.reset();

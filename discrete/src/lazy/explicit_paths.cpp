@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "model/open_maps.hpp"
-
 namespace quadrille::discrete {
 
 using sat::Lit;
@@ -18,10 +16,8 @@ constexpr std::int64_t kFirstLook = 64;
 constexpr std::int64_t kVariablesPerLemma = 8;
 }  // namespace
 
-ExplicitPaths::ExplicitPaths(LazyModel& model)
-    : model_(model),
-      enabled_(!is_open(model.instance().graph())),
-      agents_(model.instance().num_agents()) {}
+ExplicitPaths::ExplicitPaths(LazyModel& model, bool enabled)
+    : model_(model), enabled_(enabled), agents_(model.instance().num_agents()) {}
 
 class ExplicitPaths::AgentFormula final : public MddPaths::Formula {
  public:

@@ -21,7 +21,7 @@ namespace quadrille::discrete {
 class ExplicitPaths {
  public:
   /// `model` outlives this.
-  explicit ExplicitPaths(LazyModel& model);
+  ExplicitPaths(LazyModel& model, bool enabled);
 
   /// To be called for each path lemma, with the largest cost that the agent may have at present.
   void on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer);

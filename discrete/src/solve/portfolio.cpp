@@ -13,8 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "solve/run.hpp"
-
 namespace quadrille::discrete {
 namespace {
 
@@ -108,27 +106,32 @@ class WorkerCompanion final : public Companion {
 };
 
 /// What another worker does: the lazy model with the other way to backtrack, then the MDD model.
-SolveOptions options_of(const Instance& instance, const SolveOptions& options, std::size_t worker) {
+SolveOptions options_of(const SolveOptions& options, const Tuner& tuner, std::size_t worker) {
   if (worker == 0) return options;
   using Kind = CheckSchedule::Kind;
   SolveOptions other = options;
   other.on_progress = {};
   other.first_plan = false;
   other.cost_search = CostSearch::core_guided;
-  other.mdd_growth = MddGrowth::on_demand;
+  other.mdd.growth = MddGrowth::on_demand;
   const std::size_t variant = (worker - 1) % 4;
   if (variant == 0) {
-    other.chronological = options.system == System::dpll && !is_chronological(instance, options);
+    other.lazy.chronological = options.system == System::dpll && !tuner(options).chronological;
     other.system = System::dpll;
   } else {
     other.system = System::dpll_mdd;
-    other.check = {variant == 2 ? Kind::watch : Kind::propagate, {}};
+    other.mdd.check = {variant == 2 ? Kind::watch : Kind::propagate, {}};
     if (variant == 3) other.cost_search = CostSearch::iterative;
   }
   return other;
 }
 
 }  // namespace
+
+bool is_within_gap(const SolveOptions& options, Cost cost, Cost bound) noexcept {
+  return options.gap_percent && static_cast<double>(cost - bound) * 100 <=
+                                    *options.gap_percent * static_cast<double>(cost);
+}
 
 bool is_proof(const SolveOutcome& outcome) {
   return !outcome.internal_error &&
@@ -170,7 +173,8 @@ SolveOutcome combine(std::vector<SolveOutcome> outcomes, std::optional<std::size
   return answer;
 }
 
-SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& options) {
+SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& options,
+                             const Tuner& tuner) {
   Rounds rounds(options.threads, options.race);
   std::vector<SolveOutcome> outcomes(options.threads);
   std::vector<std::exception_ptr> failures(options.threads);
@@ -178,7 +182,8 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
   const auto work = [&](std::size_t worker) {
     try {
       WorkerCompanion companion(rounds, worker, account);
-      outcomes[worker] = solve_alone(instance, options_of(instance, options, worker), &companion);
+      outcomes[worker] =
+          solve_alone(instance, options_of(options, tuner, worker), tuner, &companion);
     } catch (const std::bad_alloc&) {
       outcomes[worker].stop = StopReason::memory;  // the others may still come to an end
     } catch (...) {

@@ -9,6 +9,7 @@
 
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/solver.hpp"
+#include "solve/tuning.hpp"
 
 namespace quadrille::discrete {
 
@@ -26,7 +27,10 @@ class Companion {
 
 /// One search in the calling thread. `companion` may be null.
 [[nodiscard]] SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
-                                       Companion* companion);
+                                       const Tuner& tuner, Companion* companion);
+
+/// Whether a plan of cost `cost` is as close to the proven bound as was asked for.
+[[nodiscard]] bool is_within_gap(const SolveOptions& options, Cost cost, Cost bound) noexcept;
 
 /// Whether nothing more is to be done: not so after an internal error, which proves nothing.
 [[nodiscard]] bool is_proof(const SolveOutcome& outcome);
@@ -42,6 +46,7 @@ class Companion {
 ///
 /// Unless options.race, all pass through rounds of equal effort together, and of the proofs in the
 /// earliest round that has one, that of the first search is taken: the same answer at any speed.
-[[nodiscard]] SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& options);
+[[nodiscard]] SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& options,
+                                           const Tuner& tuner);
 
 }  // namespace quadrille::discrete

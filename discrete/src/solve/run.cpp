@@ -12,37 +12,35 @@
 #include "mdd/lemma_auditor.hpp"
 #include "mdd/mdd_model.hpp"
 #include "mdd/mdd_problem.hpp"
-#include "model/open_maps.hpp"
 
 namespace quadrille::discrete {
 namespace {
 
-sat::EngineOptions engine_options(const Instance& instance, const SolveOptions& options,
+sat::EngineOptions engine_options(const SolveOptions& options, const Tuning& tuning,
                                   sat::ClauseObserver* observer) {
   sat::EngineOptions engine_options;
   engine_options.seed = options.seed;
   // Usages are negated variables.
-  engine_options.initial_phase = options.forbid_first && options.system == System::dpll;
-  if (options.system == System::dpll) {
-    engine_options.chronological = is_chronological(instance, options);
-    engine_options.bump_reasons = !is_open(instance.graph());
-    engine_options.keep_clauses = searches_from_above(options);
-  }
+  engine_options.initial_phase = options.lazy.forbid_first && options.system == System::dpll;
+  engine_options.chronological = tuning.chronological;
+  engine_options.bump_reasons = tuning.bump_reasons;
+  engine_options.keep_clauses = tuning.cores.from_above;
   engine_options.observer = observer;
   return engine_options;
 }
 
 class MddRun final : public Run {
  public:
-  MddRun(const Instance& instance, const SolveOptions& options)
-      : growth_(options.mdd_growth), model_(instance, options.objective) {
+  MddRun(const Instance& instance, const SolveOptions& options, const Tuning& tuning)
+      : growth_(options.mdd.growth), model_(instance, options.objective) {
     if (options.system == System::dpll_mdd)
-      theory_ = std::make_unique<CollisionTheory>(model_, options.check);
+      theory_ = std::make_unique<CollisionTheory>(model_, options.mdd.check);
     if (options.system == System::mdd_sat) eager_ = std::make_unique<EagerCollisions>(model_);
-    if (options.audit || options.known_plan)
-      auditor_ = std::make_unique<LemmaAuditor>(model_, options.audit, options.known_plan);
+    if (options.debug.audit || options.debug.known_plan)
+      auditor_ =
+          std::make_unique<LemmaAuditor>(model_, options.debug.audit, options.debug.known_plan);
     engine_ = std::make_unique<sat::Engine>(theory_.get(),
-                                            engine_options(instance, options, auditor_.get()));
+                                            engine_options(options, tuning, auditor_.get()));
   }
 
   bool prepare(std::shared_ptr<const GoalDistances>, LimitMonitor& limits) override {
@@ -75,17 +73,18 @@ class MddRun final : public Run {
 
 class LazyRun final : public Run {
  public:
-  LazyRun(const Instance& instance, const SolveOptions& options)
-      : instance_(instance), options_(options) {}
+  LazyRun(const Instance& instance, const SolveOptions& options, const Tuning& tuning)
+      : instance_(instance), options_(options), tuning_(tuning) {}
 
   bool prepare(std::shared_ptr<const GoalDistances> distances, LimitMonitor& limits) override {
     model_ = std::make_unique<LazyModel>(instance_, std::move(distances));
-    theory_ = std::make_unique<LazyTheory>(*model_, limits);
+    theory_ = std::make_unique<LazyTheory>(*model_, limits, tuning_.explicit_paths);
     if (limits.exhausted_now()) return false;
-    if (options_.audit || options_.known_plan)
-      auditor_ = std::make_unique<LazyAuditor>(*model_, options_.audit, options_.known_plan);
+    if (options_.debug.audit || options_.debug.known_plan)
+      auditor_ =
+          std::make_unique<LazyAuditor>(*model_, options_.debug.audit, options_.debug.known_plan);
     engine_ = std::make_unique<sat::Engine>(theory_.get(),
-                                            engine_options(instance_, options_, auditor_.get()));
+                                            engine_options(options_, tuning_, auditor_.get()));
     problem_ = std::make_unique<LazyProblem>(*model_, *engine_, *theory_, options_.objective);
     return true;
   }
@@ -108,6 +107,7 @@ class LazyRun final : public Run {
  private:
   const Instance& instance_;
   const SolveOptions& options_;
+  const Tuning tuning_;
   std::unique_ptr<LazyModel> model_;
   std::unique_ptr<LazyTheory> theory_;
   std::unique_ptr<LazyAuditor> auditor_;
@@ -117,13 +117,10 @@ class LazyRun final : public Run {
 
 }  // namespace
 
-bool is_chronological(const Instance& instance, const SolveOptions& options) {
-  return options.chronological.value_or(instance.num_agents() >= kManyAgents);
-}
-
-std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options) {
-  if (options.system == System::dpll) return std::make_unique<LazyRun>(instance, options);
-  return std::make_unique<MddRun>(instance, options);
+std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options,
+                              const Tuning& tuning) {
+  if (options.system == System::dpll) return std::make_unique<LazyRun>(instance, options, tuning);
+  return std::make_unique<MddRun>(instance, options, tuning);
 }
 
 }  // namespace quadrille::discrete

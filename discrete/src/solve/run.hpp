@@ -11,6 +11,7 @@
 #include "quadrille/discrete/solver.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/engine.hpp"
+#include "solve/tuning.hpp"
 
 namespace quadrille::discrete {
 
@@ -32,25 +33,15 @@ class Run {
   [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
 };
 
-/// Whether the search of the lazy model backtracks chronologically.
-[[nodiscard]] bool is_chronological(const Instance& instance, const SolveOptions& options);
-
 /// `instance` and `options` outlive the run.
-[[nodiscard]] std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options);
+[[nodiscard]] std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options,
+                                            const Tuning& tuning);
 
 /// Whether a plan of cost `cost` is as close to the proven bound as was asked for.
 [[nodiscard]] inline bool is_within_gap(const SolveOptions& options, Cost cost,
                                         Cost bound) noexcept {
   return options.gap_percent && static_cast<double>(cost - bound) * 100 <=
                                     *options.gap_percent * static_cast<double>(cost);
-}
-
-/// Whether the search for the least cost also looks for plans from above. The MDD model would have
-/// to grow for plans far above the lower bound.
-[[nodiscard]] inline bool searches_from_above(const SolveOptions& options) noexcept {
-  return options.system == System::dpll && options.first_plan &&
-         options.objective == Objective::sum_of_costs &&
-         options.cost_search.value_or(CostSearch::core_guided) == CostSearch::core_guided;
 }
 
 }  // namespace quadrille::discrete

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "mdd/usages.hpp"
-#include "model/open_maps.hpp"
 #include "primal/upper_bound.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
@@ -23,10 +22,11 @@ namespace {
 /// One solve, with what all systems have in common: bounds from both sides.
 class Search final : private sat::Bounds, private sat::YieldPoint {
  public:
-  Search(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-         SolveOutcome& outcome, Companion* companion)
+  Search(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
+         LimitMonitor& limits, SolveOutcome& outcome, Companion* companion)
       : instance_(instance),
         options_(options),
+        tuning_(tuning),
         limits_(limits),
         outcome_(outcome),
         companion_(companion) {}
@@ -116,41 +116,18 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
     consider_stop();
   }
 
-  /// Measured: on open maps the search from above closes most of the gap, and if they are crowded,
-  /// it should begin soon, and smaller cores are worth their time. Elsewhere both take time from
-  /// the cores.
-  [[nodiscard]] sat::CoreGuidedOptions core_options() {
-    sat::CoreGuidedOptions core_options;
-    core_options.first_turn = options_.descend_after;
-    if (options_.system != System::dpll) return core_options;
-    core_options.from_above = searches_from_above(options_);
-    const bool open = is_open(instance_.graph());
-    const bool crowded = options_.crowded.value_or(open && is_crowded(instance_));
-    if (options_.crowded.value_or(open)) {
-      core_options.descent_share = 3;
-      core_options.candidates_within = 3;
-    }
-    core_options.head_start = crowded ? 1 : 6;
-    if (crowded) {
-      core_options.first_turn = std::max<std::int64_t>(1, options_.descend_after / 2);
-      core_options.passes = 6;
-      core_options.core_tries = 10;
-    }
-    return core_options;
-  }
-
   [[nodiscard]] sat::SearchEnd search_costs(Run& run) {
     const sat::CostSearchContext context{run.engine(), run.problem(), *this, limits_, *this};
     const CostSearch by_default =
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
     if (options_.objective == Objective::sum_of_costs &&
         options_.cost_search.value_or(by_default) == CostSearch::core_guided)
-      return sat::search_by_cores(context, core_options(), outcome_.statistics);
+      return sat::search_by_cores(context, tuning_.cores, outcome_.statistics);
     return sat::search_upwards(context);
   }
 
   void search(const std::shared_ptr<const GoalDistances>& distances) {
-    const std::unique_ptr<Run> run = make_run(instance_, options_);
+    const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
     if (!run->prepare(distances, limits_)) return;
     run_ = run.get();
     raise(run->problem().lower_bound());
@@ -173,6 +150,7 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
 
   const Instance& instance_;
   const SolveOptions& options_;
+  const Tuning tuning_;
   LimitMonitor& limits_;
   SolveOutcome& outcome_;
   Companion* const companion_;
@@ -213,7 +191,7 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
            static_cast<std::int64_t>(b.numerator) * a.denominator;
   };
   CheckSchedule::Fraction last{0, 1};
-  for (const CheckSchedule::Fraction& f : options.check.fractions) {
+  for (const CheckSchedule::Fraction& f : options.mdd.check.fractions) {
     if (f.denominator <= 0 || reaches(last, f) || reaches(f, {1, 1}))
       return refuse(ErrorCode::out_of_range,
                     "the fractions of a check schedule increase between 0 and 1");
@@ -223,26 +201,26 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return refuse(ErrorCode::out_of_range, "the gap is not a number of at least 0");
   if (options.threads < 1 || options.threads > 64)
     return refuse(ErrorCode::out_of_range, "the number of threads is not from 1 to 64");
-  if (options.descend_after < 1 || options.descend_after > INT32_MAX)
-    return refuse(ErrorCode::out_of_range, "descend_after is not from 1 to 2147483647");
+  if (!(options.progress_interval_s >= 0))
+    return refuse(ErrorCode::out_of_range, "the progress interval is not a number of at least 0");
   if (options.seed > 2'000'000'000)
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
-  if (options.known_plan && !verify(instance, *options.known_plan).valid())
+  if (options.debug.known_plan && !verify(instance, *options.debug.known_plan).valid())
     return refuse(ErrorCode::invalid_plan, "the known plan is not a plan of this instance");
   return std::nullopt;
 }
 
 /// Fills in what was found, proved and checked. Throws what callbacks throw, and bad_alloc when
 /// memory does not even suffice for the answer.
-void answer(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-            Companion* companion, SolveOutcome& outcome) {
+void answer(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
+            LimitMonitor& limits, Companion* companion, SolveOutcome& outcome) {
   const Feasibility feasibility = check_feasibility(instance);
   if (!feasibility.feasible) {
     outcome.status = Status::infeasible;
     outcome.explanation = feasibility.reason;
     return;
   }
-  Search(instance, options, limits, outcome, companion).run();
+  Search(instance, options, tuning, limits, outcome, companion).run();
   if (!outcome.plan) return;
   check_plan(instance, options, outcome);
   if (outcome.internal_error && outcome.stop == StopReason::memory) {
@@ -261,29 +239,13 @@ std::string stop_text(StopReason reason) {
 
 }  // namespace
 
-SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
+SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options, const Tuner& tuner,
                          Companion* companion) {
   SolveOutcome outcome;
   LimitMonitor limits(options.limits, companion != nullptr ? companion->account() : nullptr);
   if (companion != nullptr) limits.set_cancel(&companion->cancelled());
-  const auto finish = [&]() -> SolveOutcome&& {
-    if (outcome.internal_error) {
-      outcome.status = Status::unknown;
-      outcome.plan.reset();
-      outcome.cost.reset();
-      outcome.explanation = outcome.internal_error->message;
-    }
-    outcome.statistics.cpu_s = limits.elapsed_cpu();
-    outcome.statistics.wall_s = limits.elapsed_wall();
-    outcome.statistics.peak_rss_mib = peak_rss_mib();
-    return std::move(outcome);
-  };
-  if (auto error = check_options(instance, options)) {
-    outcome.internal_error = std::move(error);
-    return finish();
-  }
   try {
-    answer(instance, options, limits, companion, outcome);
+    answer(instance, options, tuner(options), limits, companion, outcome);
   } catch (const std::bad_alloc&) {
     outcome.status = Status::unknown;
     outcome.plan.reset();
@@ -296,12 +258,27 @@ SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
   } else {
     outcome.stop = StopReason::none;
   }
-  return finish();
+  if (outcome.internal_error) {
+    outcome.status = Status::unknown;
+    outcome.plan.reset();
+    outcome.cost.reset();
+    outcome.explanation = outcome.internal_error->message;
+  }
+  outcome.statistics.cpu_s = limits.elapsed_cpu();
+  outcome.statistics.wall_s = limits.elapsed_wall();
+  outcome.statistics.peak_rss_mib = peak_rss_mib();
+  return outcome;
 }
 
-SolveOutcome solve(const Instance& instance, const SolveOptions& options) {
-  return options.threads > 1 ? solve_portfolio(instance, options)
-                             : solve_alone(instance, options, nullptr);
+Result<SolveOutcome> solve_tuned(const Instance& instance, const SolveOptions& options,
+                                 const Tuner& tuner) {
+  if (auto error = check_options(instance, options)) return *std::move(error);
+  return options.threads > 1 ? solve_portfolio(instance, options, tuner)
+                             : solve_alone(instance, options, tuner, nullptr);
+}
+
+Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {
+  return solve_tuned(instance, options, tuner_for(instance));
 }
 
 }  // namespace quadrille::discrete

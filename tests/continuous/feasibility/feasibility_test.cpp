@@ -35,7 +35,7 @@ void expect(std::vector<Point> points, const Roads& roads, const Roads& one_way,
       SolveOptions options;
       options.system = system;
       options.limits.cpu_s = 20;
-      EXPECT_EQ(solve(instance, options).status,
+      EXPECT_EQ(solve(instance, options).value().status,
                 blocked.empty() ? Status::optimal : Status::infeasible);
     }
   }

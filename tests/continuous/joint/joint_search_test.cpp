@@ -153,7 +153,7 @@ TEST_P(TinyRandom, IsSolvedOrRefuted) {
     SolveOptions options;
     options.objective = GetParam();
     options.limits.cpu_s = 20;  // Measured: 1.6 at most.
-    const SolveOutcome outcome = solve(instance, options);
+    const SolveOutcome outcome = solve(instance, options).value();
     ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
     ASSERT_TRUE(outcome.status == Status::optimal || outcome.status == Status::infeasible)
         << to_string(outcome.status);

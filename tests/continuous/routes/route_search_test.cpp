@@ -38,7 +38,7 @@ TEST_P(RouteSearch, ItsBoundHoldsWhereverItsWorkEnds) {
       options.route_work = work;
       options.joint_work = 0;
       options.limits.conflicts = 1;
-      const SolveOutcome outcome = solve(instance, options);
+      const SolveOutcome outcome = solve(instance, options).value();
       ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
       ASSERT_LE(outcome.lower_bound, detour);
       ++(outcome.statistics.sat_calls == 0 ? optimal : unfinished);

@@ -93,7 +93,7 @@ TEST_P(KnownValue, ASidingThatIsNotDeepEnoughMakesItInfeasible) {
     options.limits.cpu_s = 20;
     for (const bool is_joint_first : {true, false}) {
       if (!is_joint_first) options.route_work = options.joint_work = 0;
-      const SolveOutcome outcome = solve(instance, options);
+      const SolveOutcome outcome = solve(instance, options).value();
       EXPECT_EQ(outcome.status, radius == 400 ? Status::optimal : Status::infeasible);
       EXPECT_EQ(outcome.explanation.empty(), radius == 400) << outcome.explanation;
     }

@@ -43,7 +43,7 @@ TEST(SmallInstances, AreSolvedAtKnownCosts) {
         SolveOptions options;
         options.objective = objective;
         options.limits.cpu_s = limit;
-        const SolveOutcome outcome = solve(*instance, options);
+        const SolveOutcome outcome = solve(*instance, options).value();
         EXPECT_TRUE(outcome.plan);
         if (limit < 1) continue;
         EXPECT_EQ(outcome.status, Status::optimal);
@@ -67,7 +67,7 @@ TEST(SmallInstances, AreRefuted) {
       SolveOptions options;
       options.system = system;
       options.limits.cpu_s = 1;
-      EXPECT_EQ(solve(*instance, options).status, Status::infeasible);
+      EXPECT_EQ(solve(*instance, options).value().status, Status::infeasible);
     }
     ++count;
   }

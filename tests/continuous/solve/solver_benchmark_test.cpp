@@ -97,7 +97,7 @@ class ContinuousBenchmark : public testing::TestWithParam<double> {
     const Instance instance = read_instance(folder, row, resolution);
     SolveOptions options;
     options.limits.cpu_s = 2;
-    const SolveOutcome outcome = solve(instance, options);
+    const SolveOutcome outcome = solve(instance, options).value();
     const std::string name = row.map + ", k = " + std::to_string(row.neighbourhood) + ", task " +
                              row.task + ", " + std::to_string(row.agents) + " agents";
     EXPECT_FALSE(outcome.internal_error) << name;

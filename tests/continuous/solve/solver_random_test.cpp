@@ -45,11 +45,11 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     options.route_work = route_work[seed / 24 % 4];
     // The latter may have no plan, and no conflicts either.
     options.limits.cpu_s = oracle.best ? 2 : 0.1;
-    options.audit = true;
+    options.debug.audit = true;
     // Half of them without: the known plan spares plans that cost more than the incumbent, whose
     // cores are weaker than those that solves without one learn.
     if (!oracle.some_plans.empty() && seed % 2 == 0)
-      options.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
+      options.debug.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
     check_against(oracle, max_moves, instance, options, tally);
     if (HasFatalFailure()) return;
   }

@@ -80,7 +80,7 @@ TEST(ContinuousSolverInfeasible, TwoAgentsThatHaveToPassOnALine) {
         Instance::make(map, {agent(0, length, 100), agent(length, 0, 100)}).value();
     SolveOptions options;
     options.limits.cpu_s = 20;
-    const SolveOutcome outcome = solve(instance, options);
+    const SolveOutcome outcome = solve(instance, options).value();
     EXPECT_EQ(outcome.status, Status::infeasible);
     EXPECT_EQ(outcome.statistics.conflicts, 0);
     EXPECT_FALSE(outcome.explanation.empty());
@@ -93,7 +93,7 @@ TEST(ContinuousSolverInfeasible, ThreeAgentsWithRoomForTwo) {
   options.limits.cpu_s = 20;
   const auto instance =
       Instance::make(alcove(), {agent(0, 2, 300), agent(2, 0, 300), agent(3, 3, 300)}).value();
-  EXPECT_EQ(solve(instance, options).status, Status::infeasible);
+  EXPECT_EQ(solve(instance, options).value().status, Status::infeasible);
 }
 
 TEST(ContinuousSolverLimits, APlanAndABoundAreKnownWhenALimitEndsTheSearch) {
@@ -114,7 +114,7 @@ TEST(ContinuousSolverLimits, APlanAndABoundAreKnownWhenALimitEndsTheSearch) {
   const auto instance = Instance::make(roadmap(points, roads), agents).value();
   SolveOptions options;
   options.limits.conflicts = 1;
-  const SolveOutcome outcome = solve(instance, options);
+  const SolveOutcome outcome = solve(instance, options).value();
   ASSERT_EQ(outcome.status, Status::feasible);
   EXPECT_TRUE(verify(instance, *outcome.plan).valid());
   EXPECT_GE(outcome.lower_bound, 8 * 5000);
@@ -126,9 +126,31 @@ TEST(ContinuousSolverLimits, CongestionTakesFewConflicts) {
   options.limits.conflicts = 600;
   options.route_work = options.joint_work = 0;
   const auto instance = Instance::make(alcove(), {agent(0, 2, 300), agent(2, 0, 300)}).value();
-  const SolveOutcome outcome = solve(instance, options);
+  const SolveOutcome outcome = solve(instance, options).value();
   EXPECT_EQ(outcome.status, Status::optimal);
   EXPECT_EQ(outcome.lower_bound, 6547);
+}
+
+TEST(ContinuousSolveOptions, OutsideTheirRangesAreErrorsWithAReason) {
+  const auto instance = Instance::make(alcove(), {agent(0, 2, 300)}).value();
+  const auto expect_refused = [&](const SolveOptions& options, ErrorCode code,
+                                  const std::string& reason) {
+    const auto outcome = solve(instance, options);
+    ASSERT_FALSE(outcome) << reason;
+    EXPECT_EQ(outcome.error().code, code) << reason;
+    EXPECT_NE(outcome.error().message.find(reason), std::string::npos) << outcome.error().message;
+  };
+  SolveOptions gap, seed, progress, known;
+  gap.gap_percent = -1;
+  expect_refused(gap, ErrorCode::out_of_range, "gap");
+  gap.gap_percent = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(gap, ErrorCode::out_of_range, "gap");
+  seed.seed = 2'000'000'001;
+  expect_refused(seed, ErrorCode::out_of_range, "seed");
+  progress.progress_interval_s = -1;
+  expect_refused(progress, ErrorCode::out_of_range, "progress");
+  known.debug.known_plan = Plan();
+  expect_refused(known, ErrorCode::invalid_plan, "known plan");
 }
 
 }  // namespace

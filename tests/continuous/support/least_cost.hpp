@@ -15,14 +15,14 @@ inline Cost least_cost(const Instance& instance, System system, Objective object
   options.system = system;
   options.objective = objective;
   options.limits.cpu_s = 20;
-  const SolveOutcome outcome = solve(instance, options);
+  const SolveOutcome outcome = solve(instance, options).value();
   EXPECT_EQ(outcome.status, Status::optimal) << outcome.explanation;
   if (!outcome.plan) return -1;
   EXPECT_TRUE(verify(instance, *outcome.plan).valid());
   options.joint_work = 0;
-  EXPECT_EQ(solve(instance, options).cost, outcome.cost);
+  EXPECT_EQ(solve(instance, options).value().cost, outcome.cost);
   options.route_work = 0;
-  EXPECT_EQ(solve(instance, options).cost, outcome.cost);
+  EXPECT_EQ(solve(instance, options).value().cost, outcome.cost);
   return *outcome.cost;
 }
 

@@ -19,7 +19,7 @@ bool has_long_path(const Plan& plan, std::size_t max_moves) {
 
 void check_against(const OrderSearch& oracle, std::size_t max_moves, const Instance& instance,
                    const SolveOptions& options, Tally& tally) {
-  const SolveOutcome outcome = solve(instance, options);
+  const SolveOutcome outcome = solve(instance, options).value();
   ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
   if (oracle.best) {
     ++tally.solvable;

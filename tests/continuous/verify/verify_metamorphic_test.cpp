@@ -36,7 +36,7 @@ const std::vector<Case>& cases() {
       const Instance instance = random_instance(options, seed).value();
       SolveOptions solve_options;
       solve_options.limits.conflicts = 20'000;
-      const SolveOutcome outcome = solve(instance, solve_options);
+      const SolveOutcome outcome = solve(instance, solve_options).value();
       if (outcome.plan) made.push_back({instance, *outcome.plan});
     }
     return made;

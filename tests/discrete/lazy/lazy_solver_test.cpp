@@ -9,9 +9,12 @@
 
 #include "quadrille/discrete/solver.hpp"
 #include "support/generators.hpp"
+#include "support/tuned_options.hpp"
 
 namespace quadrille::discrete {
 namespace {
+
+using support::TunedOptions;
 
 /// A grid or a graph with random obstacles (edges), and tasks within one component.
 std::optional<Instance> random_instance(unsigned seed) {
@@ -59,20 +62,20 @@ TEST_P(LazySolver, AgreesWithTheMddModelAndPassesItsAudit) {
     SCOPED_TRACE(seed);
     const auto instance = random_instance(seed);
     if (!instance) continue;
-    SolveOptions options;
+    TunedOptions options;
     options.objective = GetParam();
     options.limits.conflicts = 300;  // ends the search where there is no plan
     options.system = System::dpll_mdd;
     options.cost_search = CostSearch::core_guided;
-    const SolveOutcome expected = solve(*instance, options);
+    const SolveOutcome expected = solve(*instance, options).value();
     if (expected.status != Status::optimal) continue;
     options.limits = {};
     options.system = System::dpll;
     options.cost_search = seed % 4 == 0 ? CostSearch::iterative : CostSearch::core_guided;
-    options.audit = true;
-    options.known_plan = expected.plan;
+    options.debug.audit = true;
+    options.debug.known_plan = expected.plan;
     options.seed = seed;
-    const SolveOutcome outcome = solve(*instance, options);
+    const SolveOutcome outcome = solve(*instance, options).value();
     ASSERT_EQ(outcome.status, Status::optimal) << outcome.explanation;
     ASSERT_EQ(outcome.cost, expected.cost);
     ++solved;
@@ -88,38 +91,27 @@ TEST(LazySolverFromAbove, AgreesWithCoresAlone) {
   for (int round = 0; round < 40; ++round) {
     SCOPED_TRACE(round);
     const Instance instance = support::random_grid(random, {6, 8, 15, 12, 18});
-    SolveOptions options;
+    TunedOptions options;
     options.limits.conflicts = 4000;
     options.first_plan = false;
-    const SolveOutcome expected = solve(instance, options);
+    const SolveOutcome expected = solve(instance, options).value();
     if (expected.status != Status::optimal) continue;
     options.limits = {};
     options.first_plan = true;
-    options.descend_after = 1;
-    options.known_plan = expected.plan;
-    const SolveOutcome outcome = solve(instance, options);
+    options.first_turn = 1;
+    options.debug.known_plan = expected.plan;
+    const SolveOutcome outcome = solve(instance, options).value();
     ASSERT_EQ(outcome.status, Status::optimal) << outcome.explanation;
     ASSERT_EQ(outcome.cost, expected.cost);
     ++solved;
     if (expected.statistics.conflicts >= 20) ++hard;
-    options.descend_after = INT32_MAX;
-    if (solve(instance, options).statistics.sat_calls != outcome.statistics.sat_calls) ++different;
+    options.first_turn = INT32_MAX;
+    if (solve(instance, options).value().statistics.sat_calls != outcome.statistics.sat_calls)
+      ++different;
   }
   EXPECT_GE(solved, 20);
   EXPECT_GE(hard, 10);
   EXPECT_GE(different, 10) << "there are turns from above";
-}
-
-TEST(LazySolverFromAbove, RefusesTurnsOfNoOrTooManyConflicts) {
-  quadrille::support::Random random(1);
-  const Instance instance = support::random_grid(random, {3, 3, 0, 2, 2});
-  for (const std::int64_t turn : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{INT32_MAX} + 1}) {
-    SolveOptions options;
-    options.descend_after = turn;
-    const SolveOutcome outcome = solve(instance, options);
-    ASSERT_TRUE(outcome.internal_error.has_value());
-    EXPECT_EQ(outcome.internal_error->code, ErrorCode::out_of_range);
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Objectives, LazySolver,

@@ -58,14 +58,14 @@ Instance read_instance(const std::string& folder, const Row& row) {
 
 /// Solves the reference rows of a map with one system, from few agents to many, each for at most
 /// `seconds` of CPU time, until a row is not finished. Returns the number of finished rows.
-int compare_rows(const std::vector<Row>& rows, const std::string& folder, SolveOptions options,
+int compare_rows(const std::vector<Row>& rows, const std::string& folder, TunedOptions options,
                  double seconds) {
   int finished = 0;
   options.limits = {};
   options.limits.cpu_s = seconds;
   for (const Row& row : rows) {
     const Instance instance = read_instance(folder, row);
-    const SolveOutcome outcome = solve(instance, options);
+    const SolveOutcome outcome = solve(instance, options).value();
     const std::string name = row.map + " scenario " + row.scenario + ", " +
                              std::to_string(row.agents) + " agents, " +
                              std::string(to_string(options.system));

@@ -57,7 +57,7 @@ TEST_P(SolverExhaustive, AllSystemsAgreeWithTheJointSearch) {
       const JointAnswer expected = joint_search(instance, objective);
       ASSERT_NE(expected.status, Status::unknown);
       infeasible += expected.status == Status::infeasible ? 1 : 0;
-      for (const SolveOptions& options : all_systems(objective)) {
+      for (const TunedOptions& options : all_systems(objective)) {
         const std::string fault = solve_and_compare(instance, options, expected,
                                                     "exhaustive case " + std::to_string(number));
         ASSERT_EQ(fault, "") << fault;

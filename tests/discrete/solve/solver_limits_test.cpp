@@ -28,17 +28,17 @@ Instance hard_instance() {
   return random_grid(random, {20, 20, 0, 360, 360});
 }
 
-SolveOptions with_limits(SolveOptions options, const Limits& limits) {
+TunedOptions with_limits(TunedOptions options, const Limits& limits) {
   options.limits = limits;
   return options;
 }
 
-std::vector<SolveOptions> systems_for_both_objectives() {
-  std::vector<SolveOptions> systems = all_systems(Objective::sum_of_costs);
-  const std::vector<SolveOptions> more = all_systems(Objective::makespan);
+std::vector<TunedOptions> systems_for_both_objectives() {
+  std::vector<TunedOptions> systems = all_systems(Objective::sum_of_costs);
+  const std::vector<TunedOptions> more = all_systems(Objective::makespan);
   systems.insert(systems.end(), more.begin(), more.end());
   // The first plan of the hard instance has the least makespan, which would be the end.
-  for (SolveOptions& options : systems)
+  for (TunedOptions& options : systems)
     if (options.objective == Objective::makespan) options.first_plan = false;
   return systems;
 }
@@ -48,9 +48,9 @@ struct Stopped {
   double cpu_s = 0;
 };
 
-Stopped run(const Instance& instance, const SolveOptions& options) {
+Stopped run(const Instance& instance, const TunedOptions& options) {
   const double begin = cpu_seconds();
-  SolveOutcome outcome = solve(instance, options);
+  SolveOutcome outcome = solve(instance, options).value();
   EXPECT_EQ(find_inconsistency(instance, options, outcome), "")
       << instance_text(instance) << options_text(options);
   return {std::move(outcome), cpu_seconds() - begin};
@@ -61,7 +61,7 @@ bool is_proof(Status status) { return status == Status::optimal || status == Sta
 /// On an instance that is too hard, every limit that binds is met and named.
 void expect_stopped_by(StopReason reason, const Limits& limits) {
   const Instance instance = hard_instance();
-  for (const SolveOptions& options : systems_for_both_objectives()) {
+  for (const TunedOptions& options : systems_for_both_objectives()) {
     SCOPED_TRACE(options_text(options));
     malloc_trim(0);  // What earlier searches have left to the process would be no growth.
     const auto [outcome, seconds] = run(instance, with_limits(options, limits));
@@ -98,7 +98,7 @@ TEST(SolverLimits, Conflicts) {
     limits.conflicts = conflicts;
     const Instance instance = hard_instance();
     limits.wall_s = 4;  // may end first where formulas are large or paths take long
-    for (const SolveOptions& options : systems_for_both_objectives()) {
+    for (const TunedOptions& options : systems_for_both_objectives()) {
       SCOPED_TRACE(options_text(options) + std::to_string(conflicts));
       const auto [outcome, seconds] = run(instance, with_limits(options, limits));
       if (!is_proof(outcome.status) && outcome.stop != StopReason::wall_time) {
@@ -130,7 +130,7 @@ TEST(SolverLimits, BelongToTheSolve) {
         sum += of_the_host[i] == 'x';
     EXPECT_GT(sum, 0U);
   });
-  SolveOptions small, large;
+  TunedOptions small, large;
   small.limits.cpu_s = 1;
   small.limits.memory_mib = 60;
   large.system = System::mdd_sat;
@@ -140,8 +140,8 @@ TEST(SolverLimits, BelongToTheSolve) {
   const Instance short_paths = random_grid(random, {12, 12, 0, 120, 120});
   const Instance long_paths = random_grid(random, {40, 40, 0, 700, 700});
   SolveOutcome by_cpu, by_memory;
-  std::thread second([&] { by_memory = solve(long_paths, large); });
-  by_cpu = solve(short_paths, small);
+  std::thread second([&] { by_memory = solve(long_paths, large).value(); });
+  by_cpu = solve(short_paths, small).value();
   second.join();
   done = true;
   host.join();
@@ -154,7 +154,7 @@ TEST(SolverLimits, BelongToTheSolve) {
 
 TEST(SolverLimits, PortfoliosCountAllTheirThreads) {
   const Instance instance = hard_instance();
-  SolveOptions options;
+  TunedOptions options;
   options.threads = 3;
   options.race = true;
   options.limits.cpu_s = 0.6;
@@ -177,7 +177,7 @@ TEST(SolverLimits, InterruptAtRandomMoments) {
   Random random(3);
   const auto systems = systems_for_both_objectives();
   for (std::size_t round = 0; round < scaled(2 * systems.size()); ++round) {
-    SolveOptions options = systems[round % systems.size()];
+    TunedOptions options = systems[round % systems.size()];
     SCOPED_TRACE(options_text(options));
     std::atomic<bool> interrupt = false;
     options.limits.interrupt = &interrupt;
@@ -188,7 +188,7 @@ TEST(SolverLimits, InterruptAtRandomMoments) {
       set_at = cpu_seconds();
       interrupt = true;
     });
-    const SolveOutcome outcome = solve(instance, options);
+    const SolveOutcome outcome = solve(instance, options).value();
     const double returned = cpu_seconds();
     killer.join();
     EXPECT_EQ(find_inconsistency(instance, options, outcome), "");
@@ -217,8 +217,8 @@ TEST(SolverLimits, NeverClaimsWhatIsNotTrue) {
     const Instance instance = random_grid(random, {2, 5, 40, 2, 3});
     const Objective objective = random.percent(50) ? Objective::sum_of_costs : Objective::makespan;
     const JointAnswer truth = joint_search(instance, objective);
-    for (SolveOptions options : random_systems(random, objective)) {
-      options.known_plan.reset();
+    for (TunedOptions options : random_systems(random, objective)) {
+      options.debug.known_plan.reset();
       options.limits = random_limits(random);
       SCOPED_TRACE("seed " + std::to_string(500'000 + seed) + "\n" + instance_text(instance) +
                    options_text(options));
@@ -255,7 +255,7 @@ TEST(SolverLimits, HoldWhileTheFormulaIsBuilt) {
   Limits limits;
   for (const double seconds : {0.0, 0.1}) {
     limits.wall_s = seconds;
-    for (const SolveOptions& options : systems_for_both_objectives()) {
+    for (const TunedOptions& options : systems_for_both_objectives()) {
       const auto [outcome, taken] = run(instance, with_limits(options, limits));
       ASSERT_LT(taken, kSoon + seconds) << options_text(options);
       EXPECT_EQ(outcome.stop, StopReason::wall_time) << options_text(options);
@@ -272,7 +272,7 @@ TEST(SolverLimits, GenerousLimitsChangeNothing) {
   limits.interrupt = &interrupt;
   Random random(4);
   const Instance instance = random_grid(random, {4, 5, 10, 3, 3});
-  for (const SolveOptions& options : systems_for_both_objectives()) {
+  for (const TunedOptions& options : systems_for_both_objectives()) {
     const JointAnswer expected = joint_search(instance, options.objective);
     const auto outcome = run(instance, with_limits(options, limits)).outcome;
     EXPECT_EQ(find_fault(instance, options, outcome, expected), "");
@@ -284,11 +284,12 @@ TEST(SolverLimits, SearchesRepeatThemselves) {
   for (std::uint64_t seed = 0; seed < scaled(20); ++seed) {
     Random random(600'000 + seed);
     const Instance instance = random_grid(random, {4, 7, 25, 4, 7});
-    for (const SolveOptions& options : random_systems(random, Objective::sum_of_costs)) {
-      SolveOptions same = options;
-      same.known_plan.reset();
+    for (const TunedOptions& options : random_systems(random, Objective::sum_of_costs)) {
+      TunedOptions same = options;
+      same.debug.known_plan.reset();
       same.race = false;
-      const SolveOutcome first = solve(instance, same), second = solve(instance, same);
+      const SolveOutcome first = solve(instance, same).value(),
+                         second = solve(instance, same).value();
       ASSERT_EQ(first.plan, second.plan) << instance_text(instance) << options_text(same);
       EXPECT_EQ(first.statistics.conflicts, second.statistics.conflicts);
       EXPECT_EQ(first.statistics.decisions, second.statistics.decisions);

@@ -19,8 +19,8 @@ using quadrille::support::scaled;
 constexpr Objective kObjectives[] = {Objective::sum_of_costs, Objective::makespan};
 
 /// Status and cost of a completed search; -1 for infeasible.
-Cost solve_checked(const Instance& instance, const SolveOptions& options) {
-  const SolveOutcome outcome = solve(instance, options);
+Cost solve_checked(const Instance& instance, const TunedOptions& options) {
+  const SolveOutcome outcome = solve(instance, options).value();
   EXPECT_NE(outcome.status, Status::unknown) << outcome.explanation << "\n"
                                              << instance_text(instance) << options_text(options);
   EXPECT_EQ(find_inconsistency(instance, options, outcome), "")
@@ -38,9 +38,9 @@ struct Base {
   [[nodiscard]] Cost solve_variant(const Instance& variant) {
     return solve_checked(variant, random.pick(random_systems_without_plan()));
   }
-  [[nodiscard]] std::vector<SolveOptions> random_systems_without_plan() {
-    std::vector<SolveOptions> systems = random_systems(random, objective);
-    for (SolveOptions& options : systems) options.known_plan.reset();
+  [[nodiscard]] std::vector<TunedOptions> random_systems_without_plan() {
+    std::vector<TunedOptions> systems = random_systems(random, objective);
+    for (TunedOptions& options : systems) options.debug.known_plan.reset();
     return systems;
   }
 };

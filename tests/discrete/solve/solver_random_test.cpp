@@ -23,7 +23,7 @@ Objective random_objective(Random& random) {
 JointAnswer expected_answer(const Instance& instance, Objective objective) {
   const JointAnswer answer = joint_search(instance, objective);
   if (answer.status != Status::unknown) return answer;
-  const SolveOutcome outcome = solve(instance, all_systems(objective).back());
+  const SolveOutcome outcome = solve(instance, all_systems(objective).back()).value();
   return {outcome.status, outcome.cost.value_or(0), outcome.plan.value_or(Plan())};
 }
 
@@ -37,7 +37,7 @@ void compare_systems(const Instance& instance, Random& random, const std::string
   const JointAnswer expected = expected_answer(instance, objective);
   ASSERT_NE(expected.status, Status::unknown) << origin << "\n";
   count.infeasible += expected.status == Status::infeasible ? 1 : 0;
-  for (const SolveOptions& options : random_systems(random, objective)) {
+  for (const TunedOptions& options : random_systems(random, objective)) {
     if (!only_system().empty() && to_string(options.system) != only_system()) continue;
     const std::string fault = solve_and_compare(instance, options, expected, origin);
     ASSERT_EQ(fault, "") << fault;

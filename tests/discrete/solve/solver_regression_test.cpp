@@ -53,17 +53,17 @@ TEST_P(SolverRegression, AllSystemsAnswerAsExpected) {
   for (const Objective objective : {Objective::sum_of_costs, Objective::makespan}) {
     const JointAnswer expected = expected_answer(read, objective);
     ASSERT_NE(expected.status, Status::unknown) << "state what to expect in " << GetParam();
-    std::vector<SolveOptions> systems = all_systems(objective);
-    for (const SolveOptions& options : all_systems(objective)) {
+    std::vector<TunedOptions> systems = all_systems(objective);
+    for (const TunedOptions& options : all_systems(objective)) {
       systems.push_back(options);
-      systems.back().audit = true;
-      if (!expected.plan.paths.empty()) systems.back().known_plan = expected.plan;
+      systems.back().debug.audit = true;
+      if (!expected.plan.paths.empty()) systems.back().debug.known_plan = expected.plan;
     }
     if (read.options && read.options->objective == objective) {
       systems.push_back(*read.options);
-      if (read.known_plan) systems.back().known_plan = Plan();
+      if (read.known_plan) systems.back().debug.known_plan = Plan();
     }
-    for (const SolveOptions& options : systems) {
+    for (const TunedOptions& options : systems) {
       const std::string fault = solve_and_compare(read.instance, options, expected, GetParam());
       EXPECT_EQ(fault, "") << fault;
     }

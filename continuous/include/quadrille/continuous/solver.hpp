@@ -38,6 +38,16 @@ struct Progress {
 /// See SolveOptions::route_work.
 inline constexpr std::size_t kMaxRouteAgents = 6;
 
+/// Checks of the solver's own work. An error of the program then ends in an internal error instead
+/// of a wrong answer. Slow.
+struct DebugOptions {
+  /// Derive every lemma again from what it rests on, by other means.
+  bool audit = false;
+  /// A valid plan. Every clause is checked to allow it; no clause may exclude a valid plan,
+  /// whatever it costs.
+  std::optional<Plan> known_plan;
+};
+
 struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
@@ -56,12 +66,7 @@ struct SolveOptions {
   /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;
   double progress_interval_s = 0.25;  ///< At least 0.
-  /// Debugging: derive every lemma again from what it rests on, by other means. An error of the
-  /// program then ends in an internal error instead of a wrong answer. Slow.
-  bool audit = false;
-  /// Debugging: a valid plan. Every clause is checked to allow it; no clause may exclude a valid
-  /// plan, whatever it costs. Slow.
-  std::optional<Plan> known_plan;
+  DebugOptions debug;
 };
 
 struct SolveOutcome {
@@ -81,13 +86,14 @@ struct SolveOutcome {
 /// are few on a small roadmap. On other instances without a plan the search may also go on until a
 /// limit ends it: `unknown` then. If a limit ends the search and
 /// some plan is known, that is `feasible`. Deterministic for the same instance, options and seed as
-/// long as no limit is met. Does not print. Thread-safe.
+/// long as no limit is met. Does not print. Thread-safe. Errors: out_of_range (an option),
+/// invalid_plan (`debug.known_plan` is not a plan of the instance).
 ///
 /// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
 /// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be
 /// lost to the process. Throws what `on_progress` throws, and std::bad_alloc if there is no memory
 /// even for the outcome.
-[[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
+[[nodiscard]] Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options);
 
 }  // namespace quadrille::continuous
 

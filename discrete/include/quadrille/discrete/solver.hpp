@@ -74,35 +74,40 @@ struct Progress {
   std::int64_t conflicts = 0;
 };
 
-/// See SolveOptions::chronological. Measured: docs/performance.md.
-inline constexpr std::size_t kManyAgents = 175;
+/// Of the systems with MDDs.
+struct MddOptions {
+  CheckSchedule check;  ///< Of dpll_mdd; the other systems check when they have to.
+  MddGrowth growth = MddGrowth::on_demand;  ///< Of the iterative search.
+};
+
+/// Of dpll.
+struct LazyOptions {
+  /// Try first to forbid usages instead of allowing them. Much faster on some hard instances,
+  /// slower on others.
+  bool forbid_first = false;
+  /// Backtrack chronologically, so that lemmas about the past leave later decisions alone. Absent:
+  /// where there are many agents, for whom decisions that are made again cost more than what is
+  /// gained by fresh ones.
+  std::optional<bool> chronological;
+};
+
+/// Checks of the solver's own work. An error of the program then ends in an internal error instead
+/// of a wrong answer. Slow.
+struct DebugOptions {
+  /// Derive every lemma again from what it rests on, by other means.
+  bool audit = false;
+  /// A valid plan. Every clause is checked to allow it; no clause may exclude a valid plan.
+  std::optional<Plan> known_plan;
+};
 
 struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
-  CheckSchedule check;  ///< Of dpll_mdd; the other systems check when they have to.
   /// For the sum of costs; the makespan is always searched upwards. Absent: core-guided for dpll,
   /// iterative for the published systems.
   std::optional<CostSearch> cost_search;
-  /// Of the iterative search.
-  MddGrowth mdd_growth = MddGrowth::on_demand;
-  /// Of dpll: try first to forbid usages instead of allowing them. Much faster on some hard
-  /// instances, slower on others.
-  bool forbid_first = false;
-  /// Of dpll: backtrack chronologically, so that lemmas about the past leave later decisions alone.
-  /// Absent: for kManyAgents or more, for whom decisions that are made again cost more than what is
-  /// gained by fresh ones.
-  std::optional<bool> chronological;
-  /// Of the core-guided cost search: a core that takes more conflicts makes it start again with
-  /// what it has learned and then, for dpll with `first_plan`, look for cheaper plans in turns. See
-  /// quadrille/sat/cost_search.hpp. With the settings for `crowded` maps half of it counts.
-  /// 1 .. 2^31 - 1.
-  std::int64_t descend_after = 8000;
-  /// Of dpll with the core-guided cost search: its settings for open and crowded maps (longer turns
-  /// from above, more passes, smaller cores for more time) or those for other ones. Absent: the
-  /// former if vertices have more than 3.6 neighbours on average and there is an agent for every
-  /// eight of them.
-  std::optional<bool> crowded;
+  MddOptions mdd;
+  LazyOptions lazy;
   Limits limits;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
@@ -121,12 +126,7 @@ struct SolveOptions {
   /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;
   double progress_interval_s = 0.25;  ///< At least 0.
-
-  /// Debugging: check every lemma against the rules. Slow.
-  bool audit = false;
-  /// Debugging: a plan that is known to be valid. Every clause is checked to allow it; no clause
-  /// may exclude a valid plan. Slow.
-  std::optional<Plan> known_plan;
+  DebugOptions debug;
 };
 
 struct SolveOutcome {
@@ -143,13 +143,15 @@ struct SolveOutcome {
 };
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
-/// options and seed as long as no limit is met. Does not print. Thread-safe.
+/// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range
+/// (an option, or more vertices than kMaxVertices), invalid_plan (`debug.known_plan` is not a plan
+/// of the instance).
 ///
 /// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
 /// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be
 /// lost to the process. Throws what `on_progress` throws, and std::bad_alloc if there is no memory
 /// even for the outcome.
-[[nodiscard]] SolveOutcome solve(const Instance& instance, const SolveOptions& options);
+[[nodiscard]] Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options);
 
 }  // namespace quadrille::discrete
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+#include "quadrille/core/result.hpp"
+#include "quadrille/discrete/solver.hpp"
+#include "quadrille/sat/cost_search.hpp"
+
+namespace quadrille::discrete {
+
+/// What the settings of a search depend on.
+struct Features {
+  bool is_open = false;     ///< See model/open_maps.hpp.
+  bool is_crowded = false;  ///< Open, and with an agent for every eight vertices.
+  bool has_many_agents = false;
+};
+[[nodiscard]] Features features_of(const Instance& instance);
+
+/// All settings that users do not choose.
+struct Tuning {
+  bool chronological = true;
+  bool bump_reasons = true;    ///< Of CaDiCaL.
+  bool explicit_paths = true;  ///< See lazy/explicit_paths.hpp.
+  sat::CoreGuidedOptions cores;
+};
+/// The table of settings.
+[[nodiscard]] Tuning choose_tuning(const Features& features, const SolveOptions& options);
+
+/// Chooses the settings of one search; those of a portfolio have options of their own.
+using Tuner = std::function<Tuning(const SolveOptions& options)>;
+[[nodiscard]] Tuner tuner_for(const Instance& instance);
+
+/// As `solve`, with settings that are chosen by `tuner`. Its values have to be in the ranges of
+/// quadrille/sat/cost_search.hpp.
+[[nodiscard]] Result<SolveOutcome> solve_tuned(const Instance& instance,
+                                               const SolveOptions& options, const Tuner& tuner);
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "support/tuned_options.hpp"
+
+#include "solve/tuning.hpp"
+
+namespace quadrille::discrete::support {
+
+Result<SolveOutcome> solve(const Instance& instance, const TunedOptions& options) {
+  return solve_tuned(instance, options, [&](const SolveOptions& of_one) {
+    Features features = features_of(instance);
+    Tuning tuning = choose_tuning(features, of_one);
+    if (options.crowded) {
+      features.is_open = features.is_crowded = *options.crowded;
+      tuning.cores = choose_tuning(features, of_one).cores;
+    }
+    tuning.cores.first_turn = options.first_turn.value_or(tuning.cores.first_turn);
+    return tuning;
+  });
+}
+
+}  // namespace quadrille::discrete::support

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "quadrille/discrete/solver.hpp"
+
+namespace quadrille::discrete::support {
+
+/// Options with settings that users do not choose, but tests do.
+struct TunedOptions : SolveOptions {
+  std::optional<std::int64_t> first_turn;  ///< See sat::CoreGuidedOptions. 1 .. 2^31 - 1.
+  std::optional<bool> crowded;             ///< Cost search as on open, crowded maps, or others.
+};
+
+/// As the function without settings.
+[[nodiscard]] Result<SolveOutcome> solve(const Instance& instance, const TunedOptions& options);
+
+}  // namespace quadrille::discrete::support
