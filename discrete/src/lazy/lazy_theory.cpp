@@ -86,6 +86,11 @@ void LazyTheory::on_assign(std::span<const Lit> newly_true) {
 
 void LazyTheory::on_retract(std::size_t kept) { trail_.retract(kept); }
 
+void LazyTheory::on_pause() {
+  draft_ = {};
+  for (const AgentId i : model_.instance().agents()) draft_.paths.push_back(paths_.path(i));
+}
+
 // ---- paths --------------------------------------------------------------------------------------
 
 bool LazyTheory::replan_all(ContextWriter& writer) {

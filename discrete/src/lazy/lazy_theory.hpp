@@ -40,6 +40,8 @@ class LazyTheory final : public sat::Theory {
   /// Times that the paths of a complete assignment were checked for collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
+  /// The paths that the search had when it paused last, which may collide; empty before that.
+  [[nodiscard]] const Plan& draft() const noexcept { return draft_; }
   /// States that path searches have expanded.
   [[nodiscard]] std::int64_t effort() const noexcept override { return search_.effort(); }
 
@@ -49,6 +51,7 @@ class LazyTheory final : public sat::Theory {
 
   void on_assign(std::span<const sat::Lit> newly_true) override;
   void on_retract(std::size_t kept) override;
+  void on_pause() override;
   void check(sat::Effort effort, sat::TheoryContext& context) override;
   [[nodiscard]] sat::Lit decide(sat::TheoryContext& context) override;
   sat::Lemma explain(sat::Lit implied, std::vector<sat::Lit>& clause) override;
@@ -79,6 +82,7 @@ class LazyTheory final : public sat::Theory {
   LazyModel& model_;
   LimitMonitor& limits_;
   PathIndex paths_;
+  Plan draft_;
   TrailedPaths trailed_paths_;
   LazyTrail trail_;
   PathSearch search_;

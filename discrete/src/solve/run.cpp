@@ -93,11 +93,7 @@ class LazyRun final : public Run {
   const sat::Engine& engine() const override { return *engine_; }
   sat::CostProblem& problem() override { return *problem_; }
   const Plan& plan() const override { return problem_->plan(); }
-  Plan draft() const override {
-    Plan draft;
-    for (const AgentId i : instance_.agents()) draft.paths.push_back(theory_->path(i));
-    return draft;
-  }
+  Plan draft() const override { return theory_->draft(); }
   std::int64_t num_checks() const override { return theory_->num_checks(); }
   std::int64_t num_rejected() const override { return 0; }
   std::optional<std::string> complaint() const override {

@@ -26,7 +26,7 @@ class Run {
   [[nodiscard]] virtual const sat::Engine& engine() const = 0;
   [[nodiscard]] virtual sat::CostProblem& problem() = 0;
   [[nodiscard]] virtual const Plan& plan() const = 0;
-  /// The agents' paths as the search has them now, which may collide; empty if it has none.
+  /// The paths that the search had at the end of its last slice, which may collide; empty if none.
   [[nodiscard]] virtual Plan draft() const { return {}; }
   [[nodiscard]] virtual std::int64_t num_checks() const = 0;
   [[nodiscard]] virtual std::int64_t num_rejected() const = 0;

@@ -165,6 +165,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     ++num_solves_;
     limits_ = &limits;
     last_effort_ = budget.effort ? effort() + *budget.effort : kNoEnd;
+    has_paused_ = false;
     host_.begin_solve();
     assumptions_.assign(assumptions.begin(), assumptions.end());
     const int answer = limits.exhausted_now() ? 0 : border_.solver([&] { return search(budget); });
@@ -323,8 +324,11 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   // CaDiCaL::Terminator
   bool terminate() override {
     return border_.callback(true, [&] {
-      return host_.wants_stop() || (limits_ != nullptr && limits_->exhausted()) ||
-             effort() >= last_effort_;
+      if (host_.wants_stop() || (limits_ != nullptr && limits_->exhausted())) return true;
+      if (effort() < last_effort_) return false;
+      if (!has_paused_) theory_.on_pause();
+      has_paused_ = true;
+      return true;
     });
   }
 
@@ -349,6 +353,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   LimitMonitor* limits_ = nullptr;
   int num_variables_ = 0;
   std::int64_t last_effort_ = kNoEnd;  // of the running solve
+  bool has_paused_ = false;            // the running solve has come to its last effort
   bool is_bare_reason_told_ = false;
   std::vector<Lit> assumptions_, failed_, kept_;
   std::vector<bool> model_;

@@ -182,6 +182,34 @@ TEST(Engine, StopsAtEachLimitAndNamesIt) {
   EXPECT_EQ(engine.solve({}, unlimited, {50, {}}), Verdict::unknown);
 }
 
+TEST(Engine, PausesWithTheSearchsStackWhenEffortIsUsedUp) {
+  /// Agrees with everything and keeps what is assigned.
+  struct Silent final : Theory {
+    void on_assign(std::span<const Lit> newly_true) override { stack += newly_true.size(); }
+    void on_retract(std::size_t kept) override { stack = kept; }
+    void check(Effort, TheoryContext&) override {}
+    Lemma explain(Lit, Clause&) override { return {LemmaKind::path, {}, {}, false}; }
+    void on_pause() override {
+      ++pauses;
+      if (stack > 0) ++pauses_within;
+    }
+    std::size_t stack = 0;
+    int pauses = 0, pauses_within = 0;
+  } theory;
+  Engine engine(&theory);
+  add_pigeons(engine, 10);
+  LimitMonitor unlimited{Limits{}};
+  SolveBudget budget;
+  budget.effort = 5000;
+  for (int k = 1; k <= 20; ++k) {
+    ASSERT_EQ(engine.solve({}, unlimited, budget), Verdict::unknown);
+    EXPECT_EQ(theory.pauses, k);
+  }
+  EXPECT_GE(theory.pauses_within, 15);
+  EXPECT_EQ(engine.solve({}, unlimited, {50, {}}), Verdict::unknown);
+  EXPECT_EQ(theory.pauses, 20) << "conflicts were used up, not effort";
+}
+
 TEST(Engine, TellsTheObserverEachClauseAndEachConsequence) {
   struct Recorder final : ClauseObserver {
     void on_lemma(const Lemma&) override { ++lemmas; }
