@@ -11,13 +11,7 @@ using sat::Lit;
 namespace {
 /// Lemmas of an agent before its explicit paths are considered.
 constexpr std::int64_t kFirstLook = 64;
-/// How many variables of explicit paths are worth a path lemma. Measured: 1 leaves agents in mazes
-/// with twice the conflicts, 64 makes the formulas of large maps too large.
-constexpr std::int64_t kVariablesPerLemma = 8;
 }  // namespace
-
-ExplicitPaths::ExplicitPaths(LazyModel& model, bool enabled)
-    : model_(model), enabled_(enabled), agents_(model.instance().num_agents()) {}
 
 class ExplicitPaths::AgentFormula final : public MddPaths::Formula {
  public:
@@ -53,13 +47,12 @@ std::int64_t ExplicitPaths::size(AgentId agent, Timestep max_delay) const {
 }
 
 void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer) {
-  if (!enabled_) return;
   Agent& a = agents_[agent];
   if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
   const Timestep delay = cap - model_.distances(agent).free_cost();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;
   if (delay <= old_cap) return;
-  if (size(agent, delay) > kVariablesPerLemma * a.num_lemmas) {
+  if (price_.lemmas * size(agent, delay) > price_.variables * a.num_lemmas) {
     a.next_look = 2 * a.num_lemmas;
     return;
   }
@@ -74,7 +67,6 @@ void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& wr
 }
 
 void ExplicitPaths::link_new_obstacles(FormulaWriter& writer) {
-  if (!enabled_) return;
   for (; num_linked_ < model_.obstacles().size(); ++num_linked_) {
     const ObstacleId id(num_linked_);
     const AgentId agent = model_.obstacles()[id].agent;

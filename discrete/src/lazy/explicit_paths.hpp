@@ -11,17 +11,23 @@
 namespace quadrille::discrete {
 
 /// Gives an agent of the lazy model explicit paths, the clauses of its MDD over X(v,t), once it has
-/// cost an eighth as many path lemmas as these variables number: in mazes and on small, crowded
-/// maps the cuts that refute a bound are too many to be listed, and resolution over X(v,t) finds
-/// short proofs.
+/// cost enough path lemmas for the number of these variables: in mazes and on small, crowded maps
+/// the cuts that refute a bound are too many to be listed, and resolution over X(v,t) finds short
+/// proofs.
 ///
 /// X(v,t) implies all usage literals of obstacles that (v,t) is part of, so the explicit paths keep
-/// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant. On
-/// open maps, where they do harm, there are none.
+/// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
 class ExplicitPaths {
  public:
+  /// So many variables are worth so many path lemmas. Both at least 1. Measured where maps have
+  /// walls: 1 for 1 leaves agents in mazes with twice the conflicts, 64 for 1 makes the formulas of
+  /// large maps too large.
+  struct Price {
+    std::int64_t variables = 8, lemmas = 1;
+  };
   /// `model` outlives this.
-  ExplicitPaths(LazyModel& model, bool enabled);
+  ExplicitPaths(LazyModel& model, Price price)
+      : model_(model), price_(price), agents_(model.instance().num_agents()) {}
 
   /// To be called for each path lemma, with the largest cost that the agent may have at present.
   void on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer);
@@ -42,7 +48,7 @@ class ExplicitPaths {
   void link(AgentId agent, ObstacleId id, Timestep old_cap, FormulaWriter& writer);
 
   LazyModel& model_;
-  const bool enabled_;  // not on open maps
+  const Price price_;
   IdVector<AgentId, Agent> agents_;
   std::size_t num_linked_ = 0;  // obstacles
 };

@@ -40,7 +40,7 @@ class LazyTheory::ContextWriter final : public FormulaWriter {
   bool has_excluded_ = false;
 };
 
-LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits, bool explicit_paths)
+LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits, ExplicitPaths::Price price)
     : model_(model),
       limits_(limits),
       paths_(model.instance()),
@@ -49,7 +49,7 @@ LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits, bool explicit_pat
       search_(model, paths_),
       separation_(paths_, trail_, search_, limits),
       clauses_(model, paths_),
-      explicit_paths_(model, explicit_paths),
+      explicit_paths_(model, price),
       cache_(model.instance().num_agents(), kRememberedPaths) {
   set_free_paths();
 }

@@ -30,7 +30,7 @@ class LazyTheory final : public sat::Theory {
  public:
   /// Both outlive the theory. Plans free paths that avoid each other where that is easy. When a
   /// limit is met the theory ends the solve that it takes part in.
-  LazyTheory(LazyModel& model, LimitMonitor& limits, bool explicit_paths);
+  LazyTheory(LazyModel& model, LimitMonitor& limits, ExplicitPaths::Price price);
 
   /// The paths of the last complete assignment that was accepted; absent if an agent was.
   [[nodiscard]] const std::optional<Plan>& accepted() const noexcept { return accepted_; }

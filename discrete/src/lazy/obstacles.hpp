@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "model/timesteps.hpp"
 #include "quadrille/discrete/plan.hpp"
 #include "quadrille/sat/obstacle_trail.hpp"
 
@@ -18,9 +19,6 @@ struct Visit {
   Timestep timestep = 0;
   friend auto operator<=>(const Visit&, const Visit&) = default;
 };
-
-/// The end of what never ends.
-inline constexpr Timestep kForever = INT32_MAX;
 
 /// What one agent must not do while a literal is false.
 struct Obstacle {

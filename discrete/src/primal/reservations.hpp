@@ -5,13 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "model/timesteps.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/discrete/plan.hpp"
 
 namespace quadrille::discrete {
-
-/// End of what never ends.
-inline constexpr Timestep kForever = INT32_MAX;
 
 /// An agent in one vertex from `begin` to `end`, both included, without a break.
 struct Stay {

@@ -32,7 +32,7 @@ Tuning choose_tuning(const Features& features, const SolveOptions& options) {
   if (options.system != System::dpll) return tuning;
   tuning.chronological = options.lazy.chronological.value_or(features.has_many_agents);
   tuning.bump_reasons = !features.is_open;
-  tuning.explicit_paths = !features.is_open;
+  if (features.is_open) tuning.explicit_paths = {1, 16};
   sat::CoreGuidedOptions& cores = tuning.cores;
   cores.from_above = searches_from_above(options);
   if (features.is_open) {

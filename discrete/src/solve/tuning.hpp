@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "lazy/explicit_paths.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/solver.hpp"
 #include "quadrille/sat/cost_search.hpp"
@@ -20,8 +21,8 @@ struct Features {
 /// All settings that users do not choose.
 struct Tuning {
   bool chronological = true;
-  bool bump_reasons = true;    ///< Of CaDiCaL.
-  bool explicit_paths = true;  ///< See lazy/explicit_paths.hpp.
+  bool bump_reasons = true;  ///< Of CaDiCaL.
+  ExplicitPaths::Price explicit_paths;
   sat::CoreGuidedOptions cores;
 };
 /// The table of settings.

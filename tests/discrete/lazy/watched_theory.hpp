@@ -30,7 +30,7 @@ struct Count {
 class WatchedTheory final : public sat::Theory {
  public:
   WatchedTheory(LazyModel& model, Count& count)
-      : model_(model), theory_(model, limits_, true), count_(count) {}
+      : model_(model), theory_(model, limits_, {}), count_(count) {}
 
   void on_solve(bool all_present) {
     is_part_ = !all_present;
@@ -141,7 +141,7 @@ class WatchedTheory final : public sat::Theory {
   /// A theory that has never seen anything else than this stack finds the same.
   void compare_with_fresh(sat::TheoryContext& context, const Situation& now) {
     LimitMonitor limits{Limits{}};
-    LazyTheory fresh(model_, limits, true);
+    LazyTheory fresh(model_, limits, {});
     if (!stack_.empty()) fresh.on_assign(stack_);
     RecordingContext said(context);
     said.is_trial = true;

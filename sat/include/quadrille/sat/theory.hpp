@@ -71,8 +71,8 @@ class Theory {
   /// of solve. Returns kind, usages (valid until the next call) and forgettability; the clause in
   /// the result is not looked at.
   virtual Lemma explain(Lit implied, std::vector<Lit>& clause) = 0;
-  /// The running solve ends soon because its effort is used up: called once then. The stack is still
-  /// that of the search, for the last time: what comes next is a retraction.
+  /// The running solve ends soon because its effort is used up: called once then. The stack is
+  /// still that of the search, for the last time: what comes next is a retraction.
   virtual void on_pause() {}
   /// Elementary steps so far, of less than a microsecond each. The same in each run.
   [[nodiscard]] virtual std::int64_t effort() const { return 0; }
