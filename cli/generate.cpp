@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
-#include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "arguments.hpp"
+#include "generate_arguments.hpp"
+#include "grid/generate_grid.hpp"
 #include "output.hpp"
-#include "quadrille/discrete/generator.hpp"
 #include "roadmap/generate_roadmap.hpp"
 #include "subcommands.hpp"
 
 namespace quadrille::cli {
 namespace {
-
-using discrete::GridMap;
-
-enum class Kind { empty, random, maze, room, warehouse, roadmap };
 
 constexpr const char* kFooter =
     "Without --map-output and --scen-output the map goes to standard output. The same options and\n"
@@ -31,23 +28,6 @@ constexpr const char* kFooter =
     "d.json\n"
     "\n";
 
-struct GenerateArguments {
-  std::optional<Kind> kind;
-  std::string map;
-  std::optional<std::int64_t> width, height, corridor_width, room_size;
-  std::optional<double> obstacles, doors;
-  std::optional<std::int64_t> shelf_columns, shelf_rows, shelf_length, shelf_width, aisle_width,
-      side_width;
-  std::optional<std::int64_t> agents, seed;
-  bool any_goal = false;
-  GenerateRoadmapOptions roadmap;
-  std::string map_output, scen_output;
-
-  [[nodiscard]] std::uint64_t random_seed() const {
-    return static_cast<std::uint64_t>(seed.value_or(0));
-  }
-};
-
 std::optional<std::optional<Kind>> choose_kind(std::string_view text) {
   constexpr std::pair<std::string_view, Kind> kKinds[] = {
       {"empty", Kind::empty}, {"random", Kind::random},       {"maze", Kind::maze},
@@ -55,95 +35,6 @@ std::optional<std::optional<Kind>> choose_kind(std::string_view text) {
   for (const auto& [name, kind] : kKinds)
     if (text == name) return std::optional(kind);
   return std::nullopt;
-}
-
-std::int32_t size_or(std::optional<std::int64_t> size, std::int32_t otherwise) {
-  return size ? static_cast<std::int32_t>(*size) : otherwise;
-}
-
-Result<GridMap> make_map(const GenerateArguments& arguments) {
-  if (!arguments.kind) return discrete::read_map(std::filesystem::path(arguments.map));
-  const std::int32_t width = size_or(arguments.width, 32), height = size_or(arguments.height, 32);
-  const std::uint64_t seed = arguments.random_seed();
-  switch (*arguments.kind) {
-    case Kind::empty:
-      return discrete::empty_map(width, height);
-    case Kind::random:
-      return discrete::random_map(width, height, arguments.obstacles.value_or(0.2), seed);
-    case Kind::maze:
-      return discrete::maze_map(width, height, size_or(arguments.corridor_width, 2), seed);
-    case Kind::room:
-      return discrete::room_map(width, height, size_or(arguments.room_size, 4),
-                                arguments.doors.value_or(0.5), seed);
-    case Kind::warehouse:
-    case Kind::roadmap:
-      break;
-  }
-  discrete::WarehouseLayout layout;
-  layout.shelf_columns = size_or(arguments.shelf_columns, layout.shelf_columns);
-  layout.shelf_rows = size_or(arguments.shelf_rows, layout.shelf_rows);
-  layout.shelf_length = size_or(arguments.shelf_length, layout.shelf_length);
-  layout.shelf_width = size_or(arguments.shelf_width, layout.shelf_width);
-  layout.aisle_width = size_or(arguments.aisle_width, layout.aisle_width);
-  layout.side_width = size_or(arguments.side_width, layout.side_width);
-  return discrete::warehouse_map(layout);
-}
-
-/// The name that scenario rows give their map: a file name without blanks.
-std::string map_name(const GenerateArguments& arguments) {
-  const std::string& file = arguments.kind ? arguments.map_output : arguments.map;
-  std::string name = std::filesystem::path(file).filename().string();
-  for (char& c : name)
-    if (std::string_view(" \t\r\n\v\f").find(c) != std::string_view::npos) c = '_';
-  return name.empty() || name == "-" ? "map.map" : name;
-}
-
-/// The texts of the map and the scenario, in this order, as far as they are wanted.
-Result<std::vector<std::string>> make_texts(const GenerateArguments& arguments) {
-  const auto map = make_map(arguments);
-  if (!map) return map.error();
-  std::vector<std::string> texts;
-  if (!arguments.map_output.empty()) {
-    std::ostringstream text;
-    if (auto error = write_map(text, arguments.map_output, *map)) return *error;
-    texts.push_back(text.str());
-  }
-  if (!arguments.scen_output.empty()) {
-    discrete::ScenarioOptions options;
-    options.reachable = !arguments.any_goal;
-    options.map_name = map_name(arguments);
-    const auto agents = static_cast<std::size_t>(*arguments.agents);
-    const auto scenario = discrete::random_scenario(*map, agents, arguments.random_seed(), options);
-    if (!scenario) return scenario.error();
-    std::ostringstream text;
-    if (auto error = write_scenario(text, arguments.scen_output, *scenario)) return *error;
-    texts.push_back(text.str());
-  }
-  return texts;
-}
-
-ExitCode run(const CLI::App& app, const GenerateArguments& arguments) {
-  std::vector<OutputFile> outputs;
-  for (const std::string* path : {&arguments.map_output, &arguments.scen_output}) {
-    if (path->empty()) continue;
-    auto output = OutputFile::probe(*path);
-    if (!output) {
-      report_error(output.error());
-      return ExitCode::output;
-    }
-    outputs.push_back(std::move(output.value()));
-  }
-  const auto texts = make_texts(arguments);
-  if (!texts) {
-    // A map that was read can be wrong; a map that was asked for can be impossible.
-    if (arguments.kind) return usage_error(app, texts.error().message);
-    report_error(texts.error());
-    return ExitCode::bad_input;
-  }
-  bool all = true;
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    all = write_or_report(outputs[i], (*texts)[i]) && all;
-  return all ? ExitCode::success : ExitCode::output;
 }
 
 /// An option that belongs to some kinds of map only.
@@ -254,7 +145,7 @@ Subcommand add_generate(CLI::App& program) {
   return {app, [app, arguments] {
             const std::string wrong = settle(*app, *arguments);
             if (!wrong.empty()) return usage_error(*app, wrong);
-            if (arguments->kind != Kind::roadmap) return run(*app, *arguments);
+            if (arguments->kind != Kind::roadmap) return generate_grid(*app, *arguments);
             return generate_roadmap(*app, arguments->roadmap, arguments->width.value_or(32),
                                     arguments->height.value_or(32), *arguments->agents,
                                     arguments->random_seed());

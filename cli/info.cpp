@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "grid/grid_info.hpp"
-#include "input.hpp"
+#include "grid/grid_input.hpp"
 #include "roadmap/roadmap_info.hpp"
 #include "subcommands.hpp"
 
@@ -28,7 +28,7 @@ Subcommand add_info(CLI::App& program) {
             const bool continuous = is_roadmap(*options, *roadmap);
             std::string wrong = continuous ? check_roadmap_options(*roadmap, *options, Need::map)
                                            : why_no_roadmap(*roadmap);
-            if (wrong.empty() && !continuous) wrong = check_input_options(*options, Need::map);
+            if (wrong.empty() && !continuous) wrong = check_grid_options(*options, Need::map);
             if (!wrong.empty()) return usage_error(*app, wrong);
             return continuous ? print_roadmap_info(*roadmap, *options) : print_grid_info(*options);
           }};

@@ -3,13 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <sstream>
-#include <utility>
-
 #include "arguments.hpp"
-#include "quadrille/discrete/instance_json.hpp"
-#include "quadrille/discrete/instance_yaml.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -23,40 +17,6 @@ void add_letters(CLI::App& app, const std::string& name, std::string& letters,
     letters = text;
   };
   app.add_option_function<std::string>(name, read, help)->type_name("LETTERS");
-}
-
-Result<Input> load_map(const InputOptions& options) {
-  auto map = discrete::read_map(std::filesystem::path(options.map), options.letters);
-  if (!map) return map.error();
-  auto graph = std::make_shared<const discrete::Graph>(map->graph());
-  if (options.scen.empty()) {
-    auto instance = discrete::Instance::make(std::move(graph), {});
-    if (!instance) return instance.error();
-    return Input{std::move(instance.value()), options.map, "", 0, map->other_letters};
-  }
-  const auto scenario = discrete::read_scenario(std::filesystem::path(options.scen));
-  if (!scenario) return scenario.error();
-  const auto agents =
-      options.agents ? static_cast<std::size_t>(*options.agents) : scenario->rows.size();
-  auto instance = discrete::make_instance(std::move(graph), *scenario, agents);
-  if (!instance) return instance.error();
-  return Input{std::move(instance.value()), options.map, options.scen, scenario->rows.size(),
-               map->other_letters};
-}
-
-Result<discrete::Instance> read_instance(const InputOptions& options) {
-  const std::filesystem::path path(options.instance);
-  const std::string extension = path.extension().string();
-  if (!options.instance_text) {
-    // It cannot be read, and the reader of paths words why.
-    if (extension == ".yaml" || extension == ".yml") return discrete::read_instance_yaml(path);
-    return discrete::read_instance_json(path);
-  }
-  std::istringstream in(*options.instance_text);
-  const bool is_yaml = extension == ".yaml" || extension == ".yml" ||
-                       (extension != ".json" && !options.instance_text->starts_with('{'));
-  return is_yaml ? discrete::read_instance_yaml(in, options.instance)
-                 : discrete::read_instance_json(in, options.instance);
 }
 
 }  // namespace
@@ -76,55 +36,6 @@ void add_input_options(CLI::App& app, InputOptions& options) {
   add_letters(app, "--blocked", options.letters.blocked,
               "Map letters that are blocked besides @, O and T");
   for (const char* name : {"--passable", "--blocked"}) app.get_option(name)->group(group);
-}
-
-std::string check_input_options(const InputOptions& options, Need need) {
-  const bool letters = !options.letters.passable.empty() || !options.letters.blocked.empty();
-  if (!options.instance.empty()) {
-    if (!options.map.empty() || !options.scen.empty())
-      return "--instance excludes --map and --scen";
-    if (options.agents) return "--agents belongs to --scen, not to --instance";
-    if (letters) return "--passable and --blocked belong to --map, not to --instance";
-    return "";
-  }
-  if (options.map.empty())
-    return need == Need::tasks ? "an instance is needed: --map, --scen and --agents, or --instance"
-                               : "--map or --instance is needed";
-  if (options.scen.empty() && (need == Need::tasks || options.agents)) return "--scen is missing";
-  if (need == Need::tasks && !options.agents) return "--agents is missing";
-  return "";
-}
-
-Result<Input> load_input(const InputOptions& options) {
-  if (options.instance.empty()) return load_map(options);
-  auto instance = read_instance(options);
-  if (!instance) return instance.error();
-  return Input{std::move(instance.value()), options.instance, options.instance, 0, {}};
-}
-
-std::string describe_graph(const discrete::Graph& graph) {
-  const std::string shape = graph.layout() ? fmt::format("{} x {} grid", graph.layout()->width(),
-                                                         graph.layout()->height())
-                                           : "graph";
-  return fmt::format("{}, {} vertices, {} edges", shape, graph.num_vertices(), graph.num_edges());
-}
-
-std::string describe_letters(const std::vector<discrete::LetterCount>& letters) {
-  std::string text;
-  for (const discrete::LetterCount& letter : letters)
-    text += fmt::format("letters    {} cells '{}' read as {}\n", letter.cells, letter.letter,
-                        letter.passable ? "passable" : "blocked");
-  return text;
-}
-
-std::string describe_input(const Input& input) {
-  std::string text =
-      fmt::format("map        {}: {}\n", input.source, describe_graph(input.instance.graph()));
-  text += describe_letters(input.other_letters);
-  if (input.task_source.empty()) return text;
-  text += fmt::format("agents     {} from {}", input.instance.num_agents(), input.task_source);
-  if (input.rows > 0) text += fmt::format(" (of {} rows)", input.rows);
-  return text + "\n";
 }
 
 std::string PlanFormats::why_not_discrete(const std::string& option) const {

@@ -3,14 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "quadrille/continuous/plan_files.hpp"
-#include "quadrille/core/result.hpp"
-#include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
 
@@ -31,26 +27,6 @@ enum class Need {
 };
 
 void add_input_options(CLI::App& app, InputOptions& options);
-/// What is wrong with the combination of options; empty if nothing is.
-[[nodiscard]] std::string check_input_options(const InputOptions& options, Need need);
-
-/// An instance and what is worth saying about its files.
-struct Input {
-  discrete::Instance instance;
-  std::string source;       ///< The file that holds the graph.
-  std::string task_source;  ///< The file that holds the agents; empty if there are none.
-  std::size_t rows = 0;     ///< Of the scenario; 0 without one.
-  std::vector<discrete::LetterCount> other_letters;
-};
-/// Requires options that pass check_input_options. Reads each file once, front to back.
-[[nodiscard]] Result<Input> load_input(const InputOptions& options);
-
-/// "8 x 8 grid, 64 vertices, 112 edges"
-[[nodiscard]] std::string describe_graph(const discrete::Graph& graph);
-/// One line per unusual letter.
-[[nodiscard]] std::string describe_letters(const std::vector<discrete::LetterCount>& letters);
-/// The lines "map" and "agents" of the human output, and one line per unusual letter.
-[[nodiscard]] std::string describe_input(const Input& input);
 
 /// A plan format in both domains; "json" is one of either.
 struct PlanFormats {

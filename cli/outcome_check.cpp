@@ -4,6 +4,27 @@
 #include <fmt/format.h>
 
 namespace quadrille::cli {
+namespace {
+
+/// A status or a lower bound that cannot be right; empty without one.
+std::string find_contradiction(const StatedOutcome& stated, Cost sum_of_costs, Cost makespan) {
+  if (stated.status == Status::infeasible || stated.status == Status::unknown)
+    return fmt::format("the file states that the instance is {}, but has a plan",
+                       to_string(*stated.status));
+  if (!stated.lower_bound) return "";
+  const Cost bound = *stated.lower_bound;
+  const Cost cost = stated.objective == Objective::makespan ? makespan : sum_of_costs;
+  if (bound > cost)
+    return fmt::format("the file states a lower bound of {}, but the plan costs {}", bound, cost);
+  if ((stated.status == Status::optimal && bound < cost) ||
+      (stated.status == Status::feasible && bound == cost))
+    return fmt::format(
+        "the file states that the plan is {}, but the lower bound is {} and the cost {}",
+        stated.status == Status::optimal ? "optimal" : "no more than feasible", bound, cost);
+  return "";
+}
+
+}  // namespace
 
 std::string find_false_claim(const Claim& claim, const Replay& replay) {
   const bool claims_plan = claim.status == Status::optimal || claim.status == Status::feasible;
@@ -24,21 +45,16 @@ std::string find_false_claim(const Claim& claim, const Replay& replay) {
   return "";
 }
 
-std::string find_contradiction(const StatedOutcome& stated, Cost sum_of_costs, Cost makespan) {
-  if (stated.status == Status::infeasible || stated.status == Status::unknown)
-    return fmt::format("the file states that the instance is {}, but has a plan",
-                       to_string(*stated.status));
-  if (!stated.lower_bound) return "";
-  const Cost bound = *stated.lower_bound;
-  const Cost cost = stated.objective == Objective::makespan ? makespan : sum_of_costs;
-  if (bound > cost)
-    return fmt::format("the file states a lower bound of {}, but the plan costs {}", bound, cost);
-  if ((stated.status == Status::optimal && bound < cost) ||
-      (stated.status == Status::feasible && bound == cost))
-    return fmt::format(
-        "the file states that the plan is {}, but the lower bound is {} and the cost {}",
-        stated.status == Status::optimal ? "optimal" : "no more than feasible", bound, cost);
-  return "";
+std::string find_false_statements(const StatedOutcome& stated, Cost sum_of_costs, Cost makespan) {
+  std::string text;
+  const auto compare = [&text](const char* name, std::optional<Cost> cost, Cost actual) {
+    if (cost && *cost != actual)
+      text += fmt::format("the file states a {} of {}, but it is {}\n", name, *cost, actual);
+  };
+  compare("sum of costs", stated.sum_of_costs, sum_of_costs);
+  compare("makespan", stated.makespan, makespan);
+  const std::string wrong = find_contradiction(stated, sum_of_costs, makespan);
+  return wrong.empty() ? text : text + wrong + "\n";
 }
 
 }  // namespace quadrille::cli

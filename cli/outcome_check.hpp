@@ -28,10 +28,10 @@ struct Replay {
 /// What is wrong with the claim; empty if nothing is.
 [[nodiscard]] std::string find_false_claim(const Claim& claim, const Replay& replay);
 
-/// What a file says about its plan, beside costs, and the replay of a plan without violations does
-/// not confirm: a status, a lower bound. Empty if all is well.
-[[nodiscard]] std::string find_contradiction(const StatedOutcome& stated, Cost sum_of_costs,
-                                             Cost makespan);
+/// What a file says about its plan and the replay of a plan without violations does not confirm:
+/// costs, a status, a lower bound. One line for each; empty if all is well.
+[[nodiscard]] std::string find_false_statements(const StatedOutcome& stated, Cost sum_of_costs,
+                                                Cost makespan);
 
 /// Replays the plan of an outcome with the `verify` of its domain and holds its claims against the
 /// replay, which is returned. A claim that fails turns the outcome into `unknown` with an internal

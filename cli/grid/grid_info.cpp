@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "graph_shape.hpp"
+#include "grid/grid_input.hpp"
 #include "output.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 
@@ -145,7 +146,7 @@ ExitCode print_map_info(const InputOptions& options) {
 
 ExitCode print_grid_info(const InputOptions& options) {
   if (options.instance.empty() && options.scen.empty()) return print_map_info(options);
-  const auto input = load_input(options);
+  const auto input = load_grid_input(options);
   if (!input) {
     report_error(input.error());
     return ExitCode::bad_input;

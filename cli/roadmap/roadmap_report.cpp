@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
-#include "grid/report.hpp"
+#include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "report.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -19,7 +19,6 @@ using continuous::in_input_units;
 using continuous::Instance;
 using continuous::SolveOutcome;
 using continuous::VerifyReport;
-using Json = nlohmann::ordered_json;
 
 /// In two lines.
 constexpr std::string_view kClaim[] = {
@@ -38,77 +37,57 @@ double rounded(double units, double resolution) {
   return in_input_units(std::llround(units * 1e3), resolution / 1e3);
 }
 
-Json options_json(const RoadmapSolveRequest& request) {
-  const continuous::SolveOptions& options = request.options;
+Json options_json(const SolveArguments& arguments, const continuous::SolveOptions& options) {
   Json json;
-  json["roadmap"] = text_or_null(request.roadmap.roadmap);
-  json["task"] = text_or_null(request.roadmap.task);
-  json["agents"] = or_null(request.input.agents);
-  json["instance"] = text_or_null(request.input.instance);
-  json["passable"] = request.input.letters.passable;
-  json["blocked"] = request.input.letters.blocked;
-  json["radius"] = or_null(request.roadmap.radius);
-  json["speed"] = or_null(request.roadmap.speed);
-  json["neighbourhood"] = or_null(request.roadmap.neighbourhood);
-  json["resolution"] = or_null(request.roadmap.resolution);
+  json["roadmap"] = text_or_null(arguments.roadmap.roadmap);
+  json["task"] = text_or_null(arguments.roadmap.task);
+  json["agents"] = or_null(arguments.input.agents);
+  json["instance"] = text_or_null(arguments.input.instance);
+  json["passable"] = arguments.input.letters.passable;
+  json["blocked"] = arguments.input.letters.blocked;
+  json["radius"] = or_null(arguments.roadmap.radius);
+  json["speed"] = or_null(arguments.roadmap.speed);
+  json["neighbourhood"] = or_null(arguments.roadmap.neighbourhood);
+  json["resolution"] = or_null(arguments.roadmap.resolution);
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
   json["gap"] = or_null(options.gap_percent);
   json["seed"] = options.seed;
-  json["time_limit"] = or_null(options.limits.wall_s);
-  json["cpu_limit"] = or_null(options.limits.cpu_s);
-  json["memory_limit"] = or_null(options.limits.memory_mib);
-  json["conflict_limit"] = or_null(options.limits.conflicts);
+  add_limits(json, options.limits);
   json["audit"] = options.debug.audit;
-  json["known_plan"] = text_or_null(request.known_plan);
+  json["known_plan"] = text_or_null(arguments.known_plan);
   return json;
 }
 
 }  // namespace
 
-ExitCode exit_code(const SolveOutcome& outcome) {
-  return outcome.internal_error ? ExitCode::internal : exit_code(outcome.status);
-}
-
-std::string result_json(const Instance* instance, const RoadmapSolveRequest& request,
-                        const SolveOutcome& outcome, const VerifyReport& check) {
+std::string result_json(const Instance* instance, const SolveArguments& arguments,
+                        const continuous::SolveOptions& options, const SolveOutcome& outcome,
+                        const VerifyReport& check) {
   const double resolution = instance != nullptr ? instance->resolution() : 1;
-  const bool infeasible = outcome.status == Status::infeasible;
+  const bool has_bound = outcome.status != Status::infeasible;
   const auto time = [&](Cost ticks) { return Json(in_input_units(ticks, resolution)); };
-  std::string text = "{";
-  const auto add = [&text](std::string_view key, const std::string& value) {
-    text += fmt::format("{}\n  \"{}\": {}", text == "{" ? "" : ",", key, value);
-  };
-  add("quadrille", dump("result"));
-  add("status", dump(to_string(outcome.status)));
-  add("objective", dump(to_string(request.options.objective)));
-  add("cost", outcome.cost ? dump(time(*outcome.cost)) : "null");
-  add("cost_ticks", dump(or_null(outcome.cost)));
-  add("lower_bound", infeasible ? "null" : dump(time(outcome.lower_bound)));
-  add("lower_bound_ticks", infeasible ? "null" : dump(outcome.lower_bound));
-  add("resolution", instance != nullptr ? dump(resolution) : "null");
-  add("claim", dump(fmt::format("{} {}", kClaim[0], kClaim[1])));
-  add("stop_reason", dump(to_string(outcome.stop)));
-  add("explanation", dump(outcome.explanation));
-  add("internal_error",
-      outcome.internal_error ? dump(outcome.internal_error->to_string()) : "null");
+  ResultJson json(outcome.status, options.objective);
+  json.add("cost", outcome.cost ? time(*outcome.cost) : Json(nullptr));
+  json.add("cost_ticks", or_null(outcome.cost));
+  json.add("lower_bound", has_bound ? time(outcome.lower_bound) : Json(nullptr));
+  json.add("lower_bound_ticks", has_bound ? Json(outcome.lower_bound) : Json(nullptr));
+  json.add("resolution", instance != nullptr ? Json(resolution) : Json(nullptr));
+  json.add("claim", fmt::format("{} {}", kClaim[0], kClaim[1]));
+  json.add_end_of_search(outcome);
+  json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
   Json radii;  // null
   if (instance != nullptr) {
     radii = Json::array();
     for (const continuous::Agent& agent : instance->agents())
       radii.push_back(in_input_units(agent.radius, resolution));
   }
-  add("agents", instance != nullptr ? dump(instance->num_agents()) : "null");
-  add("radii", dump(radii));
+  json.add("radii", radii);
   const auto clearance = least_clearance(check);
-  add("least_clearance",
-      outcome.plan && clearance ? dump(rounded(clearance->gap, resolution)) : "null");
-  add("statistics", dump(statistics_json(outcome.statistics)));
-  add("version", dump(QUADRILLE_VERSION));
-  add("seed", dump(request.options.seed));
-  add("options", dump(options_json(request)));
-  add("plan", outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");
-  return text + "\n}\n";
+  json.add("least_clearance",
+           outcome.plan && clearance ? Json(rounded(clearance->gap, resolution)) : Json(nullptr));
+  return json.finish(outcome.statistics, options.seed, options_json(arguments, options),
+                     outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");
 }
 
 std::string describe_clearance(const Instance& instance, const VerifyReport& check) {
@@ -129,24 +108,11 @@ std::string describe_check(const Instance& instance, const VerifyReport& check) 
   return text + "no violations\n" + (clearance.empty() ? "" : "           " + clearance + "\n");
 }
 
-std::string describe_outcome(const Instance& instance, const RoadmapSolveRequest& request,
+std::string describe_outcome(const Instance& instance, Objective objective,
                              const SolveOutcome& outcome, const VerifyReport& check) {
-  const Objective objective = request.options.objective;
-  const auto time = [&](Cost ticks) { return in_input_units(ticks, instance.resolution()); };
-  std::string text = fmt::format("result     {}", to_string(outcome.status));
-  if (outcome.stop != StopReason::none)
-    text += fmt::format(" (stopped: {})", to_string(outcome.stop));
-  text += "\n";
-  if (!outcome.explanation.empty()) text += fmt::format("why        {}\n", outcome.explanation);
-  if (outcome.cost)
-    text += fmt::format("cost       {} ({}), lower bound {}\n", time(*outcome.cost),
-                        to_string(objective), time(outcome.lower_bound));
-  else if (outcome.status == Status::unknown)
-    text += fmt::format("cost       unknown ({}), lower bound {}\n", to_string(objective),
-                        time(outcome.lower_bound));
-  const Statistics& s = outcome.statistics;
-  text += fmt::format("search     {:.2f} s, {} SAT calls, {} conflicts, {} collision clauses\n",
-                      s.wall_s, s.sat_calls, s.conflicts, s.collision_clauses);
+  std::string text = describe_result(outcome, objective, [&](Cost ticks) {
+    return fmt::format("{}", in_input_units(ticks, instance.resolution()));
+  });
   if (outcome.plan) text += describe_check(instance, check);
   if (outcome.plan || outcome.status == Status::infeasible)
     text += fmt::format("claim      {}\n           {}\n", kClaim[0], kClaim[1]);

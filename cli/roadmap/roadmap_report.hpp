@@ -3,37 +3,23 @@
 
 #include <string>
 
-#include "exit_codes.hpp"
-#include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
-#include "roadmap/roadmap_input.hpp"
+#include "solve_arguments.hpp"
 
 namespace quadrille::cli {
-
-/// `solve` for a roadmap: what was asked.
-struct RoadmapSolveRequest {
-  RoadmapOptions roadmap;
-  InputOptions input;
-  continuous::SolveOptions options;
-  std::string known_plan;  ///< File name; empty without one.
-  std::string plan, json;  ///< Output files; empty without, "-" for standard output.
-  continuous::PlanFormat plan_format = continuous::PlanFormat::json;
-  bool quiet = false;
-};
-
-[[nodiscard]] ExitCode exit_code(const continuous::SolveOutcome& outcome);
 
 /// The result as JSON, documented in docs/cli.md. `instance`: null if it was refused, which takes
 /// an outcome without a plan. `check`: the replay of the plan, if there is one.
 [[nodiscard]] std::string result_json(const continuous::Instance* instance,
-                                      const RoadmapSolveRequest& request,
+                                      const SolveArguments& arguments,
+                                      const continuous::SolveOptions& options,
                                       const continuous::SolveOutcome& outcome,
                                       const continuous::VerifyReport& check);
 
 /// The lines "result", "cost", "search", "verified" and "claim" of the human output.
 [[nodiscard]] std::string describe_outcome(const continuous::Instance& instance,
-                                           const RoadmapSolveRequest& request,
+                                           Objective objective,
                                            const continuous::SolveOutcome& outcome,
                                            const continuous::VerifyReport& check);
 

@@ -7,106 +7,135 @@
 #include <sstream>
 #include <utility>
 
-#include "delivery.hpp"
-#include "grid/report.hpp"
-#include "outcome_check.hpp"
-#include "progress.hpp"
+#include "arguments.hpp"
+#include "quadrille/continuous/plan_files.hpp"
+#include "quadrille/continuous/solver.hpp"
+#include "roadmap/roadmap_report.hpp"
+#include "solving.hpp"
 
 namespace quadrille::cli {
 namespace {
 
-using continuous::Instance;
+using continuous::PlanFormat;
+using continuous::SolveOptions;
 using continuous::SolveOutcome;
 
-std::optional<Error> read_known_plan(const RoadmapInput& input, RoadmapSolveRequest& request) {
-  if (request.known_plan.empty()) return std::nullopt;
-  const std::filesystem::path path(request.known_plan);
-  auto file = continuous::read_plan(path, input.instance, input.grid_or_null());
-  if (!file) return file.error();
-  const auto replay = verify(input.instance, file->plan);
-  if (!replay.valid())
-    return Error{ErrorCode::invalid_plan,
-                 "not a valid plan: " + replay.violations.front().message,
-                 {request.known_plan, 0}};
-  request.options.debug.known_plan = std::move(file.value().plan);
-  // Neither of these searches makes clauses that could be checked.
-  request.options.route_work = request.options.joint_work = 0;
-  return std::nullopt;
+/// What is wrong with the combination of options; empty if nothing is.
+std::string check(const CLI::App& app, const SolveArguments& arguments) {
+  for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
+                             "--backtracking", "--no-first-plan", "--threads", "--race"})
+    if (app.count(option) > 0) return std::string(option) + " does not apply to roadmaps";
+  std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
+  if (wrong.empty()) wrong = arguments.plan_format.why_not_continuous("--plan-format");
+  if (wrong.empty()) wrong = check_solve_outputs(arguments);
+  return wrong;
 }
 
-Result<SolveOutcome> search(const Instance& instance, const RoadmapSolveRequest& request) {
-  ProgressLine line(!request.quiet);
-  continuous::SolveOptions options = request.options;
-  if (line.active())
-    options.on_progress = [&](const continuous::Progress& progress) {
-      line.show(progress_text(progress, instance.resolution()));
-    };
-  return solve(instance, options);
+/// nullopt: there is no such system for roadmaps.
+std::optional<SolveOptions> options_of(const SolveArguments& arguments) {
+  const auto system =
+      continuous::parse_system(to_string(arguments.system.value_or(discrete::System::dpll)));
+  if (!system) return std::nullopt;
+  SolveOptions options;
+  options.objective = arguments.options.objective;
+  options.system = *system;
+  options.limits = arguments.options.limits;
+  options.gap_percent = arguments.options.gap_percent;
+  if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
+  if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
+  options.debug.audit = arguments.options.debug.audit;
+  return options;
 }
 
-Result<std::string> plan_text(const RoadmapInput& input, const continuous::Plan& plan,
-                              continuous::PlanFormat format) {
-  std::ostringstream text;
-  if (auto error = write_plan(text, "", input.instance, plan, format, input.grid_or_null()))
-    return *error;
-  return text.str();
-}
+/// The parts of solve_and_deliver.
+class RoadmapSolve {
+ public:
+  RoadmapSolve(const SolveArguments& arguments, const SolveOptions& options,
+               const RoadmapInput& input)
+      : arguments_(arguments), options_(options), input_(input) {}
+
+  [[nodiscard]] const continuous::Instance& instance() const { return input_.instance; }
+  [[nodiscard]] Objective objective() const { return options_.objective; }
+
+  [[nodiscard]] std::string describe_request() const {
+    return describe_input(input_) + fmt::format("system     {}, objective {}, seed {}\n",
+                                                to_string(options_.system),
+                                                to_string(options_.objective), options_.seed);
+  }
+  [[nodiscard]] Result<SolveOutcome> solve(ProgressLine& line) const {
+    SolveOptions options = options_;
+    if (line.active())
+      options.on_progress = [&](const continuous::Progress& progress) {
+        line.show(progress_text(progress, instance().resolution()));
+      };
+    return continuous::solve(instance(), options);
+  }
+  [[nodiscard]] Result<std::string> plan_text(const continuous::Plan& plan) const {
+    std::ostringstream text;
+    const PlanFormat format = arguments_.plan_format.continuous.value_or(
+        continuous::plan_format_of(arguments_.plan).value_or(PlanFormat::json));
+    if (auto error = write_plan(text, "", instance(), plan, format, input_.grid_or_null()))
+      return *error;
+    return text.str();
+  }
+  [[nodiscard]] std::string json(const SolveOutcome& outcome,
+                                 const continuous::VerifyReport& replay) const {
+    return result_json(&instance(), arguments_, options_, outcome, replay);
+  }
+  [[nodiscard]] std::string describe(const SolveOutcome& outcome,
+                                     const continuous::VerifyReport& replay) const {
+    return describe_outcome(instance(), objective(), outcome, replay);
+  }
+  [[nodiscard]] std::string picture(const continuous::Plan& plan) const {
+    return list_paths(instance(), plan);
+  }
+
+ private:
+  const SolveArguments& arguments_;
+  const SolveOptions& options_;
+  const RoadmapInput& input_;
+};
 
 /// What cannot have a plan, as can be seen without a search.
-ExitCode report_refused(const Error& error, const RoadmapSolveRequest& request) {
+ExitCode report_refused(const Error& error, const SolveArguments& arguments,
+                        const SolveOptions& options) {
   SolveOutcome outcome;
   outcome.status = Status::infeasible;
   outcome.explanation = error.to_string();
-  Delivery delivery(request.quiet, request.plan, request.json);
+  Delivery delivery(arguments.quiet, arguments.plan, arguments.json);
   if (!delivery.probe()) return ExitCode::output;
   delivery.write_plan(std::nullopt);
-  if (delivery.has_json_file()) delivery.write_json(result_json(nullptr, request, outcome, {}));
+  if (delivery.has_json_file())
+    delivery.write_json(result_json(nullptr, arguments, options, outcome, {}));
   delivery.print_summary(describe_refused(outcome), "");
-  return delivery.finish(exit_code(outcome));
+  return delivery.finish(exit_code_of(outcome));
 }
 
 }  // namespace
 
-ExitCode solve_roadmap(RoadmapSolveRequest request) {
-  const auto input = load_roadmap_input(request.roadmap, request.input);
+ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments) {
+  const std::string wrong = check(app, arguments);
+  if (!wrong.empty()) return usage_error(app, wrong);
+  auto options = options_of(arguments);
+  if (!options) return usage_error(app, "a roadmap needs --system dpll or smt-cbs");
+  const auto input = load_roadmap_input(arguments.roadmap, arguments.input);
   if (!input) {
-    if (input.error().code == ErrorCode::no_plan) return report_refused(input.error(), request);
+    if (input.error().code == ErrorCode::no_plan)
+      return report_refused(input.error(), arguments, *options);
     report_error(input.error());
     return ExitCode::bad_input;
   }
-  if (auto error = read_known_plan(*input, request)) {
+  const auto read = [&](const std::filesystem::path& path) {
+    return continuous::read_plan(path, input->instance, input->grid_or_null());
+  };
+  if (auto error =
+          read_known_plan(arguments.known_plan, input->instance, options->debug.known_plan, read)) {
     report_error(*error);
     return ExitCode::bad_input;
   }
-  Delivery delivery(request.quiet, request.plan, request.json);
-  if (!delivery.probe()) return ExitCode::output;
-  delivery.console().print(describe_input(*input));
-  delivery.console().print(fmt::format("system     {}, objective {}, seed {}\n",
-                                       to_string(request.options.system),
-                                       to_string(request.options.objective), request.options.seed));
-  const Instance& instance = input->instance;
-  auto answer = search(instance, request);
-  if (!answer) {
-    report_error(answer.error());
-    return ExitCode::bad_input;
-  }
-  SolveOutcome outcome = *std::move(answer);
-  const auto replay = check_outcome(instance, request.options.objective, outcome);
-  if (outcome.internal_error) {
-    report_error({ErrorCode::internal, "internal check failed: " + outcome.internal_error->message,
-                  outcome.internal_error->where});
-    print_stderr(describe_violations(replay));
-  }
-  std::optional<Result<std::string>> plan;
-  if (outcome.plan && delivery.has_plan_file())
-    plan = plan_text(*input, *outcome.plan, request.plan_format);
-  delivery.write_plan(plan);
-  if (delivery.has_json_file())
-    delivery.write_json(result_json(&instance, request, outcome, replay));
-  const bool list = outcome.plan && request.plan.empty();
-  delivery.print_summary(describe_outcome(instance, request, outcome, replay),
-                         list ? list_paths(instance, *outcome.plan) : "");
-  return delivery.finish(exit_code(outcome));
+  // Neither of these searches makes clauses that could be checked against the plan.
+  if (options->debug.known_plan) options->route_work = options->joint_work = 0;
+  return solve_and_deliver(RoadmapSolve(arguments, *options, *input), arguments);
 }
 
 }  // namespace quadrille::cli

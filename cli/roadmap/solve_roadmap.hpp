@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "roadmap/roadmap_report.hpp"
+#include "exit_codes.hpp"
+#include "solve_arguments.hpp"
 
 namespace quadrille::cli {
 
-/// Reads, solves, checks and writes.
-[[nodiscard]] ExitCode solve_roadmap(RoadmapSolveRequest request);
+/// `solve` for roadmaps: checks the arguments, reads, solves and writes.
+[[nodiscard]] ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments);
 
 }  // namespace quadrille::cli

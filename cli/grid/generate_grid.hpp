@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "exit_codes.hpp"
+#include "generate_arguments.hpp"
+
+namespace quadrille::cli {
+
+/// Writes the map and the scenario. Impossible sizes are errors of usage.
+[[nodiscard]] ExitCode generate_grid(const CLI::App& app, const GenerateArguments& arguments);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "input.hpp"
+#include "quadrille/core/result.hpp"
+#include "quadrille/discrete/instance.hpp"
+#include "quadrille/discrete/movingai.hpp"
+
+namespace quadrille::cli {
+
+/// What is wrong with the combination of options where they name no roadmap; empty if nothing is.
+[[nodiscard]] std::string check_grid_options(const InputOptions& options, Need need);
+
+/// An instance and what is worth saying about its files.
+struct GridInput {
+  discrete::Instance instance;
+  std::string source;       ///< The file that holds the graph.
+  std::string task_source;  ///< The file that holds the agents; empty if there are none.
+  std::size_t rows = 0;     ///< Of the scenario; 0 without one.
+  std::vector<discrete::LetterCount> other_letters;
+};
+/// Requires options that pass check_grid_options. Reads each file once, front to back.
+[[nodiscard]] Result<GridInput> load_grid_input(const InputOptions& options);
+
+/// "8 x 8 grid, 64 vertices, 112 edges"
+[[nodiscard]] std::string describe_graph(const discrete::Graph& graph);
+/// One line per unusual letter.
+[[nodiscard]] std::string describe_letters(const std::vector<discrete::LetterCount>& letters);
+/// The lines "map" and "agents" of the human output, and one line per unusual letter.
+[[nodiscard]] std::string describe_input(const GridInput& input);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "grid/grid_report.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "quadrille/discrete/plan_formats.hpp"
+#include "report.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+using discrete::SolveOutcome;
+
+Json options_json(const SolveArguments& arguments) {
+  const discrete::SolveOptions& options = arguments.options;
+  Json json;
+  json["map"] = text_or_null(arguments.input.map);
+  json["scen"] = text_or_null(arguments.input.scen);
+  json["agents"] = or_null(arguments.input.agents);
+  json["instance"] = text_or_null(arguments.input.instance);
+  json["passable"] = arguments.input.letters.passable;
+  json["blocked"] = arguments.input.letters.blocked;
+  json["objective"] = to_string(options.objective);
+  json["system"] = to_string(options.system);
+  json["check"] = has_schedule(options.system) ? Json(to_string(options.mdd.check)) : Json(nullptr);
+  json["cost_search"] = options.cost_search ? Json(to_string(*options.cost_search)) : Json(nullptr);
+  json["mdd_growth"] = to_string(options.mdd.growth);
+  json["forbid_first"] = options.lazy.forbid_first;
+  json["backtracking"] = Json(nullptr);
+  if (options.lazy.chronological)
+    json["backtracking"] = *options.lazy.chronological ? "chronological" : "jump";
+  json["first_plan"] = options.first_plan;
+  json["gap"] = or_null(options.gap_percent);
+  json["threads"] = options.threads;
+  json["race"] = options.race;
+  json["seed"] = options.seed;
+  add_limits(json, options.limits);
+  json["audit"] = options.debug.audit;
+  json["known_plan"] = text_or_null(arguments.known_plan);
+  return json;
+}
+
+/// One agent per line: `text` is the plan on one line, a list of lists.
+std::string break_lines(std::string_view text) {
+  std::string broken;
+  int depth = 0;
+  bool agent_ended = false;
+  for (const char c : text) {
+    if (c == '[' && ++depth == 2) {
+      // Whatever separates two agents on one line is replaced.
+      if (agent_ended) broken.erase(broken.find_last_not_of(", ") + 1);
+      broken += agent_ended ? ",\n    " : "\n    ";
+    }
+    if (c == ']' && depth-- == 2) agent_ended = true;
+    if (c == ']' && depth == 0 && agent_ended) broken += "\n  ";
+    broken += c;
+  }
+  return broken;
+}
+
+}  // namespace
+
+bool has_schedule(discrete::System system) noexcept { return system == discrete::System::dpll_mdd; }
+
+std::string result_json(const discrete::Instance& instance, const SolveArguments& arguments,
+                        const SolveOutcome& outcome) {
+  const discrete::SolveOptions& options = arguments.options;
+  const bool infeasible = outcome.status == Status::infeasible;
+  ResultJson json(outcome.status, options.objective);
+  json.add("cost", or_null(outcome.cost));
+  json.add("lower_bound", infeasible ? Json(nullptr) : Json(outcome.lower_bound));
+  json.add_end_of_search(outcome);
+  json.add("agents", instance.num_agents());
+  return json.finish(
+      outcome.statistics, options.seed, options_json(arguments),
+      outcome.plan ? break_lines(plan_to_json(instance.graph(), *outcome.plan)) : "null");
+}
+
+std::string describe_check(const discrete::Plan& plan, const discrete::VerifyReport& check) {
+  return fmt::format("verified   {} agents, makespan {}, sum of costs {}, no violations\n",
+                     plan.paths.size(), check.makespan, check.sum_of_costs);
+}
+
+std::string describe_outcome(Objective objective, const SolveOutcome& outcome,
+                             const discrete::VerifyReport& check) {
+  const std::string text =
+      describe_result(outcome, objective, [](Cost cost) { return fmt::format("{}", cost); });
+  return outcome.plan ? text + describe_check(*outcome.plan, check) : text;
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "quadrille/discrete/solver.hpp"
+#include "quadrille/discrete/verify.hpp"
+#include "solve_arguments.hpp"
+
+namespace quadrille::cli {
+
+/// Whether `--check` means something to a system; the others check when they have to.
+[[nodiscard]] bool has_schedule(discrete::System system) noexcept;
+
+/// The result as JSON, documented in docs/cli.md: one key per line, the plan one agent per line.
+[[nodiscard]] std::string result_json(const discrete::Instance& instance,
+                                      const SolveArguments& arguments,
+                                      const discrete::SolveOutcome& outcome);
+
+/// The lines "result", "cost", "search" and "verified" of the human output. `check`: the replay of
+/// the outcome's plan, if it has one.
+[[nodiscard]] std::string describe_outcome(Objective objective,
+                                           const discrete::SolveOutcome& outcome,
+                                           const discrete::VerifyReport& check);
+/// The line "verified" of a valid plan.
+[[nodiscard]] std::string describe_check(const discrete::Plan& plan,
+                                         const discrete::VerifyReport& check);
+
+}  // namespace quadrille::cli

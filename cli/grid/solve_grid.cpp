@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "grid/solve_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include "arguments.hpp"
+#include "grid/grid_input.hpp"
+#include "grid/grid_report.hpp"
+#include "grid/picture.hpp"
+#include "quadrille/discrete/verify.hpp"
+#include "solving.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+using discrete::PlanFormat;
+using discrete::SolveOutcome;
+using discrete::System;
+
+/// What is wrong with the combination of options; empty if nothing is. Settles the options.
+std::string settle(SolveArguments& arguments) {
+  std::string wrong = why_no_roadmap(arguments.roadmap);
+  if (wrong.empty()) wrong = check_grid_options(arguments.input, Need::tasks);
+  if (wrong.empty()) wrong = check_solve_outputs(arguments);
+  if (wrong.empty()) wrong = arguments.plan_format.why_not_discrete("--plan-format");
+  if (!wrong.empty()) return wrong;
+
+  discrete::SolveOptions& options = arguments.options;
+  options.system = arguments.system.value_or(System::dpll);
+  if (arguments.check) {
+    // Schedules are a matter of the MDD path model: DPLL(MAPF) as published.
+    if (options.system == System::dpll) options.system = System::dpll_mdd;
+    if (!has_schedule(options.system)) return "--check belongs to --system dpll-mdd";
+    options.mdd.check = *arguments.check;
+  }
+  if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
+  if (options.race && options.threads == 1) return "--race needs --threads";
+  if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
+  if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
+  if (!arguments.plan_format.discrete)
+    arguments.plan_format.discrete =
+        discrete::plan_format_of(arguments.plan).value_or(PlanFormat::json);
+  return "";
+}
+
+/// The parts of solve_and_deliver.
+class GridSolve {
+ public:
+  GridSolve(const SolveArguments& arguments, const GridInput& input)
+      : arguments_(arguments), input_(input) {}
+
+  [[nodiscard]] const discrete::Instance& instance() const { return input_.instance; }
+  [[nodiscard]] Objective objective() const { return arguments_.options.objective; }
+
+  [[nodiscard]] std::string describe_request() const {
+    const discrete::SolveOptions& options = arguments_.options;
+    const std::string check =
+        has_schedule(options.system) ? " with check " + to_string(options.mdd.check) : "";
+    return describe_input(input_) + fmt::format("system     {}{}, objective {}, seed {}\n",
+                                                to_string(options.system), check,
+                                                to_string(options.objective), options.seed);
+  }
+  [[nodiscard]] Result<SolveOutcome> solve(ProgressLine& line) const {
+    discrete::SolveOptions options = arguments_.options;
+    if (line.active())
+      options.on_progress = [&line](const auto& progress) { line.show(progress_text(progress)); };
+    return discrete::solve(instance(), options);
+  }
+  [[nodiscard]] Result<std::string> plan_text(const discrete::Plan& plan) const {
+    std::ostringstream text;
+    const PlanFormat format = *arguments_.plan_format.discrete;
+    if (auto error = write_plan(text, "", instance().graph(), plan, format)) return *error;
+    return text.str();
+  }
+  [[nodiscard]] std::string json(const SolveOutcome& outcome, const discrete::VerifyReport&) const {
+    return result_json(instance(), arguments_, outcome);
+  }
+  [[nodiscard]] std::string describe(const SolveOutcome& outcome,
+                                     const discrete::VerifyReport& replay) const {
+    return describe_outcome(objective(), outcome, replay);
+  }
+  [[nodiscard]] std::string picture(const discrete::Plan& plan) const {
+    return draw_plan(instance(), plan);
+  }
+
+ private:
+  const SolveArguments& arguments_;
+  const GridInput& input_;
+};
+
+}  // namespace
+
+ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments) {
+  const std::string wrong = settle(arguments);
+  if (!wrong.empty()) return usage_error(app, wrong);
+  const auto input = load_grid_input(arguments.input);
+  if (!input) {
+    report_error(input.error());
+    return ExitCode::bad_input;
+  }
+  const auto read = [&](const std::filesystem::path& path) {
+    return discrete::read_plan(path, input->instance.graph());
+  };
+  auto error = read_known_plan(arguments.known_plan, input->instance,
+                               arguments.options.debug.known_plan, read);
+  const GridSolve solve(arguments, *input);
+  if (!error && !arguments.plan.empty()) {
+    // Some formats need a grid; that must not come out after the search.
+    const auto text = solve.plan_text({});
+    if (!text) error = text.error();
+  }
+  if (error) {
+    report_error(*error);
+    return ExitCode::bad_input;
+  }
+  return solve_and_deliver(solve, arguments);
+}
+
+}  // namespace quadrille::cli

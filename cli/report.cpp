@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace quadrille::cli {
+namespace {
+
+/// On one line. Bytes that are not UTF-8, as file names may have, are replaced.
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json statistics_json(const Statistics& statistics) {
+  Json json;
+  // Digits beyond a microsecond are noise.
+  const auto round = [](double value) { return std::round(value * 1e6) / 1e6; };
+  json["cpu_s"] = round(statistics.cpu_s);
+  json["wall_s"] = round(statistics.wall_s);
+  json["peak_rss_mib"] = round(statistics.peak_rss_mib);
+  json["sat_calls"] = statistics.sat_calls;
+  json["conflicts"] = statistics.conflicts;
+  json["decisions"] = statistics.decisions;
+  json["variables"] = statistics.variables;
+  json["clauses"] = statistics.clauses;
+  json["collision_clauses"] = statistics.collision_clauses;
+  json["checks"] = statistics.checks;
+  json["models_checked"] = statistics.models_checked;
+  json["cores"] = statistics.cores;
+  return json;
+}
+
+}  // namespace
+
+ExitCode exit_code(Status status) {
+  switch (status) {
+    case Status::optimal:
+      return ExitCode::success;
+    case Status::feasible:
+      return ExitCode::feasible;
+    case Status::infeasible:
+      return ExitCode::infeasible;
+    case Status::unknown:
+      return ExitCode::unknown;
+  }
+  return ExitCode::internal;
+}
+
+std::string describe(const OutcomeText& outcome) {
+  std::string text = fmt::format("result     {}", to_string(outcome.status));
+  if (outcome.stop != StopReason::none)
+    text += fmt::format(" (stopped: {})", to_string(outcome.stop));
+  text += "\n";
+  if (!outcome.explanation.empty()) text += fmt::format("why        {}\n", outcome.explanation);
+  if (outcome.cost || outcome.status == Status::unknown)
+    text += fmt::format("cost       {} ({}), lower bound {}\n", outcome.cost.value_or("unknown"),
+                        to_string(outcome.objective), outcome.lower_bound);
+  const Statistics& s = outcome.statistics;
+  return text +
+         fmt::format("search     {:.2f} s, {} SAT calls, {} conflicts, {} collision clauses\n",
+                     s.wall_s, s.sat_calls, s.conflicts, s.collision_clauses);
+}
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+void add_limits(Json& options, const Limits& limits) {
+  options["time_limit"] = or_null(limits.wall_s);
+  options["cpu_limit"] = or_null(limits.cpu_s);
+  options["memory_limit"] = or_null(limits.memory_mib);
+  options["conflict_limit"] = or_null(limits.conflicts);
+}
+
+ResultJson::ResultJson(Status status, Objective objective) {
+  add("quadrille", "result");
+  add("status", to_string(status));
+  add("objective", to_string(objective));
+}
+
+void ResultJson::add(std::string_view key, const Json& value) { add_text(key, dump(value)); }
+
+void ResultJson::add_text(std::string_view key, std::string_view json) {
+  text_ += fmt::format("{}\n  \"{}\": {}", text_ == "{" ? "" : ",", key, json);
+}
+
+std::string ResultJson::finish(const Statistics& statistics, std::uint32_t seed,
+                               const Json& options, const std::string& plan) {
+  add("statistics", statistics_json(statistics));
+  add("version", QUADRILLE_VERSION);
+  add("seed", seed);
+  add("options", options);
+  add_text("plan", plan);
+  return text_ + "\n}\n";
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "exit_codes.hpp"
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/core/result.hpp"
+#include "quadrille/core/statistics.hpp"
+
+namespace quadrille::cli {
+
+/// The exit code that says what the outcome says.
+[[nodiscard]] ExitCode exit_code(Status status);
+template <class Outcome>
+[[nodiscard]] ExitCode exit_code_of(const Outcome& outcome) {
+  return outcome.internal_error ? ExitCode::internal : exit_code(outcome.status);
+}
+
+/// The first violations, one per line, and how many more there are.
+template <class VerifyReport>
+[[nodiscard]] std::string describe_violations(const VerifyReport& check) {
+  constexpr std::size_t kShown = 100;
+  std::string text;
+  const std::size_t shown = std::min(kShown, check.violations.size());
+  for (std::size_t i = 0; i < shown; ++i) text += check.violations[i].message + "\n";
+  if (shown < check.violations.size())
+    text += "... and " + std::to_string(check.violations.size() - shown) + " more\n";
+  return text;
+}
+
+/// What the human output says of an outcome, its costs as they are to be printed.
+struct OutcomeText {
+  Status status = Status::unknown;
+  StopReason stop = StopReason::none;
+  std::string explanation;
+  Objective objective = Objective::sum_of_costs;
+  std::optional<std::string> cost;
+  std::string lower_bound;
+  Statistics statistics;
+};
+/// The lines "result", "why", "cost" and "search" of the human output.
+[[nodiscard]] std::string describe(const OutcomeText& outcome);
+/// `print`: how a cost is written.
+template <class Outcome, class Print>
+[[nodiscard]] std::string describe_result(const Outcome& outcome, Objective objective,
+                                          const Print& print) {
+  OutcomeText text{outcome.status,    outcome.stop, outcome.explanation,
+                   objective,         {},           print(outcome.lower_bound),
+                   outcome.statistics};
+  if (outcome.cost) text.cost = print(*outcome.cost);
+  return describe(text);
+}
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+[[nodiscard]] Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+/// null for an empty text.
+[[nodiscard]] Json text_or_null(const std::string& text);
+/// "time_limit" and so on.
+void add_limits(Json& options, const Limits& limits);
+
+/// The result of a solve as JSON, documented in docs/cli.md: one key per line.
+class ResultJson {
+ public:
+  ResultJson(Status status, Objective objective);
+
+  void add(std::string_view key, const Json& value);
+  /// "stop_reason", "explanation" and "internal_error".
+  template <class Outcome>
+  void add_end_of_search(const Outcome& outcome) {
+    add("stop_reason", to_string(outcome.stop));
+    add("explanation", outcome.explanation);
+    add("internal_error",
+        outcome.internal_error ? Json(outcome.internal_error->to_string()) : Json(nullptr));
+  }
+  /// The last keys, from "statistics" to "plan". `plan`: JSON, or "null".
+  [[nodiscard]] std::string finish(const Statistics& statistics, std::uint32_t seed,
+                                   const Json& options, const std::string& plan);
+
+ private:
+  void add_text(std::string_view key, std::string_view json);
+
+  std::string text_ = "{";
+};
+
+}  // namespace quadrille::cli

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "input.hpp"
+#include "quadrille/discrete/solver.hpp"
+#include "roadmap/roadmap_input.hpp"
+
+namespace quadrille::cli {
+
+/// What `solve` was asked on the command line, for either domain.
+struct SolveArguments {
+  InputOptions input;
+  RoadmapOptions roadmap;
+  /// Roadmaps take the objective, the limits, the gap and `debug.audit` of these.
+  discrete::SolveOptions options;
+  std::optional<discrete::System> system;
+  std::optional<discrete::CheckSchedule> check;
+  std::optional<std::int64_t> seed, threads, memory_mib;
+  std::string known_plan;  ///< File name; empty without one.
+  std::string plan, json;  ///< Output files; empty without, "-" for standard output.
+  PlanFormats plan_format;
+  bool quiet = false;
+};
+
+/// What is wrong with the options about outputs, in either domain; empty if nothing is.
+[[nodiscard]] std::string check_solve_outputs(const SolveArguments& arguments);
+
+}  // namespace quadrille::cli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "delivery.hpp"
+#include "outcome_check.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "solve_arguments.hpp"
+
+namespace quadrille::cli {
+
+/// The plan of `--known-plan`, if there is one: `read` reads plan files for this instance. Errors:
+/// those of the file, and that the plan is not a valid one.
+template <class Plan, class Instance, class Read>
+std::optional<Error> read_known_plan(const std::string& name, const Instance& instance,
+                                     std::optional<Plan>& plan, const Read& read) {
+  if (name.empty()) return std::nullopt;
+  auto file = read(std::filesystem::path(name));
+  if (!file) return file.error();
+  const auto replay = verify(instance, file->plan);
+  if (!replay.valid())
+    return Error{ErrorCode::invalid_plan,
+                 "not a valid plan: " + replay.violations.front().message,
+                 {name, 0}};
+  plan = std::move(file.value().plan);
+  return std::nullopt;
+}
+
+/// From an instance to the exit code: solves, holds the outcome against a replay of its plan,
+/// writes and prints. `Domain` supplies what differs:
+///
+///     instance(), objective()
+///     describe_request()                 the first lines of the human output
+///     solve(ProgressLine&)               Result<Outcome>
+///     plan_text(plan)                    Result<std::string>, the file of --plan
+///     json(outcome, replay)              the file of --json
+///     describe(outcome, replay)          the last lines of the human output
+///     picture(plan)                      the plan for the eye
+template <class Domain>
+ExitCode solve_and_deliver(const Domain& domain, const SolveArguments& arguments) {
+  Delivery delivery(arguments.quiet, arguments.plan, arguments.json);
+  if (!delivery.probe()) return ExitCode::output;
+  delivery.console().print(domain.describe_request());
+  auto answer = [&] {
+    ProgressLine line(!arguments.quiet);
+    return domain.solve(line);
+  }();
+  if (!answer) {
+    report_error(answer.error());
+    return ExitCode::bad_input;
+  }
+  auto outcome = *std::move(answer);
+  const auto replay = check_outcome(domain.instance(), domain.objective(), outcome);
+  if (outcome.internal_error) {
+    report_error({ErrorCode::internal, "internal check failed: " + outcome.internal_error->message,
+                  outcome.internal_error->where});
+    print_stderr(describe_violations(replay));
+  }
+  std::optional<Result<std::string>> plan;
+  if (outcome.plan && delivery.has_plan_file()) plan = domain.plan_text(*outcome.plan);
+  delivery.write_plan(plan);
+  if (delivery.has_json_file()) delivery.write_json(domain.json(outcome, replay));
+  const bool draw = outcome.plan && !delivery.has_plan_file();
+  delivery.print_summary(domain.describe(outcome, replay),
+                         draw ? domain.picture(*outcome.plan) : "");
+  return delivery.finish(exit_code_of(outcome));
+}
+
+}  // namespace quadrille::cli
