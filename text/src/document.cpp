@@ -100,7 +100,7 @@ bool Checker::fail(Document::Node node, ErrorCode code, const std::string& messa
   return false;
 }
 
-bool Checker::members(Document::Node object, std::initializer_list<Member> wanted) {
+bool Checker::members(Document::Node object, std::span<const Member> wanted) {
   if (document_.kind(object) != Document::Kind::object)
     return fail(object, "expected an object, found " + kind_name(document_.kind(object)));
   for (Document::Node key = document_.first(object); key < document_.next(object);) {

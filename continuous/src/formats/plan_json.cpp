@@ -6,73 +6,39 @@
 #include "formats/plan_codecs.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/text/document.hpp"
-#include "quadrille/text/text_input.hpp"
+#include "quadrille/text/plan_header.hpp"
 
 namespace quadrille::continuous {
 namespace {
 
 using text::Document;
 using Node = Document::Node;
-constexpr std::int64_t kPlanJsonVersion = 1;
 /// Later times are none that a plan could have.
 constexpr Ticks kMaxTick = Ticks{1} << 60;
 
 class JsonPlanReader {
  public:
   JsonPlanReader(const Document& document, const Instance& instance)
-      : document_(document), check_(document), instance_(instance) {}
+      : document_(document), check_(document), header_(document, check_), instance_(instance) {}
 
   Result<PlanFile> run() {
-    std::optional<Node> kind, version, resolution, objective, cost, ticks, plan, agents, status;
-    std::optional<Node> bound, bound_ticks;
-    // Of a result; not read.
-    std::optional<Node> unread[9];
-    if (!check_.members(Document::kRoot, {{"quadrille", &kind, false},
-                                          {"version", &version, false},
-                                          {"resolution", &resolution},
-                                          {"objective", &objective, false},
-                                          {"cost", &cost, false},
-                                          {"cost_ticks", &ticks, false},
-                                          {"plan", &plan, false},
-                                          {"agents", &agents, false},
-                                          {"status", &status, false},
-                                          {"lower_bound", &bound, false},
-                                          {"lower_bound_ticks", &bound_ticks, false},
-                                          {"statistics", &unread[0], false},
-                                          {"seed", &unread[1], false},
-                                          {"options", &unread[2], false},
-                                          {"stop_reason", &unread[3], false},
-                                          {"internal_error", &unread[4], false},
-                                          {"explanation", &unread[5], false},
-                                          {"claim", &unread[6], false},
-                                          {"radii", &unread[7], false},
-                                          {"least_clearance", &unread[8], false}}) ||
-        !read_kind(kind, version, status) || !read_resolution(*resolution) ||
-        !read_cost(objective, cost, ticks) || !read_bound(objective, bound, bound_ticks))
+    std::optional<Node> resolution, ticks, bound_ticks;
+    std::optional<Node> unread[3];  // Of a result.
+    Node paths = Document::kRoot;
+    if (!header_.read({{"resolution", &resolution},
+                       {"cost_ticks", &ticks, false},
+                       {"lower_bound_ticks", &bound_ticks, false},
+                       {"claim", &unread[0], false},
+                       {"radii", &unread[1], false},
+                       {"least_clearance", &unread[2], false}},
+                      file_.stated) ||
+        !read_resolution(*resolution) || !read_costs(ticks, bound_ticks) || !header_.plan(paths) ||
+        !read_paths(paths) || !header_.agents(file_.plan.paths.size()))
       return check_.error();
-    if (!plan || document_.kind(*plan) == Document::Kind::null) {
-      check_.fail(plan.value_or(Document::kRoot), ErrorCode::invalid_plan, "there is no plan");
-      return check_.error();
-    }
-    if (!read_paths(*plan) || (agents && !read_agents(*agents))) return check_.error();
     return std::move(file_);
   }
 
  private:
-  /// A plan states its own version; a result has a status, and the version is the program's.
-  bool read_kind(std::optional<Node> kind, std::optional<Node> version,
-                 std::optional<Node> status) {
-    std::string_view name = status ? "result" : "plan";
-    std::int64_t number = 0;
-    if (kind && !check_.text(*kind, name)) return false;
-    if (status && !read_status(*status)) return false;
-    if (name == "result") return true;
-    if (name != "plan")
-      return check_.fail(*kind, "expected 'plan' or 'result', found " + text::in_quotes(name));
-    if (!version) return check_.fail(Document::kRoot, "the key 'version' is missing");
-    return check_.integer(*version, kPlanJsonVersion, kPlanJsonVersion, number);
-  }
-
   bool read_resolution(Node node) {
     double value = 0;
     if (!check_.number(node, value)) return false;
@@ -81,48 +47,24 @@ class JsonPlanReader {
                        "the resolution of the instance is " + json_number(instance_.resolution()));
   }
 
-  [[nodiscard]] bool is_null(const std::optional<Node>& node) const {
-    return !node || document_.kind(*node) == Document::Kind::null;
+  bool read_costs(std::optional<Node> cost_ticks, std::optional<Node> bound_ticks) {
+    StatedOutcome& stated = file_.stated;
+    return read_cost(
+               "cost", header_.cost(), cost_ticks,
+               stated.objective == Objective::makespan ? stated.makespan : stated.sum_of_costs) &&
+           read_cost("lower bound", header_.lower_bound(), bound_ticks, stated.lower_bound);
   }
 
-  bool read_status(Node node) {
-    std::string_view text;
-    if (!check_.text(node, text)) return false;
-    file_.stated.status = parse_status(text);
-    return file_.stated.status ||
-           check_.fail(node, "expected 'optimal', 'feasible', 'infeasible' or 'unknown', found " +
-                                 text::in_quotes(text));
-  }
-
-  bool read_cost(std::optional<Node> objective, std::optional<Node> cost,
-                 std::optional<Node> ticks) {
-    std::string_view name;
-    if (objective && !check_.text(*objective, name)) return false;
-    const auto known = parse_objective(name);
-    if (objective && !known)
-      return check_.fail(*objective,
-                         "expected 'sum-of-costs' or 'makespan', found " + text::in_quotes(name));
-    if (known) file_.stated.objective = *known;
-    if (is_null(ticks) && is_null(cost)) return true;
-    if (is_null(ticks)) return check_.fail(*cost, "a cost needs the key 'cost_ticks'");
-    if (!objective) return check_.fail(*ticks, "a cost needs the key 'objective'");
-    Cost value = 0;
-    if (!check_.integer(*ticks, 0, INT64_MAX, value)) return false;
-    if (!is_null(cost) && !agrees(*cost, value)) return false;
-    (*known == Objective::makespan ? file_.stated.makespan : file_.stated.sum_of_costs) = value;
-    return true;
-  }
-
-  bool read_bound(std::optional<Node> objective, std::optional<Node> bound,
-                  std::optional<Node> ticks) {
-    if (is_null(ticks) && is_null(bound)) return true;
-    if (is_null(ticks))
-      return check_.fail(*bound, "a lower bound needs the key 'lower_bound_ticks'");
-    if (!objective) return check_.fail(*ticks, "a lower bound needs the key 'objective'");
-    Cost value = 0;
-    if (!check_.integer(*ticks, 0, INT64_MAX, value)) return false;
-    file_.stated.lower_bound = value;
-    return is_null(bound) || agrees(*bound, value);
+  /// `time` and `ticks`, the same in two units.
+  bool read_cost(const std::string& name, std::optional<Node> time, std::optional<Node> ticks,
+                 std::optional<Cost>& cost) {
+    if (header_.is_null(ticks) && header_.is_null(time)) return true;
+    if (header_.is_null(ticks))
+      return check_.fail(*time, "a " + name + " needs the key '" +
+                                    (name == "cost" ? "cost_ticks" : "lower_bound_ticks") + "'");
+    return header_.needs_objective(*ticks, "a " + name) &&
+           check_.integer(*ticks, 0, INT64_MAX, cost.emplace()) &&
+           (header_.is_null(time) || agrees(*time, *cost));
   }
 
   /// A time that is stated beside its ticks.
@@ -135,7 +77,6 @@ class JsonPlanReader {
   }
 
   bool read_paths(Node plan) {
-    if (!check_.array(plan, "paths")) return false;
     for (Node p = document_.first(plan); p < document_.next(plan); p = document_.next(p)) {
       if (!check_.array(p, "stops")) return false;
       Path path;
@@ -184,17 +125,9 @@ class JsonPlanReader {
     return agrees(x, point.x) && agrees(document_.next(x), point.y);
   }
 
-  bool read_agents(Node agents) {
-    std::int64_t count = 0;
-    if (!check_.integer(agents, 0, INT64_MAX, count)) return false;
-    if (count == static_cast<std::int64_t>(file_.plan.paths.size())) return true;
-    return check_.fail(agents, ErrorCode::invalid_plan,
-                       std::to_string(count) + " agents, but " +
-                           std::to_string(file_.plan.paths.size()) + " paths");
-  }
-
   const Document& document_;
   text::Checker check_;
+  text::PlanHeader header_;
   const Instance& instance_;
   PlanFile file_;
 };
@@ -233,7 +166,7 @@ std::string plan_to_json(const Instance& instance, const Plan& plan) {
 }
 
 void write_json_plan(std::ostream& out, const Instance& instance, const Plan& plan) {
-  out << "{\n  \"quadrille\": \"plan\",\n  \"version\": " << kPlanJsonVersion
+  out << "{\n  \"quadrille\": \"plan\",\n  \"version\": " << text::kPlanJsonVersion
       << ",\n  \"resolution\": " << json_number(instance.resolution())
       << ",\n  \"plan\": " << plan_to_json(instance, plan) << "\n}\n";
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -110,7 +111,10 @@ class Checker {
     bool required = true;
   };
   /// The object has the required members, perhaps the others, each once, and nothing else.
-  bool members(Document::Node object, std::initializer_list<Member> wanted);
+  bool members(Document::Node object, std::span<const Member> wanted);
+  bool members(Document::Node object, std::initializer_list<Member> wanted) {
+    return members(object, std::span(wanted.begin(), wanted.size()));
+  }
   bool array(Document::Node node, std::string_view of_what);
   /// As array, with exactly `size` children.
   bool array(Document::Node node, std::string_view of_what, std::size_t size);
