@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cover/core_table.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/engine.hpp"
 #include "theory/model.hpp"
@@ -23,55 +24,59 @@ class EngineWriter final : public FormulaWriter {
   sat::Engine& engine_;
 };
 
-/// What the cost searches ask: whether there is a plan in which nobody costs more than its share.
+/// All that a cost search asks at once: is there a plan like this?
+struct Question {
+  /// Each of these agents costs less than its level. Requires levels above the free costs.
+  std::vector<Level> below = {};
+  /// The other agents cost at most so much (kForever: anything). Empty: anything.
+  IdVector<AgentId, Cost> ceilings = {};
+  /// All costs sum up to at most this.
+  std::optional<Cost> total = {};
+  /// When to give up.
+  sat::SolveBudget budget = {};
+
+  /// Which clauses may be used.
+  enum class Search {
+    full,          ///< All that the theory finds.
+    quick,         ///< Those of collisions; no agents are searched together. As `known`, and
+                   ///< without ceilings, where the theory does not take part in the search.
+    known_clauses  ///< Those that are there. On sat, there need not be a plan.
+  };
+  Search search = Search::full;
+};
+
+/// Asks the engine. What it learns stays true for later questions, relative to the incumbent: see
+/// Model.
 class CostProblem {
  public:
   /// `theory_in_search`: the engine consults the theory while it searches; otherwise complete
   /// assignments are checked here, between solves. All arguments outlive the problem.
   CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& theory, bool theory_in_search);
 
-  /// Looks for a plan in which each agent costs at most `caps[agent]`. Requires caps of at least
-  /// the free costs.
-  [[nodiscard]] sat::Verdict solve(const IdVector<AgentId, Cost>& caps, LimitMonitor& limits);
-  /// Looks for any plan, or one whose costs sum up to at most `total`.
-  [[nodiscard]] sat::Verdict solve_within(std::optional<Cost> total, LimitMonitor& limits,
-                                          const sat::SolveBudget& budget);
-  /// The plan that the last solve with verdict sat found.
+  /// Unknown: `limits` or the budget ended the search.
+  [[nodiscard]] sat::Verdict solve(const Question& question, LimitMonitor& limits);
+  /// The plan that the last solve with verdict sat found, unless it was of known clauses only.
   [[nodiscard]] const Plan& plan() const { return *theory_.accepted(); }
-
-  /// A cost that an agent does not stay below.
-  struct Level {
-    AgentId agent;
-    Cost cost = 0;
-    friend auto operator<=>(const Level&, const Level&) = default;
-  };
-  /// After verdict unsat: in every plan one of these levels is reached. Empty: there is no plan.
-  [[nodiscard]] std::vector<Level> core() const { return core_; }
-
-  /// As solve, but looks only at the clauses that are known: is it clear already that one of these
-  /// levels is reached in every plan? On unsat `core` is some of them.
-  [[nodiscard]] sat::Verdict refute(const std::vector<Level>& below, LimitMonitor& limits,
-                                    const sat::SolveBudget& budget = {});
-
-  /// As refute, but the theory may look for new clauses during the search, and only plans count in
-  /// which agents that are not in `below` cost at most their ceilings (kForever: anything).
-  [[nodiscard]] sat::Verdict try_refute(const std::vector<Level>& below,
-                                        const IdVector<AgentId, Cost>& ceilings,
-                                        LimitMonitor& limits, const sat::SolveBudget& budget);
+  /// After verdict unsat, some of the levels in `below`: one of them is reached in every plan that
+  /// is cheaper than the incumbent, keeps to the ceilings, and costs no more than the total. Empty:
+  /// there is no such plan.
+  [[nodiscard]] const std::vector<Level>& core() const noexcept { return core_; }
 
   /// The smallest natural threshold (see Model) above `cost`.
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;
-  /// Tells the engine that one of the levels is reached in every plan.
+  /// Tells the engine that one of the levels is reached in every plan that is cheaper than the
+  /// incumbent.
   void add_core(const std::vector<Level>& core);
 
   [[nodiscard]] Model& model() noexcept { return model_; }
 
  private:
-  [[nodiscard]] sat::Verdict solve_assuming(const std::vector<Level>& below, sat::Lit also,
-                                            LimitMonitor& limits, const sat::SolveBudget& budget);
-  [[nodiscard]] sat::Verdict solve_with_theory(const std::vector<Level>& below, sat::Lit also,
-                                               LimitMonitor& limits,
-                                               const sat::SolveBudget& budget);
+  struct Assumptions {
+    std::vector<Level> levels;  ///< First those of the question's `below`.
+    sat::Lit also;
+  };
+  [[nodiscard]] sat::Verdict solve_assuming(const Question& question,
+                                            const Assumptions& assumptions, LimitMonitor& limits);
   [[nodiscard]] bool accept_model();
 
   Model& model_;

@@ -13,7 +13,7 @@ namespace {
 
 using End = sat::SearchEnd;
 using sat::Verdict;
-using Core = std::vector<CostProblem::Level>;
+using Core = LevelCore;
 
 /// Conflicts and decisions of a test whether a part of a core is one. Measured: 200 decisions leave
 /// `dense` (28 agents) open, 1500 leave `empty16` open and take twice the time on `sparse` and
@@ -25,8 +25,8 @@ constexpr int kMaxQuickRounds = 50;
 /// Visits of the path search for a better plan, at the first turn and at each later one.
 constexpr std::int64_t kFirstEffort = 200'000, kEffort = 30'000;
 
-std::vector<CostProblem::Level> above(const IdVector<AgentId, Cost>& caps) {
-  std::vector<CostProblem::Level> levels;
+std::vector<Level> above(const IdVector<AgentId, Cost>& caps) {
+  std::vector<Level> levels;
   for (const AgentId i : IdRange<AgentId>(caps.size())) levels.push_back({i, caps[i] + 1});
   return levels;
 }
@@ -47,7 +47,8 @@ class CoreShrinker {
  private:
   [[nodiscard]] bool is_core(const Core& core) {
     return !limits_.exhausted() &&
-           problem_.try_refute(core, *ceilings_, limits_, kTryBudget) == Verdict::unsat;
+           problem_.solve({core, *ceilings_, {}, kTryBudget, Question::Search::quick}, limits_) ==
+               Verdict::unsat;
   }
 
   void drop(Core& core) {
@@ -114,7 +115,7 @@ class CoverSearch {
     while (true) {
       raise_bound(cover_.total());
       if (is_closed() || limits_.exhausted_now()) return report_;
-      const Verdict verdict = problem_.solve(cover_.costs(), limits_);
+      const Verdict verdict = problem_.solve({.below = above(cover_.costs())}, limits_);
       if (verdict == Verdict::unknown) return report_;
       if (verdict == Verdict::sat) {
         report_.plan = problem_.plan();
@@ -162,8 +163,8 @@ class CoverSearch {
       if (left <= 0) return false;
       Cost total = report_.lower_bound + step_;
       if (report_.plan) total = std::min(total, cost(*report_.plan, Objective::sum_of_costs) - 1);
-      const Verdict verdict =
-          problem_.solve_within(total, limits_, {static_cast<int>(left), std::nullopt});
+      const Verdict verdict = problem_.solve(
+          {.total = total, .budget = {.conflicts = static_cast<int>(left)}}, limits_);
       if (verdict == Verdict::unknown) {
         step_ = std::max<Cost>(step_ / 4, 1);
         return false;
@@ -211,7 +212,7 @@ class CoverSearch {
       if (!learn_disjoint_cores(std::move(below))) return false;
       if (round == kMaxQuickRounds || limits_.exhausted()) return true;
       below = above(cover_.quick_costs());
-      if (problem_.refute(below, limits_, kNextBudget) != Verdict::unsat) return true;
+      if (!is_refuted(below)) return true;
     }
   }
 
@@ -221,18 +222,21 @@ class CoverSearch {
       const Core core = shrinker_.shrink(problem_.core(), ceilings());
       if (core.empty()) return false;
       ++statistics_.cores;
-      LevelCore levels;
-      for (const auto& level : core) levels.push_back({level.agent, level.cost});
-      cover_.add(std::move(levels));
+      cover_.add(core);
       problem_.add_core(core);
-      std::erase_if(below, [&](const CostProblem::Level& level) {
+      std::erase_if(below, [&](const Level& level) {
         return std::any_of(core.begin(), core.end(),
                            [&](const auto& used) { return used.agent == level.agent; });
       });
-      if (below.empty() || limits_.exhausted() ||
-          problem_.refute(below, limits_, kNextBudget) != Verdict::unsat)
-        return true;
+      if (below.empty() || limits_.exhausted() || !is_refuted(below)) return true;
     }
+  }
+
+  /// Whether known clauses say that one of these levels is reached.
+  bool is_refuted(const Core& below) {
+    return problem_.solve(
+               {.below = below, .budget = kNextBudget, .search = Question::Search::known_clauses},
+               limits_) == Verdict::unsat;
   }
 
   CostProblem& problem_;
@@ -272,7 +276,7 @@ CostReport search_makespan(CostProblem& problem, std::optional<Plan> some_plan,
     }
     if (limits.exhausted_now()) return report;
     const IdVector<AgentId, Cost> caps(model.instance().num_agents(), report.lower_bound);
-    Verdict verdict = problem.solve(caps, limits);
+    Verdict verdict = problem.solve({.below = above(caps)}, limits);
     if (verdict == Verdict::unknown) return report;
     if (verdict == Verdict::sat) {
       report.plan = problem.plan();
@@ -295,7 +299,8 @@ CostReport search_makespan(CostProblem& problem, std::optional<Plan> some_plan,
       for (const auto& level : core)
         if (const auto threshold = problem.next_threshold(level.agent, report.lower_bound))
           next.push_back({level.agent, *threshold});
-      verdict = problem.refute(next, limits);
+      verdict = problem.solve({.below = std::move(next), .search = Question::Search::known_clauses},
+                              limits);
       core = problem.core();
     }
     if (verdict == Verdict::unknown) return report;

@@ -139,7 +139,7 @@ void ContinuousTheory::explain_bound(AgentId i, const PathSearch::Cheapest& sear
 
 void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const ObstacleIds& blamed,
                                    FormulaWriter& writer) {
-  if (bound >= kForever || !uses_pair_lemmas_) return;
+  if (bound >= kForever || !question_.uses_pair_lemmas) return;
   std::map<AgentId, int> due_to;
   for (const ObstacleId id : blamed)
     for (const AgentId j : model_.obstacles()[id].partners) ++due_to[j];
@@ -153,9 +153,9 @@ void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const ObstacleIds& bla
 
 // The costs of some agents alone are too much: so they are in every plan that costs them as much.
 bool ContinuousTheory::check_budget(FormulaWriter& writer) {
-  if (budget_ >= kForever) return true;
+  if (question_.total >= kForever) return true;
   const auto delay = [&](AgentId i) { return current_cost(i) - model_.free_cost(i); };
-  Cost slack = -budget_ - 1;
+  Cost slack = -question_.total - 1;
   std::vector<AgentId> delayed;
   for (const AgentId i : model_.instance().agent_ids()) {
     slack += model_.free_cost(i) + delay(i);
@@ -165,7 +165,7 @@ bool ContinuousTheory::check_budget(FormulaWriter& writer) {
   // Small delays need no mention where the others' are enough.
   std::stable_sort(delayed.begin(), delayed.end(),
                    [&](AgentId a, AgentId b) { return delay(a) < delay(b); });
-  std::vector<Lit> clause{above_budget_};
+  std::vector<Lit> clause{question_.above_total};
   for (const AgentId i : delayed) {
     if (delay(i) <= slack) {
       slack -= delay(i);
@@ -197,7 +197,10 @@ Lit ContinuousTheory::claim_cost(AgentId i, FormulaWriter& writer) {
 // ---- checks -------------------------------------------------------------------------------------
 
 void ContinuousTheory::check(sat::Effort effort, sat::TheoryContext& context) {
-  if (mode_ == Mode::never || (mode_ == Mode::complete && effort == sat::Effort::partial)) return;
+  using Mode = Question::Mode;
+  if (question_.mode == Mode::never ||
+      (question_.mode == Mode::complete && effort == sat::Effort::partial))
+    return;
   ContextWriter target(context);
   CountingWriter writer(target);
   trail_.notice(model_.obstacles());
@@ -255,7 +258,7 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
 }
 
 bool ContinuousTheory::note_collision(const Encounter& e, FormulaWriter& writer) {
-  if (!uses_pair_lemmas_) return false;
+  if (!question_.uses_pair_lemmas) return false;
   const auto party = [&](AgentId i) {
     return PairLemmas::Party{i, trail_.cap(i), trail_.active(i)};
   };

@@ -34,22 +34,26 @@ class ContinuousTheory final : public sat::Theory {
   [[nodiscard]] const TimedPath& path(AgentId agent) const { return paths_.path(agent)->path; }
   /// The paths of the last complete assignment that was accepted.
   [[nodiscard]] const std::optional<Plan>& accepted() const noexcept { return accepted_; }
-  void forget_accepted() { accepted_.reset(); }
   /// Times that the paths of a complete assignment were checked for collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
-  /// Looks at complete assignments only, or not even at those, which leaves plain SAT solving.
-  enum class Mode { always, complete, never };
-  void set_mode(Mode mode) { mode_ = mode; }
-
-  /// Whether agents that collide again and again are searched together.
-  void set_pair_lemmas(bool on) { uses_pair_lemmas_ = on; }
-
-  /// From now on, assignments in which the costs of all paths sum up to more than `total` are
-  /// refuted by lemmas that contain `above`, the literal that allows it. kForever: none are.
-  void set_budget(Cost total, sat::Lit above) {
-    budget_ = total;
-    above_budget_ = above;
+  /// What a solve asks of the theory, all of it.
+  struct Question {
+    /// Looks at all assignments, at complete ones only, or not even at those, which leaves plain
+    /// SAT solving.
+    enum class Mode { always, complete, never };
+    Mode mode = Mode::always;
+    /// Whether agents that collide again and again are searched together.
+    bool uses_pair_lemmas = true;
+    /// Assignments in which the costs of all paths sum up to more than `total` are refuted by
+    /// lemmas that contain `above_total`, the literal that allows it. kForever: none are.
+    Cost total = kForever;
+    sat::Lit above_total;
+  };
+  /// Between solves: the question of the next one. Forgets the accepted paths.
+  void ask(const Question& question) {
+    question_ = question;
+    accepted_.reset();
   }
 
   /// Looks at an assignment that was found without this theory. True: it is accepted. False:
@@ -83,7 +87,7 @@ class ContinuousTheory final : public sat::Theory {
   [[nodiscard]] KnownPathRef remember(AgentId i, const TimedPath& path);
   /// What i costs at least: its path does, or literals say so.
   [[nodiscard]] Cost current_cost(AgentId i) const;
-  /// False if the paths cost more than the budget; lemmas say so then.
+  /// False if the paths cost more than the total in question; lemmas say so then.
   bool check_budget(FormulaWriter& writer);
   /// The literal that i costs as much as its path, after explaining why. No literal if the path was
   /// not a cheapest one; then it is now.
@@ -101,10 +105,7 @@ class ContinuousTheory final : public sat::Theory {
   BanTable bans_;
   EncounterClauses clauses_;
   PairLemmas pair_lemmas_;
-  Mode mode_ = Mode::always;
-  bool uses_pair_lemmas_ = true;
-  Cost budget_ = kForever;
-  sat::Lit above_budget_;
+  Question question_;
 
   IdVector<AgentId, PathCache> caches_;
   std::uint64_t last_version_ = 0;

@@ -116,13 +116,9 @@ class JudgedTheory final : public sat::Theory {
  public:
   JudgedTheory(Model& model, Count& count) : model_(model), theory_(model), count_(count) {}
 
-  /// Assignments that cost more than `total` are refuted unless `above` is allowed.
-  void set_question(ContinuousTheory::Mode mode, Cost total, sat::Lit above) {
-    mode_ = mode;
-    total_ = total;
-    above_ = above;
-    theory_.set_mode(mode);
-    theory_.set_budget(total, above);
+  void ask(const ContinuousTheory::Question& question) {
+    question_ = question;
+    theory_.ask(question);
   }
   void on_assign(std::span<const sat::Lit> newly_true) override {
     ASSERT_FALSE(newly_true.empty());
@@ -145,12 +141,12 @@ class JudgedTheory final : public sat::Theory {
     support::RecordingContext said(context);
     const std::vector<TimedPath> before = paths();
     const std::vector<sat::Lit> open = open_bounds();
-    theory_.forget_accepted();
+    theory_.ask(question_);  // forgets what was accepted
     theory_.check(effort, said);
     const Situation now(model_, stack_);
     if (effort == sat::Effort::full) {
       judge_full(said, now);
-    } else if (mode_ == ContinuousTheory::Mode::complete) {
+    } else if (question_.mode == ContinuousTheory::Question::Mode::complete) {
       EXPECT_TRUE(said.lemmas.empty() && !said.made_literal);
     } else {
       judge_partial(said, now);
@@ -195,7 +191,7 @@ class JudgedTheory final : public sat::Theory {
       EXPECT_TRUE(is_conflict) << "an agent without a path went unnoticed";
     } else if (!is_conflict) {
       expect_good_paths(now);
-      if (total_cost(now) <= total_) return;
+      if (total_cost(now) <= question_.total) return;
       ++count_.over_budget;
       EXPECT_TRUE(std::count(said.kinds.begin(), said.kinds.end(), sat::LemmaKind::counting) > 0);
     }
@@ -230,7 +226,7 @@ class JudgedTheory final : public sat::Theory {
     ++count_.accepted;
     EXPECT_TRUE(now.all_have_paths());
     expect_good_paths(now);
-    EXPECT_LE(total_cost(now), total_);
+    EXPECT_LE(total_cost(now), question_.total);
     ASSERT_TRUE(theory_.accepted());
     EXPECT_TRUE(verify(model_.instance(), *theory_.accepted()).valid());
     for (const AgentId i : model_.instance().agent_ids())
@@ -244,9 +240,7 @@ class JudgedTheory final : public sat::Theory {
   Model& model_;
   ContinuousTheory theory_;
   Count& count_;
-  ContinuousTheory::Mode mode_ = ContinuousTheory::Mode::always;
-  Cost total_ = kForever;
-  sat::Lit above_;
+  ContinuousTheory::Question question_;
   std::vector<sat::Lit> stack_;
 };
 

@@ -137,17 +137,16 @@ class Session final : private FormulaWriter {
 
   /// Between solves: a bound on the sum, and bounds on some agents, which are assumed.
   void begin_solve() {
-    const auto mode =
-        random_.percent(20) ? ContinuousTheory::Mode::complete : ContinuousTheory::Mode::always;
-    Cost total = kForever;
-    Lit above;
+    ContinuousTheory::Question question;
+    if (random_.percent(20)) question.mode = ContinuousTheory::Question::Mode::complete;
     if (random_.percent(50)) {
-      total = static_cast<Cost>(random_.below(40));
-      for (const AgentId i : model_.instance().agent_ids()) total += model_.free_cost(i);
-      above = model_.total_above(total, *this);
+      question.total = static_cast<Cost>(random_.below(40));
+      for (const AgentId i : model_.instance().agent_ids()) question.total += model_.free_cost(i);
+      question.above_total = model_.total_above(question.total, *this);
     }
-    auditor_.set_budget(total, above);
-    theory_.set_question(mode, total, above);
+    const Lit above = question.above_total;
+    auditor_.set_budget(question.total, above);
+    theory_.ask(question);
     if (above.valid()) driver_.assume(~above);
     for (const AgentId i : model_.instance().agent_ids())
       if (random_.percent(50)) {
