@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lazy/rectangle.hpp"
+#include "paths/rectangle.hpp"
 
 namespace quadrille::discrete {
 

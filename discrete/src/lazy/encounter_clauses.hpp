@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "lazy/corridors.hpp"
 #include "lazy/lazy_model.hpp"
-#include "lazy/path_index.hpp"
+#include "paths/corridors.hpp"
+#include "paths/path_index.hpp"
 
 namespace quadrille::discrete {
 

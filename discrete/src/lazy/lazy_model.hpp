@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lazy/agent_distances.hpp"
-#include "lazy/obstacles.hpp"
+#include "paths/agent_distances.hpp"
+#include "paths/obstacles.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/sat/lemma.hpp"
 

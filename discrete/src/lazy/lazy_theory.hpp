@@ -11,9 +11,9 @@
 #include "lazy/lazy_trail.hpp"
 #include "lazy/part_decisions.hpp"
 #include "lazy/path_cache.hpp"
-#include "lazy/path_index.hpp"
 #include "lazy/path_search.hpp"
 #include "lazy/separation.hpp"
+#include "paths/path_index.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/sat/theory.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lazy/path_index.hpp"
+#include "paths/path_index.hpp"
 #include "quadrille/sat/obstacle_trail.hpp"
 
 namespace quadrille::discrete {

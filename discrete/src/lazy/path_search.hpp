@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "lazy/explanation.hpp"
 #include "lazy/lazy_model.hpp"
-#include "lazy/path_finder.hpp"
-#include "lazy/path_index.hpp"
+#include "paths/explanation.hpp"
+#include "paths/path_finder.hpp"
+#include "paths/path_index.hpp"
 
 namespace quadrille::discrete {
 

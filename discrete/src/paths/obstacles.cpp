@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/obstacles.hpp"
+#include "paths/obstacles.hpp"
 
 #include <algorithm>
 

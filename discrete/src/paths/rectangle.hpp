@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "lazy/agent_distances.hpp"
-#include "lazy/obstacles.hpp"
-#include "lazy/path_index.hpp"
+#include "paths/agent_distances.hpp"
+#include "paths/obstacles.hpp"
+#include "paths/path_index.hpp"
 
 namespace quadrille::discrete {
 

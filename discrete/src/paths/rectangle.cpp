@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/rectangle.hpp"
+#include "paths/rectangle.hpp"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/path_index.hpp"
+#include "paths/path_index.hpp"
 
 #include <algorithm>
 

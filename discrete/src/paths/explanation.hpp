@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "lazy/agent_distances.hpp"
-#include "lazy/obstacle_map.hpp"
+#include "paths/agent_distances.hpp"
+#include "paths/obstacle_map.hpp"
 
 namespace quadrille::discrete {
 

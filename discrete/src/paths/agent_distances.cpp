@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/agent_distances.hpp"
+#include "paths/agent_distances.hpp"
 
 namespace quadrille::discrete {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "lazy/obstacles.hpp"
+#include "paths/obstacles.hpp"
 
 namespace quadrille::discrete {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Path search and explanations against a breadth-first search over the time-expanded graph.
-#include "lazy/explanation.hpp"
+#include "paths/explanation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "lazy/path_finder.hpp"
+#include "paths/path_finder.hpp"
 #include "support/distances.hpp"
 
 namespace quadrille::discrete {

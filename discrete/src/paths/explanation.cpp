@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/explanation.hpp"
+#include "paths/explanation.hpp"
 
 #include "quadrille/core/contract.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/path_index.hpp"
+#include "paths/path_index.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "lazy/path_finder.hpp"
+#include "paths/path_finder.hpp"
 #include "support/distances.hpp"
 
 namespace quadrille::discrete {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "lazy/agent_distances.hpp"
-#include "lazy/path_index.hpp"
+#include "paths/agent_distances.hpp"
+#include "paths/path_index.hpp"
 
 namespace quadrille::discrete {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/obstacle_map.hpp"
+#include "paths/obstacle_map.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/corridors.hpp"
+#include "paths/corridors.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "lazy/obstacles.hpp"
+#include "paths/obstacles.hpp"
 #include "quadrille/discrete/instance.hpp"
 
 namespace quadrille::discrete {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "lazy/agent_distances.hpp"
-#include "lazy/obstacle_map.hpp"
-#include "lazy/path_index.hpp"
+#include "paths/agent_distances.hpp"
+#include "paths/obstacle_map.hpp"
+#include "paths/path_index.hpp"
 
 namespace quadrille::discrete {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/path_finder.hpp"
+#include "paths/path_finder.hpp"
 
 #include <algorithm>
 
