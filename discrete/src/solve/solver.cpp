@@ -8,11 +8,12 @@
 #include <utility>
 
 #include "mdd/usages.hpp"
-#include "primal/upper_bound.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "quadrille/sat/cost_search.hpp"
+#include "solve/incumbent.hpp"
+#include "solve/plan_search.hpp"
 #include "solve/portfolio.hpp"
 #include "solve/run.hpp"
 
@@ -20,7 +21,7 @@ namespace quadrille::discrete {
 namespace {
 
 /// One solve, with what all systems have in common: bounds from both sides.
-class Search final : private sat::Bounds, private sat::YieldPoint {
+class Search final : private sat::YieldPoint {
  public:
   Search(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
          LimitMonitor& limits, SolveOutcome& outcome, Companion* companion)
@@ -29,28 +30,31 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
         tuning_(tuning),
         limits_(limits),
         outcome_(outcome),
-        companion_(companion) {}
+        companion_(companion),
+        incumbent_(options.objective) {}
 
   void run() {
     const auto distances = GoalDistances::make(instance_, limits_);
-    outcome_.lower_bound = free_bound(distances.get());
+    incumbent_.raise(free_bound(distances.get()));
+    outcome_.lower_bound = incumbent_.lower();
     if (!distances) return;
     if (options_.first_plan) {
-      upper_.emplace(instance_, options_.objective, distances, options_.seed);
-      while (upper_->start(limits_)) yield();
-      consider_stop();
+      plans_.emplace(PlanSearchContext{instance_, distances, options_.objective, options_.seed,
+                                       incumbent_, limits_});
+      while (plans_->start()) yield();
+      yield();
     }
     try {
       if (!limits_.exhausted_now()) search(distances);
     } catch (const std::bad_alloc&) {
       // The search's memory is free again: the bound and the best plan are the answer.
-      run_ = nullptr;
       outcome_.stop = StopReason::memory;
     }
-    if (!outcome_.internal_error && !outcome_.plan && upper_ && upper_->cost()) {
-      outcome_.plan = upper_->plan();
-      outcome_.status =
-          *upper_->cost() == outcome_.lower_bound ? Status::optimal : Status::feasible;
+    run_ = nullptr;
+    outcome_.lower_bound = incumbent_.lower();
+    if (!outcome_.internal_error && incumbent_.upper()) {
+      outcome_.plan = incumbent_.plan();
+      outcome_.status = incumbent_.are_closed() ? Status::optimal : Status::feasible;
     }
   }
 
@@ -74,50 +78,31 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
 
   // sat::YieldPoint
   void yield() override {
-    outcome_.lower_bound = std::max(outcome_.lower_bound, lower());
-    improve();
+    if (run_ != nullptr) {
+      const std::int64_t effort = run_->engine().effort();
+      if (companion_ != nullptr) companion_->on_effort(effort);
+      if (plans_) plans_->advance(effort, [this] { return run_->draft(); });
+    }
     consider_stop();
     report_progress();
   }
 
-  void report_progress() {
-    if (!options_.on_progress || limits_.elapsed_wall() < next_report_s_) return;
-    options_.on_progress({outcome_.lower_bound, upper_ ? upper_->cost() : std::nullopt,
-                          limits_.elapsed_wall(), limits_.conflicts()});
-    next_report_s_ = limits_.elapsed_wall() + options_.progress_interval_s;
-  }
-
-  void improve() {
-    if (run_ == nullptr) return;
-    const std::int64_t effort = run_->engine().effort();
-    if (companion_ != nullptr) companion_->on_effort(effort);
-    if (upper_ && upper_->advance(
-                      effort, [this] { return run_->draft(); }, limits_))
-      consider_stop();
-  }
-
   /// Ends the search when the bounds meet, or are as close as was asked for.
   void consider_stop() {
-    if (!upper_ || !upper_->cost()) return;
-    const Cost cost = *upper_->cost();
-    if (cost == outcome_.lower_bound || is_within_gap(options_, cost, outcome_.lower_bound))
+    const std::optional<Cost> cost = incumbent_.upper();
+    if (cost && (incumbent_.are_closed() || is_within_gap(options_, *cost, incumbent_.lower())))
       limits_.stop(StopReason::gap);
   }
 
-  // sat::Bounds
-  [[nodiscard]] std::optional<Cost> upper() const override {
-    return upper_ ? upper_->cost() : std::nullopt;
-  }
-  [[nodiscard]] Cost incumbent_cost_of(AgentId agent) const override {
-    return arrival(upper_->plan().paths[agent]);
-  }
-  void offer_accepted() override {
-    upper_->take(run_->plan());
-    consider_stop();
+  void report_progress() {
+    if (!options_.on_progress || limits_.elapsed_wall() < next_report_s_) return;
+    options_.on_progress(
+        {incumbent_.lower(), incumbent_.upper(), limits_.elapsed_wall(), limits_.conflicts()});
+    next_report_s_ = limits_.elapsed_wall() + options_.progress_interval_s;
   }
 
   [[nodiscard]] sat::SearchEnd search_costs(Run& run) {
-    const sat::CostSearchContext context{run.engine(), run.problem(), *this, limits_, *this};
+    const sat::CostSearchContext context{run.engine(), run.problem(), incumbent_, limits_, *this};
     const CostSearch by_default =
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
     if (options_.objective == Objective::sum_of_costs &&
@@ -130,22 +115,21 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
     const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
     if (!run->prepare(distances, limits_)) return;
     run_ = run.get();
-    raise(run->problem().lower_bound());
+    incumbent_.set_run(run_);
+    incumbent_.raise(run->problem().lower_bound());
     yield();
     const sat::SearchEnd end = search_costs(*run);
-    outcome_.lower_bound = std::max(outcome_.lower_bound, lower());
     run->engine().add_statistics(outcome_.statistics);
     outcome_.statistics.checks = run->num_checks();
     outcome_.statistics.rejected_models = run->num_rejected();
-    if (const auto complaint = run->complaint()) {
+    if (const auto complaint = run->complaint())
       outcome_.internal_error = Error{ErrorCode::internal, *complaint, {}};
-    } else if (end == sat::SearchEnd::exhausted) {
+    else if (end == sat::SearchEnd::exhausted)
       outcome_.internal_error =
           Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
-    } else if (end == sat::SearchEnd::found) {
-      outcome_.plan = run->plan();
-      outcome_.status = Status::optimal;
-    }
+    else if (end == sat::SearchEnd::found && !incumbent_.are_closed())
+      outcome_.internal_error =
+          Error{ErrorCode::internal, "the plan found does not cost the proven bound", {}};
   }
 
   const Instance& instance_;
@@ -154,7 +138,8 @@ class Search final : private sat::Bounds, private sat::YieldPoint {
   LimitMonitor& limits_;
   SolveOutcome& outcome_;
   Companion* const companion_;
-  std::optional<UpperBound> upper_;
+  Incumbent incumbent_;
+  std::optional<PlanSearch> plans_;
   const Run* run_ = nullptr;  // when it is prepared
   double next_report_s_ = 0;
 };

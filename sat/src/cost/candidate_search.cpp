@@ -43,7 +43,6 @@ Outcome CandidateSearch::advance(Slice slice) {
     }
     if (verdict == Verdict::sat) {
       const Verdict answer = find_plan(context_, caps_of_candidate(), kCandidateConflicts);
-      if (answer == Verdict::sat) bounds.offer_accepted();
       if (answer == Verdict::unsat) {
         std::vector<Lit> core = context_.engine.core();
         if (core.empty()) return Outcome::exhausted;

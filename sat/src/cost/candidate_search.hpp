@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "cost/excess_counter.hpp"
-#include "cost/strategy.hpp"
 #include "engine/offline_solver.hpp"
 #include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/strategy.hpp"
 
 namespace quadrille::sat {
 

@@ -6,7 +6,7 @@
 
 #include "cost/core_minimiser.hpp"
 #include "cost/relaxation.hpp"
-#include "cost/strategy.hpp"
+#include "quadrille/sat/strategy.hpp"
 
 namespace quadrille::sat {
 

@@ -47,9 +47,7 @@ Outcome CostNeighbourhoods::advance(Slice slice) {
     const Verdict verdict =
         find_plan(context_, assumptions, std::min(kConflicts, end - limits.conflicts()));
     failures = verdict == Verdict::sat ? 0 : failures + 1;
-    if (verdict == Verdict::sat) {
-      bounds.offer_accepted();
-    } else if (verdict == Verdict::unsat) {
+    if (verdict == Verdict::unsat) {
       const std::vector<Lit> core = context_.engine.core();
       if (core.empty()) return Outcome::exhausted;
       // A core of the sum alone holds for all plans: none is cheaper than the incumbent.
@@ -58,7 +56,7 @@ Outcome CostNeighbourhoods::advance(Slice slice) {
         break;
       }
       num_free_ = std::min(agents.size(), num_free_ + num_free_ / 20 + 1);
-    } else {
+    } else if (verdict == Verdict::unknown) {
       num_free_ = std::max<std::size_t>(1, num_free_ - num_free_ / 14);
     }
   }

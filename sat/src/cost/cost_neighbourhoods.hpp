@@ -4,9 +4,9 @@
 #include <cstddef>
 
 #include "cost/excess_counter.hpp"
-#include "cost/strategy.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/strategy.hpp"
 
 namespace quadrille::sat {
 

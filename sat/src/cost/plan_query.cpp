@@ -28,8 +28,9 @@ Verdict find_plan(const CostSearchContext& context, std::span<const Lit> assumpt
     const Verdict verdict = context.engine.solve(assumptions, limits, budget);
     if (verdict == Verdict::unsat) return verdict;
     if (verdict == Verdict::sat) {
-      if (context.problem.accept_model()) return verdict;
-      continue;
+      if (!context.problem.accept_model()) continue;
+      context.bounds.offer_accepted();
+      return verdict;
     }
     const bool is_slice_over = context.engine.effort() >= slice_end;
     if (!is_slice_over || (conflicts && limits.conflicts() >= end)) return verdict;

@@ -8,9 +8,9 @@
 #include "cost/cost_neighbourhoods.hpp"
 #include "cost/excess_counter.hpp"
 #include "cost/relaxation.hpp"
-#include "cost/strategy.hpp"
 #include "cost/sum_descent.hpp"
 #include "engine/offline_solver.hpp"
+#include "quadrille/sat/strategy.hpp"
 
 namespace quadrille::sat {
 

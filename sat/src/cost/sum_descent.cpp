@@ -20,7 +20,6 @@ Outcome SumDescent::advance(Slice slice) {
     if (target < bounds.lower()) break;
     const std::array assumptions{~counter_.above(target)};
     const Verdict verdict = find_plan(context_, assumptions, end - limits.conflicts());
-    if (verdict == Verdict::sat) bounds.offer_accepted();
     if (verdict == Verdict::unsat) {
       if (context_.engine.core().empty()) return Outcome::exhausted;
       bounds.raise(target + 1);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cost/excess_counter.hpp"
-#include "cost/strategy.hpp"
 #include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/strategy.hpp"
 
 namespace quadrille::sat {
 

@@ -27,8 +27,8 @@ class Bounds {
   [[nodiscard]] virtual std::optional<Cost> upper() const = 0;
   /// What an agent costs in the incumbent. Requires one.
   [[nodiscard]] virtual Cost incumbent_cost_of(AgentId agent) const = 0;
-  /// Offers the plan of the model that the problem has accepted last: it becomes the incumbent if
-  /// it is cheaper.
+  /// Called for each model that the problem has accepted: its plan becomes the incumbent if it is
+  /// cheaper.
   virtual void offer_accepted() = 0;
 
   /// The incumbent is optimal.

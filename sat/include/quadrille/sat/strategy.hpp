@@ -4,11 +4,16 @@
 #include <cstdint>
 #include <optional>
 
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
+
 namespace quadrille::sat {
 
-/// How long a strategy may go on.
+/// How long a strategy may go on: one of both, or, if both are absent, until the limits are met.
 struct Slice {
-  std::optional<std::int64_t> conflicts;  ///< Absent: until the limits are met.
+  std::optional<std::int64_t> conflicts = std::nullopt;  ///< Of those that ask an engine.
+  std::optional<std::int64_t> effort = std::nullopt;     ///< Of those that work on plans: steps.
 };
 
 /// What a strategy came to.
@@ -19,8 +24,8 @@ enum class Outcome {
   exhausted,  ///< As SearchEnd::exhausted.
 };
 
-/// One way to bring the bounds of a CostSearchContext closer together. What it asks the engine for
-/// are bounds of costs, as assumptions: what is learned stays true for all others.
+/// One way to bring the bounds closer together. What it asks an engine for are bounds of costs, as
+/// assumptions: what is learned stays true for all others.
 class Strategy {
  public:
   virtual ~Strategy() = default;
@@ -28,3 +33,5 @@ class Strategy {
 };
 
 }  // namespace quadrille::sat
+
+QUADRILLE_API_END

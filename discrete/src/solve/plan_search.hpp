@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "primal/plan_repair.hpp"
+#include "quadrille/discrete/primal.hpp"
+#include "quadrille/sat/strategy.hpp"
+#include "solve/incumbent.hpp"
+
+namespace quadrille::discrete {
+
+/// What the strategies that look for plans work with. All outlive them.
+struct PlanSearchContext {
+  const Instance& instance;
+  std::shared_ptr<const GoalDistances> distances;
+  Objective objective = Objective::sum_of_costs;
+  std::uint32_t seed = 0;
+  Incumbent& incumbent;
+  LimitMonitor& limits;
+};
+
+/// Looks for a plan of any cost.
+class FirstPlan final : public sat::Strategy {
+ public:
+  explicit FirstPlan(const PlanSearchContext& context)
+      : context_(context), search_(context.instance, context.distances, context.seed) {}
+
+  /// Requires a slice with effort.
+  [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
+
+ private:
+  const PlanSearchContext context_;
+  PrimalSearch search_;
+};
+
+/// Makes the incumbent cheaper by large-neighbourhood search; and a rival of it, which is made of
+/// the paths of the search from below: these cost little and collide in places.
+class PlanImprovement final : public sat::Strategy {
+ public:
+  explicit PlanImprovement(const PlanSearchContext& context)
+      : context_(context), repair_(context.instance, context.distances, context.seed) {}
+
+  /// Paths for the next slice, which may collide; no paths: none.
+  void set_draft(Plan draft) { draft_ = std::move(draft); }
+  /// Requires an incumbent, and a slice with effort: so much for the incumbent, and so much again
+  /// for a rival if there is a draft.
+  [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
+  /// What the last slice did beyond its effort.
+  [[nodiscard]] std::int64_t extra_effort() const noexcept { return extra_effort_; }
+
+ private:
+  void improve_draft(std::int64_t effort);
+
+  const PlanSearchContext context_;
+  PlanRepair repair_;
+  std::optional<PlanImprover> improver_, rival_;
+  Plan draft_;
+  std::int64_t extra_effort_ = 0;
+};
+
+/// The schedule of both beside a search that raises the lower bound. Slices, and what the search
+/// did since the last one, are counted in elementary steps, never by clocks, so that all stays
+/// deterministic. They get a share of the time that becomes smaller while they find nothing.
+class PlanSearch {
+ public:
+  explicit PlanSearch(const PlanSearchContext& context)
+      : context_(context), first_plan_(context), improvement_(context) {}
+
+  /// Looks for a first plan for a while. To be called until it returns false: there is a plan, or
+  /// it is hard to find and others should have their turn.
+  [[nodiscard]] bool start();
+  /// To be called often with the steps of the search so far. `draft` tells the paths that the
+  /// search had at last, see Run::draft.
+  void advance(std::int64_t search_effort, const std::function<Plan()>& draft);
+
+ private:
+  static constexpr std::int64_t kSlice = 20'000;
+  // Steps of the search for each step of these strategies.
+  static constexpr std::int64_t kShortestWait = 8, kLongestWait = 64;
+
+  const PlanSearchContext context_;
+  FirstPlan first_plan_;
+  PlanImprovement improvement_;
+  std::int64_t wait_ = kShortestWait;
+  std::int64_t due_ = kShortestWait * kSlice;  // search effort
+  std::int64_t start_effort_ = 0;
+};
+
+}  // namespace quadrille::discrete
