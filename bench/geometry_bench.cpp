@@ -13,7 +13,7 @@
 namespace quadrille::geometry {
 namespace {
 
-constexpr Length kUnit = 1000000;
+constexpr std::int64_t kUnit = 1000000;
 constexpr Length kRadius = 353553;  // sqrt(2) / 4, rounded down.
 
 // Pairs whose swept volumes are near each other: what the broad phase lets through.
@@ -24,20 +24,21 @@ struct Pair {
 
 std::vector<Motion> roadmap(std::size_t count, bool grid) {
   std::mt19937_64 random(1);
-  const auto draw = [&](Length first, Length last) {
-    return first + static_cast<Length>(random() % static_cast<std::uint64_t>(last - first + 1));
+  const auto draw = [&](std::int64_t first, std::int64_t last) {
+    return Length(
+        first + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(last - first + 1)));
   };
-  const Length side = static_cast<Length>(std::sqrt(static_cast<double>(count)));
-  const Length step = grid ? kUnit : 1;
+  const auto side = static_cast<std::int64_t>(std::sqrt(static_cast<double>(count)));
+  const std::int64_t step = grid ? kUnit : 1;
   std::vector<Motion> motions;
   while (motions.size() < count) {
     const Point from{draw(0, side * kUnit / step) * step, draw(0, side * kUnit / step) * step};
-    const Length reach = (grid ? 1 : 3 * kUnit);
+    const std::int64_t reach = (grid ? 1 : 3 * kUnit);
     const Point to{from.x + draw(-reach, reach) * step, from.y + draw(-reach, reach) * step};
     if (from == to) continue;
-    const double length =
-        std::hypot(static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y));
-    motions.push_back({from, to, std::max(Ticks{1}, static_cast<Ticks>(std::llround(length)))});
+    const double length = std::hypot(static_cast<double>((to.x - from.x).count()),
+                                     static_cast<double>((to.y - from.y).count()));
+    motions.push_back({from, to, std::max(Ticks{1}, Ticks(std::llround(length)))});
   }
   return motions;
 }

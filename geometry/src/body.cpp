@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <string>
 
+#include "planar.hpp"
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::geometry {
 namespace {
 
 // Twice the signed area of the triangle p, q, r. Coordinates up to 2^40 give at most 2^84.
-__extension__ using Wide = __int128;
-
 int turn(const Point& p, const Point& q, const Point& r) {
-  const Wide area =
-      static_cast<Wide>(q.x - p.x) * (r.y - p.y) - static_cast<Wide>(q.y - p.y) * (r.x - p.x);
+  const Wide area = cross(q - p, r - p);
   return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 

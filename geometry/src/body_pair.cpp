@@ -112,7 +112,7 @@ bool BodyPair::collide_unchecked(const Motion& a, const Motion& b, Ticks offset)
     if (const int verdict = shape_->filter(path)) return verdict > 0;
   } else {
     const double apart = distance(Vec{}, path.begin, path.end);
-    const double reach = static_cast<double>(reach_);
+    const double reach = static_cast<double>(reach_.count());
     if (apart < reach - path.error) return true;
     if (apart >= reach + path.error) return false;
   }
@@ -132,7 +132,7 @@ bool BodyPair::can_meet(const Motion& a, const Motion& b) const {
   if (reach_ == 0) return false;
   const double error = error_bound(a, b, size());
   const double apart = sides_distance(places, corners());
-  const double reach = static_cast<double>(reach_);
+  const double reach = static_cast<double>(reach_.count());
   if (apart < reach - error) return true;
   if (apart >= reach + error) return false;
   return exact::sides_within(places, corners(), reach_);
@@ -145,7 +145,7 @@ std::optional<TickInterval> BodyPair::unsafe_offsets(const Motion& a, const Moti
   if (shape_)
     likely = shape_->likely_offsets(a, b);
   else
-    include_disc(a, b, Vec{}, static_cast<double>(reach_), likely);
+    include_disc(a, b, Vec{}, static_cast<double>(reach_.count()), likely);
 
   const Ticks least = -b.duration;
   const Ticks most = a.duration;
@@ -200,7 +200,7 @@ std::optional<Gap> BodyPair::gap(const Motion& a, const Motion& b, Ticks offset)
   if (collide_unchecked(a, b, offset)) return Gap{};
   const RelativePath path = relative_path(a, b, offset, *window, size());
   const double apart = (shape_ ? shape_->distance(path) : distance(Vec{}, path.begin, path.end)) -
-                       static_cast<double>(reach_);
+                       static_cast<double>(reach_.count());
   if (apart <= path.error && exact::touch(a, b, offset, *window, corners(), reach_)) return Gap{};
   return Gap{std::max(0.0, apart - path.error), apart + path.error};
 }

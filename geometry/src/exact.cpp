@@ -18,7 +18,9 @@ struct Vector {
 Vector operator-(const Vector& p, const Vector& q) { return {p.x - q.x, p.y - q.y}; }
 Integer dot(const Vector& p, const Vector& q) { return p.x * q.x + p.y * q.y; }
 Integer cross(const Vector& p, const Vector& q) { return p.x * q.y - p.y * q.x; }
-Vector scaled(const Point& p, const Integer& factor) { return {factor * p.x, factor * p.y}; }
+Vector scaled(const Point& p, const Integer& factor) {
+  return {factor * p.x.count(), factor * p.y.count()};
+}
 
 // Not negative denominator.
 struct Fraction {
@@ -47,8 +49,8 @@ ScaledPath scaled_path(const Motion& a, const Motion& b, Ticks offset, Window wi
     const Point apart = b.from - a.from;
     const Point step_a = a.to - a.from;
     const Point step_b = b.to - b.from;
-    return Vector{scale * apart.x + done_b * step_b.x - done_a * step_a.x,
-                  scale * apart.y + done_b * step_b.y - done_a * step_a.y};
+    return Vector{scale * apart.x.count() + done_b * step_b.x.count() - done_a * step_a.x.count(),
+                  scale * apart.y.count() + done_b * step_b.y.count() - done_a * step_a.y.count()};
   };
   return {scale, at(window.begin), at(window.end)};
 }
@@ -161,7 +163,7 @@ Fraction smallest_squared_distance(const ScaledPath& path, std::span<const Vecto
 }
 
 Integer squared(Length reach, const Integer& scale) {
-  const Integer scaled_reach = scale * reach;
+  const Integer scaled_reach = scale * reach.count();
   return scaled_reach * scaled_reach;
 }
 

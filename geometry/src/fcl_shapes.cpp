@@ -11,8 +11,8 @@ std::shared_ptr<fcl::CollisionGeometryd> make_prism(std::span<const Point> corne
   auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
   for (const double z : {-height / 2, height / 2})
     for (const Point& corner : corners)
-      vertices->emplace_back(scale * static_cast<double>(corner.x),
-                             scale * static_cast<double>(corner.y), z);
+      vertices->emplace_back(scale * static_cast<double>(corner.x.count()),
+                             scale * static_cast<double>(corner.y.count()), z);
   // Each face: its number of corners, then their indices, counter-clockwise seen from outside.
   auto faces = std::make_shared<std::vector<int>>();
   faces->push_back(n);

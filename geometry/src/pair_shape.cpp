@@ -62,7 +62,7 @@ double BodyPair::Shape::distance(const RelativePath& path) const {
 
 int BodyPair::Shape::filter(const RelativePath& path) const {
   if (depth(path) > path.error) return 1;
-  if (reach_ > 0 && distance(path) < static_cast<double>(reach_) - path.error) return 1;
+  if (reach_ > 0 && distance(path) < static_cast<double>(reach_.count()) - path.error) return 1;
   return advancement_.proves_apart(path) ? -1 : 0;
 }
 
@@ -72,7 +72,7 @@ RealInterval BodyPair::Shape::likely_offsets(const Motion& a, const Motion& b) c
   RealInterval offsets;
   include_polygon(a, b, vecs_, offsets);
   if (reach_ == 0) return offsets;
-  const double reach = static_cast<double>(reach_);
+  const double reach = static_cast<double>(reach_.count());
   for (std::size_t i = 0; i < vecs_.size(); ++i) {
     const Vec next = vecs_[(i + 1) % vecs_.size()];
     const Vec out = reach * normals_[i];

@@ -30,11 +30,13 @@ inline double norm(Vec p) { return std::sqrt(dot(p, p)); }
 
 inline Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
 inline Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y}; }
-inline Vec to_vec(const Point& p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
-inline Wide cross(const Point& p, const Point& q) {
-  return static_cast<Wide>(p.x) * q.y - static_cast<Wide>(p.y) * q.x;
+inline Vec to_vec(const Point& p) {
+  return {static_cast<double>(p.x.count()), static_cast<double>(p.y.count())};
 }
-inline Length extent(const Point& p) { return std::max(std::abs(p.x), std::abs(p.y)); }
+/// An area, in square length units.
+inline Wide product(Length p, Length q) { return static_cast<Wide>(p.count()) * q.count(); }
+inline Wide cross(const Point& p, const Point& q) { return product(p.x, q.y) - product(p.y, q.x); }
+inline Length extent(const Point& p) { return std::max(abs(p.x), abs(p.y)); }
 
 /// The distance of `p` from the segment. Its rounding error is below 16 u times the largest
 /// coordinate (u = 2^-53), however short the segment: each product in the cross product is off by u
@@ -76,7 +78,7 @@ struct RelativePath {
 /// are no larger. 64 u leaves room for the comparisons themselves.
 inline double error_bound(const Motion& a, const Motion& b, Length size) {
   const Length sum = extent(b.from - a.from) + extent(a.to - a.from) + extent(b.to - b.from) + size;
-  return 32 * std::numeric_limits<double>::epsilon() * static_cast<double>(sum);
+  return 32 * std::numeric_limits<double>::epsilon() * static_cast<double>(sum.count());
 }
 
 inline RelativePath relative_path(const Motion& a, const Motion& b, Ticks offset, Window window,

@@ -31,7 +31,7 @@ TEST(ConvexPolygon, RefusesWhatIsNone) {
   EXPECT_EQ(refused({{0, 0}, {4, 0}, {2, 3}, {0, 0}, {4, 0}, {2, 3}}), invalid_instance);
   EXPECT_EQ(refused({{0, 0}, {kMaxLength + 1, 0}, {2, 3}}), out_of_range);
   std::vector<Point> many;
-  for (Length i = 0; i <= 64; ++i) many.push_back({i, i * i});
+  for (std::int64_t i = 0; i <= 64; ++i) many.push_back({Length(i), Length(i * i)});
   EXPECT_EQ(refused(many), out_of_range);
   many.pop_back();
   EXPECT_TRUE(ConvexPolygon::make(many).has_value());

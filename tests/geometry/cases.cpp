@@ -26,25 +26,33 @@ std::ostream& operator<<(std::ostream& out, const Body& body) {
 }
 
 Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
-Point operator*(Length factor, const Point& p) { return {factor * p.x, factor * p.y}; }
+Point operator*(std::int64_t factor, const Point& p) { return {factor * p.x, factor * p.y}; }
 
 Point draw_point(Random& random, Length size) {
   return {draw(random, -size, size), draw(random, -size, size)};
 }
 
 Motion draw_motion(Random& random, Length size, Ticks longest) {
-  Motion motion{draw_point(random, size), draw_point(random, size), draw(random, 1, longest)};
-  if (random.percent(15)) motion = rest(motion.from, draw(random, 0, longest));
+  Motion motion{draw_point(random, size), draw_point(random, size), draw_ticks(random, 1, longest)};
+  if (random.percent(15)) motion = rest(motion.from, draw_ticks(random, 0, longest));
   return motion;
 }
 
+Motion draw_motion(Random& random, Length size) {
+  return draw_motion(random, size, Ticks(size.count()));
+}
+
 // A scale from a handful to the largest.
-Length draw_scale(Random& random) { return Length{1} << random.between(3, 36); }
+Length draw_scale(Random& random) { return Length(std::int64_t{1} << random.between(3, 36)); }
+
+std::int64_t draw_factor(Random& random, Length first, Length last) {
+  return draw(random, first, last).count();
+}
 
 // Directions of integer length, so that lines can be exactly so far apart.
 struct Direction {
   Point along;
-  Length length;
+  std::int64_t length;
 };
 Direction draw_direction(Random& random) {
   const std::vector<Direction> directions{{{1, 0}, 1},    {{0, 1}, 1},   {{3, 4}, 5},
@@ -62,11 +70,13 @@ std::pair<Disc, Disc> split(Random& random, Length total) {
 // Two parallel lines exactly `reach` apart, give or take a unit; speeds equal or not.
 Case parallel(Random& random, Length scale) {
   const Direction direction = draw_direction(random);
-  const Length gap = draw(random, 1, scale);
+  const std::int64_t gap = draw_factor(random, 1, scale);
+  const Ticks longest(scale.count());
   const Point normal{-direction.along.y, direction.along.x};
   const auto on_line = [&](const Point& base) {
-    const Point from = base + draw(random, -scale, scale) * direction.along;
-    return Motion{from, from + draw(random, 1, scale) * direction.along, draw(random, 1, scale)};
+    const Point from = base + draw_factor(random, -scale, scale) * direction.along;
+    return Motion{from, from + draw_factor(random, 1, scale) * direction.along,
+                  draw_ticks(random, 1, longest)};
   };
   Motion a = on_line({0, 0});
   Motion b = on_line(gap * normal);
@@ -74,7 +84,7 @@ Case parallel(Random& random, Length scale) {
     b = {b.from, b.from + Point{a.to.x - a.from.x, a.to.y - a.from.y}, a.duration};
   if (random.percent(30)) std::swap(b.from, b.to);
   if (random.percent(10)) b = rest(b.from, b.duration);
-  const Length reach = gap * direction.length + draw(random, -1, 1);
+  const Length reach = Length(gap * direction.length) + draw(random, -1, 1);
   auto [body_a, body_b] = split(random, std::max(reach, Length{2}));
   return {body_a, a, body_b, b};
 }
@@ -82,15 +92,15 @@ Case parallel(Random& random, Length scale) {
 // At the two ends of the motions the bodies are exactly `reach` apart, give or take a unit.
 Case tangent_ends(Random& random, Length scale) {
   const Direction direction = draw_direction(random);
-  const Length gap = draw(random, 1, scale);
-  Case c{Disc{1}, draw_motion(random, scale, scale), Disc{1}, draw_motion(random, scale, scale)};
+  const std::int64_t gap = draw_factor(random, 1, scale);
+  Case c{Disc{1}, draw_motion(random, scale), Disc{1}, draw_motion(random, scale)};
   const Point at = (random.percent(50) ? c.a.from : c.a.to) + gap * direction.along;
   if (c.b.is_rest())
     c.b.from = c.b.to = at;
   else
     (random.percent(50) ? c.b.from : c.b.to) = at;
   if (c.b.is_rest() || c.b.duration == 0) c.b = rest(at, c.b.duration);
-  const Length reach = gap * direction.length + draw(random, -1, 1);
+  const Length reach = Length(gap * direction.length) + draw(random, -1, 1);
   std::tie(c.body_a, c.body_b) = split(random, std::max(reach, Length{2}));
   return c;
 }
@@ -98,10 +108,11 @@ Case tangent_ends(Random& random, Length scale) {
 // Behind one another on one line.
 Case followers(Random& random, Length scale) {
   const Direction direction = draw_direction(random);
-  const auto at = [&] { return draw(random, 0, scale) * direction.along; };
-  const Ticks duration = draw(random, 1, scale);
+  const auto at = [&] { return draw_factor(random, 0, scale) * direction.along; };
+  const Ticks longest(scale.count());
+  const Ticks duration = draw_ticks(random, 1, longest);
   Motion a{at(), at(), duration};
-  Motion b{at(), at(), random.percent(50) ? duration : draw(random, 1, scale)};
+  Motion b{at(), at(), random.percent(50) ? duration : draw_ticks(random, 1, longest)};
   if (random.percent(40)) b = {a.to, a.to + Point{a.to.x - a.from.x, a.to.y - a.from.y}, duration};
   if (a.is_rest()) a.to = a.to + direction.along;
   if (b.is_rest()) b.to = b.to + direction.along;
@@ -111,17 +122,17 @@ Case followers(Random& random, Length scale) {
 
 // Velocities that differ by a few units over the whole motion, or not at all.
 Case slow(Random& random, Length scale) {
-  const Motion a = draw_motion(random, scale, scale);
+  const Motion a = draw_motion(random, scale);
   const Point step{a.to.x - a.from.x, a.to.y - a.from.y};
   const Point from = draw_point(random, scale);
   Motion b{from, from + step + draw_point(random, 2), std::max(a.duration, Ticks{1})};
-  if (random.percent(30)) b.duration += draw(random, 0, 2);
+  if (random.percent(30)) b.duration += draw_ticks(random, 0, 2);
   auto [body_a, body_b] = split(random, draw(random, 2, 2 * scale));
   return {body_a, a, body_b, b};
 }
 
 Case anything(Random& random, Length scale) {
-  const Ticks longest = random.percent(25) ? 3 : draw_scale(random);
+  const Ticks longest = random.percent(25) ? Ticks{3} : Ticks(draw_scale(random).count());
   Case c{Disc{1}, draw_motion(random, scale, longest), Disc{1},
          draw_motion(random, scale, longest)};
   if (random.percent(15)) c.b = {c.a.from, draw_point(random, scale), longest};  // Same start.
@@ -131,7 +142,7 @@ Case anything(Random& random, Length scale) {
   return c;
 }
 
-Motion scaled(const Motion& motion, Length factor) {
+Motion scaled(const Motion& motion, std::int64_t factor) {
   return {factor * motion.from, factor * motion.to, motion.duration};
 }
 
@@ -142,7 +153,12 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
 }
 
 Length draw(Random& random, Length first, Length last) {
-  return first + static_cast<Length>(random.below(static_cast<std::size_t>(last - first) + 1));
+  return first + Length(static_cast<std::int64_t>(
+                     random.below(static_cast<std::size_t>((last - first).count()) + 1)));
+}
+
+Ticks draw_ticks(Random& random, Ticks first, Ticks last) {
+  return Ticks(draw(random, Length(first), Length(last)).count());
 }
 
 ConvexPolygon random_polygon(Random& random, Length size) {
@@ -153,9 +169,11 @@ ConvexPolygon random_polygon(Random& random, Length size) {
       angles.push_back(static_cast<double>(random.below(3600)) / 3600 * 6.283185307179586);
     std::sort(angles.begin(), angles.end());
     std::vector<Point> corners;
+    const auto along = [&](double share) {
+      return Length(static_cast<std::int64_t>(share * static_cast<double>(size.count())));
+    };
     for (const double angle : angles)
-      corners.push_back({static_cast<Length>(std::cos(angle) * static_cast<double>(size)),
-                         static_cast<Length>(std::sin(angle) * static_cast<double>(size))});
+      corners.push_back({along(std::cos(angle)), along(std::sin(angle))});
     if (random.percent(30)) corners = {{-size, -size}, {size, -size}, {size, size}, {-size, size}};
     if (auto polygon = ConvexPolygon::make(corners)) return *polygon;
   }
@@ -180,7 +198,7 @@ Case small_bodies(Random& random) {
 
 Case hard_discs(Random& random) {
   // Directions of length 29 multiply coordinates.
-  const Length scale = std::min(draw_scale(random), Length{1} << 32);
+  const Length scale = std::min(draw_scale(random), Length(std::int64_t{1} << 32));
   switch (random.below(8)) {
     case 0:
     case 1:
@@ -194,7 +212,7 @@ Case hard_discs(Random& random) {
     case 5: {  // As far out as it goes.
       const Length far = kMaxLength;
       Case c{Disc{1}, draw_motion(random, far, kMaxDuration), Disc{1},
-             draw_motion(random, far, random.percent(50) ? kMaxDuration : 5)};
+             draw_motion(random, far, random.percent(50) ? kMaxDuration : Ticks{5})};
       std::tie(c.body_a, c.body_b) = split(random, draw(random, 2, far));
       return c;
     }
@@ -216,8 +234,9 @@ Case hard_bodies(Random& random) {
     const auto square = ConvexPolygon::make({{0, 0}, {unit, 0}, {unit, unit}, {0, unit}}).value();
     const auto place = [&] { return draw_point(random, 4); };
     c.body_a = c.body_b = square;
-    c.a = scaled({place(), place(), draw(random, 1, 4 * unit)}, unit);
-    c.b = scaled({place(), place(), draw(random, 1, 4 * unit)}, unit);
+    const Ticks longest(4 * unit.count());
+    c.a = scaled({place(), place(), draw_ticks(random, 1, longest)}, unit.count());
+    c.b = scaled({place(), place(), draw_ticks(random, 1, longest)}, unit.count());
   }
   return c;
 }

@@ -22,6 +22,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c);
 
 /// Uniform in first .. last, which may be negative.
 Length draw(support::Random& random, Length first, Length last);
+Ticks draw_ticks(support::Random& random, Ticks first, Ticks last);
 
 /// Durations and coordinates up to about forty, so that every offset can be tried.
 Case small_discs(support::Random& random);

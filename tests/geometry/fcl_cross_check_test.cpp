@@ -18,7 +18,8 @@ namespace {
 constexpr double kTolerance = 1e-6;
 
 double reach_of(const Case& c) {
-  return static_cast<double>(std::get<Disc>(c.body_a).radius + std::get<Disc>(c.body_b).radius);
+  return static_cast<double>(
+      (std::get<Disc>(c.body_a).radius + std::get<Disc>(c.body_b).radius).count());
 }
 
 // The disc of radius reach that goes along the relative path is a capsule; the bodies come as near
@@ -50,7 +51,7 @@ TEST(CrossCheck, DiscsAgreeWithFclAndWithSampling) {
     const Case c = small_discs(random);
     const BodyPair pair(c.body_a, c.body_b);
     for (int i = 0; i < 4; ++i) {
-      const Ticks offset = draw(random, -c.b.duration, c.a.duration);
+      const Ticks offset = draw_ticks(random, -c.b.duration, c.a.duration);
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", offset " << offset << ": " << c);
       const Window window = *common_window(c.a, c.b, offset);
       const RelativePath path = relative_path(c.a, c.b, offset, window, 0);
@@ -95,10 +96,10 @@ TEST(Advancement, ProvesOnlyWhatTheOracleConfirms) {
   for (int seed = 0; seed < 3000; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
     const Case c = seed % 2 == 0 ? small_bodies(random) : hard_bodies(random);
-    const Ticks offset = draw(random, -c.b.duration, c.a.duration);
+    const Ticks offset = draw_ticks(random, -c.b.duration, c.a.duration);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", offset " << offset << ": " << c);
     const auto radius = [](const Body& body) {
-      return std::holds_alternative<Disc>(body) ? std::get<Disc>(body).radius : 0;
+      return std::holds_alternative<Disc>(body) ? std::get<Disc>(body).radius : Length{0};
     };
     const Length reach = radius(c.body_a) + radius(c.body_b);
     const std::vector<Point> shape = grown_corners(c.body_a, c.body_b);

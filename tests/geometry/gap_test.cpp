@@ -37,7 +37,7 @@ TEST(Gap, BoundsEncloseTheExactDistance) {
   for (int seed = 0; seed < 3000; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
     const Case c = hard_discs(random);
-    const Ticks offset = draw(random, -c.b.duration, c.a.duration);
+    const Ticks offset = draw_ticks(random, -c.b.duration, c.a.duration);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", offset " << offset << ": " << c);
     const oracle::Oracle<BigInteger> oracle(c.body_a, c.a, c.body_b, c.b);
     const BodyPair pair(c.body_a, c.body_b);
@@ -52,13 +52,13 @@ TEST(Gap, BoundsEncloseTheExactDistance) {
     const cpp_rational exact(square.numerator,
                              square.denominator * oracle.scale() * oracle.scale());
     const Length reach = std::get<Disc>(c.body_a).radius + std::get<Disc>(c.body_b).radius;
-    const cpp_rational low = cpp_rational(gap->at_least) + reach;
-    const cpp_rational high = cpp_rational(gap->at_most) + reach;
+    const cpp_rational low = cpp_rational(gap->at_least) + reach.count();
+    const cpp_rational high = cpp_rational(gap->at_most) + reach.count();
     EXPECT_LE(low * low, exact);
     EXPECT_GE(high * high, exact);
-    const double largest = static_cast<double>(8 * kMaxLength);
+    const double largest = static_cast<double>((8 * kMaxLength).count());
     EXPECT_LE(gap->at_most - gap->at_least, 1e-13 * largest);
-    EXPECT_EQ(gap->at_most == 0, exact == cpp_rational(BigInteger(reach) * reach));
+    EXPECT_EQ(gap->at_most == 0, exact == cpp_rational(BigInteger(reach.count()) * reach.count()));
     if (HasFailure()) return;
   }
   EXPECT_GT(apart, 500);

@@ -47,7 +47,7 @@ class Oracle {
     const auto* disc_a = std::get_if<Disc>(&body_a_);
     const auto* disc_b = std::get_if<Disc>(&body_b_);
     if (disc_a && disc_b) {
-      const Int reach = scale() * (Int(disc_a->radius) + disc_b->radius);
+      const Int reach = scale() * Int((disc_a->radius + disc_b->radius).count());
       return less(squared_distance({0, 0}, from, to), reach * reach);
     }
     // With a disc, the polygon rests and the disc's centre goes along the path, or its mirror
@@ -77,8 +77,9 @@ class Oracle {
   // b relative to a, times scale().
   [[nodiscard]] Vector position(Ticks time, Ticks offset) const {
     const auto coordinate = [&](Length a_from, Length a_to, Length b_from, Length b_to) -> Int {
-      const Int at_a = Int(unit(a_)) * a_from + Int(time) * (a_to - a_from);
-      const Int at_b = Int(unit(b_)) * b_from + Int(time - offset) * (b_to - b_from);
+      const Int at_a = Int(unit(a_)) * a_from.count() + Int(time) * (a_to - a_from).count();
+      const Int at_b =
+          Int(unit(b_)) * b_from.count() + Int(time - offset) * (b_to - b_from).count();
       return Int(unit(a_)) * at_b - Int(unit(b_)) * at_a;
     };
     return {coordinate(a_.from.x, a_.to.x, b_.from.x, b_.to.x),
@@ -105,10 +106,10 @@ class Oracle {
 
   [[nodiscard]] bool disc_meets(const Vector& from, const Vector& to, Length radius,
                                 const ConvexPolygon& polygon) const {
-    const Int reach = scale() * radius;
+    const Int reach = scale() * radius.count();
     std::vector<Vector> corners;
     for (const Point& corner : polygon.vertices())
-      corners.push_back({scale() * corner.x, scale() * corner.y});
+      corners.push_back({scale() * corner.x.count(), scale() * corner.y.count()});
     bool inside = true;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vector& p = corners[i];
@@ -133,7 +134,7 @@ class Oracle {
       for (std::size_t i = 0; i < polygon->size(); ++i) {
         const Point& p = (*polygon)[i];
         const Point& q = (*polygon)[(i + 1) % polygon->size()];
-        const Vector normal{q.y - p.y, p.x - q.x};
+        const Vector normal{(q.y - p.y).count(), (p.x - q.x).count()};
         const auto [low_a, high_a] = range(polygon_a, normal);
         const auto [low_b, high_b] = range(polygon_b, normal);
         const Int at_begin = normal.x * from.x + normal.y * from.y;
@@ -151,7 +152,7 @@ class Oracle {
   static std::pair<Int, Int> range(const std::vector<Point>& polygon, const Vector& normal) {
     std::pair<Int, Int> result;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Int value = normal.x * polygon[i].x + normal.y * polygon[i].y;
+      const Int value = normal.x * polygon[i].x.count() + normal.y * polygon[i].y.count();
       if (i == 0 || value < result.first) result.first = value;
       if (i == 0 || value > result.second) result.second = value;
     }

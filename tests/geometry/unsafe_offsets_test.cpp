@@ -200,7 +200,7 @@ TEST(UnsafeOffsets, HardBodiesAgreeWithTheOracle) {
       EXPECT_TRUE(pair.can_meet(c.a, c.b));
     } else {
       for (int i = 0; i < 40; ++i)
-        EXPECT_FALSE(oracle.collide(draw(random, -c.b.duration, c.a.duration)));
+        EXPECT_FALSE(oracle.collide(draw_ticks(random, -c.b.duration, c.a.duration)));
       for (Ticks d : {-c.b.duration, Ticks{-1}, Ticks{0}, Ticks{1}, c.a.duration})
         EXPECT_FALSE(oracle.collide(d));
     }
@@ -216,7 +216,7 @@ TEST(UnsafeOffsets, ExactSearchFindsAnOffsetIfThereIsOne) {
     const Case c = seed % 2 == 0 ? hard_discs(random) : hard_bodies(random);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << c);
     const auto radius = [](const Body& body) {
-      return std::holds_alternative<Disc>(body) ? std::get<Disc>(body).radius : 0;
+      return std::holds_alternative<Disc>(body) ? std::get<Disc>(body).radius : Length{0};
     };
     const Length reach = radius(c.body_a) + radius(c.body_b);
     const std::optional<Ticks> found =

@@ -205,9 +205,7 @@ bool is_roadmap_json(const std::string& text) {
 std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
                                          const Instance& instance) {
   const double resolution = instance.resolution();
-  const auto number = [&](std::int64_t units) {
-    return json_number(in_input_units(units, resolution));
-  };
+  const auto number = [&](auto units) { return json_number(in_input_units(units, resolution)); };
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
       << ",\n  \"resolution\": " << json_number(resolution)
       << ",\n  \"roadmap\": {\n    \"vertices\": [";

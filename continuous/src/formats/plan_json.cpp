@@ -122,7 +122,7 @@ class JsonPlanReader {
   bool read_place(Node node, const Point& point) {
     if (!check_.array(node, "coordinates", 2)) return false;
     const Node x = document_.first(node);
-    return agrees(x, point.x) && agrees(document_.next(x), point.y);
+    return agrees(x, point.x.count()) && agrees(document_.next(x), point.y.count());
   }
 
   const Document& document_;
@@ -142,7 +142,7 @@ Result<PlanFile> read_json_plan(const std::string& text, const std::string& file
 }
 
 std::string plan_to_json(const Instance& instance, const Plan& plan) {
-  const auto number = [&](std::int64_t units) {
+  const auto number = [&](auto units) {
     return json_number(in_input_units(units, instance.resolution()));
   };
   std::string text = "[";

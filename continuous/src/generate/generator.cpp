@@ -9,21 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "model/areas.hpp"
 #include "quadrille/core/random.hpp"
 
 namespace quadrille::continuous {
 namespace {
 
-__extension__ using Wide = __int128;
-
 /// Darts that are thrown for one vertex before the area counts as full.
 constexpr int kMaxDarts = 1000;
-
-Wide dot(const Point& a, const Point& b, const Point& c) {
-  return Wide{a.x - c.x} * (b.x - c.x) + Wide{a.y - c.y} * (b.y - c.y);
-}
-
-Wide squared_distance(const Point& a, const Point& b) { return dot(a, a, b); }
 
 Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
 
@@ -34,10 +27,10 @@ std::optional<Error> check(const RandomInstanceOptions& options) {
     return out_of_range(std::to_string(options.num_agents) + " agents need as many vertices");
   for (const Length side : {options.width, options.height})
     if (side < 1 || side > geometry::kMaxLength)
-      return out_of_range("the area is 1 .. " + std::to_string(geometry::kMaxLength) +
+      return out_of_range("the area is 1 .. " + std::to_string(geometry::kMaxLength.count()) +
                           " length units wide and high");
   if (options.radius < 1 || options.radius > geometry::kMaxLength / 4)
-    return out_of_range("the radius is 1 .. " + std::to_string(geometry::kMaxLength / 4) +
+    return out_of_range("the radius is 1 .. " + std::to_string((geometry::kMaxLength / 4).count()) +
                         " length units");
   if (options.speed < 1 || options.speed > kMaxSpeed)
     return out_of_range("the speed is not supported");
@@ -46,9 +39,10 @@ std::optional<Error> check(const RandomInstanceOptions& options) {
 
 /// Random points that are 2 sqrt(2) radius apart, fewer than wanted if they do not fit.
 std::vector<Point> draw_vertices(const RandomInstanceOptions& options, Random& random) {
-  const Wide spacing2 = 8 * Wide{options.radius} * options.radius;
+  const Area spacing2 = 8 * square(options.radius);
   const auto coordinate = [&](Length side) {
-    return static_cast<Length>(random.below(static_cast<std::uint64_t>(side) + 1));
+    return Length(
+        static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(side.count()) + 1)));
   };
   std::vector<Point> vertices;
   while (vertices.size() < options.num_vertices) {
@@ -107,8 +101,8 @@ std::vector<Agent> draw_agents(const RandomInstanceOptions& options, Random& ran
   for (std::size_t i = 0; i < options.num_agents; ++i) {
     Agent agent{VertexId(starts[i]), VertexId(goals[i]), options.radius, options.speed};
     if (options.mixed) {
-      agent.radius = upper_half(options.radius);
-      agent.speed = upper_half(options.speed);
+      agent.radius = Length(upper_half(options.radius.count()));
+      agent.speed = Speed(upper_half(options.speed.count()));
     }
     agents.push_back(agent);
   }

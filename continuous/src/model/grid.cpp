@@ -14,7 +14,7 @@ namespace {
 using Integer = boost::multiprecision::cpp_int;
 
 /// Larger discs would look at too many cells around each.
-constexpr Length kMaxCellsPerRadius = 16;
+constexpr std::int64_t kMaxCellsPerRadius = 16;
 
 /// Whether a point comes nearer than `reach` to the segment from the origin to (x, y).
 bool is_near_segment(const Integer& px, const Integer& py, const Integer& x, const Integer& y,
@@ -33,7 +33,8 @@ bool is_near_segment(const Integer& px, const Integer& py, const Integer& x, con
 /// `obstacle`. Lengths are doubled: a cell is 2 * side wide.
 class SweptDisc {
  public:
-  SweptDisc(Length side, Length radius) : side_(side), reach_(2 * Integer(radius)) {}
+  SweptDisc(Length side, Length radius)
+      : side_(side.count()), reach_(2 * Integer(radius.count())) {}
 
   [[nodiscard]] bool meets(Cell to, Cell obstacle) const {
     const Integer x = 2 * side_ * to.column, y = 2 * side_ * to.row;

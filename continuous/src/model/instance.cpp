@@ -8,16 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "model/areas.hpp"
+#include "quadrille/continuous/quantise.hpp"
+
 namespace quadrille::continuous {
 namespace {
-
-__extension__ using Wide = __int128;
-
-Wide square(Wide x) { return x * x; }  // of at most 2^42: differences of coordinates, sums of radii
-
-Wide squared_distance(const Point& a, const Point& b) {
-  return square(a.x - b.x) + square(a.y - b.y);
-}
 
 std::string name(std::size_t agent) { return "agent " + std::to_string(agent); }
 
@@ -33,8 +28,8 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
                      ", but there are " + std::to_string(roadmap.num_vertices()) + " vertices");
   if (agent.radius < 1 || agent.radius > geometry::kMaxLength)
     return Error{ErrorCode::out_of_range,
-                 name(index) + " has a radius of " + std::to_string(agent.radius) +
-                     " length units, not 1 .. " + std::to_string(geometry::kMaxLength),
+                 name(index) + " has a radius of " + std::to_string(agent.radius.count()) +
+                     " length units, not 1 .. " + std::to_string(geometry::kMaxLength.count()),
                  {}};
   if (agent.speed < 1 || agent.speed > kMaxSpeed)
     return Error{
@@ -101,17 +96,14 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std
       durations.push_back(*edge.duration);
       continue;
     }
-    const auto length = std::sqrt(static_cast<long double>(
-        squared_distance(roadmap.position(edge.from), roadmap.position(edge.to))));
-    const long double ticks =
-        std::round(length * static_cast<long double>(kUnitSpeed) / static_cast<long double>(speed));
-    if (!(ticks >= 1 && ticks <= static_cast<long double>(geometry::kMaxDuration)))
+    const auto ticks = travel_time(roadmap.position(edge.from), roadmap.position(edge.to), speed);
+    if (!ticks)
       return Error{ErrorCode::out_of_range,
                    "edge " + std::to_string(e) + " takes less than one tick, or more than " +
                        std::to_string(geometry::kMaxDuration) + ", at the speed of agent " +
                        std::to_string(agent) + "; choose another resolution",
                    {}};
-    durations.push_back(static_cast<Ticks>(ticks));
+    durations.push_back(*ticks);
   }
   return durations;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "model/areas.hpp"
+
 namespace quadrille::continuous {
 namespace {
 
@@ -26,15 +28,15 @@ std::optional<double> in_units(double value, double resolution, double max) {
 }  // namespace
 
 std::optional<Length> quantise_coordinate(double value, double resolution) {
-  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength));
+  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength.count()));
   if (!units) return std::nullopt;
-  return static_cast<Length>(std::round(*units));
+  return Length(static_cast<std::int64_t>(std::round(*units)));
 }
 
 std::optional<Length> quantise_radius(double value, double resolution) {
-  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength));
+  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength.count()));
   if (!units || *units < 1) return std::nullopt;
-  return static_cast<Length>(std::floor(*units));
+  return Length(static_cast<std::int64_t>(std::floor(*units)));
 }
 
 std::optional<Ticks> quantise_duration(double value, double resolution) {
@@ -44,14 +46,27 @@ std::optional<Ticks> quantise_duration(double value, double resolution) {
 }
 
 std::optional<Speed> quantise_speed(double value) {
-  const double speed = std::round(value * static_cast<double>(kUnitSpeed));
-  if (!(speed >= 1 && speed <= static_cast<double>(kMaxSpeed))) return std::nullopt;
-  return static_cast<Speed>(speed);
+  const double speed = std::round(value * static_cast<double>(kUnitSpeed.count()));
+  if (!(speed >= 1 && speed <= static_cast<double>(kMaxSpeed.count()))) return std::nullopt;
+  return Speed(static_cast<std::int64_t>(speed));
+}
+
+std::optional<Ticks> travel_time(const Point& from, const Point& to, Speed speed) {
+  const auto length = std::sqrt(static_cast<long double>(squared_distance(from, to)));
+  const long double ticks = std::round(length * static_cast<long double>(kUnitSpeed.count()) /
+                                       static_cast<long double>(speed.count()));
+  if (!(ticks >= 1 && ticks <= static_cast<long double>(geometry::kMaxDuration)))
+    return std::nullopt;
+  return static_cast<Ticks>(ticks);
 }
 
 double in_input_units(std::int64_t units, double resolution) {
   const auto factor = units_per_one(resolution);
   return factor ? static_cast<double>(units) / *factor : static_cast<double>(units) * resolution;
+}
+
+double in_input_units(Length length, double resolution) {
+  return in_input_units(length.count(), resolution);
 }
 
 double radius_in_input_units(Length radius, double resolution) {
@@ -63,7 +78,7 @@ double radius_in_input_units(Length radius, double resolution) {
 }
 
 double speed_in_input_units(Speed speed) {
-  return static_cast<double>(speed) / static_cast<double>(kUnitSpeed);
+  return static_cast<double>(speed.count()) / static_cast<double>(kUnitSpeed.count());
 }
 
 bool is_about(double value, std::int64_t units, double resolution) {

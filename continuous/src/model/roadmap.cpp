@@ -37,7 +37,8 @@ Result<Roadmap> Roadmap::make(std::vector<Point> vertices, std::vector<Edge> edg
     if (!geometry::in_range(vertices[v]))
       return Error{ErrorCode::out_of_range,
                    "vertex " + std::to_string(v) + " is farther than " +
-                       std::to_string(geometry::kMaxLength) + " length units from the origin",
+                       std::to_string(geometry::kMaxLength.count()) +
+                       " length units from the origin",
                    {}};
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (auto error = check(vertices, edges[e], e)) return *error;

@@ -128,8 +128,8 @@ struct Nearest {
 
 Nearest nearest(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) {
-    return static_cast<long double>(p.from.*axis) +
-           static_cast<long double>(p.to.*axis - p.from.*axis) *
+    return static_cast<long double>((p.from.*axis).count()) +
+           static_cast<long double>((p.to.*axis - p.from.*axis).count()) *
                static_cast<long double>(tick - p.begin) / static_cast<long double>(p.end - p.begin);
   };
   const auto gap = [&](Ticks tick, Length Point::*axis) {
@@ -148,15 +148,15 @@ Nearest nearest(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
 /// positions, multiplied by both durations, is an integer vector that moves along a segment.
 bool come_nearer(const Piece& a, const Piece& b, Ticks begin, Ticks end, Length reach) {
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) -> Integer {
-    return Integer(p.from.*axis) * (p.end - p.begin) +
-           Integer(p.to.*axis - p.from.*axis) * (tick - p.begin);
+    return Integer((p.from.*axis).count()) * (p.end - p.begin) +
+           Integer((p.to.*axis - p.from.*axis).count()) * (tick - p.begin);
   };
   const auto gap = [&](Ticks tick, Length Point::*axis) -> Integer {
     return at(a, tick, axis) * (b.end - b.begin) - at(b, tick, axis) * (a.end - a.begin);
   };
   const Integer x0 = gap(begin, &Point::x), y0 = gap(begin, &Point::y);
   const Integer x1 = gap(end, &Point::x), y1 = gap(end, &Point::y);
-  const Integer scaled = Integer(reach) * (a.end - a.begin) * (b.end - b.begin);
+  const Integer scaled = Integer(reach.count()) * (a.end - a.begin) * (b.end - b.begin);
   const Integer reach2 = scaled * scaled;
   if (x0 * x0 + y0 * y0 < reach2 || x1 * x1 + y1 * y1 < reach2) return true;
   const Integer dx = x1 - x0, dy = y1 - y0;
@@ -184,7 +184,7 @@ std::string describe(AgentId i, AgentId j, const Collision& c, Length reach) {
   const auto number = [](long double value) {
     return std::to_string(static_cast<std::int64_t>(std::llround(value)));
   };
-  const long double overlap = static_cast<long double>(reach) - c.nearest.distance;
+  const long double overlap = static_cast<long double>(reach.count()) - c.nearest.distance;
   return "agents " + std::to_string(i.index()) + " and " + std::to_string(j.index()) +
          " collide between ticks " + std::to_string(c.begin) + " and " + std::to_string(c.end) +
          ", while agent " + std::to_string(i.index()) + " " + describe(c.a) + " and agent " +
@@ -221,7 +221,7 @@ class PairCheck {
  private:
   bool look(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
     const Nearest near = nearest(a, b, begin, end);
-    const auto reach = static_cast<long double>(reach_);
+    const auto reach = static_cast<long double>(reach_.count());
     if (static_cast<double>(near.distance - reach) < clearance_.gap) {
       clearance_.gap = static_cast<double>(near.distance - reach);
       clearance_.tick = static_cast<double>(near.tick);

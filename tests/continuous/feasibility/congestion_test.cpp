@@ -26,7 +26,8 @@ Map drawn(const char* places, const char* roads) {
   char separator = 0;
   std::vector<Point> points;
   std::istringstream in(places);
-  for (Point p; in >> p.x >> separator >> p.y;) points.push_back(p);
+  for (std::int64_t x = 0, y = 0; in >> x >> separator >> y;)
+    points.push_back({Length(x), Length(y)});
   Roads pairs;
   std::istringstream pairs_in(roads);
   for (std::pair<std::size_t, std::size_t> p; pairs_in >> p.first >> separator >> p.second;)

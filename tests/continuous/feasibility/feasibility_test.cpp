@@ -17,7 +17,7 @@ using Blocked = std::vector<AgentId>;
 /// Checked with the unit as given and a million times as fine.
 void expect(std::vector<Point> points, const Roads& roads, const Roads& one_way,
             std::vector<Agent> agents, const Blocked& blocked) {
-  for (const Length scale : {1, 1'000'000}) {
+  for (const std::int64_t scale : {1, 1'000'000}) {
     std::vector<Point> scaled = points;
     for (Point& p : scaled) p = {scale * p.x, scale * p.y};
     std::vector<Agent> scaled_agents = agents;

@@ -131,13 +131,40 @@ TEST(RoadmapJson, WriterReportsAFullDisk) {
   EXPECT_EQ(error->code, ErrorCode::io);
 }
 
+TEST(Quantise, TravelTimeIsDistanceBySpeedToTheNearestTick) {
+  const auto ticks = [](Length x, Length y, Speed speed) {
+    const auto time = travel_time({-2, 7}, {x - 2, y + 7}, speed);
+    return time ? time : std::optional<Ticks>(-1);
+  };
+  EXPECT_EQ(ticks(3, 4, kUnitSpeed), Ticks{5});
+  EXPECT_EQ(ticks(30, 40, 2 * kUnitSpeed), Ticks{25});
+  EXPECT_EQ(ticks(1, 1, kUnitSpeed), Ticks{1});           // 1.41
+  EXPECT_EQ(ticks(2, 2, kUnitSpeed), Ticks{3});           // 2.83
+  EXPECT_EQ(ticks(5, 0, 2 * kUnitSpeed), Ticks{3});       // 2.5: away from zero
+  EXPECT_EQ(ticks(1, 0, 2 * kUnitSpeed), Ticks{1});       // 0.5
+  EXPECT_EQ(ticks(1, 0, 2 * kUnitSpeed + 1), Ticks{-1});  // less: no tick
+  EXPECT_EQ(ticks(0, 0, kUnitSpeed), Ticks{-1});
+  // As far and as slow as it goes: 2^40 ticks are the longest move, and speeds are exact.
+  const Length far = geometry::kMaxLength;
+  EXPECT_EQ(ticks(far, 0, kUnitSpeed), geometry::kMaxDuration);
+  EXPECT_EQ(ticks(far, 1, kUnitSpeed), geometry::kMaxDuration);  // half a millionth of a unit
+  EXPECT_EQ(ticks(far + 1, 0, kUnitSpeed), Ticks{-1});
+  EXPECT_EQ(ticks(far, 0, kUnitSpeed - 1), Ticks{-1});
+  EXPECT_EQ(ticks(1'000'000, 0, 1), Ticks(1'000'000'000'000));
+  EXPECT_EQ(ticks(far, 0, 1), Ticks{-1});
+  EXPECT_EQ(ticks(1'000'000, 0, kMaxSpeed), Ticks{1});
+}
+
 TEST(Quantise, GoesThereAndBack) {
   for (const double resolution : {1e-6, 1e-9, 0.001, 0.3, 1.0, 7.0, 1.0 / 3})
     for (const std::int64_t units : {1L, 2L, 3L, 7L, 49L, 353'553L, 999'999L, 123'456'789L}) {
       SCOPED_TRACE(std::to_string(resolution) + " " + std::to_string(units));
-      EXPECT_EQ(quantise_radius(radius_in_input_units(units, resolution), resolution), units);
-      EXPECT_EQ(quantise_coordinate(in_input_units(-units, resolution), resolution), -units);
-      EXPECT_EQ(quantise_duration(in_input_units(units, resolution), resolution), units);
+      EXPECT_EQ(quantise_radius(radius_in_input_units(Length(units), resolution), resolution),
+                Length(units));
+      EXPECT_EQ(quantise_coordinate(in_input_units(Length(-units), resolution), resolution),
+                Length(-units));
+      EXPECT_EQ(quantise_duration(in_input_units(Ticks(units), resolution), resolution),
+                Ticks(units));
       EXPECT_TRUE(is_about(in_input_units(units, resolution), units, resolution));
       EXPECT_FALSE(is_about(in_input_units(units + 1, resolution), units, resolution));
     }
@@ -157,8 +184,8 @@ TEST(Quantise, RefusesWhatIsNotSupported) {
     EXPECT_EQ(quantise_coordinate(1, resolution), std::nullopt);
   EXPECT_EQ(quantise_radius(0.9e-6, 1e-6), std::nullopt);
   EXPECT_EQ(quantise_radius(-1, 1e-6), std::nullopt);
-  EXPECT_EQ(quantise_radius(1.9e-6, 1e-6), 1);      // down
-  EXPECT_EQ(quantise_coordinate(1.9e-6, 1e-6), 2);  // to the nearest
+  EXPECT_EQ(quantise_radius(1.9e-6, 1e-6), Length{1});      // down
+  EXPECT_EQ(quantise_coordinate(1.9e-6, 1e-6), Length{2});  // to the nearest
   EXPECT_EQ(quantise_duration(0.4e-6, 1e-6), std::nullopt);
 }
 

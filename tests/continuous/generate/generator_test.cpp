@@ -10,17 +10,18 @@
 namespace quadrille::continuous {
 namespace {
 
+double number(Length length) { return static_cast<double>(length.count()); }
+
 double distance(const Point& p, const Point& a, const Point& b) {
-  const auto x = static_cast<double>(b.x - a.x), y = static_cast<double>(b.y - a.y);
-  const auto px = static_cast<double>(p.x - a.x), py = static_cast<double>(p.y - a.y);
+  const double x = number(b.x - a.x), y = number(b.y - a.y);
+  const double px = number(p.x - a.x), py = number(p.y - a.y);
   const double share = std::clamp((px * x + py * y) / (x * x + y * y), 0.0, 1.0);
   return std::hypot(px - share * x, py - share * y);
 }
 
 /// Twice the signed area of a triangle.
 double turn(const Point& a, const Point& b, const Point& c) {
-  return static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
-         static_cast<double>(b.y - a.y) * static_cast<double>(c.x - a.x);
+  return number(b.x - a.x) * number(c.y - a.y) - number(b.y - a.y) * number(c.x - a.x);
 }
 
 TEST(RandomRoadmap, KeepsItsPromises) {
@@ -39,7 +40,7 @@ TEST(RandomRoadmap, KeepsItsPromises) {
     std::set<std::pair<std::size_t, std::size_t>> edges;
     for (const Edge& e : roadmap.edges()) edges.emplace(e.from.index(), e.to.index());
     EXPECT_EQ(edges.size(), roadmap.num_edges());
-    const auto reach = static_cast<double>(2 * options.radius);
+    const auto reach = number(2 * options.radius);
     for (const auto& [u, v] : edges) {
       EXPECT_TRUE(edges.contains({v, u}));
       const Point &a = roadmap.positions()[u], &b = roadmap.positions()[v];

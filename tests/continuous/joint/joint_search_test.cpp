@@ -25,15 +25,15 @@ constexpr std::int64_t kWork = 1'000'000'000;
 Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64_t max_agents) {
   Draw draw(seed);
   while (true) {
-    const std::int64_t size = draw.number(3, 9);
+    const Length size = draw.length(3, 9);
     const bool is_grid = draw.chance(30);
     const int density = static_cast<int>(draw.number(25, 60));
     const int one_way = draw.chance(50) ? 10 : 40;
     std::vector<Point> points;
     const auto num_vertices = draw.number(3, max_vertices);
     for (std::int64_t v = 0; v < num_vertices; ++v)
-      points.push_back(is_grid ? Point{3 * draw.number(0, 3), 3 * draw.number(0, 3)}
-                               : Point{draw.number(0, size), draw.number(0, size)});
+      points.push_back(is_grid ? Point{3 * draw.length(0, 3), 3 * draw.length(0, 3)}
+                               : Point{draw.length(0, size), draw.length(0, size)});
     std::vector<Edge> edges;
     for (std::size_t u = 0; u < points.size(); ++u)
       for (std::size_t v = u + 1; v < points.size(); ++v) {
@@ -52,7 +52,7 @@ Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64
     const auto vertex = [&] { return static_cast<std::size_t>(draw.number(0, num_vertices - 1)); };
     for (std::int64_t k = 0; k < num_agents; ++k) {
       const std::size_t start = vertex(), goal = draw.chance(25) ? start : vertex();
-      agents.push_back(agent(start, goal, draw.number(1, 2),
+      agents.push_back(agent(start, goal, draw.length(1, 2),
                              draw.chance(60) ? kUnitSpeed : kUnitSpeed * draw.number(1, 6) / 3));
     }
     auto instance = Instance::make(map, std::move(agents));

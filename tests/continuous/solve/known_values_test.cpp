@@ -24,7 +24,7 @@ class KnownValue : public testing::TestWithParam<System> {
 
 TEST_P(KnownValue, PassingAtTouchingDistanceIsFreeAndOneUnitLessIsNot) {
   // Agent 1 stands beside the road of agent 0, whose detour is twice 13000 long.
-  for (const Length distance : {600, 599}) {
+  for (const Length distance : {Length{600}, Length{599}}) {
     const auto map = roadmap({{0, 0}, {10'000, 0}, {5'000, distance}, {5'000, -12'000}},
                              {{0, 1}, {0, 3}, {3, 1}});
     const Cost cost = least(map, {agent(0, 1, 400), agent(2, 2, 200)});
@@ -84,7 +84,7 @@ TEST_P(KnownValue, CrossingInTheMiddleOfTwoEdges) {
 
 TEST_P(KnownValue, ASidingThatIsNotDeepEnoughMakesItInfeasible) {
   // Agents of radius 400 and more than 400 cannot pass each other at a distance of 800.
-  for (const Length radius : {400, 401}) {
+  for (const Length radius : {Length{400}, Length{401}}) {
     const auto map =
         roadmap({{0, 0}, {1'000, 0}, {2'000, 0}, {1'000, 800}}, {{0, 1}, {1, 2}, {1, 3}});
     const Instance instance = Instance::make(map, {agent(0, 2, radius), agent(2, 0, 400)}).value();

@@ -30,11 +30,11 @@ Nearest nearest(const Element& a, const Element& b) {
   const Ticks end = std::min(a.end, b.end);
   const Wide la = length(a), lb = length(b);
   if (begin > end) return {std::nullopt, la * lb};
-  const Wide u = lb * (a.to.x - a.from.x) - la * (b.to.x - b.from.x);
-  const Wide v = lb * (a.to.y - a.from.y) - la * (b.to.y - b.from.y);
+  const Wide u = lb * (a.to.x - a.from.x).count() - la * (b.to.x - b.from.x).count();
+  const Wide v = lb * (a.to.y - a.from.y).count() - la * (b.to.y - b.from.y).count();
   const auto at_zero = [&](Length from_a, Length to_a, Length from_b, Length to_b) -> Wide {
-    return lb * (la * from_a - Wide(to_a - from_a) * a.begin) -
-           la * (lb * from_b - Wide(to_b - from_b) * b.begin);
+    return lb * (la * from_a.count() - Wide((to_a - from_a).count()) * a.begin) -
+           la * (lb * from_b.count() - Wide((to_b - from_b).count()) * b.begin);
   };
   const Wide x = at_zero(a.from.x, a.to.x, b.from.x, b.to.x);
   const Wide y = at_zero(a.from.y, a.to.y, b.from.y, b.to.y);
@@ -70,7 +70,7 @@ Ticks last_true(Ticks yes, Ticks no, const Predicate& is_so) {
 
 bool meet(const Element& a, const Element& b, Length reach) {
   const Nearest n = nearest(a, b);
-  const Wide scaled_reach = n.scale * reach;
+  const Wide scaled_reach = n.scale * reach.count();
   return n.square && less(*n.square, {scaled_reach * scaled_reach});
 }
 

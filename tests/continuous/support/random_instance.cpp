@@ -11,16 +11,16 @@ Result<Roadmap> draw_roadmap(Draw& draw, const RandomOptions& options) {
   const bool is_grid = draw.chance(30);  // right angles, equal lengths
   for (std::size_t v = 0; v < options.num_vertices; ++v) {
     if (is_grid)
-      points.push_back({10 * draw.number(0, 3), 10 * draw.number(0, 3)});
+      points.push_back({10 * draw.length(0, 3), 10 * draw.length(0, 3)});
     else
-      points.push_back({draw.number(0, options.size), draw.number(0, options.size)});
+      points.push_back({draw.length(0, options.size), draw.length(0, options.size)});
   }
   std::vector<Edge> edges;
   for (std::size_t u = 0; u < points.size(); ++u)
     for (std::size_t v = u + 1; v < points.size(); ++v) {
       if (!draw.chance(options.edge_percent)) continue;
       Edge edge{VertexId(u), VertexId(v), std::nullopt};
-      if (draw.chance(15)) edge.duration = draw.number(1, 60);
+      if (draw.chance(15)) edge.duration = draw.ticks(1, 60);
       edges.push_back(edge);
       if (draw.chance(options.one_way_percent)) continue;
       std::swap(edge.from, edge.to);
@@ -44,7 +44,7 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
         return VertexId(static_cast<std::size_t>(
             draw.number(0, static_cast<std::int64_t>(shared->num_vertices()) - 1)));
       };
-      Agent agent{vertex(), vertex(), draw.number(1, options.max_radius),
+      Agent agent{vertex(), vertex(), draw.length(1, options.max_radius),
                   draw.chance(70) ? kUnitSpeed : kUnitSpeed * draw.number(1, 6) / 3};
       if (are_equal && i > 0) {
         agent.radius = agents[0].radius;
@@ -68,7 +68,7 @@ Instance random_pair(std::uint32_t seed) {
 std::string describe(const Instance& instance) {
   std::string text = "vertices";
   for (const Point& p : instance.roadmap().positions())
-    text += " (" + std::to_string(p.x) + "," + std::to_string(p.y) + ")";
+    text += " (" + std::to_string(p.x.count()) + "," + std::to_string(p.y.count()) + ")";
   text += "; edges";
   for (const Edge& e : instance.roadmap().edges()) {
     text += " " + std::to_string(e.from.index()) + ">" + std::to_string(e.to.index());
@@ -77,7 +77,7 @@ std::string describe(const Instance& instance) {
   text += "; agents";
   for (const Agent& a : instance.agents())
     text += " " + std::to_string(a.start.index()) + "->" + std::to_string(a.goal.index()) + " r" +
-            std::to_string(a.radius) + " v" + std::to_string(a.speed);
+            std::to_string(a.radius.count()) + " v" + std::to_string(a.speed.count());
   return text;
 }
 

@@ -147,7 +147,7 @@ TEST(VerifyMetamorphic, TheReportedClearanceIsTheRoomThereIs) {
   for (const Case& c : cases()) {
     const auto report = verify(c.instance, c.plan);
     for (const Clearance& clearance : report.clearances) {
-      const auto room = static_cast<Length>(std::floor(clearance.gap));
+      const auto room = Length(static_cast<std::int64_t>(std::floor(clearance.gap)));
       // The one agent grows; what others have to say about that does not matter.
       const auto grown = [&](Length by) {
         return changed(c.instance, kStay, [&](Agent& agent, AgentId i) {
@@ -170,7 +170,7 @@ TEST(VerifyMetamorphic, TheReportedClearanceIsTheRoomThereIs) {
       }
       // A whole gap is not to be trusted to the last digit.
       const auto too_large =
-          grown(room + (clearance.gap - std::floor(clearance.gap) > 0.999 ? 2 : 1));
+          grown(room + (clearance.gap - std::floor(clearance.gap) > 0.999 ? Length{2} : Length{1}));
       if (!too_large) continue;
       EXPECT_TRUE(collide(*too_large)) << clearance.gap;
       ++boundaries;

@@ -57,7 +57,7 @@ TEST(ContinuousVerify, TouchingIsAllowedAndOneUnitLessIsNot) {
                                 {VertexId(1), VertexId(2), std::nullopt},
                                 {VertexId(2), VertexId(3), std::nullopt}});
   const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
-  for (const Length radius : {500, 501}) {
+  for (const Length radius : {Length{500}, Length{501}}) {
     const auto instance = Instance::make(shared, {{VertexId(0), VertexId(2), 500, kUnitSpeed},
                                                   {VertexId(1), VertexId(3), radius, kUnitSpeed}});
     if (radius == 501) {  // the starts overlap already
@@ -84,7 +84,7 @@ TEST(ContinuousVerify, PassingInTouchIsAllowedInTheMiddleOfAMoveToo) {
   auto roadmap = Roadmap::make({{0, 0}, {6000, 8000}, {3000 + 480, 4000 - 360}},
                                {{VertexId(0), VertexId(1), std::nullopt}});
   const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
-  for (const Length radius : {300, 301}) {
+  for (const Length radius : {Length{300}, Length{301}}) {
     const auto instance = Instance::make(shared, {{VertexId(0), VertexId(1), radius, kUnitSpeed},
                                                   {VertexId(2), VertexId(2), 300, kUnitSpeed}})
                               .value();
@@ -93,7 +93,7 @@ TEST(ContinuousVerify, PassingInTouchIsAllowedInTheMiddleOfAMoveToo) {
     plan.paths.push_back({{VertexId(2), 0, 0}});
     const auto report = verify(instance, plan);
     EXPECT_EQ(report.valid(), radius == 300);
-    EXPECT_NEAR(report.clearances[0].gap, 300 - static_cast<double>(radius), 1e-9);
+    EXPECT_NEAR(report.clearances[0].gap, 300 - static_cast<double>(radius.count()), 1e-9);
     EXPECT_NEAR(report.clearances[0].tick, 5000, 1e-6);
     if (report.valid()) continue;
     EXPECT_EQ(report.violations[0].message,

@@ -17,13 +17,13 @@ inline constexpr std::size_t kMaxRandomVertices = 10'000;
 
 /// Lengths are in length units.
 struct RandomInstanceOptions {
-  std::size_t num_vertices = 100;   ///< 1 .. kMaxRandomVertices
-  std::size_t num_agents = 10;      ///< At most num_vertices.
-  Length width = 32 * kUnitSpeed;   ///< 1 .. geometry::kMaxLength
-  Length height = 32 * kUnitSpeed;  ///< The same.
-  Length radius = 353'553;          ///< Of the largest agents; 1 .. kMaxLength / 4.
-  Speed speed = kUnitSpeed;         ///< Of the fastest agents.
-  bool mixed = false;               ///< Radii and speeds from half of these up, at random.
+  std::size_t num_vertices = 100;  ///< 1 .. kMaxRandomVertices
+  std::size_t num_agents = 10;     ///< At most num_vertices.
+  Length width = 32'000'000;       ///< 1 .. geometry::kMaxLength
+  Length height = 32'000'000;      ///< The same.
+  Length radius = 353'553;         ///< Of the largest agents; 1 .. kMaxLength / 4.
+  Speed speed = kUnitSpeed;        ///< Of the fastest agents.
+  bool mixed = false;              ///< Radii and speeds from half of these up, at random.
   double resolution = kDefaultResolution;
 };
 

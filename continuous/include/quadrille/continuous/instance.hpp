@@ -14,9 +14,9 @@ QUADRILLE_API_BEGIN
 namespace quadrille::continuous {
 
 /// Millionths of a length unit per tick.
-using Speed = std::int64_t;
+using Speed = Quantity<struct SpeedUnit>;
 inline constexpr Speed kUnitSpeed = 1'000'000;
-inline constexpr Speed kMaxSpeed = 1'000'000'000'000;
+inline constexpr Speed kMaxSpeed{1'000'000'000'000};
 
 /// A disc with a task.
 struct Agent {

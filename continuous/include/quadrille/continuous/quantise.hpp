@@ -24,11 +24,18 @@ namespace quadrille::continuous {
 /// A speed, to the nearest Speed; the resolution cancels out. nullopt if that is 0.
 [[nodiscard]] std::optional<Speed> quantise_speed(double value);
 
+/// How long a straight move from one point to the other takes: the distance divided by the speed,
+/// to the nearest tick. nullopt if that is none, or more than geometry::kMaxDuration. Requires
+/// points in range and a speed in [1, kMaxSpeed].
+[[nodiscard]] std::optional<Ticks> travel_time(const Point& from, const Point& to, Speed speed);
+
 // And back, for output: decimal numbers as short as the resolution allows, where that is the
 // reciprocal of an integer. Quantised with the same resolution they give the same integers again.
 
-/// A coordinate, a duration, a time or a cost.
+/// A duration, a time or a cost.
 [[nodiscard]] double in_input_units(std::int64_t units, double resolution);
+/// A coordinate.
+[[nodiscard]] double in_input_units(Length length, double resolution);
 [[nodiscard]] double radius_in_input_units(Length radius, double resolution);
 [[nodiscard]] double speed_in_input_units(Speed speed);
 /// Whether `value`, in the input's units, is `units` up to half a unit.

@@ -32,7 +32,7 @@ struct Gap {
 ///
 /// Immutable, cheap to copy; all members may be called from several threads at once. They require
 /// valid motions and points in range. Time is constant for discs and grows with the number of
-/// corners for polygons, whose pairs are also dearer to construct: keep one per pair of body
+/// corners for polygons, whose pairs also take longer to construct: keep one per pair of body
 /// classes.
 class BodyPair {
  public:

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "quadrille/core/export.hpp"
+#include "quadrille/core/quantity.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -12,12 +13,12 @@ namespace quadrille::geometry {
 /// Time, in whole ticks. A time *difference* may be negative.
 using Ticks = std::int64_t;
 /// Length, in whole length units.
-using Length = std::int64_t;
+using Length = Quantity<struct LengthUnit>;
 
 /// What the exact arithmetic is laid out for: coordinates of a point lie in [-kMaxLength,
 /// kMaxLength], and so do radii and the coordinates of a polygon's corners. With a unit of 10^-6
 /// that is a million.
-inline constexpr Length kMaxLength = Length{1} << 40;
+inline constexpr Length kMaxLength{std::int64_t{1} << 40};
 /// The longest motion, rests included.
 inline constexpr Ticks kMaxDuration = Ticks{1} << 40;
 
