@@ -12,17 +12,17 @@
 namespace quadrille::discrete {
 
 /// Turns collisions of current paths into clauses over usage literals, the widest that are known to
-/// hold: rests forbid a goal for ever, crossings a whole
-/// rectangle, meetings in a corridor either passage.
+/// hold. A collision with an agent at rest excludes its goal for ever; one where two paths cross,
+/// the crossing of a whole rectangle; one in a corridor, that both pass it in these times.
 class EncounterClauses {
  public:
   /// Both outlive the object.
   EncounterClauses(LazyModel& model, const PathIndex& paths)
       : model_(model), paths_(paths), corridors_(model.instance().graph()) {}
 
-  /// Writes what excludes the encounter, unless that was written before: not all of the usages that
-  /// are returned are allowed. `cap` is what the first agent may cost at most, kForever if
-  /// anything.
+  /// Writes the clause "not all of these usages are allowed", which excludes the encounter, unless
+  /// it was written before, and returns the usages. `cap`: the most that the first agent may cost;
+  /// kForever if there is no such bound.
   std::vector<ObstacleId> exclude(const Encounter& encounter, Timestep cap, FormulaWriter& writer);
 
  private:

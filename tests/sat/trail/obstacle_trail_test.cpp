@@ -312,7 +312,7 @@ class TrailOfOne : public testing::Test {
   ObstacleTrail<NumberPaths> trail_{paths_, 1, kNoCap};
 };
 
-TEST_F(TrailOfOne, ADearerPathIsTakenBack) {
+TEST_F(TrailOfOne, ACostlierPathIsTakenBack) {
   trail_.push(lit(1));
   trail_.replace_path(kAgent, 2);
   EXPECT_FALSE(trail_.is_violated(kAgent));
@@ -326,7 +326,7 @@ TEST_F(TrailOfOne, ADearerPathIsTakenBack) {
   EXPECT_EQ(paths_.path(kAgent), 0);
 }
 
-TEST_F(TrailOfOne, APathThatIsNotDearerStays) {
+TEST_F(TrailOfOne, APathThatIsNotCostlierStays) {
   trail_.push(lit(3));
   trail_.replace_path(kAgent, 1);
   trail_.retract(0);
