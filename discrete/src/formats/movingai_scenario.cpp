@@ -48,6 +48,8 @@ class RowReader {
     ScenarioRow row;
     row.line = where_.line;
     row.map = std::string(fields_[1]);
+    if (row.map.find('\r') != std::string::npos)
+      return fail("the map name " + in_quotes(row.map) + " contains a carriage return");
     const bool fine = natural(0, row.bucket) && natural(2, row.width) && natural(3, row.height) &&
                       natural(4, row.start.x) && natural(5, row.start.y) &&
                       natural(6, row.goal.x) && natural(7, row.goal.y) && length(8, row.optimal);
