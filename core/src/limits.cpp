@@ -55,20 +55,22 @@ double LimitMonitor::elapsed_cpu() noexcept {
   return meter_.account().cpu_s();
 }
 
-void LimitMonitor::set_ticker(double interval_s, std::function<void()> listener) {
-  ticker_ = std::move(listener);
-  tick_interval_ = interval_s;
-  next_tick_ = elapsed_wall() + interval_s;
-}
-
 void LimitMonitor::stop(StopReason reason) noexcept {
   if (reason_ == StopReason::none) reason_ = reason;
 }
 
-bool LimitMonitor::exhausted() { return look(++calls_ % 16 == 0, false); }
-bool LimitMonitor::exhausted_now() { return look(true, true); }
+bool LimitMonitor::exhausted() {
+  if (!look() && calls_ % 16 == 0) look_at_meter(false);
+  return reason_ != StopReason::none;
+}
 
-bool LimitMonitor::look(bool at_clock, bool at_cpu) {
+bool LimitMonitor::exhausted_now() {
+  if (!look()) look_at_meter(true);
+  return reason_ != StopReason::none;
+}
+
+bool LimitMonitor::look() {
+  ++calls_;
   if (reason_ != StopReason::none) return true;
   if (limits_.interrupt != nullptr && limits_.interrupt->load(std::memory_order_relaxed))
     reason_ = StopReason::interrupt;
@@ -76,18 +78,14 @@ bool LimitMonitor::look(bool at_clock, bool at_cpu) {
     reason_ = StopReason::interrupt;
   else if (limits_.conflicts && conflicts_ >= *limits_.conflicts)
     reason_ = StopReason::conflicts;
-  else if (at_clock)
-    look_at_meter(at_cpu);
+  else if (limits_.looks && calls_ >= *limits_.looks)
+    reason_ = StopReason::interrupt;
   return reason_ != StopReason::none;
 }
 
 void LimitMonitor::look_at_meter(bool at_cpu) {
   constexpr double kInterval = 0.001;
   const double now = elapsed_wall();
-  if (ticker_ && now >= next_tick_) {
-    ticker_();
-    next_tick_ = elapsed_wall() + tick_interval_;
-  }
   const bool is_due = now >= next_look_;
   if (is_due) next_look_ = now + kInterval;
   if (is_due && limits_.memory_mib) meter_.look_at_memory();
@@ -100,12 +98,20 @@ void LimitMonitor::look_at_meter(bool at_cpu) {
 }
 
 bool LimitMonitor::has_room_for(std::size_t bytes) {
-  if (reason_ != StopReason::none) return false;
+  if (look()) return false;
   if (!limits_.memory_mib) return true;
   meter_.look_at_memory();
   const double more = static_cast<double>(bytes) / (1 << 20);
   if (meter_.account().memory_mib() + more > *limits_.memory_mib) stop(StopReason::memory);
   return reason_ == StopReason::none;
+}
+
+void LimitMonitor::check() {
+  if (exhausted()) throw LimitReached{};
+}
+
+void LimitMonitor::check_room_for(std::size_t bytes) {
+  if (!has_room_for(bytes)) throw LimitReached{};
 }
 
 }  // namespace quadrille

@@ -118,5 +118,13 @@ TEST_F(BadInputTest, NothingIsWrittenForBadInput) {
   EXPECT_FALSE(exists("new"));
 }
 
+TEST_F(BadInputTest, GraphsThatAreTooLargeForTheSolver) {
+  expect_refused({"solve", "--instance", write("large.json", R"({"quadrille": "instance",
+    "version": 1, "graph": {"vertices": 2097153, "edges": []},
+    "agents": [{"start": 0, "goal": 0}]})"),
+                  "--quiet"},
+                 "up to 2097152 vertices");
+}
+
 }  // namespace
 }  // namespace quadrille::cli::test

@@ -11,25 +11,36 @@ geometry::Disc disc(const Instance& instance, ClassId c) {
   return geometry::Disc{instance.radius(c)};
 }
 
+ClassId widest(const Instance& instance) {
+  ClassId widest(0);
+  for (const ClassId c : IdRange<ClassId>(instance.num_classes()))
+    if (instance.radius(c) > instance.radius(widest)) widest = c;
+  return widest;
+}
+
 }  // namespace
 
-Contacts::Contacts(const Instance& instance) : instance_(instance) {
+Contacts::Contacts(const Instance& instance, LimitMonitor& limits)
+    : instance_(instance), limits_(limits) {
   const IdRange<ClassId> classes(instance.num_classes());
   const std::size_t num_edges = instance.roadmap().num_edges();
   for (const ClassId a : classes)
-    for (const ClassId b : classes)
+    for (const ClassId b : classes) {
+      limits_.check();
       pairs_.push_back({geometry::BodyPair(disc(instance, a), disc(instance, b)),
                         PairTable<Offsets>(num_edges, std::max<std::size_t>(num_edges, 1)),
                         PairTable<Window>(
                             num_edges, std::max<std::size_t>(instance.roadmap().num_vertices(), 1)),
                         {},
                         {}});
+    }
   volumes_.resize(instance.num_classes());
 }
 
 const Contacts::Offsets& Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
   Pair& p = pair(a, b);
   return p.offsets.get(e.index(), f.index(), [&] {
+    limits_.check();
     return p.bodies.unsafe_offsets(instance_.motion(a, e), instance_.motion(b, f));
   });
 }
@@ -37,6 +48,7 @@ const Contacts::Offsets& Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeI
 const Contacts::Window& Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
   Pair& p = pair(a, b);
   return p.windows.get(e.index(), v.index(), [&] {
+    limits_.check();
     return p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().position(v));
   });
 }
@@ -66,14 +78,22 @@ const Contacts::Neighbours& Contacts::near(
     ClassId a, const geometry::Motion& motion, ClassId b) {
   auto& entry = known[key];
   if (entry == nullptr) {
-    entry = std::make_unique<Neighbours>();
-    const std::size_t num_edges = instance_.roadmap().num_edges();
-    for (const std::size_t index : volumes(b).near(disc(instance_, a), motion)) {
-      if (index < num_edges)
-        entry->edges.emplace_back(index);
-      else
-        entry->vertices.emplace_back(index - num_edges);
+    limits_.check();
+    auto made = std::make_unique<Neighbours>();
+    const Roadmap& roadmap = instance_.roadmap();
+    const geometry::BodyPair& bodies = pair(a, b).bodies;
+    // One tree is enough for all classes: what meets the widest body is looked at again.
+    for (const std::size_t index : volumes(widest(instance_)).near(disc(instance_, a), motion)) {
+      if (index < roadmap.num_edges()) {
+        const EdgeId e(index);
+        if (bodies.can_meet(motion, instance_.motion(b, e))) made->edges.push_back(e);
+      } else {
+        const VertexId v(index - roadmap.num_edges());
+        if (bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))
+          made->vertices.push_back(v);
+      }
     }
+    entry = std::move(made);
   }
   return *entry;
 }

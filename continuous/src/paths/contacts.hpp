@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "quadrille/continuous/instance.hpp"
+#include "quadrille/core/limits.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 #include "quadrille/geometry/swept_volumes.hpp"
 
@@ -25,9 +26,8 @@ class PairTable {
   [[nodiscard]] const Value& get(std::size_t row, std::size_t column, const Compute& compute) {
     const std::size_t key = row * columns_ + column;
     if (size_ == 0) {
-      const auto [at, is_new] = hashed_.try_emplace(key);
-      if (is_new) at->second = compute();
-      return at->second;
+      const auto at = hashed_.find(key);
+      return at != hashed_.end() ? at->second : hashed_.emplace(key, compute()).first->second;
     }
     if (plain_.empty()) plain_.resize(size_);
     if (!plain_[key]) plain_[key] = compute();
@@ -45,8 +45,9 @@ class PairTable {
 /// computed when they are first asked for, and kept; references to them stay valid.
 class Contacts {
  public:
-  /// `instance` outlives this.
-  explicit Contacts(const Instance& instance);
+  /// Both arguments outlive this. What has to be computed throws LimitReached when `limits` are
+  /// met.
+  Contacts(const Instance& instance, LimitMonitor& limits);
 
   /// Offsets d = start of f - start of e at which an agent of class a on edge e and one of class b
   /// on edge f collide.
@@ -86,6 +87,7 @@ class Contacts {
       ClassId a, const geometry::Motion& motion, ClassId b);
 
   const Instance& instance_;
+  LimitMonitor& limits_;
   std::vector<Pair> pairs_;
   std::vector<std::unique_ptr<geometry::SweptVolumes>> volumes_;  // by class: edges, then vertices
 };

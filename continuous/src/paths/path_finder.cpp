@@ -84,7 +84,7 @@ std::size_t PathFinder::state(BanTable& bans, VertexId v, std::uint32_t stay) {
 }
 
 void PathFinder::visit(const Node& node, Ticks estimate) {
-  ++num_visits_;
+  if (++num_visits_ % 64 == 0 && limits_ != nullptr) limits_->check();
   nodes_.push_back(node);
   heap_.push_back({estimate, node.arrive, static_cast<std::uint32_t>(nodes_.size() - 1)});
   std::push_heap(heap_.begin(), heap_.end(), is_later);

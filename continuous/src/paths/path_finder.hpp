@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "paths/bans.hpp"
+#include "quadrille/core/limits.hpp"
 
 namespace quadrille::continuous {
 
@@ -31,7 +32,9 @@ struct PathTask {
 /// earliest matters, because an agent may wait until the stay ends.
 class PathFinder {
  public:
-  explicit PathFinder(const Instance& instance) : instance_(instance) {}
+  /// Searches throw LimitReached when `limits` are met; null: there are none.
+  explicit PathFinder(const Instance& instance, LimitMonitor* limits = nullptr)
+      : instance_(instance), limits_(limits) {}
 
   /// Arrival of the cheapest path that arrives before `bound`; nullopt if there is none. `path`,
   /// unless null, receives it. `relevant`, unless null, is marked by slot: no path arrives before
@@ -67,6 +70,7 @@ class PathFinder {
   void trace(std::uint32_t node, TimedPath& path) const;
 
   const Instance& instance_;
+  LimitMonitor* limits_;
   std::vector<Node> nodes_;
   std::vector<Entry> heap_;
   // States of vertices without bans come first, by vertex; others as they are met.

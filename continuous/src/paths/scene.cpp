@@ -4,7 +4,7 @@
 namespace quadrille::continuous {
 
 Scene::Scene(const Instance& instance, LimitMonitor& limits)
-    : instance_(instance), limits_(limits), contacts_(instance) {
+    : instance_(instance), limits_(limits), contacts_(instance, limits) {
   distances_.reserve(instance.num_agents());
   for (const AgentId i : instance.agent_ids()) {
     if (limits.exhausted_now()) return;

@@ -19,18 +19,21 @@ constexpr int kMaxImprovements = 2;
 class OneByOne {
  public:
   explicit OneByOne(Scene& scene)
-      : scene_(scene), finder_(scene.instance()), bans_(scene.instance().roadmap()) {}
+      : scene_(scene),
+        finder_(scene.instance(), &scene.limits()),
+        bans_(scene.instance().roadmap()) {}
 
-  /// The agent that found no path, if one did not.
+  /// The agent that found no path, if one did not. Throws LimitReached.
   std::optional<std::size_t> try_order(const std::vector<AgentId>& order) {
     std::vector<std::vector<Step>> steps;
     paths_.assign(order.size(), {});
     for (std::size_t k = 0; k < order.size(); ++k) {
-      if (scene_.limits().exhausted()) return k;
       const AgentId i = order[k];
       bans_.clear();
-      for (std::size_t before = 0; before < k; ++before)
+      for (std::size_t before = 0; before < k; ++before) {
+        scene_.limits().check();
         keep_clear(i, order[before], steps[before]);
+      }
       TimedPath path;
       if (!finder_.find(scene_.task(i), bans_, kForever, &path)) return k;
       steps.emplace_back();
@@ -57,17 +60,13 @@ class OneByOne {
   std::vector<Path> paths_;
 };
 
-}  // namespace
-
-std::optional<Plan> find_first_plan(Scene& scene, Objective objective) {
+void try_orders(Scene& scene, Objective objective, std::optional<Plan>& best) {
   const Instance& instance = scene.instance();
   std::vector<AgentId> order;
   for (const AgentId i : instance.agent_ids()) order.push_back(i);
   std::stable_sort(order.begin(), order.end(),
                    [&](AgentId a, AgentId b) { return scene.free_cost(a) > scene.free_cost(b); });
-  if (order.empty()) return Plan{};
   OneByOne planner(scene);
-  std::optional<Plan> best;
   Random random(1);
   const auto someone = [&]() -> AgentId& {
     return order[static_cast<std::size_t>(random.below(order.size()))];
@@ -88,6 +87,17 @@ std::optional<Plan> find_first_plan(Scene& scene, Objective objective) {
     if (is_better && verify(instance, plan).valid()) best = std::move(plan);
     AgentId& first = someone();
     std::swap(first, someone());
+  }
+}
+
+}  // namespace
+
+std::optional<Plan> find_first_plan(Scene& scene, Objective objective) {
+  if (scene.instance().num_agents() == 0) return Plan{};
+  std::optional<Plan> best;
+  try {
+    try_orders(scene, objective, best);
+  } catch (const LimitReached&) {  // the best plan so far will do
   }
   return best;
 }

@@ -42,7 +42,7 @@ std::vector<Ban> bans_around(Scene& scene, ClassId a, ClassId b, const std::vect
 
 PlanImprover::PlanImprover(Scene& scene)
     : scene_(scene),
-      finder_(scene.instance()),
+      finder_(scene.instance(), &scene.limits()),
       nothing_(scene.instance().roadmap()),
       agents_(scene.instance().num_agents()) {}
 
@@ -51,9 +51,12 @@ void PlanImprover::improve(Plan& plan, std::int64_t effort) {
   if (instance.num_classes() > kMaxClasses || instance.num_agents() < 2) return;
   start(plan);
   const std::int64_t end = finder_.num_visits() + effort;
-  while (finder_.num_visits() < end && !scene_.limits().exhausted()) {
-    if (num_slots_ > kMaxSlotsPerAgent * agents_.size()) load();
-    replan(choose());
+  try {
+    while (finder_.num_visits() < end && !scene_.limits().exhausted()) {
+      if (num_slots_ > kMaxSlotsPerAgent * agents_.size()) load();
+      replan(choose());
+    }
+  } catch (const LimitReached&) {  // the paths are those before the last neighbourhood
   }
   Plan improved;
   for (const AgentId i : instance.agent_ids())

@@ -2,6 +2,7 @@
 #include "solve/cost_problem.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "quadrille/core/contract.hpp"
 
@@ -10,12 +11,20 @@ namespace quadrille::continuous {
 using sat::Lit;
 using sat::Verdict;
 
+namespace {
+
+/// Elementary steps, up to a second: each slice begins with a restart of the solver.
+constexpr std::int64_t kSlice = 800'000;
+
+}  // namespace
+
 CostProblem::CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& theory,
-                         bool theory_in_search)
+                         bool theory_in_search, sat::YieldPoint* yield_point)
     : model_(model),
       engine_(engine),
       theory_(theory),
       theory_in_search_(theory_in_search),
+      yield_point_(yield_point),
       writer_(engine) {}
 
 Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
@@ -58,7 +67,8 @@ Verdict CostProblem::solve_assuming(const Question& question, const Assumptions&
   for (const Level& level : assumptions.levels)
     literals.push_back(~model_.above(level.agent, level.cost - 1, writer_));
   if (assumptions.also.valid()) literals.push_back(assumptions.also);
-  const Verdict verdict = engine_.solve(literals, limits, question.budget);
+  const Verdict verdict = solve_in_slices(literals, limits, question.budget);
+  if (yield_point_ != nullptr) yield_point_->yield();
   core_.clear();
   if (verdict == Verdict::unsat) {
     const std::vector<Lit> failed = engine_.core();
@@ -67,6 +77,28 @@ Verdict CostProblem::solve_assuming(const Question& question, const Assumptions&
         core_.push_back(question.below[k]);
   }
   return verdict;
+}
+
+Verdict CostProblem::solve_in_slices(const std::vector<Lit>& assumptions, LimitMonitor& limits,
+                                     const sat::SolveBudget& budget) {
+  const std::int64_t end = limits.conflicts() + budget.conflicts.value_or(0);
+  sat::SolveBudget slice = budget;
+  // The decisions of a slice are not known: such solves are short and stay in one piece.
+  const bool is_sliced = !budget.decisions;
+  while (true) {
+    if (is_sliced) slice.effort = kSlice;
+    if (is_sliced && budget.conflicts)
+      slice.conflicts = static_cast<int>(
+          std::clamp<std::int64_t>(end - limits.conflicts(), 1, std::numeric_limits<int>::max()));
+    const std::int64_t slice_end = engine_.effort() + kSlice;
+    const Verdict verdict = engine_.solve(assumptions, limits, slice);
+    const bool is_over = verdict != Verdict::unknown || !is_sliced ||
+                         engine_.effort() < slice_end ||
+                         (budget.conflicts && limits.conflicts() >= end);
+    if (is_over) return verdict;
+    if (yield_point_ != nullptr) yield_point_->yield();
+    if (limits.exhausted_now()) return verdict;
+  }
 }
 
 bool CostProblem::accept_model() {

@@ -50,8 +50,11 @@ struct Question {
 class CostProblem {
  public:
   /// `theory_in_search`: the engine consults the theory while it searches; otherwise complete
-  /// assignments are checked here, between solves. All arguments outlive the problem.
-  CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& theory, bool theory_in_search);
+  /// assignments are checked here, between solves. Long solves are cut into slices of effort;
+  /// `yield_point`, unless null, is passed after each slice and each solve. All arguments outlive
+  /// the problem.
+  CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& theory, bool theory_in_search,
+              sat::YieldPoint* yield_point = nullptr);
 
   /// Unknown: `limits` or the budget ended the search.
   [[nodiscard]] sat::Verdict solve(const Question& question, LimitMonitor& limits);
@@ -77,12 +80,15 @@ class CostProblem {
   };
   [[nodiscard]] sat::Verdict solve_assuming(const Question& question,
                                             const Assumptions& assumptions, LimitMonitor& limits);
+  [[nodiscard]] sat::Verdict solve_in_slices(const std::vector<sat::Lit>& assumptions,
+                                             LimitMonitor& limits, const sat::SolveBudget& budget);
   [[nodiscard]] bool accept_model();
 
   Model& model_;
   sat::Engine& engine_;
   ContinuousTheory& theory_;
   const bool theory_in_search_;
+  sat::YieldPoint* const yield_point_;
   EngineWriter writer_;
   std::vector<Level> core_;
 };

@@ -83,6 +83,42 @@ class Auditors final : public sat::ClauseObserver {
   std::optional<LemmaAuditor> of_lemmas_;
 };
 
+/// Tells of the progress in the pauses of the search, as often as the options say.
+class ProgressReport final : public sat::YieldPoint {
+ public:
+  ProgressReport(const SolveOptions& options, const LimitMonitor& limits,
+                 const SolveOutcome& outcome)
+      : options_(options),
+        limits_(limits),
+        outcome_(outcome),
+        next_s_(limits.elapsed_wall() + options.progress_interval_s) {}
+  void set_incumbent(Cost cost) { incumbent_ = cost; }
+  [[nodiscard]] std::optional<Cost> incumbent() const { return incumbent_; }
+
+  void yield() override {
+    if (!options_.on_progress || limits_.elapsed_wall() < next_s_) return;
+    options_.on_progress(
+        {outcome_.lower_bound, incumbent_, limits_.elapsed_wall(), limits_.conflicts()});
+    next_s_ = limits_.elapsed_wall() + options_.progress_interval_s;
+  }
+
+ private:
+  const SolveOptions& options_;
+  const LimitMonitor& limits_;
+  const SolveOutcome& outcome_;
+  std::optional<Cost> incumbent_;
+  double next_s_;
+};
+
+/// What the agents cost when each is alone. Requires that all can reach their goals then.
+Cost free_bound(const Scene& scene, Objective objective) {
+  Cost bound = 0;
+  for (const AgentId i : scene.instance().agent_ids())
+    bound = objective == Objective::sum_of_costs ? bound + scene.free_cost(i)
+                                                 : std::max(bound, scene.free_cost(i));
+  return bound;
+}
+
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
                SolveOutcome& outcome) {
   Scene scene(instance, limits);
@@ -94,14 +130,14 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     outcome.explanation = blocked_text(blocked, instance.num_agents());
     return true;
   };
-  Cost floor = 0;
+  Cost floor = outcome.lower_bound = free_bound(scene, options.objective);
   std::optional<Plan> some_plan;
   /// Whether that is all.
   const auto learn = [&](Cost bound, std::optional<Plan> plan) {
     floor = outcome.lower_bound = std::max(floor, bound);
     keep_cheaper(some_plan, std::move(plan), options.objective);
+    outcome.plan = some_plan;  // the answer if a limit is met
     if (!some_plan || cost(*some_plan, options.objective) != floor) return false;
-    outcome.plan = std::move(some_plan);
     outcome.status = Status::optimal;
     return true;
   };
@@ -123,7 +159,7 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     if (is_blocked(feasibility.blocked)) return;
     some_plan = std::move(feasibility.plan);
   }
-  outcome.plan = some_plan;  // the answer if memory runs out
+  outcome.plan = some_plan;  // the answer if a limit is met
   ContinuousTheory theory(model);
   Auditors auditors(model, options);
   const bool in_search = options.system == System::dpll;
@@ -131,20 +167,17 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   engine_options.seed = options.seed;
   engine_options.observer = auditors.is_needed() ? &auditors : nullptr;
   sat::Engine engine(in_search ? &theory : nullptr, engine_options);
-  CostProblem problem(model, engine, theory, in_search);
+  ProgressReport progress(options, limits, outcome);
+  CostProblem problem(model, engine, theory, in_search, &progress);
 
-  std::optional<Cost> best;
-  limits.set_ticker(options.progress_interval_s, [&] {
-    if (options.on_progress)
-      options.on_progress({outcome.lower_bound, best, limits.elapsed_wall(), limits.conflicts()});
-  });
   const auto on_report = [&](const CostReport& report) {
     outcome.lower_bound = std::max(floor, report.lower_bound);
     if (!report.plan) return;
     const Cost cost_of_plan = cost(*report.plan, options.objective);
-    if (best != cost_of_plan) outcome.plan = report.plan;  // the answer if memory runs out
-    best = cost_of_plan;
-    if (is_close(options, *best, outcome.lower_bound)) limits.stop(StopReason::gap);
+    if (progress.incumbent() != cost_of_plan) outcome.plan = report.plan;  // if a limit is met
+    progress.set_incumbent(cost_of_plan);
+    if (is_close(options, cost_of_plan, outcome.lower_bound)) limits.stop(StopReason::gap);
+    progress.yield();
   };
   const auto report =
       options.objective == Objective::sum_of_costs
@@ -202,18 +235,25 @@ void check_plan(const Instance& instance, const SolveOptions& options, SolveOutc
   outcome.cost = cost;
 }
 
+/// The answer of a search that was cut short.
+void keep_best(const SolveOptions& options, SolveOutcome& outcome) {
+  outcome.status = outcome.plan ? Status::feasible : Status::unknown;
+  if (outcome.plan && cost(*outcome.plan, options.objective) == outcome.lower_bound)
+    outcome.status = Status::optimal;
+}
+
 /// Fills in what was found and proved, and checks its plan. Throws what callbacks throw.
 void answer(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
             SolveOutcome& outcome) {
   try {
     try {
       find_plan(instance, options, limits, outcome);
+    } catch (const LimitReached&) {
+      keep_best(options, outcome);
     } catch (const std::bad_alloc&) {
       // The search's memory is free again: the bound and the best plan are the answer.
       outcome.stop = StopReason::memory;
-      outcome.status = outcome.plan ? Status::feasible : Status::unknown;
-      if (outcome.plan && cost(*outcome.plan, options.objective) == outcome.lower_bound)
-        outcome.status = Status::optimal;
+      keep_best(options, outcome);
     }
     if (outcome.plan && !outcome.internal_error) check_plan(instance, options, outcome);
   } catch (const std::bad_alloc&) {

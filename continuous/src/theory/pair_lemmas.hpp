@@ -29,6 +29,9 @@ class PairLemmas {
   /// `i.active`: only these. True as above.
   bool note_explanation(const Party& i, const Party& j, FormulaWriter& writer);
 
+  /// Steps that all searches of pairs have made.
+  [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
+
  private:
   struct Record {
     int count = 0;

@@ -5,9 +5,9 @@
 
 namespace quadrille::continuous {
 
-PathSearch::PathSearch(const Model& model)
+PathSearch::PathSearch(Model& model)
     : model_(model),
-      finder_(model.instance()),
+      finder_(model.instance(), &model.limits()),
       bans_(model.instance().roadmap()),
       explainer_(finder_) {}
 

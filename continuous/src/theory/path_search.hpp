@@ -15,8 +15,8 @@ namespace quadrille::continuous {
 /// is no cheaper one.
 class PathSearch {
  public:
-  /// `model` outlives the object.
-  explicit PathSearch(const Model& model);
+  /// `model` outlives the object. Searches throw LimitReached when the model's limits are met.
+  explicit PathSearch(Model& model);
 
   /// What a search has found. To be asked before the next search only.
   class Cheapest {
@@ -39,6 +39,9 @@ class PathSearch {
   };
   /// A cheapest path that obeys the bans of the obstacles and arrives before `bound`.
   [[nodiscard]] Cheapest find(AgentId agent, std::span<const ObstacleId> obstacles, Cost bound);
+
+  /// States that all searches have visited.
+  [[nodiscard]] std::int64_t effort() const noexcept { return finder_.num_visits(); }
 
  private:
   const Model& model_;

@@ -18,7 +18,7 @@ ContinuousTheory::ContinuousTheory(Model& model)
       paths_(model),
       trail_(paths_, model.instance().num_agents(), kForever),
       search_(model),
-      finder_(model.instance()),
+      finder_(model.instance(), &model.limits()),
       bans_(model.instance().roadmap()),
       clauses_(model, finder_, bans_),
       pair_lemmas_(model),
@@ -225,6 +225,7 @@ std::vector<Encounter> ContinuousTheory::encounters() {
       auto& apart = apart_[i.index() * caches_.size() + j.index()];
       const std::pair versions{paths_.path(i)->version, paths_.path(j)->version};
       if (apart == versions) continue;
+      ++num_comparisons_;
       if (auto encounter =
               first_encounter(model_.scene(), i, paths_.path(i)->steps, j, paths_.path(j)->steps))
         found.push_back(*encounter);

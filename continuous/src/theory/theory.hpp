@@ -63,6 +63,9 @@ class ContinuousTheory final : public sat::Theory {
   void on_assign(std::span<const sat::Lit> newly_true) override;
   void on_retract(std::size_t kept) override;
   void check(sat::Effort effort, sat::TheoryContext& context) override;
+  [[nodiscard]] std::int64_t effort() const noexcept override {
+    return search_.effort() + finder_.num_visits() + pair_lemmas_.effort() + num_comparisons_;
+  }
   sat::Lemma explain(sat::Lit implied, std::vector<sat::Lit>& clause) override;
 
  private:
@@ -114,6 +117,7 @@ class ContinuousTheory final : public sat::Theory {
 
   std::optional<Plan> accepted_;
   std::int64_t num_checks_ = 0;
+  std::int64_t num_comparisons_ = 0;  // of two agents' paths
 };
 
 }  // namespace quadrille::continuous

@@ -46,7 +46,7 @@ LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits, ExplicitPaths::Pr
       paths_(model.instance()),
       trailed_paths_(paths_, model.obstacles()),
       trail_(trailed_paths_, model.instance().num_agents(), kForever),
-      search_(model, paths_),
+      search_(model, paths_, limits),
       separation_(paths_, trail_, search_, limits),
       clauses_(model, paths_),
       explicit_paths_(model, price),

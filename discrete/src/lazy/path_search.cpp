@@ -5,11 +5,11 @@
 
 namespace quadrille::discrete {
 
-PathSearch::PathSearch(const LazyModel& model, const PathIndex& paths)
+PathSearch::PathSearch(const LazyModel& model, const PathIndex& paths, LimitMonitor& limits)
     : model_(model),
       paths_(paths),
       map_(model.instance().graph().num_vertices()),
-      finder_(model.instance().graph().num_vertices()),
+      finder_(model.instance().graph().num_vertices(), &limits),
       explainer_(model.instance().graph().num_vertices()) {}
 
 void PathSearch::load(AgentId agent, std::span<const ObstacleId> obstacles) {

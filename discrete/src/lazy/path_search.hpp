@@ -17,7 +17,7 @@ namespace quadrille::discrete {
 class PathSearch {
  public:
   /// Both outlive the object.
-  PathSearch(const LazyModel& model, const PathIndex& paths);
+  PathSearch(const LazyModel& model, const PathIndex& paths, LimitMonitor& limits);
 
   /// What a search for a cheapest path has found. To be asked before the next search only.
   class Cheapest {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "quadrille/core/contract.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/sat/lemma.hpp"
 
@@ -24,12 +25,15 @@ struct DecodedUsage {
   friend bool operator==(const DecodedUsage&, const DecodedUsage&) = default;
 };
 
-// Packed as kind (2 bits), timestep (20), vertex (21), to (21). Instances beyond that are refused
-// by the solver.
+// Packed as kind (2 bits), timestep (20), vertex (21), to (21). The solver refuses graphs beyond
+// that, and MddPaths paths.
 inline constexpr std::size_t kMaxVertices = std::size_t{1} << 21;
 inline constexpr Timestep kMaxTimestep = (1 << 20) - 1;
 
 [[nodiscard]] constexpr std::uint64_t encode_usage(const DecodedUsage& u) {
+  QUADRILLE_REQUIRE(u.timestep >= 0 && u.timestep <= kMaxTimestep &&
+                        u.vertex.index() < kMaxVertices && u.to.index() < kMaxVertices,
+                    "a usage fits its number");
   return static_cast<std::uint64_t>(u.kind) << 62 | static_cast<std::uint64_t>(u.timestep) << 42 |
          static_cast<std::uint64_t>(u.vertex.value()) << 21 |
          static_cast<std::uint64_t>(u.to.value());

@@ -9,6 +9,7 @@ template <class T>
 bool fill_rows(const Instance& instance, T no_way, LimitMonitor& limits, std::vector<T>& rows) {
   const Graph& graph = instance.graph();
   const std::size_t size = graph.num_vertices();
+  if (!limits.has_room_for(instance.num_agents() * size * sizeof(T))) return false;
   rows.assign(instance.num_agents() * size, no_way);
   std::vector<VertexId> queue;
   queue.reserve(size);
@@ -18,6 +19,7 @@ bool fill_rows(const Instance& instance, T no_way, LimitMonitor& limits, std::ve
     queue.assign(1, instance.tasks()[agent].goal);
     row[queue.front().index()] = 0;
     for (std::size_t head = 0; head < queue.size(); ++head) {
+      if (head % 4096 == 4095 && limits.exhausted_now()) return false;
       const VertexId v = queue[head];
       const T next = static_cast<T>(row[v.index()] + 1);
       for (const VertexId w : graph.neighbours(v)) {

@@ -18,7 +18,10 @@ void PathFinder::start_search() {
 
 void PathFinder::make_layers(Timestep slack) {
   const auto last = static_cast<std::size_t>(slack);
-  while (layers_.size() <= last) layers_.emplace_back(num_vertices_);
+  while (layers_.size() <= last) {
+    if (limits_ != nullptr) limits_->check_room_for(num_vertices_ * sizeof(Closed));
+    layers_.emplace_back(num_vertices_);
+  }
 }
 
 void PathFinder::push(Buckets& buckets, Timestep at, State state) {
@@ -43,6 +46,7 @@ template <class Hit, class Push>
 void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hit& hit,
                         const Push& push) {
   ++effort_;
+  if (limits_ != nullptr && effort_ % 64 == 0) limits_->check();
   const AgentDistances& d = query.distances;
   const Timestep max_slack = query.max_cost - d.free_cost();
   const Timestep h = d.to_goal(v), t = d.free_cost() + slack - h;

@@ -8,6 +8,7 @@
 #include "paths/agent_distances.hpp"
 #include "paths/obstacle_map.hpp"
 #include "paths/path_index.hpp"
+#include "quadrille/core/limits.hpp"
 
 namespace quadrille::discrete {
 
@@ -15,7 +16,9 @@ namespace quadrille::discrete {
 /// 1 to the slack, a move 0, 1 or 2. Tables are stamped and exist only for slacks that were needed.
 class PathFinder {
  public:
-  explicit PathFinder(std::size_t num_vertices) : num_vertices_(num_vertices) {}
+  /// Searches throw LimitReached when `limits` are met; null: there are none.
+  explicit PathFinder(std::size_t num_vertices, LimitMonitor* limits = nullptr)
+      : num_vertices_(num_vertices), limits_(limits) {}
 
   struct Query {
     AgentId agent;
@@ -64,6 +67,7 @@ class PathFinder {
   void trace(const Query& query, Timestep arrival, Path& path);
 
   std::size_t num_vertices_;
+  LimitMonitor* limits_;
   std::int64_t effort_ = 0;
   std::uint32_t stamp_ = 0;
   std::vector<std::vector<Closed>> layers_;  // by slack, then vertex

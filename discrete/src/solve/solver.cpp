@@ -46,6 +46,7 @@ class Search final : private sat::YieldPoint {
     }
     try {
       if (!limits_.exhausted_now()) search(distances);
+    } catch (const LimitReached&) {  // while the search was set up
     } catch (const std::bad_alloc&) {
       // The search's memory is free again: the bound and the best plan are the answer.
       outcome_.stop = StopReason::memory;
@@ -62,7 +63,7 @@ class Search final : private sat::YieldPoint {
   /// What the agents cost when each is alone. Without `distances`, because a limit was met, of as
   /// many as can be looked at in little time.
   [[nodiscard]] Cost free_bound(const GoalDistances* distances) const {
-    constexpr double kGrace = 0.5;  // s
+    constexpr double kGrace = 0.1;  // s
     Cost bound = 0;
     const double begin = wall_seconds();
     for (const AgentId i : instance_.agents()) {
@@ -118,7 +119,11 @@ class Search final : private sat::YieldPoint {
     incumbent_.set_run(run_);
     incumbent_.raise(run->problem().lower_bound());
     yield();
-    const sat::SearchEnd end = search_costs(*run);
+    sat::SearchEnd end = sat::SearchEnd::stopped;
+    try {
+      end = search_costs(*run);
+    } catch (const LimitReached&) {  // the engine is left in order, and what was raised is proved
+    }
     run->engine().add_statistics(outcome_.statistics);
     outcome_.statistics.checks = run->num_checks();
     outcome_.statistics.rejected_models = run->num_rejected();
@@ -217,7 +222,8 @@ void answer(const Instance& instance, const SolveOptions& options, const Tuning&
 }
 
 std::string stop_text(StopReason reason) {
-  if (reason == StopReason::none) return "a path needs more timesteps than the solver supports";
+  if (reason == StopReason::none)
+    return "a path needs 2^20 timesteps or more: the MDD systems do not support it";
   if (reason == StopReason::memory) return "no more memory";  // short: needs no memory itself
   return "stopped by the limit: " + std::string(to_string(reason));
 }
@@ -231,6 +237,7 @@ SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options, 
   if (companion != nullptr) limits.set_cancel(&companion->cancelled());
   try {
     answer(instance, options, tuner(options), limits, companion, outcome);
+  } catch (const LimitReached&) {  // before there was anything to tell
   } catch (const std::bad_alloc&) {
     outcome.status = Status::unknown;
     outcome.plan.reset();
@@ -239,7 +246,8 @@ SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options, 
   }
   if (outcome.status == Status::feasible || outcome.status == Status::unknown) {
     if (outcome.stop == StopReason::none) outcome.stop = limits.reason();
-    if (outcome.status == Status::unknown) outcome.explanation = stop_text(outcome.stop);
+    if (outcome.status == Status::unknown || outcome.stop == StopReason::none)
+      outcome.explanation = stop_text(outcome.stop);
   } else {
     outcome.stop = StopReason::none;
   }

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -150,6 +151,78 @@ TEST(SolverLimits, BelongToTheSolve) {
   EXPECT_LT(by_cpu.statistics.cpu_s, 1.3);
   EXPECT_EQ(by_memory.stop, StopReason::memory) << to_string(by_memory.stop);
   EXPECT_LT(by_memory.statistics.cpu_s, 20);
+}
+
+/// A line with a passing place near its end: the agent there has to leave for long searches.
+Instance long_line(std::size_t length) {
+  std::vector<Graph::Edge> edges;
+  for (std::size_t v = 0; v + 1 < length; ++v) edges.emplace_back(VertexId(v), VertexId(v + 1));
+  edges.emplace_back(VertexId(length - 4), VertexId(length));
+  edges.emplace_back(VertexId(length), VertexId(length + 1));
+  edges.emplace_back(VertexId(length + 1), VertexId(length - 2));
+  auto graph = std::make_shared<const Graph>(Graph::make(length + 2, edges).value());
+  return Instance::make(graph, {{VertexId(0), VertexId(length - 1)},
+                                {VertexId(length - 3), VertexId(length - 3)}})
+      .value();
+}
+
+// One search for a path looks at as many timesteps as the line is long, each with a table.
+TEST(SolverLimits, HoldWithinOneSearchForAPath) {
+  constexpr std::size_t kLength = 20'000;
+  const Instance instance = long_line(kLength);
+  TunedOptions options;
+  options.objective = Objective::makespan;
+  options.limits.cpu_s = 0.2;
+  malloc_trim(0);
+  const SolveOutcome by_time = run(instance, options).outcome;
+  EXPECT_EQ(by_time.stop, StopReason::cpu_time) << to_string(by_time.stop);
+  EXPECT_LT(by_time.statistics.cpu_s, 0.8);
+  EXPECT_EQ(by_time.lower_bound, Cost{kLength - 1});
+  options.limits.cpu_s = 20;
+  options.limits.memory_mib = 60;
+  malloc_trim(0);
+  const SolveOutcome by_memory = run(instance, options).outcome;
+  EXPECT_EQ(by_memory.stop, StopReason::memory) << to_string(by_memory.stop);
+  EXPECT_EQ(by_memory.lower_bound, Cost{kLength - 1});
+}
+
+// Every look at the limits is the last one once: those deep inside the theory, which leave by an
+// exception, too.
+TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
+  constexpr std::int64_t kLooks = 200;
+  const std::int64_t stride = kLooks / static_cast<std::int64_t>(scaled(kLooks));
+  Random random(7);
+  const Instance instance = random_grid(random, {14, 14, 15, 30, 30});
+  int num_cut = 0, num_bounded = 0;
+  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan}) {
+    TunedOptions uncut;
+    uncut.objective = objective;
+    const SolveOutcome truth = run(instance, uncut).outcome;
+    ASSERT_EQ(truth.status, Status::optimal);
+    for (TunedOptions options : all_systems(objective))
+      for (const bool first_plan : {false, true})
+        for (std::int64_t looks = 1; looks <= kLooks; looks += stride) {
+          options.first_plan = first_plan;
+          options.limits.looks = looks;
+          SCOPED_TRACE(options_text(options) + " looks " + std::to_string(looks));
+          const SolveOutcome outcome = run(instance, options).outcome;
+          ASSERT_GE(outcome.lower_bound, 0);
+          ASSERT_LE(outcome.lower_bound, *truth.cost);
+          ASSERT_NE(outcome.status, Status::infeasible);
+          if (outcome.cost) {
+            ASSERT_GE(*outcome.cost, *truth.cost);
+          }
+          if (outcome.status == Status::optimal) {
+            ASSERT_EQ(*outcome.cost, *truth.cost);
+            continue;
+          }
+          ASSERT_EQ(outcome.stop, StopReason::interrupt) << to_string(outcome.stop);
+          ++num_cut;
+          if (outcome.lower_bound == *truth.cost) ++num_bounded;
+        }
+  }
+  EXPECT_GT(num_cut, kLooks / stride);
+  EXPECT_GT(num_bounded, 0);
 }
 
 TEST(SolverLimits, PortfoliosCountAllTheirThreads) {

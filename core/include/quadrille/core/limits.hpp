@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -35,10 +34,17 @@ struct Limits {
   std::optional<std::int64_t> conflicts;
   /// Set from anywhere (a signal handler, another thread) to stop the search soon. May be null.
   const std::atomic<bool>* interrupt = nullptr;
+  /// Stops as if interrupted when a monitor is asked for the so-manieth time: for tests of what is
+  /// left behind by a search that is cut short anywhere.
+  std::optional<std::int64_t> looks;
 };
 
-/// Watches Limits during one search. Once a limit is met it stays met. To be used by the thread
-/// that made it.
+/// Thrown where a computation is so deep inside others that it cannot say that it was cut short.
+/// The searches of this library catch it; nobody else gets to see it.
+struct LimitReached {};
+
+/// Watches Limits during one search: a budget and a stop token, nothing else. Once a limit is met
+/// it stays met. To be used by the thread that made it.
 class LimitMonitor {
  public:
   /// A search of several threads has one monitor for each of them and one account for all; null: an
@@ -53,9 +59,9 @@ class LimitMonitor {
   /// Whether `bytes` more would be within the limit of memory; to be asked before a large table is
   /// made. If not, the limit counts as met.
   [[nodiscard]] bool has_room_for(std::size_t bytes);
-
-  /// Calls `listener` from within `exhausted` about every `interval_s` seconds.
-  void set_ticker(double interval_s, std::function<void()> listener);
+  /// As `exhausted` and `has_room_for`, but throw LimitReached if the search has to stop.
+  void check();
+  void check_room_for(std::size_t bytes);
 
   /// A second interrupt flag. May be null; must outlive the monitor otherwise.
   void set_cancel(const std::atomic<bool>* cancel) noexcept { cancel_ = cancel; }
@@ -70,7 +76,8 @@ class LimitMonitor {
   [[nodiscard]] double elapsed_cpu() noexcept;
 
  private:
-  bool look(bool at_clock, bool at_cpu);
+  /// Counts the call and looks at what costs nothing. True when the search has to stop.
+  bool look();
   void look_at_meter(bool at_cpu);
 
   Limits limits_;
@@ -78,10 +85,8 @@ class LimitMonitor {
   ResourceMeter meter_;
   double next_look_ = 0;
   std::int64_t conflicts_ = 0;
-  std::uint32_t calls_ = 0;
+  std::int64_t calls_ = 0;
   StopReason reason_ = StopReason::none;
-  std::function<void()> ticker_;
-  double tick_interval_ = 0, next_tick_ = 0;
 };
 
 }  // namespace quadrille

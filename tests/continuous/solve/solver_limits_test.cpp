@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Limits: a search that is cut short anywhere claims nothing that is not true.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/solver.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+struct Case {
+  Instance instance;
+  SolveOptions options;
+  SolveOutcome truth;
+};
+
+/// Instances that are solved to optimality, each with a part of the searches that there are.
+std::vector<Case> cases(std::size_t count) {
+  std::vector<Case> found;
+  for (std::uint32_t seed = 1; found.size() < count && seed < 200; ++seed) {
+    RandomOptions random;
+    random.num_vertices = 14;
+    random.num_agents = 3 + seed % 2;
+    random.size = 100;
+    random.edge_percent = 25;
+    const Instance instance = random_instance(seed, random);
+    SolveOptions options;
+    options.objective = seed % 2 == 0 ? Objective::makespan : Objective::sum_of_costs;
+    options.system = seed % 3 == 0 ? System::smt_cbs : System::dpll;
+    if (seed % 5 != 0) options.joint_work = options.route_work = 0;
+    options.limits.conflicts = 1000;
+    options.limits.cpu_s = 1;
+    SolveOutcome truth = solve(instance, options).value();
+    if (truth.status != Status::optimal || truth.statistics.sat_calls == 0) continue;
+    options.limits = {};
+    found.push_back({instance, options, std::move(truth)});
+  }
+  return found;
+}
+
+TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
+  constexpr std::int64_t kLooks = 200;
+  const std::int64_t stride = kLooks / static_cast<std::int64_t>(support::scaled(kLooks));
+  int num_cut = 0, num_plans = 0;
+  for (const Case& c : cases(12))
+    for (std::int64_t looks = 1; looks <= kLooks; looks += stride) {
+      SCOPED_TRACE(describe(c.instance) + " looks " + std::to_string(looks));
+      SolveOptions options = c.options;
+      options.limits.looks = looks;
+      const SolveOutcome outcome = solve(c.instance, options).value();
+      ASSERT_FALSE(outcome.internal_error);
+      ASSERT_GE(outcome.lower_bound, 0);
+      ASSERT_LE(outcome.lower_bound, *c.truth.cost);
+      ASSERT_NE(outcome.status, Status::infeasible);
+      ASSERT_EQ(outcome.plan.has_value(), outcome.status != Status::unknown);
+      if (outcome.plan) {
+        ++num_plans;
+        ASSERT_TRUE(verify(c.instance, *outcome.plan).valid());
+        ASSERT_GE(*outcome.cost, *c.truth.cost);
+      }
+      if (outcome.status == Status::optimal) {
+        ASSERT_EQ(*outcome.cost, *c.truth.cost);
+        continue;
+      }
+      ASSERT_EQ(outcome.stop, StopReason::interrupt) << to_string(outcome.stop);
+      ++num_cut;
+    }
+  EXPECT_GT(num_cut, kLooks / stride);
+  EXPECT_GT(num_plans, 0);
+}
+
+// Progress is told between two solves or slices of one: the bound grows, and is one.
+TEST(SolverLimits, ProgressIsToldInOrder) {
+  int num_told = 0;
+  for (const Case& c : cases(12)) {
+    SolveOptions options = c.options;
+    options.progress_interval_s = 0;
+    Cost bound = 0;
+    options.on_progress = [&](const Progress& progress) {
+      ++num_told;
+      EXPECT_GE(progress.lower_bound, bound);
+      bound = progress.lower_bound;
+      EXPECT_LE(bound, *c.truth.cost);
+      if (progress.cost) {
+        EXPECT_GE(*progress.cost, *c.truth.cost);
+      }
+    };
+    const SolveOutcome outcome = solve(c.instance, options).value();
+    EXPECT_EQ(outcome.cost, c.truth.cost);
+  }
+  EXPECT_GE(num_told, 12);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test
