@@ -132,8 +132,8 @@ class CaseReader {
       options_->lazy.forbid_first = true;
     } else if (word == "chronological" || word == "not-chronological") {
       options_->lazy.chronological = word == "chronological";
-    } else if (word == "crowded" || word == "not-crowded") {
-      options_->crowded = word == "crowded";
+    } else if (word == "open" || word == "not-open") {
+      options_->open = word == "open";
     } else if (word == "race") {
       options_->race = true;
     } else if (key == "threads" && value.size() == 1 && value[0] >= '1' && value[0] <= '9') {
@@ -257,7 +257,7 @@ std::string options_text(const TunedOptions& options) {
   if (options.lazy.chronological)
     text += *options.lazy.chronological ? " chronological" : " not-chronological";
   if (options.first_turn) text += " first-turn=" + std::to_string(*options.first_turn);
-  if (options.crowded) text += *options.crowded ? " crowded" : " not-crowded";
+  if (options.open) text += *options.open ? " open" : " not-open";
   if (!options.first_plan) text += " no-first-plan";
   if (options.debug.audit) text += " audit";
   if (options.debug.known_plan) text += " known-plan";

@@ -138,7 +138,7 @@ std::vector<TunedOptions> random_systems(Random& random, Objective objective) {
     options.lazy.forbid_first = random.percent(30);
     if (random.percent(60)) options.lazy.chronological = random.percent(50);
     if (random.percent(50)) options.first_turn = 1 + static_cast<std::int64_t>(random.below(20));
-    if (random.percent(50)) options.crowded = random.percent(80);
+    if (random.percent(50)) options.open = random.percent(80);
     if (random.percent(5)) {
       options.threads = 2 + random.below(2);
       options.race = random.percent(50);

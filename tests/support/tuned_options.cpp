@@ -9,8 +9,8 @@ Result<SolveOutcome> solve(const Instance& instance, const TunedOptions& options
   return solve_tuned(instance, options, [&](const SolveOptions& of_one) {
     Features features = features_of(instance);
     Tuning tuning = choose_tuning(features, of_one);
-    if (options.crowded) {
-      features.is_open = features.is_crowded = *options.crowded;
+    if (options.open) {
+      features.is_open = *options.open;
       tuning.cores = choose_tuning(features, of_one).cores;
     }
     tuning.cores.first_turn = options.first_turn.value_or(tuning.cores.first_turn);

@@ -11,7 +11,7 @@ namespace quadrille::discrete::support {
 /// Options with settings that users do not choose, but tests do.
 struct TunedOptions : SolveOptions {
   std::optional<std::int64_t> first_turn;  ///< See sat::CoreGuidedOptions. 1 .. 2^31 - 1.
-  std::optional<bool> crowded;             ///< Cost search as on open, crowded maps, or others.
+  std::optional<bool> open;                ///< Cost search as on open maps, or others.
 };
 
 /// As the function without settings.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "quadrille/discrete/graph.hpp"
-#include "quadrille/discrete/instance.hpp"
 
 namespace quadrille::discrete {
 
@@ -15,12 +14,6 @@ namespace quadrille::discrete {
 /// 73,000). Without any, two agents in a dead end of an open map are a matter of minutes.
 [[nodiscard]] inline bool is_open(const Graph& graph) noexcept {
   return 20 * graph.num_edges() > 36 * graph.num_vertices();
-}
-
-/// Whether there is an agent for every eight vertices: then very many agents hinder each other, and
-/// it matters how the cost of that is told apart.
-[[nodiscard]] inline bool is_crowded(const Instance& instance) noexcept {
-  return 8 * instance.num_agents() > instance.graph().num_vertices();
 }
 
 }  // namespace quadrille::discrete

@@ -20,13 +20,11 @@ bool searches_from_above(const SolveOptions& options) noexcept {
 }  // namespace
 
 Features features_of(const Instance& instance) {
-  const bool open = is_open(instance.graph());
-  return {open, open && is_crowded(instance), instance.num_agents() >= kManyAgents};
+  return {is_open(instance.graph()), instance.num_agents() >= kManyAgents};
 }
 
-/// Measured: on open maps the search from above closes most of the gap, and if they are crowded,
-/// it should begin soon, and smaller cores are worth their time. Elsewhere both take time from
-/// the cores.
+/// Measured: on open maps the search from above closes most of the gap; elsewhere it takes time
+/// from the cores.
 Tuning choose_tuning(const Features& features, const SolveOptions& options) {
   Tuning tuning;
   if (options.system != System::dpll) return tuning;
@@ -38,12 +36,6 @@ Tuning choose_tuning(const Features& features, const SolveOptions& options) {
   if (features.is_open) {
     cores.descent_share = 3;
     cores.candidates_within = 3;
-  }
-  cores.head_start = features.is_crowded ? 1 : 6;
-  if (features.is_crowded) {
-    cores.first_turn /= 2;
-    cores.passes = 6;
-    cores.core_tries = 10;
   }
   return tuning;
 }

@@ -12,8 +12,7 @@ namespace quadrille::discrete {
 
 /// What the settings of a search depend on.
 struct Features {
-  bool is_open = false;     ///< See model/open_maps.hpp.
-  bool is_crowded = false;  ///< Open, and with an agent for every eight vertices.
+  bool is_open = false;  ///< See model/open_maps.hpp.
   bool has_many_agents = false;
 };
 [[nodiscard]] Features features_of(const Instance& instance);

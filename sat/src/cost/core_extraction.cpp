@@ -21,10 +21,7 @@ constexpr std::int64_t kLaterPassShare = 4;
 
 CoreExtraction::CoreExtraction(const CostSearchContext& context, const CoreGuidedOptions& options,
                                Statistics& statistics)
-    : context_(context),
-      options_(options),
-      statistics_(statistics),
-      minimiser_(context, {options.minimise_cores, options.core_tries}) {}
+    : context_(context), options_(options), statistics_(statistics), minimiser_(context) {}
 
 Outcome CoreExtraction::advance(Slice slice) {
   while (true) {
@@ -39,8 +36,7 @@ Outcome CoreExtraction::advance(Slice slice) {
       if (!end_pass()) return Outcome::stopped;
       continue;
     }
-    const std::vector<Lit> core =
-        minimiser_.minimise(context_.engine.core(), conflicts_, in_passes());
+    const std::vector<Lit> core = minimiser_.minimise(context_.engine.core(), conflicts_);
     if (core.empty()) return Outcome::exhausted;
     ++statistics_.cores;
     if (!relaxation_->relax(core)) return Outcome::stopped;

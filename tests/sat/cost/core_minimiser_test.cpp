@@ -60,11 +60,10 @@ class CoreMinimiserTest : public testing::Test {
         engine.add_clause({LemmaKind::collision, clause, {}, false});
       }
   }
-  std::vector<std::size_t> minimise(const CoreMinimiser::Options& options, bool retry,
-                                    std::int64_t searched = 1000) {
-    CoreMinimiser minimiser({engine, problem, bounds, limits, nobody}, options);
+  std::vector<std::size_t> minimise(std::int64_t searched = 1000) {
+    CoreMinimiser minimiser({engine, problem, bounds, limits, nobody});
     std::vector<std::size_t> found;
-    for (const Lit lit : minimiser.minimise(assumptions, searched, retry))
+    for (const Lit lit : minimiser.minimise(assumptions, searched))
       found.push_back(static_cast<std::size_t>(
           std::find(assumptions.begin(), assumptions.end(), lit) - assumptions.begin()));
     std::sort(found.begin(), found.end());
@@ -87,30 +86,15 @@ using Set = std::vector<std::size_t>;
 TEST_F(CoreMinimiserTest, DropsWhatIsNotNeeded) {
   make_assumptions(8);
   forbid({2, 5, 6});
-  EXPECT_EQ(minimise({}, false), (Set{2, 5, 6}));
+  EXPECT_EQ(minimise(), (Set{2, 5, 6}));
   EXPECT_EQ(nobody.num_yields, problem.num_solves) << "others have their turn after each try";
-}
-
-TEST_F(CoreMinimiserTest, LeavesCoresAloneWhenItIsSwitchedOff) {
-  make_assumptions(4);
-  forbid({1, 2});
-  EXPECT_EQ(minimise({false, 5}, true), (Set{0, 1, 2, 3}));
-  EXPECT_EQ(problem.num_solves, 0);
-}
-
-TEST_F(CoreMinimiserTest, RetriesFindTheSmallestOfSeveralCores) {
-  make_assumptions(8);
-  forbid({0, 1, 2, 3});
-  forbid({5, 6});
-  forbid({2, 4, 7});
-  EXPECT_EQ(minimise({true, 20}, true), (Set{5, 6}));
 }
 
 TEST_F(CoreMinimiserTest, StopsWhenTheLimitsAreMet) {
   make_assumptions(6);
   forbid({3, 4});
   limits.stop(StopReason::interrupt);
-  EXPECT_EQ(minimise({}, true).size(), 6u);
+  EXPECT_EQ(minimise().size(), 6u);
 }
 
 TEST_F(CoreMinimiserTest, WhatIsLeftIsACoreAndMinimal) {
@@ -135,8 +119,8 @@ TEST_F(CoreMinimiserTest, WhatIsLeftIsACoreAndMinimal) {
         });
       });
     };
-    CoreMinimiser minimiser({fresh, problem, bounds, limits, nobody}, {true, round % 3});
-    const std::vector<Lit> core = minimiser.minimise(lits, 1000, true);
+    CoreMinimiser minimiser({fresh, problem, bounds, limits, nobody});
+    const std::vector<Lit> core = minimiser.minimise(lits, 1000);
     ASSERT_TRUE(is_core(core)) << round;
     for (std::size_t at = 0; at < core.size(); ++at) {
       std::vector<Lit> part = core;
