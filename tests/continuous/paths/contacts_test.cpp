@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Contacts of moves and stays against meetings that are found by trying moments.
+#include "paths/contacts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "continuous/support/meeting.hpp"
+#include "continuous/support/random_bans.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+template <class Id>
+bool has(const std::vector<Id>& sorted, Id id) {
+  EXPECT_TRUE(std::is_sorted(sorted.begin(), sorted.end()));
+  return std::binary_search(sorted.begin(), sorted.end(), id);
+}
+
+struct Case {
+  const Instance& instance;
+  Contacts& contacts;
+  Meetings& meetings;
+  ClassId a, b;
+};
+struct Count {
+  int moves = 0, stays = 0, apart = 0;
+};
+
+void compare_with_edge(Case& c, EdgeId e, Count& count) {
+  const auto& near = c.contacts.near_edge(c.a, e, c.b);
+  for (const EdgeId f : IdRange<EdgeId>(c.instance.roadmap().num_edges())) {
+    const auto& offsets = c.contacts.offsets(c.a, e, c.b, f);
+    const auto& run = c.meetings.moves(c.a, e, c.b, f);
+    ASSERT_EQ(offsets.has_value(), run.has_value()) << e.value() << ' ' << f.value();
+    ++(run ? count.moves : count.apart);
+    if (!run) continue;
+    EXPECT_EQ(offsets->first(), run->first);
+    EXPECT_EQ(offsets->last(), run->last);
+    EXPECT_TRUE(has(near.edges, f)) << e.value() << ' ' << f.value();
+  }
+  for (const VertexId v : IdRange<VertexId>(c.instance.roadmap().num_vertices())) {
+    const auto& window = c.contacts.window(c.a, e, c.b, v);
+    const auto& clear = c.meetings.stay(c.a, e, c.b, v);
+    ASSERT_EQ(window.has_value(), clear.has_value()) << e.value() << ' ' << v.value();
+    ++(clear ? count.stays : count.apart);
+    if (!clear) continue;
+    EXPECT_EQ(window->begin, -clear->after_leaving);
+    EXPECT_EQ(window->end, clear->before_arrival);
+    EXPECT_TRUE(has(near.vertices, v)) << e.value() << ' ' << v.value();
+    EXPECT_TRUE(has(c.contacts.near_vertex(c.b, v, c.a).edges, e));
+  }
+}
+
+TEST(Contacts, AreThoseOfTheMotions) {
+  Count count;
+  for (std::uint32_t seed = 0; seed < support::scaled(60) && !testing::Test::HasFailure(); ++seed) {
+    const Instance instance = small_instance(3'000'000 + seed, 2);
+    SCOPED_TRACE("seed " + std::to_string(3'000'000 + seed) + ": " + describe(instance));
+    Contacts contacts(instance);
+    Meetings meetings(instance);
+    for (std::size_t a = 0; a < instance.num_classes(); ++a)
+      for (std::size_t b = 0; b < instance.num_classes(); ++b) {
+        Case c{instance, contacts, meetings, ClassId(a), ClassId(b)};
+        for (const EdgeId e : IdRange<EdgeId>(instance.roadmap().num_edges()))
+          compare_with_edge(c, e, count);
+        const Length reach = instance.radius(c.a) + instance.radius(c.b);
+        for (const VertexId v : IdRange<VertexId>(instance.roadmap().num_vertices()))
+          for (const VertexId w : IdRange<VertexId>(instance.roadmap().num_vertices())) {
+            const Point p = instance.roadmap().position(v), q = instance.roadmap().position(w);
+            const bool is_overlap = meet({p, p, 0, 1}, {q, q, 0, 1}, reach);
+            EXPECT_EQ(contacts.overlap(c.a, v, c.b, w), is_overlap);
+            if (is_overlap) {
+              EXPECT_TRUE(has(contacts.near_vertex(c.a, v, c.b).vertices, w));
+            }
+          }
+      }
+  }
+  EXPECT_GT(count.moves, 0);
+  EXPECT_GT(count.stays, 0);
+  EXPECT_GT(count.apart, 0);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test
