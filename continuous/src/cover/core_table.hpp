@@ -17,7 +17,7 @@ struct Level {
   Cost cost = 0;
   friend auto operator<=>(const Level&, const Level&) = default;
 };
-/// One of its levels is reached in every plan. By agent; no agent twice.
+/// One of its levels is reached in every plan that counts. By agent; no agent twice.
 using LevelCore = std::vector<Level>;
 
 /// Some cores, with their levels as numbers of *rows*: the distinct levels, by agent and cost.

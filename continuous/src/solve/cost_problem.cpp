@@ -19,12 +19,14 @@ constexpr std::int64_t kSlice = 800'000;
 }  // namespace
 
 CostProblem::CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& theory,
-                         bool theory_in_search, sat::YieldPoint* yield_point)
+                         bool theory_in_search, sat::YieldPoint* yield_point,
+                         sat::CoreAuditor* auditor)
     : model_(model),
       engine_(engine),
       theory_(theory),
       theory_in_search_(theory_in_search),
       yield_point_(yield_point),
+      auditor_(auditor),
       writer_(engine) {}
 
 Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
@@ -121,10 +123,19 @@ std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const 
   return at->cost;
 }
 
-void CostProblem::add_core(const std::vector<Level>& core) {
+void CostProblem::add_core(const std::vector<Level>& core,
+                           const IdVector<AgentId, Cost>& ceilings) {
   std::vector<Lit> clause;
   for (const Level& level : core)
     clause.push_back(model_.above(level.agent, level.cost - 1, writer_));
+  if (auditor_ != nullptr) {
+    std::vector<Lit> given;
+    for (const AgentId i : model_.instance().agent_ids())
+      if (ceilings[i] < kForever) given.push_back(~model_.above(i, ceilings[i], writer_));
+    auditor_->assume(std::move(given));
+    if (clause.empty()) auditor_->audit(clause);
+  }
+  if (clause.empty()) return;
   engine_.add_clause({sat::LemmaKind::core, clause, {}, false});
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cover/core_table.hpp"
+#include "quadrille/sat/core_auditor.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/engine.hpp"
 #include "theory/model.hpp"
@@ -51,10 +52,10 @@ class CostProblem {
  public:
   /// `theory_in_search`: the engine consults the theory while it searches; otherwise complete
   /// assignments are checked here, between solves. Long solves are cut into slices of effort;
-  /// `yield_point`, unless null, is passed after each slice and each solve. All arguments outlive
-  /// the problem.
+  /// `yield_point`, unless null, is passed after each slice and each solve. `auditor`, unless null,
+  /// proves each core again; it hears the engine's clauses, too. All arguments outlive the problem.
   CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& theory, bool theory_in_search,
-              sat::YieldPoint* yield_point = nullptr);
+              sat::YieldPoint* yield_point = nullptr, sat::CoreAuditor* auditor = nullptr);
 
   /// Unknown: `limits` or the budget ended the search.
   [[nodiscard]] sat::Verdict solve(const Question& question, LimitMonitor& limits);
@@ -68,8 +69,8 @@ class CostProblem {
   /// The smallest natural threshold (see Model) above `cost`.
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;
   /// Tells the engine that one of the levels is reached in every plan that is cheaper than the
-  /// incumbent.
-  void add_core(const std::vector<Level>& core);
+  /// incumbent, because it is in those that keep to the ceilings. An empty core is audited only.
+  void add_core(const std::vector<Level>& core, const IdVector<AgentId, Cost>& ceilings);
 
   [[nodiscard]] Model& model() noexcept { return model_; }
 
@@ -89,6 +90,7 @@ class CostProblem {
   ContinuousTheory& theory_;
   const bool theory_in_search_;
   sat::YieldPoint* const yield_point_;
+  sat::CoreAuditor* const auditor_;
   EngineWriter writer_;
   std::vector<Level> core_;
 };

@@ -219,11 +219,12 @@ class CoverSearch {
   /// After a refutation of `below`: cores without common agents, as long as some are found.
   bool learn_disjoint_cores(Core below) {
     while (true) {
-      const Core core = shrinker_.shrink(problem_.core(), ceilings());
+      const IdVector<AgentId, Cost> highest = ceilings();
+      const Core core = shrinker_.shrink(problem_.core(), highest);
+      problem_.add_core(core, highest);
       if (core.empty()) return false;
       ++statistics_.cores;
       cover_.add(core);
-      problem_.add_core(core);
       std::erase_if(below, [&](const Level& level) {
         return std::any_of(core.begin(), core.end(),
                            [&](const auto& used) { return used.agent == level.agent; });

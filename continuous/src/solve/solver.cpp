@@ -62,25 +62,32 @@ class Auditors final : public sat::ClauseObserver {
  public:
   Auditors(const Model& model, const SolveOptions& options) {
     if (options.debug.known_plan) of_plan_.emplace(model, *options.debug.known_plan);
-    if (options.debug.audit) of_lemmas_.emplace(model);
+    if (!options.debug.audit) return;
+    of_lemmas_.emplace(model);
+    of_cores_.emplace();
   }
   [[nodiscard]] bool is_needed() const { return of_plan_ || of_lemmas_; }
   void on_lemma(const sat::Lemma& lemma) override {
     if (of_plan_) of_plan_->on_lemma(lemma);
     if (of_lemmas_) of_lemmas_->on_lemma(lemma);
+    if (of_cores_) of_cores_->on_lemma(lemma);
   }
   void on_learned(std::span<const sat::Lit> clause) override {
     if (of_plan_) of_plan_->on_learned(clause);
   }
+  /// Null if cores are not audited.
+  [[nodiscard]] sat::CoreAuditor* of_cores() { return of_cores_ ? &*of_cores_ : nullptr; }
   /// The first of each kind.
   [[nodiscard]] std::optional<std::string> complaint() const {
     if (of_lemmas_ && of_lemmas_->complaint()) return of_lemmas_->complaint();
+    if (of_cores_ && of_cores_->complaint()) return of_cores_->complaint();
     return of_plan_ ? of_plan_->complaint() : std::nullopt;
   }
 
  private:
   std::optional<KnownPlanAuditor> of_plan_;
   std::optional<LemmaAuditor> of_lemmas_;
+  std::optional<sat::CoreAuditor> of_cores_;
 };
 
 /// Tells of the progress in the pauses of the search, as often as the options say.
@@ -168,7 +175,7 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   engine_options.observer = auditors.is_needed() ? &auditors : nullptr;
   sat::Engine engine(in_search ? &theory : nullptr, engine_options);
   ProgressReport progress(options, limits, outcome);
-  CostProblem problem(model, engine, theory, in_search, &progress);
+  CostProblem problem(model, engine, theory, in_search, &progress, auditors.of_cores());
 
   const auto on_report = [&](const CostReport& report) {
     outcome.lower_bound = std::max(floor, report.lower_bound);

@@ -11,25 +11,9 @@ using VariableKind = LazyModel::VariableKind;
 using Kind = Obstacle::Kind;
 
 LazyAuditor::LazyAuditor(const LazyModel& model, bool derive, std::optional<Plan> known_plan)
-    : model_(model), derive_(derive), known_plan_(std::move(known_plan)) {}
-
-void LazyAuditor::on_lemma(const sat::Lemma& lemma) {
-  if (complaint_) return;
-  std::string wrong;
-  if (derive_) {
-    if (lemma.kind == sat::LemmaKind::path) wrong = audit_path(lemma);
-    if (lemma.kind == sat::LemmaKind::collision) wrong = audit_collision(lemma);
-    if (lemma.kind == sat::LemmaKind::order) wrong = audit_order(lemma.clause);
-  }
-  if (wrong.empty() && known_plan_) wrong = audit_against_plan(&lemma, lemma.clause);
-  if (!wrong.empty()) complain(wrong, lemma.clause);
-}
-
-void LazyAuditor::on_learned(Clause clause) {
-  if (complaint_ || !known_plan_) return;
-  const std::string wrong = audit_against_plan(nullptr, clause);
-  if (!wrong.empty()) complain(wrong, clause);
-}
+    : ClauseAuditor(derive, known_plan.has_value()),
+      model_(model),
+      known_plan_(std::move(known_plan)) {}
 
 bool LazyAuditor::forbids_visit(const Obstacle& o, VertexId v, Timestep t) const {
   switch (o.kind) {
@@ -242,34 +226,20 @@ std::string LazyAuditor::audit_order(Clause clause) const {
   return holds ? "" : "an order lemma does not hold";
 }
 
-bool LazyAuditor::is_true_in_plan(Lit lit) const {
+std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
   const auto var = model_.variable(lit);
-  if (var.kind == VariableKind::usage)  // the negated variable: the agent does it
-    return model_.obstacles().hits(var.obstacle, known_plan_->paths[var.agent]) != lit.positive();
-  if (var.kind == VariableKind::cost)  // the negated variable: the agent costs more
-    return (arrival(known_plan_->paths[var.agent]) > var.cost) != lit.positive();
-  if (var.kind == VariableKind::vertex)
-    return (position(known_plan_->paths[var.agent], var.visit.timestep) == var.visit.vertex) ==
-           lit.positive();
-  const auto index = static_cast<std::size_t>(lit.variable());
-  return (index < counter_is_true_.size() && counter_is_true_[index]) == lit.positive();
-}
-
-// Counters are one-sided definitions "inputs -> output": the least values that satisfy them belong
-// to the plan. Definitions come before clauses that use them.
-std::string LazyAuditor::audit_against_plan(const sat::Lemma* lemma, Clause clause) {
-  if (std::any_of(clause.begin(), clause.end(), [&](Lit l) { return is_true_in_plan(l); }))
-    return "";
-  if (lemma != nullptr && lemma->kind == sat::LemmaKind::counting)
-    for (const Lit lit : clause)
-      if (lit.positive() && model_.variable(lit).kind == VariableKind::auxiliary) {
-        const auto index = static_cast<std::size_t>(lit.variable());
-        if (counter_is_true_.size() <= index) counter_is_true_.resize(index + 1, false);
-        counter_is_true_[index] = true;
-        return "";
-      }
-  return lemma != nullptr ? "a lemma excludes the known plan"
-                          : "a learned clause excludes the known plan";
+  const Path& path = known_plan_->paths[var.agent];
+  switch (var.kind) {
+    case VariableKind::usage:  // the negated variable: the agent does it
+      return model_.obstacles().hits(var.obstacle, path) != lit.positive();
+    case VariableKind::cost:  // the negated variable: the agent costs more
+      return (arrival(path) > var.cost) != lit.positive();
+    case VariableKind::vertex:
+      return (position(path, var.visit.timestep) == var.visit.vertex) == lit.positive();
+    case VariableKind::auxiliary:
+      break;
+  }
+  return std::nullopt;
 }
 
 std::string LazyAuditor::describe(Clause clause) const {
@@ -294,10 +264,6 @@ std::string LazyAuditor::describe(Clause clause) const {
     }
   }
   return text;
-}
-
-void LazyAuditor::complain(const std::string& what, Clause clause) {
-  complaint_ = what + ":" + describe(clause);
 }
 
 }  // namespace quadrille::discrete

@@ -61,43 +61,16 @@ bool can_escape(const Graph& graph, const Task& task, const Escape& escape) {
 }  // namespace
 
 LemmaAuditor::LemmaAuditor(const MddModel& model, bool derive, std::optional<Plan> known_plan)
-    : model_(model), derive_(derive), known_plan_(std::move(known_plan)) {}
+    : ClauseAuditor(derive, known_plan.has_value()),
+      model_(model),
+      known_plan_(std::move(known_plan)) {}
 
-void LemmaAuditor::on_lemma(const sat::Lemma& lemma) {
-  if (complaint_) return;
-  if (derive_) {
-    std::string wrong;
-    switch (lemma.kind) {
-      case sat::LemmaKind::path:
-        wrong = lemma.usages.size() == 1 ? audit_path(lemma.clause, lemma.usages[0].agent)
-                                         : "a path lemma is about one agent";
-        break;
-      case sat::LemmaKind::order:
-        wrong = audit_order(lemma.clause);
-        break;
-      case sat::LemmaKind::collision:
-        wrong = audit_collision(lemma);
-        break;
-      case sat::LemmaKind::counting:
-        break;  // definitions of new variables
-      case sat::LemmaKind::core:
-        break;  // nothing to derive it from but a proof
-    }
-    if (!wrong.empty()) complain(wrong, lemma.clause);
-  }
-  if (known_plan_ && !complaint_) {
-    const std::string wrong = audit_against_plan(&lemma, lemma.clause);
-    if (!wrong.empty()) complain(wrong, lemma.clause);
-  }
+std::string LemmaAuditor::audit_path(const sat::Lemma& lemma) const {
+  return lemma.usages.size() == 1 ? audit_path_of(lemma.clause, lemma.usages[0].agent)
+                                  : "a path lemma is about one agent";
 }
 
-void LemmaAuditor::on_learned(std::span<const Lit> clause) {
-  if (complaint_ || !known_plan_) return;
-  const std::string wrong = audit_against_plan(nullptr, clause);
-  if (!wrong.empty()) complain(wrong, clause);
-}
-
-std::string LemmaAuditor::audit_path(Clause clause, AgentId agent) const {
+std::string LemmaAuditor::audit_path_of(Clause clause, AgentId agent) const {
   Escape escape;
   for (const Lit lit : clause) {
     const auto var = model_.variable(lit);
@@ -158,35 +131,14 @@ std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
   return clause == expected ? "" : "a collision lemma does not say what its usages say";
 }
 
-bool LemmaAuditor::is_true_in_plan(Lit lit) const {
+std::optional<bool> LemmaAuditor::find_in_plan(Lit lit) const {
   const auto var = model_.variable(lit);
-  bool value = false;
-  if (var.kind == VariableKind::vertex) {
-    value = position(known_plan_->paths[var.agent], var.number) == var.vertex;
-  } else if (var.kind == VariableKind::delay) {
-    value = arrival(known_plan_->paths[var.agent]) >= model_.mdd(var.agent).distance() + var.number;
-  } else {
-    const auto index = static_cast<std::size_t>(lit.variable());
-    value = index < counter_is_true_.size() && counter_is_true_[index];
-  }
+  const Path& path = known_plan_->paths[var.agent];
+  if (var.kind == VariableKind::auxiliary) return std::nullopt;
+  const bool value = var.kind == VariableKind::vertex
+                         ? position(path, var.number) == var.vertex
+                         : arrival(path) >= model_.mdd(var.agent).distance() + var.number;
   return value == lit.positive();
-}
-
-// Counters are one-sided definitions "inputs -> output": the least values that satisfy them belong
-// to the plan. Definitions come before clauses that use them.
-std::string LemmaAuditor::audit_against_plan(const sat::Lemma* lemma, Clause clause) {
-  if (std::any_of(clause.begin(), clause.end(), [&](Lit l) { return is_true_in_plan(l); }))
-    return "";
-  if (lemma != nullptr && lemma->kind == sat::LemmaKind::counting)
-    for (const Lit lit : clause)
-      if (lit.positive() && model_.variable(lit).kind == VariableKind::auxiliary) {
-        const auto index = static_cast<std::size_t>(lit.variable());
-        if (counter_is_true_.size() <= index) counter_is_true_.resize(index + 1, false);
-        counter_is_true_[index] = true;
-        return "";
-      }
-  return lemma != nullptr ? "a lemma excludes the known plan"
-                          : "a learned clause excludes the known plan";
 }
 
 std::string LemmaAuditor::describe(Clause clause) const {
@@ -205,10 +157,6 @@ std::string LemmaAuditor::describe(Clause clause) const {
       text += "v" + std::to_string(lit.variable());
   }
   return text;
-}
-
-void LemmaAuditor::complain(const std::string& what, Clause clause) {
-  complaint_ = what + ":" + describe(clause);
 }
 
 }  // namespace quadrille::discrete

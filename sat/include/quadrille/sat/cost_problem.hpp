@@ -18,6 +18,9 @@ namespace quadrille::sat {
 /// A problem whose plans are the models of an engine's clauses. Assumptions bound what they cost:
 /// in all, or agent by agent. An agent whose cost no assumption bounds is *absent*: it need not
 /// have a path, and nobody collides with it.
+///
+/// "No plan" and "every plan" below mean all plans: cores that hold only relative to an incumbent
+/// do not belong among the clauses of such an engine.
 class CostProblem {
  public:
   virtual ~CostProblem() = default;

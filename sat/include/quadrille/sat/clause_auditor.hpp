@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "quadrille/core/export.hpp"
+#include "quadrille/sat/core_auditor.hpp"
+#include "quadrille/sat/lemma.hpp"
+
+QUADRILLE_API_BEGIN
+
+namespace quadrille::sat {
+
+/// Checks while the solver runs that no clause excludes a plan, and keeps the first complaint.
+///
+/// On request, each lemma is derived again: path, collision and order lemmas as the domain says,
+/// cores by a CoreAuditor. With a known plan, each lemma and each learned clause has to be true in
+/// it. Counters are definitions "inputs -> output": the least values that satisfy them belong to
+/// the plan, which is why definitions have to come before clauses that use them.
+class ClauseAuditor : public ClauseObserver {
+ public:
+  void on_lemma(const Lemma& lemma) final;
+  void on_learned(std::span<const Lit> clause) final;
+
+  [[nodiscard]] const std::optional<std::string>& complaint() const noexcept { return complaint_; }
+
+ protected:
+  using Clause = std::span<const Lit>;
+  ClauseAuditor(bool derive, bool has_known_plan);
+
+  // Each returns what is wrong, empty if nothing is.
+  [[nodiscard]] virtual std::string audit_path(const Lemma& lemma) const = 0;
+  [[nodiscard]] virtual std::string audit_collision(const Lemma& lemma) const = 0;
+  [[nodiscard]] virtual std::string audit_order(Clause clause) const = 0;
+
+  /// Whether the literal is true in the known plan; nullopt for auxiliary variables.
+  [[nodiscard]] virtual std::optional<bool> find_in_plan(Lit lit) const = 0;
+  [[nodiscard]] virtual std::string describe(Clause clause) const = 0;
+
+ private:
+  [[nodiscard]] std::string derive_again(const Lemma& lemma);
+  [[nodiscard]] bool is_true_in_plan(Lit lit) const;
+  /// Of a counting lemma: makes an output true if need be.
+  [[nodiscard]] bool define_output(const Lemma& lemma);
+
+  std::optional<CoreAuditor> cores_;  // if lemmas are derived again
+  const bool has_known_plan_;
+  std::vector<bool> counter_is_true_;  // auxiliary variables that the known plan implies
+  std::optional<std::string> complaint_;
+};
+
+}  // namespace quadrille::sat
+
+QUADRILLE_API_END

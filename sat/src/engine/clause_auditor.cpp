@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/sat/clause_auditor.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace quadrille::sat {
+
+ClauseAuditor::ClauseAuditor(bool derive, bool has_known_plan) : has_known_plan_(has_known_plan) {
+  if (derive) cores_.emplace();
+}
+
+void ClauseAuditor::on_lemma(const Lemma& lemma) {
+  if (complaint_) return;
+  std::string wrong;
+  if (cores_) wrong = derive_again(lemma);
+  if (wrong.empty() && has_known_plan_ &&
+      std::none_of(lemma.clause.begin(), lemma.clause.end(),
+                   [&](Lit lit) { return is_true_in_plan(lit); }) &&
+      !define_output(lemma))
+    wrong = "a lemma excludes the known plan";
+  if (!wrong.empty()) complaint_ = wrong + ":" + describe(lemma.clause);
+}
+
+void ClauseAuditor::on_learned(Clause clause) {
+  if (complaint_ || !has_known_plan_ ||
+      std::any_of(clause.begin(), clause.end(), [&](Lit lit) { return is_true_in_plan(lit); }))
+    return;
+  complaint_ = "a learned clause excludes the known plan:" + describe(clause);
+}
+
+std::string ClauseAuditor::derive_again(const Lemma& lemma) {
+  cores_->on_lemma(lemma);
+  switch (lemma.kind) {
+    case LemmaKind::path:
+      return audit_path(lemma);
+    case LemmaKind::collision:
+      return audit_collision(lemma);
+    case LemmaKind::order:
+      return audit_order(lemma.clause);
+    case LemmaKind::counting:
+      return "";  // definitions of new variables
+    case LemmaKind::core:
+      return cores_->complaint() ? "a core does not follow from the clauses" : "";
+  }
+  return "";
+}
+
+bool ClauseAuditor::is_true_in_plan(Lit lit) const {
+  if (const auto value = find_in_plan(lit)) return *value;
+  const auto index = static_cast<std::size_t>(lit.variable());
+  return (index < counter_is_true_.size() && counter_is_true_[index]) == lit.positive();
+}
+
+bool ClauseAuditor::define_output(const Lemma& lemma) {
+  if (lemma.kind != LemmaKind::counting) return false;
+  for (const Lit lit : lemma.clause)
+    if (lit.positive() && !find_in_plan(lit)) {
+      const auto index = static_cast<std::size_t>(lit.variable());
+      if (counter_is_true_.size() <= index) counter_is_true_.resize(index + 1, false);
+      counter_is_true_[index] = true;
+      return true;
+    }
+  return false;
+}
+
+}  // namespace quadrille::sat
