@@ -92,7 +92,8 @@ class Scenery {
   NumberingWriter writer_;
   LazyModel model_{instance_, support::distances_of(instance_)};
   PathIndex paths_{instance_};
-  PathSearch search_{model_, paths_};
+  LimitMonitor unlimited_{Limits{}};
+  PathSearch search_{model_, paths_, unlimited_};
   IdVector<AgentId, std::vector<ObstacleId>> obstacles_{instance_.num_agents(),
                                                         std::vector<ObstacleId>{}};
 
