@@ -59,7 +59,8 @@ TEST(Contacts, AreThoseOfTheMotions) {
   for (std::uint32_t seed = 0; seed < support::scaled(60) && !testing::Test::HasFailure(); ++seed) {
     const Instance instance = small_instance(3'000'000 + seed, 2);
     SCOPED_TRACE("seed " + std::to_string(3'000'000 + seed) + ": " + describe(instance));
-    Contacts contacts(instance);
+    LimitMonitor unlimited{Limits{}};
+    Contacts contacts(instance, unlimited);
     Meetings meetings(instance);
     for (std::size_t a = 0; a < instance.num_classes(); ++a)
       for (std::size_t b = 0; b < instance.num_classes(); ++b) {
