@@ -12,6 +12,7 @@
 #include "paths/scene.hpp"
 #include "primal/first_plan.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "quadrille/core/plan_claim.hpp"
 #include "routes/route_search.hpp"
 #include "solve/cost_problem.hpp"
 #include "solve/cover_search.hpp"
@@ -225,21 +226,7 @@ void check_known_plan(const SolveOptions& options, SolveOutcome& outcome) {
 
 /// The plan has to pass `verify` and to cost what was proved.
 void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
-  const VerifyReport report = verify(instance, *outcome.plan);
-  const Cost cost =
-      options.objective == Objective::sum_of_costs ? report.sum_of_costs : report.makespan;
-  std::optional<std::string> wrong;
-  if (!report.valid())
-    wrong = "the plan is not valid: " + report.violations.front().message;
-  else if (cost < outcome.lower_bound ||
-           (outcome.status == Status::optimal && cost != outcome.lower_bound))
-    wrong = "the plan costs " + std::to_string(cost) + " and the proven bound is " +
-            std::to_string(outcome.lower_bound);
-  if (wrong) {
-    outcome.internal_error = Error{ErrorCode::internal, *wrong, {}};
-    return;
-  }
-  outcome.cost = cost;
+  hold_to_replay(verify(instance, *outcome.plan), options.objective, outcome);
 }
 
 /// The answer of a search that was cut short.

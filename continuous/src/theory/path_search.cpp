@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "theory/path_search.hpp"
 
-#include "quadrille/core/contract.hpp"
-
 namespace quadrille::continuous {
 
 PathSearch::PathSearch(Model& model)
@@ -21,17 +19,11 @@ PathSearch::Cheapest PathSearch::find(AgentId agent, std::span<const ObstacleId>
   return {*this, agent, arrival.has_value()};
 }
 
-const TimedPath* PathSearch::Cheapest::path() const {
-  QUADRILLE_REQUIRE(number_ == search_.num_searches_, "the last search is asked");
-  return is_found_ ? &search_.path_ : nullptr;
-}
-
-std::vector<ObstacleId> PathSearch::Cheapest::blame(Cost bound) const {
-  QUADRILLE_REQUIRE(number_ == search_.num_searches_, "the last search is asked");
+std::vector<ObstacleId> PathSearch::blame(AgentId agent, Cost bound) {
   std::vector<std::size_t> slots;
-  search_.explainer_.explain(search_.model_.task(agent_), search_.bans_, bound, slots);
+  explainer_.explain(model_.task(agent), bans_, bound, slots);
   std::vector<ObstacleId> blamed;
-  for (const std::size_t slot : slots) blamed.push_back(search_.loaded_[slot]);
+  for (const std::size_t slot : slots) blamed.push_back(loaded_[slot]);
   return blamed;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/sat/cheapest.hpp"
 #include "theory/explanation.hpp"
 #include "theory/model.hpp"
 
@@ -18,25 +19,7 @@ class PathSearch {
   /// `model` outlives the object. Searches throw LimitReached when the model's limits are met.
   explicit PathSearch(Model& model);
 
-  /// What a search has found. To be asked before the next search only.
-  class Cheapest {
-   public:
-    /// Null: none arrives before the bound.
-    [[nodiscard]] const TimedPath* path() const;
-    /// Some of the obstacles, such that every path that arrives before `bound` breaks a ban of one
-    /// of them; none can be left out. Requires that no path around all of them arrives before
-    /// `bound`. Time: some searches for each obstacle that matters.
-    [[nodiscard]] std::vector<ObstacleId> blame(Cost bound) const;
-
-   private:
-    friend class PathSearch;
-    Cheapest(PathSearch& search, AgentId agent, bool is_found)
-        : search_(search), agent_(agent), is_found_(is_found), number_(search.num_searches_) {}
-    PathSearch& search_;
-    AgentId agent_;
-    bool is_found_;
-    std::int64_t number_;
-  };
+  using Cheapest = sat::Cheapest<PathSearch>;
   /// A cheapest path that obeys the bans of the obstacles and arrives before `bound`.
   [[nodiscard]] Cheapest find(AgentId agent, std::span<const ObstacleId> obstacles, Cost bound);
 
@@ -44,6 +27,12 @@ class PathSearch {
   [[nodiscard]] std::int64_t effort() const noexcept { return finder_.num_visits(); }
 
  private:
+  friend Cheapest;
+  /// Some of the obstacles, such that every path that arrives before `bound` breaks a ban of one of
+  /// them; none can be left out. Requires that no path around all of them arrives before `bound`.
+  /// Time: some searches for each obstacle that matters.
+  [[nodiscard]] std::vector<ObstacleId> blame(AgentId agent, Cost bound);
+
   const Model& model_;
   PathFinder finder_;
   BanTable bans_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lazy/path_search.hpp"
 
-#include "quadrille/core/contract.hpp"
-
 namespace quadrille::discrete {
 
 PathSearch::PathSearch(const LazyModel& model, const PathIndex& paths, LimitMonitor& limits)
@@ -26,18 +24,11 @@ PathSearch::Cheapest PathSearch::find_cheapest(AgentId agent, std::span<const Ob
   return {*this, agent, is_found};
 }
 
-const Path* PathSearch::Cheapest::path() const {
-  QUADRILLE_REQUIRE(number_ == search_.num_searches_, "the last search is asked");
-  return is_found_ ? &search_.path_ : nullptr;
-}
-
-std::vector<ObstacleId> PathSearch::Cheapest::blame(Timestep bound) const {
-  QUADRILLE_REQUIRE(number_ == search_.num_searches_, "the last search is asked");
+std::vector<ObstacleId> PathSearch::blame(AgentId agent, Timestep bound) {
   std::vector<std::size_t> slots;
-  search_.explainer_.explain(search_.model_.distances(agent_), search_.map_,
-                             search_.finder_.first_hits(), bound, slots);
+  explainer_.explain(model_.distances(agent), map_, finder_.first_hits(), bound, slots);
   std::vector<ObstacleId> blamed;
-  for (const std::size_t slot : slots) blamed.push_back(search_.loaded_[slot]);
+  for (const std::size_t slot : slots) blamed.push_back(loaded_[slot]);
   return blamed;
 }
 

@@ -9,6 +9,7 @@
 #include "paths/explanation.hpp"
 #include "paths/path_finder.hpp"
 #include "paths/path_index.hpp"
+#include "quadrille/sat/cheapest.hpp"
 
 namespace quadrille::discrete {
 
@@ -19,25 +20,7 @@ class PathSearch {
   /// Both outlive the object.
   PathSearch(const LazyModel& model, const PathIndex& paths, LimitMonitor& limits);
 
-  /// What a search for a cheapest path has found. To be asked before the next search only.
-  class Cheapest {
-   public:
-    /// Null: there is none within the limit.
-    [[nodiscard]] const Path* path() const;
-    /// Some of the obstacles, such that every path of cost at most `bound` does what one of them
-    /// forbids. Requires that `bound` is at least the free cost, and less than the cost of the path
-    /// that was found, or not above the limit if there is none.
-    [[nodiscard]] std::vector<ObstacleId> blame(Timestep bound) const;
-
-   private:
-    friend class PathSearch;
-    Cheapest(PathSearch& search, AgentId agent, bool is_found)
-        : search_(search), agent_(agent), is_found_(is_found), number_(search.num_searches_) {}
-    PathSearch& search_;
-    AgentId agent_;
-    bool is_found_;
-    std::int64_t number_;
-  };
+  using Cheapest = sat::Cheapest<PathSearch>;
   /// A cheapest path of at most `max_cost` around the obstacles, and of these one with few
   /// collisions.
   [[nodiscard]] Cheapest find_cheapest(AgentId agent, std::span<const ObstacleId> obstacles,
@@ -51,6 +34,11 @@ class PathSearch {
   [[nodiscard]] std::int64_t effort() const noexcept { return finder_.effort(); }
 
  private:
+  friend Cheapest;
+  /// Some of the obstacles, such that every path of cost at most `bound` does what one of them
+  /// forbids. Requires that `bound` is at least the free cost, and less than the cost of the path
+  /// that was found, or not above the limit if there is none.
+  [[nodiscard]] std::vector<ObstacleId> blame(AgentId agent, Timestep bound);
   void load(AgentId agent, std::span<const ObstacleId> obstacles);
 
   const LazyModel& model_;

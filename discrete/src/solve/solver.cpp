@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mdd/usages.hpp"
+#include "quadrille/core/plan_claim.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
@@ -152,21 +153,7 @@ class Search final : private sat::YieldPoint {
 /// The plan has to pass `verify` and to cost what was proved.
 void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
   trim(*outcome.plan);
-  const VerifyReport report = verify(instance, *outcome.plan);
-  const Cost cost =
-      options.objective == Objective::sum_of_costs ? report.sum_of_costs : report.makespan;
-  std::optional<std::string> wrong;
-  if (!report.valid())
-    wrong = "the plan is not valid: " + report.violations.front().message;
-  else if (cost < outcome.lower_bound ||
-           (outcome.status == Status::optimal && cost != outcome.lower_bound))
-    wrong = "the plan costs " + std::to_string(cost) + " and the proven bound is " +
-            std::to_string(outcome.lower_bound);
-  if (wrong) {
-    outcome.internal_error = Error{ErrorCode::internal, *wrong, {}};
-    return;
-  }
-  outcome.cost = cost;
+  hold_to_replay(verify(instance, *outcome.plan), options.objective, outcome);
 }
 
 std::optional<Error> check_options(const Instance& instance, const SolveOptions& options) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/core/result.hpp"
+
+namespace quadrille {
+
+/// Holds the outcome of a solver of either domain, which has a plan, against what `verify` of that
+/// domain says of the plan: it has to be valid, to cost no less than the proven bound, and just
+/// that if it is called optimal. Sets the cost, or an internal error.
+template <class VerifyReport, class SolveOutcome>
+void hold_to_replay(const VerifyReport& report, Objective objective, SolveOutcome& outcome) {
+  const Cost cost = objective == Objective::sum_of_costs ? report.sum_of_costs : report.makespan;
+  std::optional<std::string> wrong;
+  if (!report.valid())
+    wrong = "the plan is not valid: " + report.violations.front().message;
+  else if (cost < outcome.lower_bound ||
+           (outcome.status == Status::optimal && cost != outcome.lower_bound))
+    wrong = "the plan costs " + std::to_string(cost) + " and the proven bound is " +
+            std::to_string(outcome.lower_bound);
+  if (wrong)
+    outcome.internal_error = Error{ErrorCode::internal, *wrong, {}};
+  else
+    outcome.cost = cost;
+}
+
+}  // namespace quadrille
