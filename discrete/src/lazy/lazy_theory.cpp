@@ -91,6 +91,11 @@ void LazyTheory::on_pause() {
   for (const AgentId i : model_.instance().agents()) draft_.paths.push_back(paths_.path(i));
 }
 
+const Plan& LazyTheory::draft() {
+  if (draft_.paths.empty()) on_pause();
+  return draft_;
+}
+
 // ---- paths --------------------------------------------------------------------------------------
 
 bool LazyTheory::replan_all(ContextWriter& writer) {

@@ -40,8 +40,9 @@ class LazyTheory final : public sat::Theory {
   /// Times that the paths of a complete assignment were checked for collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
-  /// The paths that the search had when it paused last, which may collide; empty before that.
-  [[nodiscard]] const Plan& draft() const noexcept { return draft_; }
+  /// The paths that the search had when it paused last, which may collide; before the first pause
+  /// those that it has now.
+  [[nodiscard]] const Plan& draft();
   /// States that path searches have expanded.
   [[nodiscard]] std::int64_t effort() const noexcept override { return search_.effort(); }
 

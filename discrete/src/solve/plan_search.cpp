@@ -25,13 +25,19 @@ sat::Outcome FirstPlan::advance(sat::Slice slice) {
 sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
   Incumbent& incumbent = context_.incumbent;
-  extra_effort_ = 0;
+  // A draft of many long paths costs much; the incumbent has as much again. Measured after 10 s:
+  // without, 300 agents on warehouse-10-20-10-2-1 have a plan of 33,105 instead of 25,298.
+  std::int64_t draft_effort = 0;
+  for (const Path& path : draft_.paths)
+    draft_effort += kPasses * static_cast<std::int64_t>(path.size());
+  extra_effort_ = 2 * draft_effort;
   if (!improver_)
     improver_.emplace(context_.instance, context_.distances, context_.objective, incumbent.plan(),
                       context_.seed);
   else if (*incumbent.upper() < improver_->cost())
     improver_->restart_from(incumbent.plan());
-  if (improver_->improve(*slice.effort, context_.limits)) incumbent.offer(improver_->plan());
+  if (improver_->improve(*slice.effort + draft_effort, context_.limits))
+    incumbent.offer(improver_->plan());
   improve_draft(*slice.effort);
   return sat::Outcome::working;
 }
@@ -39,8 +45,6 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
 void PlanImprovement::improve_draft(std::int64_t effort) {
   const Plan draft = std::exchange(draft_, {});
   if (draft.paths.size() != context_.instance.num_agents()) return;
-  for (const Path& path : draft.paths)
-    extra_effort_ += kPasses * static_cast<std::int64_t>(path.size());
   const auto plan = repair_.repair(draft, context_.limits);
   if (!plan) return;
   if (rival_)

@@ -48,7 +48,7 @@ class PlanImprovement final : public sat::Strategy {
   /// Paths for the next slice, which may collide; no paths: none.
   void set_draft(Plan draft) { draft_ = std::move(draft); }
   /// Requires an incumbent, and a slice with effort: so much for the incumbent, and so much again
-  /// for a rival if there is a draft.
+  /// for a rival if there is a draft. What the draft itself costs comes on top, twice.
   [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
   /// What the last slice did beyond its effort.
   [[nodiscard]] std::int64_t extra_effort() const noexcept { return extra_effort_; }

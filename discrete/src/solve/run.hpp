@@ -26,7 +26,8 @@ class Run {
   [[nodiscard]] virtual const sat::Engine& engine() const = 0;
   [[nodiscard]] virtual sat::CostProblem& problem() = 0;
   [[nodiscard]] virtual const Plan& plan() const = 0;
-  /// The paths that the search had at the end of its last slice, which may collide; empty if none.
+  /// The paths that the search had at the end of its last slice, or has now if there was none; they
+  /// may collide. Empty if the model has no paths.
   [[nodiscard]] virtual Plan draft() const { return {}; }
   [[nodiscard]] virtual std::int64_t num_checks() const = 0;
   [[nodiscard]] virtual std::int64_t num_rejected() const = 0;
