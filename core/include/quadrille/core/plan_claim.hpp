@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "quadrille/core/ids.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/result.hpp"
 
