@@ -78,8 +78,8 @@ void collide(benchmark::State& state) {
   std::size_t next = 0;
   for ([[maybe_unused]] auto _ : state) {
     const Pair& at = pairs[next % pairs.size()];
-    const auto range = static_cast<std::size_t>(at.a.duration + at.b.duration);
-    const Ticks offset = static_cast<Ticks>(next++ * 7919 % range) - at.b.duration;
+    const auto range = (at.a.duration + at.b.duration).count();
+    const Ticks offset = Ticks(static_cast<std::int64_t>(next++) * 7919 % range) - at.b.duration;
     benchmark::DoNotOptimize(pair.collide(at.a, at.b, offset));
   }
   state.SetItemsProcessed(state.iterations());

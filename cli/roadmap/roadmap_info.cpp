@@ -51,13 +51,13 @@ GraphShape shape_of(const Roadmap& roadmap) {
 /// The least duration of the agent's path, alone on the roadmap. The goal can be reached.
 Ticks free_cost(const Instance& instance, AgentId i) {
   const Roadmap& roadmap = instance.roadmap();
-  constexpr Ticks kFar = std::numeric_limits<Ticks>::max();
+  constexpr Ticks kFar{std::numeric_limits<Ticks::Count>::max()};
   std::vector<Ticks> arrival(roadmap.num_vertices(), kFar);
   using Entry = std::pair<Ticks, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   const auto& agent = instance.agent(i);
   arrival[agent.start.index()] = 0;
-  open.emplace(0, agent.start.index());
+  open.emplace(Ticks{0}, agent.start.index());
   while (!open.empty()) {
     const auto [tick, v] = open.top();
     open.pop();
@@ -77,9 +77,9 @@ Ticks free_cost(const Instance& instance, AgentId i) {
 std::string describe_agents(const Instance& instance) {
   Cost sum = 0, largest = 0;
   for (const AgentId i : instance.agent_ids()) {
-    const Ticks cost = free_cost(instance, i);
+    const Cost cost = continuous::as_cost(free_cost(instance, i));
     sum += cost;
-    largest = std::max<Cost>(largest, cost);
+    largest = std::max(largest, cost);
   }
   const double resolution = instance.resolution();
   return fmt::format(

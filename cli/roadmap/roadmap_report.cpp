@@ -130,9 +130,7 @@ std::string list_paths(const Instance& instance, const continuous::Plan& plan) {
   if (plan.paths.size() > kMaxAgents || std::any_of(plan.paths.begin(), plan.paths.end(), is_long))
     return "\nThe plan is too large to be shown here; --plan FILE writes it.\n";
   if (plan.paths.empty()) return "";
-  const auto time = [&](continuous::Ticks ticks) {
-    return in_input_units(ticks, instance.resolution());
-  };
+  const auto time = [&](auto ticks) { return in_input_units(ticks, instance.resolution()); };
   std::string text = "\nagent      cost  vertices (waits)\n";
   for (const AgentId i : instance.agent_ids()) {
     const continuous::Path& path = plan.paths[i];

@@ -151,8 +151,8 @@ std::optional<TickInterval> BodyPair::unsafe_offsets(const Motion& a, const Moti
   const Ticks most = a.duration;
   const auto unsafe = [&](Ticks offset) { return collide_unchecked(a, b, offset); };
   const auto to_ticks = [&](double value) {  // Clamps; the limits are exact in doubles.
-    return static_cast<Ticks>(
-        std::clamp(value, static_cast<double>(least), static_cast<double>(most)));
+    return Ticks(static_cast<std::int64_t>(
+        std::clamp(value, static_cast<double>(least.count()), static_cast<double>(most.count()))));
   };
   Ticks low = 0;
   Ticks high = 0;

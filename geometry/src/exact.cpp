@@ -40,12 +40,12 @@ struct ScaledPath {
 };
 
 ScaledPath scaled_path(const Motion& a, const Motion& b, Ticks offset, Window window) {
-  const Ticks unit_a = a.is_rest() ? 1 : a.duration;
-  const Ticks unit_b = b.is_rest() ? 1 : b.duration;
-  const Integer scale = Integer(unit_a) * unit_b;
+  const Ticks unit_a = a.is_rest() ? Ticks{1} : a.duration;
+  const Ticks unit_b = b.is_rest() ? Ticks{1} : b.duration;
+  const Integer scale = Integer(unit_a.count()) * unit_b.count();
   const auto at = [&](Ticks time) {
-    const Integer done_a = Integer(time) * unit_b;
-    const Integer done_b = Integer(time - offset) * unit_a;
+    const Integer done_a = Integer(time.count()) * unit_b.count();
+    const Integer done_b = Integer((time - offset).count()) * unit_a.count();
     const Point apart = b.from - a.from;
     const Point step_a = a.to - a.from;
     const Point step_b = b.to - b.from;

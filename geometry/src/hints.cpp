@@ -34,8 +34,8 @@ void include_disc(const Motion& a, const Motion& b, Vec centre, double radius,
   const Vec apart = to_vec(b.from - a.from) - centre;
   const Vec step_a = to_vec(a.to - a.from);
   const Vec step_b = to_vec(b.to - b.from);
-  const double duration_a = static_cast<double>(a.duration);
-  const double duration_b = static_cast<double>(b.duration);
+  const double duration_a = static_cast<double>(a.duration.count());
+  const double duration_b = static_cast<double>(b.duration.count());
 
   for (const double p : {0.0, 1.0}) {
     const RealInterval q = near_fractions(apart - p * step_a, step_b, radius);
@@ -93,8 +93,8 @@ void include_polygon(const Motion& a, const Motion& b, std::span<const Vec> corn
     kept.swap(next);
   }
   for (const Vec at : kept)
-    offsets.include(at.x * static_cast<double>(a.duration) -
-                    at.y * static_cast<double>(b.duration));
+    offsets.include(at.x * static_cast<double>(a.duration.count()) -
+                    at.y * static_cast<double>(b.duration.count()));
 }
 
 }  // namespace quadrille::geometry

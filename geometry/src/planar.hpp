@@ -87,7 +87,9 @@ inline RelativePath relative_path(const Motion& a, const Motion& b, Ticks offset
   const Vec step_a = to_vec(a.to - a.from);
   const Vec step_b = to_vec(b.to - b.from);
   const auto fraction = [](Ticks time, Ticks duration) {
-    return duration == 0 ? 0.0 : static_cast<double>(time) / static_cast<double>(duration);
+    return duration == 0
+               ? 0.0
+               : static_cast<double>(time.count()) / static_cast<double>(duration.count());
   };
   const auto at = [&](Ticks time) {
     return apart + fraction(time - offset, b.duration) * step_b -

@@ -158,7 +158,7 @@ Length draw(Random& random, Length first, Length last) {
 }
 
 Ticks draw_ticks(Random& random, Ticks first, Ticks last) {
-  return Ticks(draw(random, Length(first), Length(last)).count());
+  return Ticks(draw(random, Length(first.count()), Length(last.count())).count());
 }
 
 ConvexPolygon random_polygon(Random& random, Length size) {

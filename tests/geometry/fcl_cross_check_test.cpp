@@ -65,14 +65,15 @@ TEST(CrossCheck, DiscsAgreeWithFclAndWithSampling) {
       }
 
       double least = std::numeric_limits<double>::infinity();
-      const double span = static_cast<double>(window.end - window.begin);
+      const double span = static_cast<double>((window.end - window.begin).count());
       for (int sample = 0; sample <= 500; ++sample) {
-        const double time = static_cast<double>(window.begin) + span * sample / 500;
+        const double time = static_cast<double>(window.begin.count()) + span * sample / 500;
         const auto at = [](const Motion& m, double t) {
-          const double done = m.duration == 0 ? 0 : t / static_cast<double>(m.duration);
+          const double done = m.duration == 0 ? 0 : t / static_cast<double>(m.duration.count());
           return to_vec(m.from) + done * to_vec(m.to - m.from);
         };
-        least = std::min(least, norm(at(c.b, time - static_cast<double>(offset)) - at(c.a, time)));
+        least = std::min(least,
+                         norm(at(c.b, time - static_cast<double>(offset.count())) - at(c.a, time)));
       }
       // Samples are upper bounds of the least distance; it can only be less by half a step's way.
       const double way = norm(path.end - path.begin) / 1000;

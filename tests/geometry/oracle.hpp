@@ -64,7 +64,7 @@ class Oracle {
     return squared_distance({0, 0}, position(std::max(Ticks{0}, offset), offset),
                             position(std::min(a_.duration, offset + b_.duration), offset));
   }
-  [[nodiscard]] Int scale() const { return Int(unit(a_)) * unit(b_); }
+  [[nodiscard]] Int scale() const { return Int(unit(a_).count()) * unit(b_).count(); }
 
   static bool less(const Fraction& p, const Fraction& q) {
     return p.numerator * q.denominator < q.numerator * p.denominator;
@@ -77,10 +77,11 @@ class Oracle {
   // b relative to a, times scale().
   [[nodiscard]] Vector position(Ticks time, Ticks offset) const {
     const auto coordinate = [&](Length a_from, Length a_to, Length b_from, Length b_to) -> Int {
-      const Int at_a = Int(unit(a_)) * a_from.count() + Int(time) * (a_to - a_from).count();
-      const Int at_b =
-          Int(unit(b_)) * b_from.count() + Int(time - offset) * (b_to - b_from).count();
-      return Int(unit(a_)) * at_b - Int(unit(b_)) * at_a;
+      const Int at_a =
+          Int(unit(a_).count()) * a_from.count() + Int(time.count()) * (a_to - a_from).count();
+      const Int at_b = Int(unit(b_).count()) * b_from.count() +
+                       Int((time - offset).count()) * (b_to - b_from).count();
+      return Int(unit(a_).count()) * at_b - Int(unit(b_).count()) * at_a;
     };
     return {coordinate(a_.from.x, a_.to.x, b_.from.x, b_.to.x),
             coordinate(a_.from.y, a_.to.y, b_.from.y, b_.to.y)};

@@ -31,7 +31,7 @@ TEST(TickIntervals, AreSetsOfTicks) {
   for_all([](const TickInterval& interval) {
     const std::set<Ticks> ticks = ticks_of(interval);
     EXPECT_EQ(interval.is_empty(), ticks.empty());
-    EXPECT_EQ(interval.length(), static_cast<Ticks>(ticks.size()));
+    EXPECT_EQ(interval.length(), Ticks(std::ssize(ticks)));
     for (Ticks t = -kFar - 1; t <= kFar + 1; ++t)
       EXPECT_EQ(interval.contains(t), ticks.count(t) == 1) << t;
     if (ticks.empty()) return;

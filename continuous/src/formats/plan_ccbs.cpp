@@ -15,7 +15,7 @@ namespace {
 
 /// Lengths of edges are rounded coordinates apart here, and not in the log of another program.
 constexpr Ticks kMoveTolerance = 2;
-constexpr Ticks kMaxTick = Ticks{1} << 60;
+constexpr Ticks kMaxTick{std::int64_t{1} << 60};
 
 /// What the last digit of a number stands for: 0.01 for "1.25", 10 for "1.2e2". Requires a number.
 double last_digit(std::string_view text) {
@@ -79,13 +79,13 @@ class LogReader {
     if (!attribute) return std::nullopt;
     const auto seconds = parse_number(attribute.value());
     const double units = seconds ? *seconds / instance_.resolution() : -1;
-    if (!(units >= 0 && units <= static_cast<double>(kMaxTick)))
+    if (!(units >= 0 && units <= static_cast<double>(kMaxTick.count())))
       return xml_.error(summary, "the " + std::string(name) + " is " + quoted(attribute.value()) +
                                      ", not a time");
     // Rounded as a whole there and section by section here.
     const Cost actual = quadrille::continuous::cost(file_.plan, objective);
     const double tolerance = last_digit(attribute.value()) / instance_.resolution() +
-                             static_cast<double>((kMoveTolerance + 1) * num_sections_);
+                             static_cast<double>(((kMoveTolerance + 1) * num_sections_).count());
     const bool agrees = std::abs(units - static_cast<double>(actual)) <= tolerance;
     cost = agrees ? actual : static_cast<Cost>(std::llround(units));
     return std::nullopt;
@@ -126,14 +126,14 @@ class LogReader {
       if (auto error = read_vertex(node, end == 0 ? "start" : "goal", ends[end])) return error;
     const auto seconds = parse_number(node.attribute("duration").value());
     const double units = seconds ? *seconds / instance_.resolution() : -1;
-    if (!(units >= 0 && units <= static_cast<double>(kMaxTick - path.back().depart)))
+    if (!(units >= 0 && units <= static_cast<double>((kMaxTick - path.back().depart).count())))
       return xml_.error(
           node, "the duration is " + quoted(node.attribute("duration").value()) + ", not a time");
     if (is_first) path.back().vertex = ends[0];
     if (path.back().vertex != ends[0])
       return xml_.error(node, "the section does not begin where the one before it ends",
                         ErrorCode::invalid_plan);
-    const auto ticks = static_cast<Ticks>(std::llround(units));
+    const Ticks ticks(std::llround(units));
     if (ends[0] == ends[1]) {
       path.back().depart += ticks;
     } else {
@@ -147,7 +147,7 @@ class LogReader {
     for (const EdgeId e : instance_.roadmap().out_edges(from)) {
       if (instance_.roadmap().edge(e).to != to) continue;
       const Ticks exact = instance_.duration(instance_.class_of(agent), e);
-      if (std::abs(exact - ticks) <= kMoveTolerance) return exact;
+      if (abs(exact - ticks) <= kMoveTolerance) return exact;
     }
     return ticks;
   }
@@ -194,8 +194,8 @@ Result<PlanFile> read_ccbs_log(const std::string& text, const std::string& file,
 
 void write_ccbs_log(std::ostream& out, const Instance& instance, const Plan& plan,
                     const GridRoadmap* grid) {
-  const auto time = [&](Ticks ticks) {
-    return json_number(in_input_units(ticks, instance.resolution()));
+  const auto time = [&](auto units) {
+    return json_number(in_input_units(units, instance.resolution()));
   };
   const auto place = [&](const char* end, VertexId v) {
     out << " " << end;

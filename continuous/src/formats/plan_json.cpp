@@ -14,7 +14,7 @@ namespace {
 using text::Document;
 using Node = Document::Node;
 /// Later times are none that a plan could have.
-constexpr Ticks kMaxTick = Ticks{1} << 60;
+constexpr std::int64_t kMaxTick = std::int64_t{1} << 60;
 
 class JsonPlanReader {
  public:
@@ -107,16 +107,23 @@ class JsonPlanReader {
                              std::to_string(instance_.roadmap().num_vertices()));
     stop.vertex = VertexId(static_cast<std::size_t>(number));
     if (at && !read_place(*at, instance_.roadmap().position(stop.vertex))) return false;
-    if (!check_.integer(*arrive_ticks, 0, kMaxTick, stop.arrive)) return false;
-    if (arrive && !agrees(*arrive, stop.arrive)) return false;
+    if (!read_tick(*arrive_ticks, stop.arrive)) return false;
+    if (arrive && !agrees(*arrive, stop.arrive.count())) return false;
     stop.depart = stop.arrive;
     if (is_last) {
       if (!depart && !depart_ticks) return true;
       return check_.fail(depart ? *depart : *depart_ticks, ErrorCode::invalid_plan,
                          "an agent stays at its last stop for ever");
     }
-    if (!check_.integer(*depart_ticks, 0, kMaxTick, stop.depart)) return false;
-    return !depart || agrees(*depart, stop.depart);
+    if (!read_tick(*depart_ticks, stop.depart)) return false;
+    return !depart || agrees(*depart, stop.depart.count());
+  }
+
+  bool read_tick(Node node, Ticks& tick) {
+    std::int64_t count = 0;
+    if (!check_.integer(node, 0, kMaxTick, count)) return false;
+    tick = Ticks(count);
+    return true;
   }
 
   bool read_place(Node node, const Point& point) {
@@ -154,10 +161,10 @@ std::string plan_to_json(const Instance& instance, const Plan& plan) {
       text += (k == 0 ? "{" : ", {");
       text += "\"vertex\": " + std::to_string(stop.vertex.index()) + ", \"at\": [" + number(at.x) +
               ", " + number(at.y) + "], \"arrive\": " + number(stop.arrive) +
-              ", \"arrive_ticks\": " + std::to_string(stop.arrive);
+              ", \"arrive_ticks\": " + std::to_string(stop.arrive.count());
       if (k + 1 < path.size())
         text += ", \"depart\": " + number(stop.depart) +
-                ", \"depart_ticks\": " + std::to_string(stop.depart);
+                ", \"depart_ticks\": " + std::to_string(stop.depart.count());
       text += "}";
     }
     text += "]";

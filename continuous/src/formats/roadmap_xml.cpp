@@ -130,7 +130,7 @@ class GraphmlReader {
     edges_.push_back({from, to, std::nullopt});
     // Sampling planners leave such edges in published files. Every move takes time here.
     if (positions_[from.index()] == positions_[to.index()]) {
-      edges_.back().duration = 1;
+      edges_.back().duration = Ticks{1};
       ++num_zero_length_edges_;
     }
   }

@@ -213,9 +213,9 @@ class JointSearch {
       } else if (aim_ == Aim::sum_of_costs) {
         since = variable(k);
       }
-      left += to_go;
+      left += as_cost(to_go);
       if (aim_ == Aim::any_plan) continue;
-      const Cost cost = least(node.zone, since) + to_go;
+      const Cost cost = as_cost(least(node.zone, since) + to_go);
       sum += cost;
       largest = std::max(largest, cost);
     }
@@ -251,7 +251,7 @@ class JointSearch {
 }  // namespace
 
 JointReport find_joint_plan(Scene& scene, const std::vector<AgentId>& agents, std::int64_t& work) {
-  return JointSearch(scene, Aim::any_plan, agents, kForever, work).run();
+  return JointSearch(scene, Aim::any_plan, agents, kAnyCost, work).run();
 }
 
 JointReport find_cheapest_joint_plan(Scene& scene, Objective objective, std::optional<Cost> below,
@@ -259,7 +259,7 @@ JointReport find_cheapest_joint_plan(Scene& scene, Objective objective, std::opt
   std::vector<AgentId> agents;
   for (const AgentId i : scene.instance().agent_ids()) agents.push_back(i);
   const Aim aim = objective == Objective::makespan ? Aim::makespan : Aim::sum_of_costs;
-  return JointSearch(scene, aim, agents, below.value_or(kForever), work).run();
+  return JointSearch(scene, aim, agents, below.value_or(kAnyCost), work).run();
 }
 
 }  // namespace quadrille::continuous

@@ -100,7 +100,7 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std
     if (!ticks)
       return Error{ErrorCode::out_of_range,
                    "edge " + std::to_string(e) + " takes less than one tick, or more than " +
-                       std::to_string(geometry::kMaxDuration) + ", at the speed of agent " +
+                       std::to_string(geometry::kMaxDuration.count()) + ", at the speed of agent " +
                        std::to_string(agent) + "; choose another resolution",
                    {}};
     durations.push_back(*ticks);

@@ -40,9 +40,10 @@ std::optional<Length> quantise_radius(double value, double resolution) {
 }
 
 std::optional<Ticks> quantise_duration(double value, double resolution) {
-  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxDuration));
+  const auto units =
+      in_units(value, resolution, static_cast<double>(geometry::kMaxDuration.count()));
   if (!units || std::round(*units) < 1) return std::nullopt;
-  return static_cast<Ticks>(std::round(*units));
+  return Ticks(static_cast<std::int64_t>(std::round(*units)));
 }
 
 std::optional<Speed> quantise_speed(double value) {
@@ -55,14 +56,18 @@ std::optional<Ticks> travel_time(const Point& from, const Point& to, Speed speed
   const auto length = std::sqrt(static_cast<long double>(squared_distance(from, to)));
   const long double ticks = std::round(length * static_cast<long double>(kUnitSpeed.count()) /
                                        static_cast<long double>(speed.count()));
-  if (!(ticks >= 1 && ticks <= static_cast<long double>(geometry::kMaxDuration)))
+  if (!(ticks >= 1 && ticks <= static_cast<long double>(geometry::kMaxDuration.count())))
     return std::nullopt;
-  return static_cast<Ticks>(ticks);
+  return Ticks(static_cast<std::int64_t>(ticks));
 }
 
-double in_input_units(std::int64_t units, double resolution) {
+double in_input_units(Cost cost, double resolution) {
   const auto factor = units_per_one(resolution);
-  return factor ? static_cast<double>(units) / *factor : static_cast<double>(units) * resolution;
+  return factor ? static_cast<double>(cost) / *factor : static_cast<double>(cost) * resolution;
+}
+
+double in_input_units(Ticks ticks, double resolution) {
+  return in_input_units(ticks.count(), resolution);
 }
 
 double in_input_units(Length length, double resolution) {

@@ -24,8 +24,8 @@ std::optional<Error> check(const std::vector<Point>& positions, const Edge& edge
                  {}};
   if (edge.duration && (*edge.duration < 1 || *edge.duration > geometry::kMaxDuration))
     return Error{ErrorCode::out_of_range,
-                 name + " takes " + std::to_string(*edge.duration) + " ticks, not 1 .. " +
-                     std::to_string(geometry::kMaxDuration),
+                 name + " takes " + std::to_string(edge.duration->count()) + " ticks, not 1 .. " +
+                     std::to_string(geometry::kMaxDuration.count()),
                  {}};
   return std::nullopt;
 }

@@ -12,20 +12,20 @@ namespace {
 
 /// Starts of one move that are not the earliest are split into so many intervals for the largest
 /// slack.
-constexpr Ticks kPieces = 2;
+constexpr std::int64_t kPieces = 2;
 constexpr std::size_t kMaxEdges = 50'000;
 
 }  // namespace
 
-bool PairSearch::collect_edges(const Party& party, Cost raise, const Party& other, Cost other_raise,
-                               Side& side) {
+bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& other,
+                               Ticks other_raise, Side& side) {
   const Instance& instance = scene_.instance();
   const Roadmap& roadmap = instance.roadmap();
   side.agent = party.agent;
   side.c = instance.class_of(party.agent);
   side.cap = party.cap;
-  const Ticks slack = party.cap + raise - scene_.free_cost(party.agent);
-  side.width = std::max<Ticks>((slack + kPieces - 1) / kPieces, 1);
+  const Ticks slack = party.cap + raise - as_ticks(scene_.free_cost(party.agent));
+  side.width = std::max<Ticks>((slack + Ticks(kPieces - 1)) / kPieces, 1);
   for (const VertexId v : side.reached) side.from_start[v.index()] = kForever;
   side.reached.clear();
   side.edges.clear();
@@ -214,9 +214,9 @@ void PairSearch::make_elements(Side& side) {
   }
 }
 
-Cost PairSearch::raise_for_end(const Element& element, Ticks tick) {
+Ticks PairSearch::raise_for_end(const Element& element, Ticks tick) {
   if (tick > element.last) return kForever;
-  return std::max<Cost>(0, tick - element.last_without_raise);
+  return std::max<Ticks>(0, tick - element.last_without_raise);
 }
 
 const PairSearch::Next& PairSearch::next_of(Side& side, VertexId from) {
@@ -263,17 +263,17 @@ const PairSearch::Next& PairSearch::next_of(Side& side, VertexId from) {
   return next;
 }
 
-Cost PairSearch::raise_for_done(const Side& side, const Element& element, Ticks start,
-                                const Next& next) {
+Ticks PairSearch::raise_for_done(const Side& side, const Element& element, Ticks start,
+                                 const Next& next) {
   if (next.done >= kForever) return kForever;
-  return std::max<Cost>(0, start + element.duration + next.done - side.cap);
+  return std::max<Ticks>(0, start + element.duration + next.done - side.cap);
 }
 
-Cost PairSearch::raise_to_wait(Side& side, const Element& element, Ticks start, Ticks tick) {
+Ticks PairSearch::raise_to_wait(Side& side, const Element& element, Ticks start, Ticks tick) {
   const Next& next = next_of(side, element.to);
-  const Cost done = raise_for_done(side, element, start, next);
+  const Ticks done = raise_for_done(side, element, start, next);
   if (tick > next.begin_by) return done;
-  return std::min(done, std::max<Cost>(0, tick - next.begin_by_without_raise));
+  return std::min(done, std::max<Ticks>(0, tick - next.begin_by_without_raise));
 }
 
 }  // namespace quadrille::continuous

@@ -78,7 +78,7 @@ PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start
   const auto raise_for_start = [&](Ticks tick) {
     return std::max(raise_for_end(next, tick), raise_to_wait(y, b, first_t, tick));
   };
-  Cost both = raise_for_start(first_s);
+  Ticks both = raise_for_start(first_s);
   Steps result{{kForever, 0, 0}, {0, first_s, first_t}};
   if (b.is_move) {
     const Edge& edge = instance.roadmap().edge(b.edge);
@@ -131,7 +131,7 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
                          Ticks start_y, bool is_first) {
   if (at_x == kDone) return;
   const Element &a = x.elements[at_x], &b = y.elements[at_y];
-  const auto visit = [&](std::uint32_t k, Cost raise, Ticks start, Ticks other_start) {
+  const auto visit = [&](std::uint32_t k, Ticks raise, Ticks start, Ticks other_start) {
     if (raise > max_raise_) return;
     const std::uint64_t pair = is_first ? key(k, at_y) : key(at_y, k);
     const Starts starts = is_first ? Starts{start, other_start} : Starts{other_start, start};
@@ -144,7 +144,7 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
     }
   };
   const Next& next = next_of(x, a.to);
-  if (const Cost raise = raise_for_done(x, a, start_x, next); raise < kForever)
+  if (const Ticks raise = raise_for_done(x, a, start_x, next); raise < kForever)
     visit(kDone, raise, start_x, start_y);
   for (const Way& way : next.ways) {
     const Ticks arrive = start_x + a.duration + way.ticks;
@@ -174,8 +174,8 @@ bool PairSearch::next_raise() {
   return !open_.empty();
 }
 
-Cost PairSearch::refuted_raise(const Party& i, const Party& j, Cost max_raise,
-                               std::int64_t max_steps) {
+Ticks PairSearch::refuted_raise(const Party& i, const Party& j, Ticks max_raise,
+                                std::int64_t max_steps) {
   Side &first = sides_[0], &second = sides_[1];
   first.bans = &bans_[0];
   second.bans = &bans_[1];

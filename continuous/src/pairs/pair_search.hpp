@@ -30,12 +30,12 @@ class PairSearch {
 
   struct Party {
     AgentId agent;
-    Cost cap = 0;  ///< It arrives at this tick or earlier. At least its free cost.
+    Ticks cap = 0;  ///< It arrives at this tick or earlier. At least its free cost.
   };
   /// Some r in [0, max_raise + 1]: no plan has both cost(i) < i.cap + r and cost(j) <= j.cap.
   /// Tries at most about `max_steps` steps, fewer if the limits of the scene are met.
-  [[nodiscard]] Cost refuted_raise(const Party& i, const Party& j, Cost max_raise,
-                                   std::int64_t max_steps);
+  [[nodiscard]] Ticks refuted_raise(const Party& i, const Party& j, Ticks max_raise,
+                                    std::int64_t max_steps);
 
   /// Bans that agent i (0) and agent j (1) obey; none at first.
   [[nodiscard]] BanTable& bans(std::size_t side) { return bans_[side]; }
@@ -86,7 +86,7 @@ class PairSearch {
     std::vector<TimedEdge> edges;  // in the order of their tails
     std::vector<Element> elements;
     std::vector<Next> next;  // by vertex
-    Cost cap = 0;            // without raise
+    Ticks cap = 0;           // without raise
     // By vertex:
     std::vector<Ticks> from_start;                    // kForever: not reached within the cap
     std::vector<std::uint32_t> first_edge, end_edge;  // that leave it
@@ -120,7 +120,7 @@ class PairSearch {
 
   /// `raise`: of the cap of `party`; `other_raise`: of the other's. One of them is 0. False: there
   /// is too much of it.
-  bool collect_edges(const Party& party, Cost raise, const Party& other, Cost other_raise,
+  bool collect_edges(const Party& party, Ticks raise, const Party& other, Ticks other_raise,
                      Side& side);
   [[nodiscard]] Ticks leave_by(const Side& side, VertexId v) const;
   void find_contacts(Side& x, Side& y);
@@ -132,15 +132,15 @@ class PairSearch {
   [[nodiscard]] static bool breaks_ban(const Side& side, const Element& from, const Element& to);
   [[nodiscard]] const Next& next_of(Side& side, VertexId v);
   /// What a next start at `tick` or later needs, or none that matters, after a start at `start`.
-  [[nodiscard]] Cost raise_to_wait(Side& side, const Element& element, Ticks start, Ticks tick);
-  [[nodiscard]] static Cost raise_for_done(const Side& side, const Element& element, Ticks start,
-                                           const Next& next);
+  [[nodiscard]] Ticks raise_to_wait(Side& side, const Element& element, Ticks start, Ticks tick);
+  [[nodiscard]] static Ticks raise_for_done(const Side& side, const Element& element, Ticks start,
+                                            const Next& next);
   /// Visits the pairs that follow when the agent of `x` begins its next move.
   void advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, std::uint32_t at_y,
                Ticks start_y, bool is_first);
   /// What it takes to go on, and the earliest starts of `next` and of b's move after that.
   struct Step {
-    Cost raise = kForever;
+    Ticks raise = kForever;
     Ticks start = 0, other_start = 0;
   };
   /// The ways in which x can go from a to `next` while y has not gone beyond `b`: `next` is late,
@@ -151,7 +151,7 @@ class PairSearch {
   [[nodiscard]] Steps steps(const Side& x, const Element& a, Ticks start_a, const Element& next,
                             Ticks first_s, Side& y, const Element& b, Ticks first_t);
   /// What `element` needs to end at `tick` or later.
-  [[nodiscard]] static Cost raise_for_end(const Element& element, Ticks tick);
+  [[nodiscard]] static Ticks raise_for_end(const Element& element, Ticks tick);
   [[nodiscard]] bool are_far(EdgeId e, VertexId from, VertexId to, Length reach) const;
   [[nodiscard]] Contacts::Window window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach);
 
@@ -165,7 +165,7 @@ class PairSearch {
     std::uint64_t pair;
   };
   struct Pending {
-    Cost raise;
+    Ticks raise;
     std::uint64_t pair;
     Starts starts;
   };
@@ -175,8 +175,8 @@ class PairSearch {
   /// Goes on with the least raise that is pending. False: there is none.
   bool next_raise();
 
-  Cost max_raise_ = 0;            // or what reaches both ends
-  Cost raise_ = 0;                // up to which steps have been taken
+  Ticks max_raise_ = 0;           // or what reaches both ends
+  Ticks raise_ = 0;               // up to which steps have been taken
   std::vector<Open> open_;        // a heap, the earliest first: to be visited
   std::vector<Pending> pending_;  // a heap, the least raise first: to be visited later
   std::vector<std::uint32_t> stack_;

@@ -29,7 +29,7 @@ GoalDistances::GoalDistances(const Instance& instance, AgentId agent)
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const VertexId goal = instance.agent(agent).goal;
   ticks_[goal.index()] = 0;
-  queue.emplace(0, goal);
+  queue.emplace(Ticks{0}, goal);
   while (!queue.empty()) {
     const auto [ticks, v] = queue.top();
     queue.pop();

@@ -24,7 +24,7 @@ class Scene {
   [[nodiscard]] PathTask task(AgentId i) const { return {i, distances_[i.index()]}; }
   /// Cost of the cheapest path of an agent that is alone.
   [[nodiscard]] Cost free_cost(AgentId i) const {
-    return distances_[i.index()][instance_.agent(i).start];
+    return as_cost(distances_[i.index()][instance_.agent(i).start]);
   }
 
  private:

@@ -9,7 +9,7 @@ namespace quadrille::continuous {
 
 TimedPath without_stops(const Instance& instance, AgentId agent, const Path& stops) {
   TimedPath path;
-  path.arrival = cost(stops);
+  path.arrival = as_ticks(cost(stops));
   for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
     const auto& edges = instance.roadmap().out_edges(stops[k].vertex);
     const auto at = std::find_if(edges.begin(), edges.end(), [&](EdgeId e) {

@@ -9,7 +9,10 @@
 
 namespace quadrille::continuous {
 
-inline constexpr Ticks kForever = std::numeric_limits<Ticks>::max() / 4;
+/// Later than all times of a plan; sums and differences of a few such times do not overflow.
+inline constexpr Ticks kForever{std::numeric_limits<std::int64_t>::max() / 4};
+/// More than any plan costs.
+inline constexpr Cost kAnyCost = as_cost(kForever);
 
 /// One move of a path.
 struct Move {

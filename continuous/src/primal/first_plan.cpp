@@ -76,7 +76,7 @@ void try_orders(Scene& scene, Objective objective, std::optional<Plan>& best) {
     if (scene.limits().exhausted_now()) break;
     if (best) ++improvements;
     if (const auto failed = planner.try_order(order)) {
-      // Who found no path goes first; now and then somebody else is let before it.
+      // Who found no path goes first; now and then another agent goes before it.
       const auto at = order.begin() + static_cast<std::ptrdiff_t>(*failed);
       std::rotate(order.begin(), at, at + 1);
       if (round % 8 == 7) std::swap(someone(), order[0]);

@@ -143,10 +143,10 @@ void PlanImprover::replan(const std::vector<AgentId>& chosen) {
   std::vector<AgentState> fresh;
   for (const AgentId i : chosen) {
     AgentState state;
-    const Cost bound = scene_.free_cost(i) + left + 1;
+    const Ticks bound = as_ticks(scene_.free_cost(i) + left + 1);
     if (!finder_.find(scene_.task(i), tables_[instance.class_of(i).index()], bound, &state.path))
       break;
-    left -= state.path.arrival - scene_.free_cost(i);
+    left -= as_cost(state.path.arrival) - scene_.free_cost(i);
     list_bans(i, state);
     add_slot(state);
     fresh.push_back(std::move(state));

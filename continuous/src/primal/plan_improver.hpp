@@ -40,7 +40,7 @@ class PlanImprover {
   void add_slot(AgentState& agent);
   void enable(std::size_t slot, bool on);
   [[nodiscard]] Cost delay(AgentId i) const {
-    return agents_[i].path.arrival - scene_.free_cost(i);
+    return as_cost(agents_[i].path.arrival) - scene_.free_cost(i);
   }
   [[nodiscard]] std::vector<AgentId> choose();
   [[nodiscard]] AgentId choose_delayed();

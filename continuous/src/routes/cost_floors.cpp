@@ -67,7 +67,7 @@ Ticks last_pass(Scene& scene, AgentId resident, AgentId passer, const std::vecto
   for (const auto& [e, last] : touching)
     if (is_past[roadmap.edge(e).to.index()])
       end = std::min(end, visits[roadmap.edge(e).from.index()] + last);
-  return end == kForever ? 0 : end;
+  return end == kForever ? Ticks{0} : end;
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ std::vector<Cost> cost_floors(Scene& scene) {
     for (const AgentId resident : scene.instance().agent_ids())
       if (resident != passer)
         floors[resident.index()] =
-            std::max(floors[resident.index()], last_pass(scene, resident, passer, visits));
+            std::max(floors[resident.index()], as_cost(last_pass(scene, resident, passer, visits)));
   }
   return floors;
 }

@@ -15,7 +15,7 @@ void RouteOrders::clear() {
 void RouteOrders::add(AgentId agent, const Route& route) {
   const Traveller added{agent, &route, chain_.size()};
   for (std::size_t k = 0; k < route.edges.size(); ++k)
-    chain_.push_back(k + 1 == route.edges.size() ? 0 : duration(added, k));
+    chain_.push_back(k + 1 == route.edges.size() ? Ticks{0} : duration(added, k));
   for (const Traveller& other : travellers_) {
     work_ -= static_cast<std::int64_t>((route.edges.size() + 1) * (other.route->edges.size() + 1));
     add_moves(other, added);
@@ -72,7 +72,7 @@ void RouteOrders::add_stays(const Traveller& i, const Traveller& j) {
       const std::size_t move = i.first + k;
       // It arrives late enough, or leaves early enough.
       const std::size_t arrival = l == 0 ? 0 : j.first + l - 1;
-      const Ticks travel = l == 0 ? 0 : duration(j, l - 1);
+      const Ticks travel = l == 0 ? Ticks{0} : duration(j, l - 1);
       Choice choice{{move, arrival, window->end - travel}, std::nullopt};
       if (l < j.route->edges.size()) choice.second = Constraint{j.first + l, move, -window->begin};
       choices_.push_back(choice);
@@ -135,7 +135,7 @@ Cost RouteOrders::cost_of(const std::vector<Ticks>& times) const {
   Cost total = 0;
   for (const Traveller& t : travellers_) {
     const std::size_t moves = t.route->edges.size();
-    const Cost own = moves == 0 ? 0 : times[t.first + moves - 1] + duration(t, moves - 1);
+    const Cost own = moves == 0 ? 0 : as_cost(times[t.first + moves - 1] + duration(t, moves - 1));
     total = objective_ == Objective::sum_of_costs ? total + own : std::max(total, own);
   }
   return total;

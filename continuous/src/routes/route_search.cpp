@@ -68,7 +68,7 @@ class RouteSearch {
     limit_ = bounds_[all_];
     std::int64_t last_work = 0;
     while (true) {
-      if (limit_ > kForever / 8) return report;  // without end
+      if (limit_ > kAnyCost / 8) return report;  // without end
       limit_ += step;
       const std::int64_t before = work_;
       if (!list_routes()) return report;
@@ -152,7 +152,7 @@ class RouteSearch {
       const VertexId to = instance_.roadmap().edge(e).to;
       const Ticks duration = instance_.duration(instance_.class_of(t.agent), e);
       const Ticks to_go = scene_.task(t.agent).distances[to];
-      if (to_go >= kForever || route.duration + duration + to_go >= share) continue;
+      if (to_go >= kForever || as_cost(route.duration + duration + to_go) >= share) continue;
       route.edges.push_back(e);
       route.duration += duration;
       extend(t, share, to, route);
@@ -176,7 +176,8 @@ class RouteSearch {
 
   [[nodiscard]] Part with_route(const Part& part, std::size_t k, std::size_t r) const {
     const std::size_t agents = part.agents | bit(k);
-    return {agents, std::max(bounds_.joined(part.cost, route(k, r).duration), bounds_[agents])};
+    return {agents,
+            std::max(bounds_.joined(part.cost, as_cost(route(k, r).duration)), bounds_[agents])};
   }
 
   /// What all cost at least.

@@ -39,7 +39,7 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
   // What quick tests ask is often hopeless, and a search of a pair would find no answer.
   asked.uses_pair_lemmas = question.search == Search::full;
   Assumptions assumptions{question.below, {}};
-  IdVector<AgentId, Cost> ceilings(model_.instance().num_agents(), kForever);
+  IdVector<AgentId, Cost> ceilings(model_.instance().num_agents(), kAnyCost);
   if (!question.ceilings.empty() && !is_known_only) ceilings = question.ceilings;
   if (question.total) {
     // What the others cost at least is not there to be spent.
@@ -53,9 +53,9 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
     asked.above_total = model_.total_above(*question.total, writer_);
     assumptions.also = ~asked.above_total;
   }
-  for (const Level& level : question.below) ceilings[level.agent] = kForever;
+  for (const Level& level : question.below) ceilings[level.agent] = kAnyCost;
   for (const AgentId i : model_.instance().agent_ids())
-    if (ceilings[i] < kForever) assumptions.levels.push_back({i, ceilings[i] + 1});
+    if (ceilings[i] < kAnyCost) assumptions.levels.push_back({i, ceilings[i] + 1});
   theory_.ask(asked);
   Verdict verdict = solve_assuming(question, assumptions, limits);
   while (verdict == Verdict::sat && !is_known_only && !accept_model())
@@ -131,7 +131,7 @@ void CostProblem::add_core(const std::vector<Level>& core,
   if (auditor_ != nullptr) {
     std::vector<Lit> given;
     for (const AgentId i : model_.instance().agent_ids())
-      if (ceilings[i] < kForever) given.push_back(~model_.above(i, ceilings[i], writer_));
+      if (ceilings[i] < kAnyCost) given.push_back(~model_.above(i, ceilings[i], writer_));
     auditor_->assume(std::move(given));
     if (clause.empty()) auditor_->audit(clause);
   }

@@ -29,7 +29,7 @@ class EngineWriter final : public FormulaWriter {
 struct Question {
   /// Each of these agents costs less than its level. Requires levels above the free costs.
   std::vector<Level> below = {};
-  /// The other agents cost at most so much (kForever: anything). Empty: anything.
+  /// The other agents cost at most so much (kAnyCost: anything). Empty: anything.
   IdVector<AgentId, Cost> ceilings = {};
   /// All costs sum up to at most this.
   std::optional<Cost> total = {};

@@ -124,7 +124,7 @@ class CoverSearch {
       }
       if (!learn_cores()) {
         report_.end = report_.plan ? End::found : End::exhausted;
-        if (report_.plan) raise_bound(kForever);
+        if (report_.plan) raise_bound(kAnyCost);
         return report_;
       }
       if (!cover_.solve(limits_)) return report_;
@@ -196,12 +196,12 @@ class CoverSearch {
   /// are smaller: the others may not go any way round that they like.
   [[nodiscard]] IdVector<AgentId, Cost> ceilings() const {
     IdVector<AgentId, Cost> ceilings = free_costs();
-    Cost rest = kForever;
+    Cost rest = kAnyCost;
     if (report_.plan) {
       rest = std::max(cost(*report_.plan, Objective::sum_of_costs) - 1, spared_);
       for (const Cost cost : ceilings) rest -= cost;
     }
-    for (Cost& ceiling : ceilings) ceiling = std::min(ceiling + rest, kForever);
+    for (Cost& ceiling : ceilings) ceiling = std::min(ceiling + rest, kAnyCost);
     return ceilings;
   }
 

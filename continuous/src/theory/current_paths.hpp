@@ -18,7 +18,7 @@ class CurrentPaths {
       : model_(model), paths_(model.instance().num_agents()) {}
   [[nodiscard]] const KnownPathRef& path(AgentId i) const { return paths_[i]; }
   void set_path(AgentId i, const KnownPathRef& path) { paths_[i] = path; }
-  [[nodiscard]] Cost cost(const KnownPathRef& path) const { return path->path.arrival; }
+  [[nodiscard]] Cost cost(const KnownPathRef& path) const { return as_cost(path->path.arrival); }
   [[nodiscard]] bool breaks(const KnownPathRef& path, ObstacleId id) const {
     return path->uses.breaks(model_.obstacles()[id].bans);
   }

@@ -122,9 +122,9 @@ void EncounterClauses::add_price(ObstacleId id, FormulaWriter& writer) {
   bans_.clear();
   bans_.add(model_.obstacles()[id].bans);
   const auto arrival = finder_.find(model_.task(i), bans_, kForever, nullptr);
-  if (arrival && *arrival <= model_.free_cost(i)) return;
+  if (arrival && as_cost(*arrival) <= model_.free_cost(i)) return;
   std::vector<sat::Lit> clause{model_.obstacles()[id].allowed};
-  if (arrival) clause.push_back(model_.at_least(i, *arrival, writer));
+  if (arrival) clause.push_back(model_.at_least(i, as_cost(*arrival), writer));
   const sat::Usage usages[] = {{i, id.value()}};
   writer.add({sat::LemmaKind::path, clause, usages, false});
 }

@@ -11,7 +11,7 @@ KnownPlanAuditor::KnownPlanAuditor(const Model& model, const Plan& plan) : model
     const TimedPath path = without_stops(instance, i, plan.paths[i]);
     PathUses uses;
     uses.assign(instance, i, path);
-    total_ += path.arrival;
+    total_ += as_cost(path.arrival);
     paths_.push_back(path);
     uses_.push_back(uses);
   }
@@ -27,7 +27,7 @@ bool KnownPlanAuditor::holds(sat::Lit lit) const {
       value = total_ > meaning.cost;
       return value == lit.positive();
     case Model::VariableKind::cost:
-      value = paths_[meaning.agent].arrival >= meaning.cost;
+      value = as_cost(paths_[meaning.agent].arrival) >= meaning.cost;
       return value == lit.positive();
     case Model::VariableKind::usage:
       value = uses_[meaning.agent].breaks(model_.obstacles()[meaning.obstacle].bans);

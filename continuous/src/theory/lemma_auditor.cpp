@@ -96,7 +96,8 @@ std::string LemmaAuditor::audit_usages(const sat::Lemma& lemma) const {
     if (meaning.kind == Kind::cost) {
       if (!o.allowed.positive() || meaning.agent == o.agent)
         return "an obstacle has a literal that says something else";
-      if (std::string wrong = audit_goal_bans(o, meaning.agent, meaning.cost); !wrong.empty())
+      if (std::string wrong = audit_goal_bans(o, meaning.agent, as_ticks(meaning.cost));
+          !wrong.empty())
         return wrong;
     } else if (meaning.kind != Kind::usage || o.allowed.positive() ||
                meaning.obstacle.index() != usage.resource) {
@@ -144,7 +145,7 @@ std::string LemmaAuditor::audit_path(const sat::Lemma& lemma) const {
   for (const sat::Lit lit : lemma.clause) {
     const auto meaning = model_.variable(lit);
     if (meaning.kind == Kind::cost && meaning.agent == i && lit.positive())
-      bound = std::min(bound, meaning.cost);
+      bound = std::min(bound, as_ticks(meaning.cost));
   }
   return has_path(i, bans, bound) ? "some path breaks a path lemma" : "";
 }
@@ -242,7 +243,7 @@ std::string LemmaAuditor::audit_pair(const sat::Lemma& lemma) {
         side < lemma.clause.size() ? model_.variable(lemma.clause[side]) : Model::Variable{};
     if (meaning.kind != Kind::cost || !lemma.clause[side].positive())
       return "a lemma of a pair begins with two costs";
-    parties[side] = {meaning.agent, meaning.cost, {}};
+    parties[side] = {meaning.agent, as_ticks(meaning.cost), {}};
   }
   if (parties[0].agent == parties[1].agent) return "a pair has two agents";
   for (const sat::Usage& usage : lemma.usages) {

@@ -98,7 +98,7 @@ ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, For
       goals_.try_emplace(std::make_tuple(agent, resident, tick), obstacles_.next_id());
   is_new = inserted;
   if (!inserted) return at->second;
-  const Lit later = at_least(resident, tick, writer);
+  const Lit later = at_least(resident, as_cost(tick), writer);
   const ClassId a = instance().class_of(agent), b = instance().class_of(resident);
   const VertexId goal = instance().agent(resident).goal;
   const auto& near = contacts().near_vertex(b, goal, a);

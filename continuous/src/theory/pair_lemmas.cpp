@@ -11,13 +11,17 @@ constexpr std::int64_t kMaxSteps = 30'000'000;
 /// Of searches with obstacles, of which many are made.
 constexpr std::int64_t kMaxStepsInReduction = 3'000'000;
 
-constexpr Cost kSmallPart = 64;
+constexpr std::int64_t kSmallPart = 64;
 /// Most pairs need no such search: the clauses do as well, and for less. Measured: on den520d with
 /// 40 and in the warehouse with 60 agents, searches of pairs make seconds of more than 30 s; on
 /// room64, where cores come from many agents, they are worth nothing.
 constexpr int kFirstTry = 64;
 /// Steps to begin with, and per call. A search that finds nothing is paid for.
 constexpr std::int64_t kFirstCredit = 12'000'000, kCreditPerCall = 1'000;
+
+PairSearch::Party searched(const PairLemmas::Party& party) {
+  return {party.agent, as_ticks(party.cap)};
+}
 
 }  // namespace
 
@@ -32,7 +36,7 @@ bool PairLemmas::note_explanation(const Party& i, const Party& j, FormulaWriter&
 bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
   credit_ += kCreditPerCall;
   if (++record.count < std::max(record.next_try, kFirstTry)) return false;
-  if (i.cap >= kForever || j.cap >= kForever || kFirstCredit + credit_ < 0) return false;
+  if (i.cap >= kAnyCost || j.cap >= kAnyCost || kFirstCredit + credit_ < 0) return false;
   record.next_try = 2 * record.count;
   const std::int64_t before = search_.effort();
   const bool is_added = try_pair(record, i, j, writer);
@@ -62,7 +66,7 @@ bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, Formul
 }
 
 bool PairLemmas::is_refuted(const Party& i, const Party& j) {
-  return search_.refuted_raise({i.agent, i.cap}, {j.agent, j.cap}, 0, kMaxStepsInReduction) > 0;
+  return search_.refuted_raise(searched(i), searched(j), 0, kMaxStepsInReduction) > 0;
 }
 
 void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
@@ -103,12 +107,12 @@ void PairLemmas::reduce(const Party& i, const Party& j) {
 
 // Raising one cap may leave no room for the other: then a second clause raises the other one first.
 void PairLemmas::add_clauses(const Party& i, const Party& j, FormulaWriter& writer) {
-  PairSearch::Party first{i.agent, i.cap}, second{j.agent, j.cap};
+  PairSearch::Party first = searched(i), second = searched(j);
   raise(first, second, false);
   raise(second, first, true);
   add_clause(first, second, writer);
-  if (second.cap - j.cap >= max_raise(j.agent) / kSmallPart) return;
-  PairSearch::Party other_first{i.agent, i.cap}, other_second{j.agent, j.cap};
+  if (second.cap - as_ticks(j.cap) >= max_raise(j.agent) / kSmallPart) return;
+  PairSearch::Party other_first = searched(i), other_second = searched(j);
   raise(other_second, other_first, true);
   raise(other_first, other_second, false);
   if (other_second.cap > second.cap) add_clause(other_first, other_second, writer);
@@ -116,15 +120,15 @@ void PairLemmas::add_clauses(const Party& i, const Party& j, FormulaWriter& writ
 
 void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second) {
   if (is_second) search_.swap_bans();
-  const Cost raise = search_.refuted_raise(party, other, max_raise(party.agent), kMaxSteps);
+  const Ticks raise = search_.refuted_raise(party, other, max_raise(party.agent), kMaxSteps);
   if (is_second) search_.swap_bans();
-  party.cap += std::max<Cost>(raise, 1) - 1;
+  party.cap += std::max<Ticks>(raise, 1) - 1;
 }
 
 void PairLemmas::add_clause(const PairSearch::Party& i, const PairSearch::Party& j,
                             FormulaWriter& writer) {
-  std::vector<sat::Lit> clause{model_.at_least(i.agent, i.cap + 1, writer),
-                               model_.at_least(j.agent, j.cap + 1, writer)};
+  std::vector<sat::Lit> clause{model_.at_least(i.agent, as_cost(i.cap + 1), writer),
+                               model_.at_least(j.agent, as_cost(j.cap + 1), writer)};
   std::vector<sat::Usage> usages;
   for (const std::size_t side : {0U, 1U})
     for (std::size_t slot = 0; slot < loaded_[side].size(); ++slot) {
@@ -138,9 +142,9 @@ void PairLemmas::add_clause(const PairSearch::Party& i, const PairSearch::Party&
 }
 
 /// About one move, as a way round it often costs as much.
-Cost PairLemmas::max_raise(AgentId i) const {
+Ticks PairLemmas::max_raise(AgentId i) const {
   const Instance& instance = model_.instance();
-  Cost longest = 1;
+  Ticks longest = 1;
   for (const EdgeId e : instance.roadmap().out_edges(instance.agent(i).start))
     longest = std::max(longest, instance.duration(instance.class_of(i), e));
   return longest;

@@ -19,7 +19,7 @@ class PairLemmas {
 
   struct Party {
     AgentId agent;
-    Cost cap = 0;                             ///< kForever: none.
+    Cost cap = 0;                             ///< kAnyCost: none.
     std::span<const ObstacleId> active = {};  ///< Obstacles whose literals are false.
   };
   /// To be told of each collision of two agents with i.agent < j.agent. True: a clause was added
@@ -48,7 +48,7 @@ class PairLemmas {
   void add_clauses(const Party& i, const Party& j, FormulaWriter& writer);
   void raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second);
   void add_clause(const PairSearch::Party& i, const PairSearch::Party& j, FormulaWriter& writer);
-  [[nodiscard]] Cost max_raise(AgentId i) const;
+  [[nodiscard]] Ticks max_raise(AgentId i) const;
 
   Model& model_;
   PairSearch search_;

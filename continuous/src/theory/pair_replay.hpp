@@ -17,7 +17,7 @@ class PairReplay {
  public:
   struct Party {
     AgentId agent;
-    Cost bound = 0;                ///< It arrives for good before.
+    Ticks bound = 0;               ///< It arrives for good before.
     std::vector<Ban> bans;         ///< That it obeys.
     std::vector<Ticks> rest = {};  ///< By vertex, to the goal; filled in.
   };

@@ -35,8 +35,8 @@ class PathCache {
   [[nodiscard]] KnownPathRef cheapest(Cost cap, const Predicate& is_good) const {
     KnownPathRef best;
     for (const KnownPathRef& known : paths_)
-      if (known->path.arrival <= cap && (!best || known->path.arrival < best->path.arrival) &&
-          is_good(known))
+      if (as_cost(known->path.arrival) <= cap &&
+          (!best || known->path.arrival < best->path.arrival) && is_good(known))
         best = known;
     return best;
   }

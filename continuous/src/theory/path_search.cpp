@@ -15,13 +15,13 @@ PathSearch::Cheapest PathSearch::find(AgentId agent, std::span<const ObstacleId>
   loaded_.assign(obstacles.begin(), obstacles.end());
   bans_.clear();
   for (const ObstacleId id : obstacles) bans_.add(model_.obstacles()[id].bans);
-  const auto arrival = finder_.find(model_.task(agent), bans_, bound, &path_);
+  const auto arrival = finder_.find(model_.task(agent), bans_, as_ticks(bound), &path_);
   return {*this, agent, arrival.has_value()};
 }
 
 std::vector<ObstacleId> PathSearch::blame(AgentId agent, Cost bound) {
   std::vector<std::size_t> slots;
-  explainer_.explain(model_.task(agent), bans_, bound, slots);
+  explainer_.explain(model_.task(agent), bans_, as_ticks(bound), slots);
   std::vector<ObstacleId> blamed;
   for (const std::size_t slot : slots) blamed.push_back(loaded_[slot]);
   return blamed;

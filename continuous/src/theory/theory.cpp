@@ -16,7 +16,7 @@ using sat::Truth;
 ContinuousTheory::ContinuousTheory(Model& model)
     : model_(model),
       paths_(model),
-      trail_(paths_, model.instance().num_agents(), kForever),
+      trail_(paths_, model.instance().num_agents(), kAnyCost),
       search_(model),
       finder_(model.instance(), &model.limits()),
       bans_(model.instance().roadmap()),
@@ -25,7 +25,7 @@ ContinuousTheory::ContinuousTheory(Model& model)
       caches_(model.instance().num_agents()),
       apart_(caches_.size() * caches_.size()) {
   for (const AgentId i : model.instance().agent_ids()) {
-    const TimedPath* path = search_.find(i, {}, kForever).path();
+    const TimedPath* path = search_.find(i, {}, kAnyCost).path();
     QUADRILLE_REQUIRE(path != nullptr, "goals can be reached");
     paths_.set_path(i, remember(i, *path));
   }
@@ -99,8 +99,8 @@ bool ContinuousTheory::replan(AgentId i, FormulaWriter& writer) {
     trail_.replace_path(i, known);
     return true;
   }
-  const auto found = search(i, kForever);
-  const Cost arrival = found.path() == nullptr ? kForever : found.path()->arrival;
+  const auto found = search(i, kAnyCost);
+  const Cost arrival = found.path() == nullptr ? kAnyCost : as_cost(found.path()->arrival);
   if (found.path() == nullptr || arrival > cap) {
     Cost bound = arrival;
     for (const auto& threshold : model_.thresholds(i))
@@ -127,7 +127,7 @@ void ContinuousTheory::explain_bound(AgentId i, const PathSearch::Cheapest& sear
   const ObstacleIds blamed = search.blame(bound);
   std::vector<Lit> clause;
   std::vector<sat::Usage> usages;
-  if (bound < kForever) clause.push_back(model_.at_least(i, bound, writer));
+  if (bound < kAnyCost) clause.push_back(model_.at_least(i, bound, writer));
   for (const ObstacleId id : blamed) {
     usages.push_back({i, id.value()});
     const Lit allowed = model_.obstacles()[id].allowed;
@@ -139,7 +139,7 @@ void ContinuousTheory::explain_bound(AgentId i, const PathSearch::Cheapest& sear
 
 void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const ObstacleIds& blamed,
                                    FormulaWriter& writer) {
-  if (bound >= kForever || !question_.uses_pair_lemmas) return;
+  if (bound >= kAnyCost || !question_.uses_pair_lemmas) return;
   std::map<AgentId, int> due_to;
   for (const ObstacleId id : blamed)
     for (const AgentId j : model_.obstacles()[id].partners) ++due_to[j];
@@ -153,7 +153,7 @@ void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const ObstacleIds& bla
 
 // The costs of some agents alone are too much: so they are in every plan that costs them as much.
 bool ContinuousTheory::check_budget(FormulaWriter& writer) {
-  if (question_.total >= kForever) return true;
+  if (question_.total >= kAnyCost) return true;
   const auto delay = [&](AgentId i) { return current_cost(i) - model_.free_cost(i); };
   Cost slack = -question_.total - 1;
   std::vector<AgentId> delayed;
@@ -251,7 +251,8 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
     }
     for (const Encounter& e : found) {
       if (!note_collision(e, writer))
-        clauses_.exclude(e, current_cost(e.first), current_cost(e.second), writer);
+        clauses_.exclude(e, as_ticks(current_cost(e.first)), as_ticks(current_cost(e.second)),
+                         writer);
     }
     trail_.notice(model_.obstacles());
     if (writer.has_written()) return;

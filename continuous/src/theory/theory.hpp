@@ -46,8 +46,8 @@ class ContinuousTheory final : public sat::Theory {
     /// Whether agents that collide again and again are searched together.
     bool uses_pair_lemmas = true;
     /// Assignments in which the costs of all paths sum up to more than `total` are refuted by
-    /// lemmas that contain `above_total`, the literal that allows it. kForever: none are.
-    Cost total = kForever;
+    /// lemmas that contain `above_total`, the literal that allows it. kAnyCost: none are.
+    Cost total = kAnyCost;
     sat::Lit above_total;
   };
   /// Between solves: the question of the next one. Forgets the accepted paths.

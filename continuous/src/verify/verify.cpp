@@ -16,7 +16,7 @@ using Integer = boost::multiprecision::cpp_int;
 using Kind = Violation::Kind;
 
 /// Later times are refused: sums of two of them are still far from overflow.
-constexpr Ticks kMaxTick = Ticks{1} << 60;
+constexpr Ticks kMaxTick{std::int64_t{1} << 60};
 
 /// A stretch of a path along which the agent goes straight, or stands (from == to).
 struct Piece {
@@ -29,7 +29,7 @@ std::string agent_name(AgentId i) { return "agent " + std::to_string(i.index());
 
 std::string move_name(VertexId v, VertexId w, Ticks tick) {
   return "moves from vertex " + std::to_string(v.index()) + " to vertex " +
-         std::to_string(w.index()) + " at tick " + std::to_string(tick);
+         std::to_string(w.index()) + " at tick " + std::to_string(tick.count());
 }
 
 class PathCheck {
@@ -50,7 +50,7 @@ class PathCheck {
     if (path.back().vertex != agent.goal)
       good = fail(Kind::wrong_goal, path.back().arrive,
                   "ends at vertex " + std::to_string(path.back().vertex.index()) + " at tick " +
-                      std::to_string(path.back().arrive) + ", but its goal is vertex " +
+                      std::to_string(path.back().arrive.count()) + ", but its goal is vertex " +
                       std::to_string(agent.goal.index()));
     for (std::size_t k = 0; k + 1 < path.size(); ++k) good &= check_move(path[k], path[k + 1]);
     return good;
@@ -71,8 +71,8 @@ class PathCheck {
       if (stop.arrive < now || stop.depart < stop.arrive || stop.depart > kMaxTick)
         return fail(Kind::bad_time, stop.arrive,
                     "arrives at vertex " + std::to_string(stop.vertex.index()) + " at tick " +
-                        std::to_string(stop.arrive) + " and departs at tick " +
-                        std::to_string(stop.depart) +
+                        std::to_string(stop.arrive.count()) + " and departs at tick " +
+                        std::to_string(stop.depart.count()) +
                         ": that goes back in time, or on for too long");
       now = stop.depart;
     }
@@ -95,8 +95,8 @@ class PathCheck {
     const std::string name = move_name(a.vertex, b.vertex, a.depart);
     if (!is_adjacent) return fail(Kind::not_adjacent, a.depart, name + ", but there is no edge");
     return fail(Kind::duration, a.depart,
-                name + " and takes " + std::to_string(b.arrive - a.depart) +
-                    " ticks, but the edge takes " + std::to_string(takes));
+                name + " and takes " + std::to_string((b.arrive - a.depart).count()) +
+                    " ticks, but the edge takes " + std::to_string(takes.count()));
   }
 
   const Instance& instance_;
@@ -130,7 +130,8 @@ Nearest nearest(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) {
     return static_cast<long double>((p.from.*axis).count()) +
            static_cast<long double>((p.to.*axis - p.from.*axis).count()) *
-               static_cast<long double>(tick - p.begin) / static_cast<long double>(p.end - p.begin);
+               static_cast<long double>((tick - p.begin).count()) /
+               static_cast<long double>((p.end - p.begin).count());
   };
   const auto gap = [&](Ticks tick, Length Point::*axis) {
     return at(a, tick, axis) - at(b, tick, axis);
@@ -141,22 +142,25 @@ Nearest nearest(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   long double share = length2 > 0 ? -(x0 * dx + y0 * dy) / length2 : 0;
   share = std::clamp(share, 0.0L, 1.0L);
   return {std::hypot(x0 + share * dx, y0 + share * dy),
-          static_cast<long double>(begin) + share * static_cast<long double>(end - begin)};
+          static_cast<long double>(begin.count()) +
+              share * static_cast<long double>((end - begin).count())};
 }
 
 /// Whether the centres come nearer than `reach` from `begin` to `end`. Exact: the difference of the
 /// positions, multiplied by both durations, is an integer vector that moves along a segment.
 bool come_nearer(const Piece& a, const Piece& b, Ticks begin, Ticks end, Length reach) {
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) -> Integer {
-    return Integer((p.from.*axis).count()) * (p.end - p.begin) +
-           Integer((p.to.*axis - p.from.*axis).count()) * (tick - p.begin);
+    return Integer((p.from.*axis).count()) * (p.end - p.begin).count() +
+           Integer((p.to.*axis - p.from.*axis).count()) * (tick - p.begin).count();
   };
   const auto gap = [&](Ticks tick, Length Point::*axis) -> Integer {
-    return at(a, tick, axis) * (b.end - b.begin) - at(b, tick, axis) * (a.end - a.begin);
+    return at(a, tick, axis) * (b.end - b.begin).count() -
+           at(b, tick, axis) * (a.end - a.begin).count();
   };
   const Integer x0 = gap(begin, &Point::x), y0 = gap(begin, &Point::y);
   const Integer x1 = gap(end, &Point::x), y1 = gap(end, &Point::y);
-  const Integer scaled = Integer(reach.count()) * (a.end - a.begin) * (b.end - b.begin);
+  const Integer scaled =
+      Integer(reach.count()) * (a.end - a.begin).count() * (b.end - b.begin).count();
   const Integer reach2 = scaled * scaled;
   if (x0 * x0 + y0 * y0 < reach2 || x1 * x1 + y1 * y1 < reach2) return true;
   const Integer dx = x1 - x0, dy = y1 - y0;
@@ -186,10 +190,10 @@ std::string describe(AgentId i, AgentId j, const Collision& c, Length reach) {
   };
   const long double overlap = static_cast<long double>(reach.count()) - c.nearest.distance;
   return "agents " + std::to_string(i.index()) + " and " + std::to_string(j.index()) +
-         " collide between ticks " + std::to_string(c.begin) + " and " + std::to_string(c.end) +
-         ", while agent " + std::to_string(i.index()) + " " + describe(c.a) + " and agent " +
-         std::to_string(j.index()) + " " + describe(c.b) + ": nearest at about tick " +
-         number(c.nearest.tick) + ", " +
+         " collide between ticks " + std::to_string(c.begin.count()) + " and " +
+         std::to_string(c.end.count()) + ", while agent " + std::to_string(i.index()) + " " +
+         describe(c.a) + " and agent " + std::to_string(j.index()) + " " + describe(c.b) +
+         ": nearest at about tick " + number(c.nearest.tick) + ", " +
          (overlap < 1.5L ? "one length unit or less"
                          : "about " + number(overlap) + " length units") +
          " too close";
@@ -239,7 +243,7 @@ void check_pairs(const Instance& instance, const Plan& plan, const IdVector<Agen
                  VerifyReport& report) {
   Ticks horizon = 1;
   for (const AgentId i : instance.agent_ids())
-    if (sound[i]) horizon = std::max(horizon, cost(plan.paths[i]) + 1);
+    if (sound[i]) horizon = std::max(horizon, plan.paths[i].back().arrive + 1);
   IdVector<AgentId, std::vector<Piece>> trips(plan.paths.size());
   for (const AgentId i : instance.agent_ids())
     if (sound[i]) trips[i] = pieces(instance.roadmap(), plan.paths[i], horizon);
@@ -278,7 +282,8 @@ VerifyReport verify(const Instance& instance, const Plan& plan) {
   report.sum_of_costs = cost(plan, Objective::sum_of_costs);
   report.makespan = cost(plan, Objective::makespan);
   if (report.sum_of_costs == std::numeric_limits<Cost>::max())
-    report.violations.push_back({Kind::bad_time, AgentId(0), std::nullopt, report.makespan,
+    report.violations.push_back({Kind::bad_time, AgentId(0), std::nullopt,
+                                 as_ticks(report.makespan),
                                  "the costs of all agents sum up to more than is supported"});
   return report;
 }

@@ -134,7 +134,7 @@ TEST(RoadmapJson, WriterReportsAFullDisk) {
 TEST(Quantise, TravelTimeIsDistanceBySpeedToTheNearestTick) {
   const auto ticks = [](Length x, Length y, Speed speed) {
     const auto time = travel_time({-2, 7}, {x - 2, y + 7}, speed);
-    return time ? time : std::optional<Ticks>(-1);
+    return time ? time : std::optional(Ticks{-1});
   };
   EXPECT_EQ(ticks(3, 4, kUnitSpeed), Ticks{5});
   EXPECT_EQ(ticks(30, 40, 2 * kUnitSpeed), Ticks{25});

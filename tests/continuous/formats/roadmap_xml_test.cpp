@@ -33,7 +33,7 @@ TEST(RoadmapXml, EdgesOfLengthZeroTakeOneTickAndAreCounted) {
   std::istringstream in(test::with_fault(test::contents(test::data("roadmap.xml")), same));
   const MapXml map = read_map_xml(in, "f", kResolution).value();
   EXPECT_EQ(map.num_zero_length_edges, 2u);
-  EXPECT_EQ(std::get<Roadmap>(map.map).edge(EdgeId(0)).duration, 1);
+  EXPECT_EQ(std::get<Roadmap>(map.map).edge(EdgeId(0)).duration, Ticks{1});
 }
 
 TEST(RoadmapXml, UndirectedEdgesLeadBothWays) {

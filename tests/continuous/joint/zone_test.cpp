@@ -67,7 +67,7 @@ std::optional<std::pair<Zone, Points>> draw_zone(Draw& draw) {
   for (std::int64_t k = draw.number(0, 6); k > 0; --k) {
     const auto x = static_cast<std::size_t>(draw.number(0, 3));
     const auto y = (x + static_cast<std::size_t>(draw.number(1, 3))) % kSize;
-    const Ticks limit = draw.number(-2, 4);
+    const Ticks limit = draw.ticks(-2, 4);
     std::erase_if(points, [&](const Point4& p) { return p[x] - p[y] > limit; });
     EXPECT_EQ(zone.restrict(x, y, limit), !points.empty());
     if (points.empty()) return std::nullopt;

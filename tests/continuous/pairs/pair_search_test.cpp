@@ -17,7 +17,7 @@ namespace {
 constexpr std::int64_t kManySteps = 1'000'000;
 
 TimedPath moves_of(const Instance& instance, AgentId agent, const Path& path) {
-  TimedPath moves{{}, cost(path)};
+  TimedPath moves{{}, as_ticks(cost(path))};
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
     for (const EdgeId e : instance.roadmap().out_edges(path[k].vertex))
       if (instance.roadmap().edge(e).to == path[k + 1].vertex &&
@@ -36,8 +36,8 @@ void add_bans(const Instance& instance, AgentId agent, const Path& path, Draw& d
   uses.assign(instance, agent, moves_of(instance, agent, path));
   const Roadmap& roadmap = instance.roadmap();
   for (int tried = 0; tried < 8; ++tried) {
-    const Ticks begin = draw.number(0, cost(path) + 30);
-    const Ticks end = begin + draw.number(1, 40);
+    const Ticks begin = draw.ticks(0, cost(path) + 30);
+    const Ticks end = begin + draw.ticks(1, 40);
     const auto random_index = [&](std::size_t size) {
       return static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(size) - 1));
     };
@@ -68,8 +68,8 @@ void check(Scene& scene, const Plan& plan, bool has_bans, Draw& draw, Count& cou
       }
       const Cost cap_i = draw.number(scene.free_cost(i), cost_i);
       const Cost cap_j = cost_j + draw.number(0, 2);
-      const Cost raise =
-          search.refuted_raise({i, cap_i}, {j, cap_j}, draw.number(0, 60), kManySteps);
+      const Cost raise = as_cost(search.refuted_raise({i, as_ticks(cap_i)}, {j, as_ticks(cap_j)},
+                                                      draw.ticks(0, 60), kManySteps));
       ASSERT_GE(raise, 0);
       // No plan has cost(i) < cap_i + raise and cost(j) <= cap_j: this one has.
       if (raise > 0) {

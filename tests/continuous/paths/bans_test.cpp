@@ -122,7 +122,7 @@ TEST(PathUses, BreakABanIfTheyDoWhatItForbids) {
       if (out.empty()) break;
       const EdgeId e =
           out[static_cast<std::size_t>(draw.number(0, static_cast<int>(out.size()) - 1))];
-      const Ticks start = since + (draw.chance(50) ? 0 : draw.number(1, 9));
+      const Ticks start = since + (draw.chance(50) ? Ticks{0} : draw.ticks(1, 9));
       stays.push_back({at, since, start});
       path.moves.push_back({e, start});
       at = roadmap.edge(e).to;

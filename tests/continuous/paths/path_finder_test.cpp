@@ -29,7 +29,8 @@ struct Trial {
   }
   /// Some bounds on the arrival.
   [[nodiscard]] std::vector<Ticks> bounds() const {
-    std::vector<Ticks> bounds{scene.free_cost(kAgent) + 1, scene.free_cost(kAgent) + 10};
+    const Ticks free = as_ticks(scene.free_cost(kAgent));
+    std::vector<Ticks> bounds{free + 1, free + 10};
     if (arrival) bounds.insert(bounds.end(), {*arrival, *arrival + 1});
     bounds.push_back(kForever);
     return bounds;
@@ -78,7 +79,7 @@ TEST(PathFinder, FindsTheLeastArrivalOrSaysWhichSlotsPreventIt) {
         EXPECT_EQ(path.arrival, *arrival);
         expect_good_path(trial, path);
         ++found;
-        delayed += *arrival > trial.scene.free_cost(kAgent) ? 1 : 0;
+        delayed += as_cost(*arrival) > trial.scene.free_cost(kAgent) ? 1 : 0;
       } else {
         const auto least = trial.least([&](std::size_t slot) { return relevant[slot] != 0; });
         EXPECT_GE(least.value_or(kForever), bound) << "the marked slots are not enough";

@@ -74,7 +74,7 @@ class Oracle {
     for (const auto& of_agent : walks_) {
       if (of_agent.empty()) return result_;
       const auto shortest = std::min_element(of_agent.begin(), of_agent.end(), is_shorter);
-      least_.push_back(shortest->total);
+      least_.push_back(as_cost(shortest->total));
     }
     follow({Differences(capacity_), {}, {}, 0});
     if (result_.some_plans.size() < kSomePlans) return result_;  // these are all
@@ -107,7 +107,7 @@ class Oracle {
   }
   static Cost arrival(const Differences& times, const Walk& walk,
                       const std::vector<std::size_t>& starts) {
-    return starts.empty() ? 0 : times.earliest(starts.back()) + walk.durations.back();
+    return starts.empty() ? 0 : as_cost(times.earliest(starts.back()) + walk.durations.back());
   }
   static std::vector<std::size_t> append(Differences& times, const Walk& walk) {
     std::vector<std::size_t> starts;
@@ -122,7 +122,7 @@ class Oracle {
     const std::size_t agent = partial.walks.size();
     if (agent == walks_.size()) return keep(partial);
     for (std::size_t w = 0; w < walks_[agent].size(); ++w) {
-      const Cost least = joined(partial.cost, walk(agent, w).total);
+      const Cost least = joined(partial.cost, as_cost(walk(agent, w).total));
       if (with_others(least, agent + 1, agent, agent) >= limit_) continue;
       bool is_possible = true;
       for (std::size_t other = 0; other < agent && is_possible; ++other)

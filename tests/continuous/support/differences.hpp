@@ -49,7 +49,7 @@ class Differences {
   [[nodiscard]] Ticks earliest(std::size_t x) const { return at(0, x); }
 
  private:
-  static constexpr Ticks kNone = std::numeric_limits<Ticks>::min();
+  static constexpr Ticks kNone{std::numeric_limits<std::int64_t>::min()};
   [[nodiscard]] Ticks& at(std::size_t x, std::size_t y) { return least_[x * capacity_ + y]; }
   [[nodiscard]] Ticks at(std::size_t x, std::size_t y) const { return least_[x * capacity_ + y]; }
 

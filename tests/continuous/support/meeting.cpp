@@ -28,24 +28,24 @@ Ticks length(const Element& e) { return std::max<Ticks>(e.end - e.begin, 1); }
 Nearest nearest(const Element& a, const Element& b) {
   const Ticks begin = std::max(a.begin, b.begin);
   const Ticks end = std::min(a.end, b.end);
-  const Wide la = length(a), lb = length(b);
+  const Wide la = length(a).count(), lb = length(b).count();
   if (begin > end) return {std::nullopt, la * lb};
   const Wide u = lb * (a.to.x - a.from.x).count() - la * (b.to.x - b.from.x).count();
   const Wide v = lb * (a.to.y - a.from.y).count() - la * (b.to.y - b.from.y).count();
   const auto at_zero = [&](Length from_a, Length to_a, Length from_b, Length to_b) -> Wide {
-    return lb * (la * from_a.count() - Wide((to_a - from_a).count()) * a.begin) -
-           la * (lb * from_b.count() - Wide((to_b - from_b).count()) * b.begin);
+    return lb * (la * from_a.count() - Wide((to_a - from_a).count()) * a.begin.count()) -
+           la * (lb * from_b.count() - Wide((to_b - from_b).count()) * b.begin.count());
   };
   const Wide x = at_zero(a.from.x, a.to.x, b.from.x, b.to.x);
   const Wide y = at_zero(a.from.y, a.to.y, b.from.y, b.to.y);
   const Wide speed = u * u + v * v;
   const Wide approach = -(x * u + y * v);  // speed * the moment at which they are nearest
   const auto at = [&](Ticks t) {
-    const Wide dx = x + u * t, dy = y + v * t;
+    const Wide dx = x + u * t.count(), dy = y + v * t.count();
     return Nearest{Square{dx * dx + dy * dy}, la * lb};
   };
-  if (approach <= speed * begin) return at(begin);
-  if (approach >= speed * end) return at(end);
+  if (approach <= speed * begin.count()) return at(begin);
+  if (approach >= speed * end.count()) return at(end);
   const Wide area = x * v - y * u;
   return {Square{area * area, speed}, la * lb};
 }

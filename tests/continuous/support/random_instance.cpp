@@ -72,7 +72,7 @@ std::string describe(const Instance& instance) {
   text += "; edges";
   for (const Edge& e : instance.roadmap().edges()) {
     text += " " + std::to_string(e.from.index()) + ">" + std::to_string(e.to.index());
-    if (e.duration) text += ":" + std::to_string(*e.duration);
+    if (e.duration) text += ":" + std::to_string(e.duration->count());
   }
   text += "; agents";
   for (const Agent& a : instance.agents())

@@ -116,10 +116,10 @@ class Excluded {
       if (meaning.kind != Model::VariableKind::cost) continue;
       // Active while the resident costs less than meaning.cost.
       EXPECT_EQ(o.agent, i.agent == meaning.agent ? j.agent : i.agent);
-      is_excluded |=
-          side(o).uses.breaks(o.bans) && sides_[meaning.agent.index()].arrival < meaning.cost;
+      is_excluded |= side(o).uses.breaks(o.bans) &&
+                     as_cost(sides_[meaning.agent.index()].arrival) < meaning.cost;
       for (const Ban& ban : o.bans)
-        EXPECT_TRUE(judge_.meets_rest(o.agent, ban, meaning.agent, meaning.cost - 1));
+        EXPECT_TRUE(judge_.meets_rest(o.agent, ban, meaning.agent, as_ticks(meaning.cost - 1)));
       ++count.rests;
     }
     EXPECT_TRUE(is_excluded) << "agents " << i.agent.value() << " and " << j.agent.value();

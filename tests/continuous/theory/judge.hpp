@@ -37,7 +37,7 @@ class Situation {
   [[nodiscard]] Cost cap(AgentId i) const {
     for (const auto& threshold : model_.thresholds(i))
       if (is_false(threshold.at_least)) return threshold.cost - 1;
-    return kForever;
+    return kAnyCost;
   }
   [[nodiscard]] Cost floor(AgentId i) const {
     Cost floor = 0;
@@ -66,7 +66,7 @@ class Situation {
   }
   [[nodiscard]] bool has_path(AgentId i) const {
     const auto arrival = least_arrival(model_.instance(), i, bans(i));
-    return arrival && *arrival <= cap(i);
+    return arrival && as_cost(*arrival) <= cap(i);
   }
   [[nodiscard]] bool all_have_paths() const {
     for (const AgentId i : model_.instance().agent_ids())
@@ -98,7 +98,7 @@ class Situation {
     }
     if (at != instance.agent(i).goal || since != path.arrival) return "does not end at the goal";
     if (!may_stay(kForever)) return "rests where it must not";
-    return path.arrival > cap(i) ? "costs more than the cap" : "";
+    return as_cost(path.arrival) > cap(i) ? "costs more than the cap" : "";
   }
 
  private:
@@ -174,7 +174,7 @@ class JudgedTheory final : public sat::Theory {
   [[nodiscard]] Cost total_cost(const Situation& now) const {
     Cost sum = 0;
     for (const AgentId i : model_.instance().agent_ids())
-      sum += std::max(theory_.path(i).arrival, now.floor(i));
+      sum += std::max(as_cost(theory_.path(i).arrival), now.floor(i));
     return sum;
   }
   [[nodiscard]] static bool has_conflict(const support::RecordingContext& said,
@@ -203,7 +203,7 @@ class JudgedTheory final : public sat::Theory {
     sat::Lit largest;  // the others follow from it
     for (const sat::Lit lit : open)
       if (const auto meaning = model_.variable(lit);
-          meaning.agent == i && meaning.cost <= theory_.path(i).arrival)
+          meaning.agent == i && meaning.cost <= as_cost(theory_.path(i).arrival))
         largest = lit;
     if (!largest.valid()) return;
     ++count_.told;
@@ -230,7 +230,7 @@ class JudgedTheory final : public sat::Theory {
     ASSERT_TRUE(theory_.accepted());
     EXPECT_TRUE(verify(model_.instance(), *theory_.accepted()).valid());
     for (const AgentId i : model_.instance().agent_ids())
-      EXPECT_EQ(cost(theory_.accepted()->paths[i]), theory_.path(i).arrival);
+      EXPECT_EQ(cost(theory_.accepted()->paths[i]), as_cost(theory_.path(i).arrival));
   }
   void expect_good_paths(const Situation& now) const {
     for (const AgentId i : model_.instance().agent_ids())

@@ -86,12 +86,12 @@ class PairLemmaAudit {
       const auto& stop = path[static_cast<std::size_t>(
           draw_.number(0, static_cast<std::int64_t>(path.size()) - 1))];
       VertexId vertex = stop.vertex;
-      Ticks begin = stop.arrive - draw_.number(1, 20), end = stop.depart + draw_.number(1, 20);
+      Ticks begin = stop.arrive - draw_.ticks(1, 20), end = stop.depart + draw_.ticks(1, 20);
       if (draw_.chance(50)) {
         vertex = VertexId(static_cast<std::size_t>(
             draw_.number(0, static_cast<std::int64_t>(roadmap.num_vertices()) - 1)));
-        begin = draw_.number(0, cost(path) + 30);
-        end = begin + draw_.number(1, 40);
+        begin = draw_.ticks(0, cost(path) + 30);
+        end = begin + draw_.ticks(1, 40);
       }
       if (vertex == instance_.agent(i).start && begin < 0) continue;
       bool is_new = false;

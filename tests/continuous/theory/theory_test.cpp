@@ -81,7 +81,7 @@ class Auditor {
       bans.insert(bans.end(), obstacle.bans.begin(), obstacle.bans.end());
     }
     ASSERT_LE(rest.size(), 1u);
-    Cost bound = kForever;
+    Cost bound = kAnyCost;
     if (!rest.empty()) {
       const auto meaning = model_.variable(rest[0]);
       EXPECT_TRUE(meaning.kind == Model::VariableKind::cost && rest[0].positive());
@@ -90,7 +90,7 @@ class Auditor {
       bound = meaning.cost;
     }
     ASSERT_TRUE(agent);
-    EXPECT_GE(least_arrival(model_.instance(), *agent, bans).value_or(kForever), bound);
+    EXPECT_GE(least_arrival(model_.instance(), *agent, bans).value_or(kForever), as_ticks(bound));
   }
   void derive_budget_lemma(const sat::Lemma& lemma) const {
     Cost least = 0;
@@ -107,7 +107,7 @@ class Auditor {
   const Model& model_;
   Count& count_;
   std::vector<KnownPlanAuditor> of_plans_;
-  Cost total_ = kForever;
+  Cost total_ = kAnyCost;
   Lit above_;
 };
 

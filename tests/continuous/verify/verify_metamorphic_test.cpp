@@ -85,7 +85,7 @@ TEST(VerifyMetamorphic, BrokenPlansAreRejected) {
       const std::size_t k = 1 + random() % (path.size() - 1);
       Path wrong = path;
       // A move that is one tick too short or too long, at either end.
-      for (const Ticks by : {-1, 1}) {
+      for (const Ticks by : {Ticks{-1}, Ticks{1}}) {
         wrong = path;
         for (std::size_t later = k; later < wrong.size(); ++later) {
           wrong[later].arrive += by;
@@ -249,7 +249,7 @@ TEST(VerifyMetamorphic, DelayedPlansCollideIfAndOnlyIfTheGeometrySaysSo) {
           path[later].depart += by;
         }
       }
-      const Ticks end = cost(plan, Objective::makespan) + 1;
+      const Ticks end = as_ticks(cost(plan, Objective::makespan) + 1);
       bool collide = false;
       for (const AgentId i : c.instance.agent_ids())
         for (const AgentId j : c.instance.agent_ids()) {

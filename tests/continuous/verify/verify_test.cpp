@@ -112,7 +112,7 @@ TEST(ContinuousVerify, CrossingIsDecidedExactly) {
   ASSERT_EQ(kinds(report), std::vector<Kind>{Kind::collision});
   EXPECT_EQ(report.violations[0].agent, AgentId(0));
   EXPECT_EQ(report.violations[0].other, AgentId(1));
-  EXPECT_EQ(report.violations[0].tick, 140);
+  EXPECT_EQ(report.violations[0].tick, Ticks{140});
 }
 
 TEST(ContinuousVerify, GoalStaysLastForEver) {
@@ -157,7 +157,7 @@ TEST(ContinuousVerify, NamesEachBrokenRule) {
 }
 
 TEST(Verify, SumsOfCostsThatDoNotFitAreRefused) {
-  constexpr Ticks kLate = Ticks{1} << 60;
+  constexpr Ticks kLate{std::int64_t{1} << 60};
   for (const std::size_t num_agents : {7U, 8U, 9U}) {
     std::vector<Point> points;
     std::vector<Agent> agents;
@@ -174,7 +174,7 @@ TEST(Verify, SumsOfCostsThatDoNotFitAreRefused) {
     }
     const Instance instance = Instance::make(test::roadmap(points, roads), agents).value();
     const VerifyReport report = verify(instance, plan);
-    EXPECT_EQ(report.makespan, kLate);
+    EXPECT_EQ(report.makespan, as_cost(kLate));
     // 2^63 is one more than the largest sum.
     EXPECT_EQ(report.valid(), num_agents < 8) << num_agents;
     EXPECT_GT(report.sum_of_costs, 0);

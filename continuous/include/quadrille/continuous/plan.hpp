@@ -29,8 +29,15 @@ struct Plan {
   friend bool operator==(const Plan&, const Plan&) = default;
 };
 
+/// A time as a cost: that of a path that arrives then.
+[[nodiscard]] constexpr Cost as_cost(Ticks ticks) noexcept { return ticks.count(); }
+/// When a path of this cost arrives.
+[[nodiscard]] constexpr Ticks as_ticks(Cost cost) noexcept { return Ticks(cost); }
+
 /// When the path arrives at its last stop; 0 for an empty path.
-[[nodiscard]] inline Cost cost(const Path& path) { return path.empty() ? 0 : path.back().arrive; }
+[[nodiscard]] inline Cost cost(const Path& path) {
+  return path.empty() ? 0 : as_cost(path.back().arrive);
+}
 /// Sum or maximum of the costs of the paths, none of which is negative. A sum that does not fit is
 /// the largest Cost.
 [[nodiscard]] Cost cost(const Plan& plan, Objective objective);

@@ -32,8 +32,10 @@ namespace quadrille::continuous {
 // And back, for output: decimal numbers as short as the resolution allows, where that is the
 // reciprocal of an integer. Quantised with the same resolution they give the same integers again.
 
-/// A duration, a time or a cost.
-[[nodiscard]] double in_input_units(std::int64_t units, double resolution);
+/// A cost, in ticks.
+[[nodiscard]] double in_input_units(Cost cost, double resolution);
+/// A duration or a time.
+[[nodiscard]] double in_input_units(Ticks ticks, double resolution);
 /// A coordinate.
 [[nodiscard]] double in_input_units(Length length, double resolution);
 [[nodiscard]] double radius_in_input_units(Length radius, double resolution);

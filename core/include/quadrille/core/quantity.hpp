@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <iosfwd>
+#include <limits>
 
 #include "quadrille/core/export.hpp"
 
@@ -92,5 +93,10 @@ class Quantity {
 };
 
 }  // namespace quadrille
+
+/// Left without a definition, because the general template would give 0 for each limit. The range
+/// of a quantity is for its unit to state; that of the number is that of `Quantity::Count`.
+template <class Unit>
+class std::numeric_limits<quadrille::Quantity<Unit>>;
 
 QUADRILLE_API_END

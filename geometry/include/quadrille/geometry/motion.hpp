@@ -30,7 +30,7 @@ struct Motion {
 /// that takes a motion requires it.
 [[nodiscard]] constexpr bool is_valid(const Motion& motion) noexcept {
   return in_range(motion.from) && in_range(motion.to) && motion.duration <= kMaxDuration &&
-         motion.duration >= (motion.is_rest() ? 0 : 1);
+         motion.duration >= (motion.is_rest() ? Ticks{0} : Ticks{1});
 }
 
 }  // namespace quadrille::geometry

@@ -11,7 +11,7 @@ QUADRILLE_API_BEGIN
 namespace quadrille::geometry {
 
 /// Time, in whole ticks. A time *difference* may be negative.
-using Ticks = std::int64_t;
+using Ticks = Quantity<struct TicksUnit>;
 /// Length, in whole length units.
 using Length = Quantity<struct LengthUnit>;
 
@@ -20,7 +20,7 @@ using Length = Quantity<struct LengthUnit>;
 /// that is a million.
 inline constexpr Length kMaxLength{std::int64_t{1} << 40};
 /// The longest motion, rests included.
-inline constexpr Ticks kMaxDuration = Ticks{1} << 40;
+inline constexpr Ticks kMaxDuration{std::int64_t{1} << 40};
 
 /// A point or a vector of the plane, in length units.
 struct Point {

@@ -26,7 +26,9 @@ struct TickInterval {
 
   [[nodiscard]] constexpr bool is_empty() const noexcept { return end <= begin; }
   /// Of the ticks; of the stretch as well.
-  [[nodiscard]] constexpr Ticks length() const noexcept { return is_empty() ? 0 : end - begin; }
+  [[nodiscard]] constexpr Ticks length() const noexcept {
+    return is_empty() ? Ticks{0} : end - begin;
+  }
   [[nodiscard]] constexpr Ticks first() const noexcept { return begin; }
   /// Of an interval that is not empty.
   [[nodiscard]] constexpr Ticks last() const noexcept { return end - 1; }
