@@ -116,8 +116,7 @@ TEST(Quantity, CountsLikeAnInteger) {
 TEST(Quantity, TakesLiterals) {
   constexpr Apples three = 3;
   static_assert(three - 1 == Apples(2) && three > 0 && -three == -3 && Apples() == 0);
-  // Not {1, 2, three}: clang 14 crashes on literals in a list of initial values.
-  const std::vector<Apples> all{Apples{1}, Apples{2}, three};
+  const std::vector<Apples> all{1, 2, three};
   EXPECT_EQ(all.back(), three);
   const std::optional<Apples> none = all.empty() ? std::optional(three) : std::nullopt;
   EXPECT_EQ(none.value_or(Apples{5}).count(), 5);

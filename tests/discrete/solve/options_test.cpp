@@ -48,7 +48,7 @@ TEST(SolveOptions, OutsideTheirRangesAreErrorsWithAReason) {
       {"known plan", ErrorCode::invalid_plan, [](auto& o) { o.debug.known_plan = Plan(); }},
   };
   for (const Refused& refused : all)
-    for (const std::size_t threads : {1, 2}) {
+    for (const std::size_t threads : {1U, 2U}) {
       SolveOptions options;
       options.threads = threads;
       refused.make(options);

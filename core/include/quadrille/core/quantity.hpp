@@ -9,6 +9,14 @@
 
 #include "quadrille/core/export.hpp"
 
+// Old versions of clang (14 at least) crash on immediate functions in lists of initial values. They
+// accept every `int` then; other compilers see to it that it is a constant.
+#if defined(__clang__) && __clang_major__ < 17
+#define QUADRILLE_LITERAL constexpr
+#else
+#define QUADRILLE_LITERAL consteval
+#endif
+
 QUADRILLE_API_BEGIN
 
 namespace quadrille {
@@ -28,7 +36,7 @@ class Quantity {
   constexpr Quantity() = default;  ///< None.
   /// A literal, or another constant of type `int`.
   template <std::same_as<int> Literal>
-  consteval Quantity(Literal literal) noexcept : count_(literal) {}
+  QUADRILLE_LITERAL Quantity(Literal literal) noexcept : count_(literal) {}
   constexpr explicit Quantity(Count count) noexcept : count_(count) {}
   /// Rounding is for the caller to choose.
   template <std::floating_point Real>
@@ -100,3 +108,5 @@ template <class Unit>
 class std::numeric_limits<quadrille::Quantity<Unit>>;
 
 QUADRILLE_API_END
+
+#undef QUADRILLE_LITERAL
