@@ -72,7 +72,7 @@ TEST(ContinuousSolverInfeasible, TwoAgentsThatHaveToPassOnALine) {
     std::vector<Point> points{{0, 0}};
     Roads roads;
     for (std::size_t v = 1; v <= length; ++v) {
-      points.push_back({1000 * static_cast<Length>(v), 0});
+      points.push_back({Length(1000 * static_cast<std::int64_t>(v)), 0});
       roads.emplace_back(v - 1, v);
     }
     const auto map = roadmap(points, roads);
@@ -102,7 +102,8 @@ TEST(ContinuousSolverLimits, APlanAndABoundAreKnownWhenALimitEndsTheSearch) {
   Roads roads;
   for (std::size_t y = 0; y < 6; ++y)
     for (std::size_t x = 0; x < 6; ++x) {
-      points.push_back({1000 * static_cast<Length>(x), 1000 * static_cast<Length>(y)});
+      points.push_back({Length(1000 * static_cast<std::int64_t>(x)),
+                        Length(1000 * static_cast<std::int64_t>(y))});
       if (x > 0) roads.emplace_back(6 * y + x - 1, 6 * y + x);
       if (y > 0) roads.emplace_back(6 * y + x - 6, 6 * y + x);
     }
