@@ -15,7 +15,6 @@ namespace {
 
 /// Lengths of edges are rounded coordinates apart here, and not in the log of another program.
 constexpr Ticks kMoveTolerance = 2;
-constexpr Ticks kMaxTick{std::int64_t{1} << 60};
 
 /// What the last digit of a number stands for: 0.01 for "1.25", 10 for "1.2e2". Requires a number.
 double last_digit(std::string_view text) {

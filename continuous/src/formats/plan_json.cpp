@@ -13,8 +13,6 @@ namespace {
 
 using text::Document;
 using Node = Document::Node;
-/// Later times are none that a plan could have.
-constexpr std::int64_t kMaxTick = std::int64_t{1} << 60;
 
 class JsonPlanReader {
  public:
@@ -121,7 +119,7 @@ class JsonPlanReader {
 
   bool read_tick(Node node, Ticks& tick) {
     std::int64_t count = 0;
-    if (!check_.integer(node, 0, kMaxTick, count)) return false;
+    if (!check_.integer(node, 0, kMaxTick.count(), count)) return false;
     tick = Ticks(count);
     return true;
   }

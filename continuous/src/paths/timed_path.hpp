@@ -9,7 +9,8 @@
 
 namespace quadrille::continuous {
 
-/// Later than all times of a plan; sums and differences of a few such times do not overflow.
+/// Later than all times of a plan (2^61); sums and differences of up to three such times do not
+/// overflow.
 inline constexpr Ticks kForever{std::numeric_limits<std::int64_t>::max() / 4};
 /// More than any plan costs.
 inline constexpr Cost kAnyCost = as_cost(kForever);

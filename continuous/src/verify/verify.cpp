@@ -15,9 +15,6 @@ namespace {
 using Integer = boost::multiprecision::cpp_int;
 using Kind = Violation::Kind;
 
-/// Later times are refused: sums of two of them are still far from overflow.
-constexpr Ticks kMaxTick{std::int64_t{1} << 60};
-
 /// A stretch of a path along which the agent goes straight, or stands (from == to).
 struct Piece {
   Ticks begin, end;

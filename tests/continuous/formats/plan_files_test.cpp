@@ -9,6 +9,7 @@
 
 #include "continuous/formats/file_support.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "continuous/support/roads.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/verify.hpp"
 
@@ -188,6 +189,32 @@ TEST(TimedPlanFiles, WhatIsWrittenIsReadBack) {
       EXPECT_EQ(again->plan, plan) << file.str();
     }
   }
+}
+
+// Logs have times as numbers in seconds, whose last bit is 128 s here.
+TEST(TimedPlanFiles, TheLatestTickIsReadBackAndNoLaterOne) {
+  const Instance instance =
+      Instance::make(test::roadmap({{0, 0}, {1024, 0}}, {{0, 1}}), {test::agent(0, 1, 1)}, 1)
+          .value();
+  const auto late = [&](Ticks end) {
+    Plan plan;
+    plan.paths.push_back(
+        {{VertexId(0), 0, end - instance.duration(instance.class_of(AgentId(0)), EdgeId(0))},
+         {VertexId(1), end, end}});
+    return plan;
+  };
+  for (const PlanFormat format : {PlanFormat::json, PlanFormat::ccbs}) {
+    std::stringstream file;
+    ASSERT_EQ(write_plan(file, "out", instance, late(kMaxTick), format), std::nullopt);
+    const auto again = read_plan(file, "out", instance);
+    ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
+    EXPECT_EQ(again->plan, late(kMaxTick)) << file.str();
+    EXPECT_TRUE(verify(instance, again->plan).valid());
+    std::stringstream later;
+    ASSERT_EQ(write_plan(later, "out", instance, late(kMaxTick + 1024), format), std::nullopt);
+    EXPECT_FALSE(read_plan(later, "out", instance).has_value()) << later.str();
+  }
+  EXPECT_FALSE(verify(instance, late(kMaxTick + 1)).valid());
 }
 
 TEST(TimedPlanFiles, APlanForNoAgentsIsReadBack) {

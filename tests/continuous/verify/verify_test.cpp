@@ -157,14 +157,14 @@ TEST(ContinuousVerify, NamesEachBrokenRule) {
 }
 
 TEST(Verify, SumsOfCostsThatDoNotFitAreRefused) {
-  constexpr Ticks kLate{std::int64_t{1} << 60};
+  constexpr Ticks kLate = kMaxTick;
   for (const std::size_t num_agents : {7U, 8U, 9U}) {
     std::vector<Point> points;
     std::vector<Agent> agents;
     test::Roads roads;
     Plan plan;
     for (std::size_t i = 0; i < num_agents; ++i) {
-      const auto y = static_cast<Length>(100 * i);
+      const Length y(100 * static_cast<std::int64_t>(i));
       points.push_back({0, y});
       points.push_back({100, y});
       roads.emplace_back(2 * i, 2 * i + 1);

@@ -11,6 +11,11 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
+/// The latest tick of a plan: readers refuse a later one, to `verify` it is a violation. At one
+/// tick a nanosecond that is 36 years. Two such times, or one and a quantity of geometry/, can be
+/// added without overflow.
+inline constexpr Ticks kMaxTick{std::int64_t{1} << 60};
+
 /// A stay at a vertex, from `arrive` to `depart`, both included; arrive == depart passes through.
 struct Stop {
   VertexId vertex;
