@@ -17,13 +17,15 @@ struct Level {
   Cost cost = 0;
   friend auto operator<=>(const Level&, const Level&) = default;
 };
-/// One of its levels is reached in every plan that counts. By agent; no agent twice.
+/// One of its levels is reached in every plan that counts: costs *hit* the core if some agent costs
+/// its level or more. By agent; no agent twice.
 using LevelCore = std::vector<Level>;
 
 /// Some cores, with their levels as numbers of *rows*: the distinct levels, by agent and cost.
 class CoreTable {
  public:
-  CoreTable() = default;
+  CoreTable() = default;  ///< Of no cores.
+  /// None is empty. The cores are copied.
   explicit CoreTable(std::span<const LevelCore* const> cores);
 
   [[nodiscard]] std::size_t num_cores() const noexcept {
@@ -39,8 +41,11 @@ class CoreTable {
     return {row_cores_.data() + core_begins_[row], row_cores_.data() + core_begins_[row + 1]};
   }
 
-  /// Raises `costs` by greed until all cores are hit, then lowers what need not be that high.
-  /// Costs of agents that are in no core stay. Nothing is lowered below `free_costs`.
+  /// Raises `costs` by greed until all cores are hit: again and again to the level that hits most
+  /// further cores for what it adds to the costs, to the first row of equals. Then lowers agent by
+  /// agent, the dearest above its free cost first, to the least level, or the free cost, with which
+  /// all cores stay hit: in the end none can be lowered alone. Costs of agents that are in no core
+  /// stay. Requires costs of at least `free_costs`, and levels above these.
   void complete(const IdVector<AgentId, Cost>& free_costs, IdVector<AgentId, Cost>& costs) const;
 
  private:

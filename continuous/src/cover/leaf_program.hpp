@@ -11,9 +11,10 @@
 
 namespace quadrille::continuous {
 
-/// A leaf of the branch and bound tree of a LevelCover.
+/// A leaf of the branch and bound tree of a LevelCover: the costs that keep to its ranges.
 struct CoverLeaf {
-  /// The agent costs at least `low` and less than `high`.
+  /// The agent costs at least `low` and less than `high`, which is more than `low` and the agent's
+  /// free cost.
   struct Range {
     AgentId agent;
     Cost low = 0, high = std::numeric_limits<Cost>::max();
@@ -23,11 +24,17 @@ struct CoverLeaf {
     Level level;
     double part = 0;
   };
-  Cost bound = 0;             ///< On what the agents of the group pay above their free costs.
-  std::vector<Range> ranges;  ///< By agent; of others nothing is known.
+  /// In all costs of the leaf that hit all cores, the agents pay at least this above their free
+  /// costs.
+  Cost bound = 0;
+  std::vector<Range> ranges;  ///< By agent, none twice; of others nothing is known.
   // Of the last linear program:
-  std::optional<Level> branch;  ///< To split the leaf at; none if its low ends hit all cores.
-  std::vector<Share> shares;    ///< By falling level; none where it is 0.
+  /// To split the leaf at: a level of a core, strictly between the ends of its agent's range. Of
+  /// the levels that the fractional cover has in part, one with the highest price above the low end
+  /// times the share that it has or lacks, whichever is less. None exactly if the low ends hit all
+  /// cores.
+  std::optional<Level> branch;
+  std::vector<Share> shares;  ///< By falling level, in the leaf; none where it is 0.
 };
 
 /// The linear programs of the leaves of one group of agents.
@@ -35,18 +42,24 @@ class LeafProgram {
  public:
   explicit LeafProgram(const IdVector<AgentId, Cost>& free_costs);
 
-  /// The cores that what follows is about. `table` lives as long.
+  /// The cores that what follows is about: none is empty, and all levels are above the free costs.
+  /// `table` lives as long.
   void set_cores(const CoreTable& table);
 
-  /// Whether the leaf's fractional cover still covers all cores: then its linear program would say
-  /// what it said before.
+  /// Whether the leaf, which has not changed since it was solved, has a level to split it at, and
+  /// its fractional cover covers all cores, those that came later too: then its linear program
+  /// would say what it said before. False for a leaf that was never solved.
   [[nodiscard]] bool is_known(const CoverLeaf& leaf);
 
-  /// Raises the leaf's bound to that of its linear program, and says where to split it.
-  /// `costs` become integers near its solution, which need not hit all cores. False: the leaf
-  /// contains no solution.
+  /// Raises the leaf's bound to that of its linear program, rounded up to an integer, and says
+  /// where to split the leaf. The bound is computed in integers: it holds however inaccurate the
+  /// solution of the linear program is, and from an exact one it loses less than a thousandth of a
+  /// tick per core before it is rounded. `costs` become integers near the solution, in the leaf,
+  /// which need not hit all cores. False: no costs of the leaf hit all cores; nothing has changed
+  /// then.
   [[nodiscard]] bool solve(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
-  /// Whether the last solution was integral.
+  /// Whether the last solution was integral: then `costs` hit all cores, and none of the leaf that
+  /// do are cheaper, as far as floating point can tell.
   [[nodiscard]] bool is_integral() const noexcept { return is_integral_; }
 
  private:

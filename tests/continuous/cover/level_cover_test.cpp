@@ -7,13 +7,10 @@
 #include <limits>
 #include <random>
 
-namespace quadrille::continuous {
-namespace {
+#include "continuous/cover/level_cores.hpp"
 
-bool hit(const std::vector<Cost>& costs, const LevelCore& core) {
-  return std::any_of(core.begin(), core.end(),
-                     [&](const Level& l) { return costs[l.agent.index()] >= l.cost; });
-}
+namespace quadrille::continuous::test {
+namespace {
 
 /// Tries all combinations of levels.
 Cost least_total(std::vector<Cost> costs, const std::vector<LevelCore>& cores, std::size_t agent) {
@@ -130,4 +127,4 @@ TEST(LevelCover, DropsImpliedCores) {
 }
 
 }  // namespace
-}  // namespace quadrille::continuous
+}  // namespace quadrille::continuous::test

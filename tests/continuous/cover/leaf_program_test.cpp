@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+// Linear programs of leaves against all integer solutions of the leaf, and against the fractional
+// cover that proves them optimal.
+#include "cover/leaf_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "continuous/cover/level_cores.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+using quadrille::support::scaled;
+using Costs = IdVector<AgentId, Cost>;
+
+constexpr double kTiny = 1e-6;
+constexpr Cost kMax = std::numeric_limits<Cost>::max();
+
+/// What the leaf says about the agent.
+CoverLeaf::Range range_of(const LevelCores& input, const CoverLeaf& leaf, AgentId agent) {
+  for (const CoverLeaf::Range& range : leaf.ranges)
+    if (range.agent == agent)
+      return {agent, std::max(range.low, input.free_costs[agent]), range.high};
+  return {agent, input.free_costs[agent], kMax};
+}
+
+Costs low_ends(const LevelCores& input, const CoverLeaf& leaf) {
+  Costs costs = input.free_costs;
+  for (const AgentId i : input.agents()) costs[i] = range_of(input, leaf, i).low;
+  return costs;
+}
+
+/// The least price of costs in the leaf that hit all cores, from the given agent on.
+std::optional<Cost> least_price(const LevelCores& input, const CoverLeaf& leaf, Costs& costs,
+                                std::size_t agent = 0) {
+  if (agent == costs.size())
+    return hit_all(costs, input.cores) ? std::optional(input.price(costs)) : std::nullopt;
+  const AgentId i(agent);
+  const CoverLeaf::Range range = range_of(input, leaf, i);
+  std::optional<Cost> best;
+  std::vector<Cost> choices = input.levels_of(i);
+  choices.insert(choices.begin(), range.low);
+  for (std::size_t n = 0; n < choices.size(); ++n) {
+    if (choices[n] < range.low || choices[n] >= range.high ||
+        (n > 0 && choices[n] == choices[n - 1]))
+      continue;
+    costs[i] = choices[n];
+    const auto price = least_price(input, leaf, costs, agent + 1);
+    if (price && (!best || *price < *best)) best = price;
+  }
+  return best;
+}
+std::optional<Cost> least_price(const LevelCores& input, const CoverLeaf& leaf) {
+  Costs costs = input.free_costs;
+  return least_price(input, leaf, costs);
+}
+
+/// How much of the agent the leaf's fractional cover has at the level or above.
+double part_at(const LevelCores& input, const CoverLeaf& leaf, const Level& level) {
+  const CoverLeaf::Range range = range_of(input, leaf, level.agent);
+  if (level.cost <= range.low) return 1;
+  if (level.cost >= range.high) return 0;
+  double part = 0;  // of the lowest level that is not below this one
+  for (const CoverLeaf::Share& share : leaf.shares)  // by falling level
+    if (share.level.agent == level.agent && share.level.cost >= level.cost) part = share.part;
+  return part;
+}
+
+bool covers(const LevelCores& input, const CoverLeaf& leaf, const LevelCore& core) {
+  double covered = 0;
+  for (const Level& level : core) covered += part_at(input, leaf, level);
+  return covered >= 1 - kTiny;
+}
+bool covers_all(const LevelCores& input, const CoverLeaf& leaf) {
+  return std::all_of(input.cores.begin(), input.cores.end(),
+                     [&](const LevelCore& core) { return covers(input, leaf, core); });
+}
+
+/// What the fractional cover costs above the free costs.
+double price_of_shares(const LevelCores& input, const CoverLeaf& leaf) {
+  double sum = static_cast<double>(input.price(low_ends(input, leaf)));
+  for (std::size_t n = 0; n < leaf.shares.size(); ++n) {
+    const auto& [level, part] = leaf.shares[n];
+    // The part goes on from the next lower level of the agent to this one.
+    Cost below = range_of(input, leaf, level.agent).low;
+    if (n + 1 < leaf.shares.size() && leaf.shares[n + 1].level.agent == level.agent)
+      below = leaf.shares[n + 1].level.cost;
+    sum += part * static_cast<double>(level.cost - below);
+  }
+  return sum;
+}
+
+CoverLeaf draw_leaf(Random& random, const LevelCores& input) {
+  CoverLeaf leaf;
+  for (const AgentId i : input.agents()) {
+    std::vector<Cost> ends = input.levels_of(i);
+    ends.push_back(input.free_costs[i]);
+    if (random.percent(40)) continue;
+    CoverLeaf::Range range{i};
+    if (random.percent(50)) range.low = random.pick(ends);
+    const Cost high = random.pick(ends);
+    if (random.percent(50) && high > std::max(range.low, input.free_costs[i])) range.high = high;
+    leaf.ranges.push_back(range);
+  }
+  return leaf;
+}
+
+struct Case {
+  LevelCores input;
+  CoverLeaf leaf;
+  Cost step;
+
+  static Case draw(std::size_t seed) {
+    Random random(seed);
+    Case result;
+    result.step = random.percent(50) ? 1 : 50'000'000;
+    // Low levels and many cores make linear programs take halves.
+    const std::size_t num_agents = random.percent(50) ? 6 : random.between(1, 5);
+    const std::size_t num_levels = num_agents > 4 ? 2 : 6;
+    result.input = LevelCores::draw(random, num_agents, random.below(16),
+                                    random.between(1, num_levels), result.step);
+    if (random.percent(50)) result.leaf = draw_leaf(random, result.input);
+    return result;
+  }
+  /// What integers may lose of the bound of a linear program: a fraction of a tick per core, and
+  /// what floating point does to large numbers.
+  [[nodiscard]] double loss() const {
+    return static_cast<double>(input.cores.size()) *
+           (1.0 / 1024 + 1e-9 * static_cast<double>(step));
+  }
+};
+
+/// How much it matters whether the level is reached, as far as that is open; 0: it is decided.
+double undecided(const LevelCores& input, const CoverLeaf& leaf, const CoverLeaf::Share& share) {
+  const double part = std::min(share.part, 1 - share.part);
+  const Cost low = range_of(input, leaf, share.level.agent).low;
+  return part > kTiny ? part * static_cast<double>(share.level.cost - low) : 0;
+}
+
+void expect_form(const LevelCores& input, const CoverLeaf& leaf) {
+  for (std::size_t n = 0; n < leaf.shares.size(); ++n) {
+    const auto& [level, part] = leaf.shares[n];
+    const CoverLeaf::Range range = range_of(input, leaf, level.agent);
+    EXPECT_GT(part, 0);
+    EXPECT_LT(range.low, level.cost);
+    EXPECT_LT(level.cost, range.high);
+    if (n == 0) continue;
+    EXPECT_GT(leaf.shares[n - 1].level, level);
+    if (leaf.shares[n - 1].level.agent == level.agent) {
+      EXPECT_LE(leaf.shares[n - 1].part, part + kTiny);
+    }
+  }
+  if (!leaf.branch) return;
+  double most = 0;
+  for (const CoverLeaf::Share& share : leaf.shares)
+    most = std::max(most, undecided(input, leaf, share));
+  const auto chosen =
+      std::find_if(leaf.shares.begin(), leaf.shares.end(),
+                   [&](const CoverLeaf::Share& share) { return share.level == *leaf.branch; });
+  if (most > 0) {
+    ASSERT_NE(chosen, leaf.shares.end());
+    EXPECT_GE(undecided(input, leaf, *chosen), most * (1 - kTiny));
+  }
+  const CoverLeaf::Range range = range_of(input, leaf, leaf.branch->agent);
+  const std::vector<Cost> levels = input.levels_of(leaf.branch->agent);
+  EXPECT_TRUE(std::binary_search(levels.begin(), levels.end(), leaf.branch->cost));
+  EXPECT_LT(range.low, leaf.branch->cost);
+  EXPECT_LT(leaf.branch->cost, range.high);
+}
+
+void expect_solved(const Case& c, const CoverLeaf& leaf, const Costs& costs, bool is_integral,
+                   Cost least) {
+  expect_form(c.input, leaf);
+  EXPECT_EQ(leaf.branch.has_value(), !hit_all(low_ends(c.input, leaf), c.input.cores));
+  // The shares are a fractional cover, so none is cheaper than the bound of the linear program;
+  // this one costs no more.
+  EXPECT_TRUE(covers_all(c.input, leaf));
+  EXPECT_LE(leaf.bound, least);
+  const double price = price_of_shares(c.input, leaf);
+  EXPECT_GE(static_cast<double>(leaf.bound), price - c.loss());
+  EXPECT_LE(static_cast<double>(leaf.bound), std::ceil(price + c.loss()));
+  for (const AgentId i : c.input.agents()) {
+    const CoverLeaf::Range range = range_of(c.input, leaf, i);
+    const std::vector<Cost> levels = c.input.levels_of(i);
+    EXPECT_TRUE(costs[i] == range.low ||
+                (costs[i] > range.low && costs[i] < range.high &&
+                 std::binary_search(levels.begin(), levels.end(), costs[i])));
+  }
+  if (!is_integral) return;
+  EXPECT_TRUE(hit_all(costs, c.input.cores));
+  EXPECT_EQ(c.input.price(costs), least);
+  EXPECT_EQ(leaf.bound, least);
+}
+
+TEST(LeafProgram, BoundsTheLeaf) {
+  std::size_t num_fractional = 0, num_empty = 0;
+  for (std::size_t seed = 0; seed < scaled(3000); ++seed) {
+    SCOPED_TRACE(seed);
+    const Case c = Case::draw(seed);
+    const CoreTable table(c.input.pointers());
+    LeafProgram program(c.input.free_costs);
+    program.set_cores(table);
+    const std::optional<Cost> least = least_price(c.input, c.leaf);
+    CoverLeaf leaf = c.leaf;
+    Costs costs;
+    ASSERT_EQ(program.solve(leaf, costs), least.has_value());
+    if (!least) {
+      ++num_empty;
+      EXPECT_TRUE(costs.empty());
+      EXPECT_EQ(leaf.bound, 0);
+      EXPECT_FALSE(leaf.branch);
+      continue;
+    }
+    expect_solved(c, leaf, costs, program.is_integral(), *least);
+    num_fractional += static_cast<std::size_t>(!program.is_integral());
+    // A bound that is better already stays.
+    CoverLeaf bounded = c.leaf;
+    bounded.bound = *least + 5;
+    ASSERT_TRUE(program.solve(bounded, costs));
+    EXPECT_EQ(bounded.bound, *least + 5);
+    if (testing::Test::HasFailure()) return;
+  }
+
+  EXPECT_GE(num_fractional, scaled(3000) / 100);
+  EXPECT_GE(num_empty, scaled(3000) / 100);
+}
+
+// One program after another, about whatever leaf and cores, says what a program of its own says.
+TEST(LeafProgram, KeepsNothingOfOtherLeaves) {
+  for (std::size_t seed = 0; seed < scaled(300); ++seed) {
+    SCOPED_TRACE(seed);
+    const Case c = Case::draw(seed);
+    Random random(seed);
+    LeafProgram program(c.input.free_costs);
+    for (int k = 0; k < 10; ++k) {
+      LevelCores some = c.input;
+      std::erase_if(some.cores, [&](const LevelCore&) { return random.percent(30); });
+      const CoreTable table(some.pointers());
+      CoverLeaf leaf = draw_leaf(random, c.input), again = leaf;
+      program.set_cores(table);
+      LeafProgram other(c.input.free_costs);
+      other.set_cores(table);
+      Costs costs, costs_again;
+      ASSERT_EQ(program.solve(leaf, costs), other.solve(again, costs_again));
+      EXPECT_EQ(program.is_known(leaf), other.is_known(again));
+      EXPECT_EQ(leaf.bound, again.bound);
+      EXPECT_EQ(leaf.branch, again.branch);
+      EXPECT_EQ(costs, costs_again);
+    }
+  }
+}
+
+// Other cores leave a leaf as it is exactly if its fractional cover covers them too.
+TEST(LeafProgram, KnowsLeavesThatStayAsTheyAre) {
+  std::size_t num_known = 0, num_unknown = 0;
+  for (std::size_t seed = 0; seed < scaled(3000); ++seed) {
+    SCOPED_TRACE(seed);
+    Case c = Case::draw(seed);
+    Random random(seed);
+    LeafProgram program(c.input.free_costs);
+    EXPECT_FALSE(program.is_known(c.leaf));  // never solved
+    CoverLeaf leaf = c.leaf;
+    Costs costs;
+    {
+      const CoreTable table(c.input.pointers());
+      program.set_cores(table);
+      if (!program.solve(leaf, costs)) continue;
+      EXPECT_EQ(program.is_known(leaf), leaf.branch.has_value());
+    }
+    for (std::size_t k = random.between(1, 2); k > 0; --k)
+      c.input.cores.push_back(
+          LevelCores::draw(random, c.input.free_costs.size(), 1, 6, c.step).cores.front());
+    for (LevelCore& core : c.input.cores)
+      for (Level& level : core)  // those that were drawn just now have other free costs
+        level.cost = std::max(level.cost, c.input.free_costs[level.agent] + 1);
+    const bool are_more = random.percent(50);
+    if (!are_more)  // some are gone, with their levels
+      std::erase_if(c.input.cores, [&](const LevelCore&) { return random.percent(30); });
+    const CoreTable table(c.input.pointers());
+    program.set_cores(table);
+    const bool is_known = program.is_known(leaf);
+    ASSERT_EQ(is_known, leaf.branch && covers_all(c.input, leaf));
+    ++(is_known ? num_known : num_unknown);
+    // Nothing of the former solution is left in the next one but the bound.
+    CoverLeaf again = leaf, afresh = c.leaf;
+    Costs costs_afresh;
+    ASSERT_EQ(program.solve(again, costs), program.solve(afresh, costs_afresh));
+    if (costs_afresh.empty()) continue;
+    EXPECT_EQ(costs, costs_afresh);
+    EXPECT_EQ(again.bound, std::max(leaf.bound, afresh.bound));
+    EXPECT_EQ(again.branch, afresh.branch);
+    EXPECT_EQ(again.shares.size(), afresh.shares.size());
+    if (is_known && are_more) {
+      EXPECT_EQ(again.bound, leaf.bound);
+    }
+  }
+  EXPECT_GE(num_known, scaled(3000) / 20);
+  EXPECT_GE(num_unknown, scaled(3000) / 20);
+}
+
+TEST(LeafProgram, SplitsHalves) {
+  // Three agents, each pair of which has a core: 1.5, and so 2 in integers.
+  const LevelCores input{{0, 0, 0},
+                         {{{AgentId(0), 1}, {AgentId(1), 1}},
+                          {{AgentId(1), 1}, {AgentId(2), 1}},
+                          {{AgentId(0), 1}, {AgentId(2), 1}}}};
+  const CoreTable table(input.pointers());
+  LeafProgram program(input.free_costs);
+  program.set_cores(table);
+  CoverLeaf leaf;
+  Costs costs;
+  ASSERT_TRUE(program.solve(leaf, costs));
+  EXPECT_EQ(leaf.bound, 2);
+  EXPECT_FALSE(program.is_integral());
+  ASSERT_EQ(leaf.shares.size(), 3u);
+  for (const CoverLeaf::Share& share : leaf.shares) EXPECT_NEAR(share.part, 0.5, kTiny);
+}
+
+TEST(LeafProgram, OfNoCores) {
+  const CoreTable table;
+  LeafProgram program({3, 4});
+  program.set_cores(table);
+  CoverLeaf leaf;
+  leaf.ranges = {{AgentId(1), 9}};
+  Costs costs;
+  ASSERT_TRUE(program.solve(leaf, costs));
+  EXPECT_EQ(leaf.bound, 5);
+  EXPECT_FALSE(leaf.branch);
+  EXPECT_TRUE(leaf.shares.empty());
+  EXPECT_TRUE(program.is_integral());
+  EXPECT_EQ(costs, (Costs{3, 9}));
+}
+
+TEST(LeafProgram, EndsOfRanges) {
+  // The agent costs at least `low` and less than `high`.
+  const LevelCores input{{0}, {{{AgentId(0), 5}}}};
+  const CoreTable table(input.pointers());
+  LeafProgram program(input.free_costs);
+  program.set_cores(table);
+  Costs costs;
+  CoverLeaf below;
+  below.ranges = {{AgentId(0), 0, 5}};
+  EXPECT_FALSE(program.solve(below, costs));
+  CoverLeaf at;
+  at.ranges = {{AgentId(0), 0, 6}};
+  ASSERT_TRUE(program.solve(at, costs));
+  EXPECT_EQ(at.bound, 5);
+  EXPECT_EQ(at.branch, (Level{AgentId(0), 5}));
+  CoverLeaf above;
+  above.ranges = {{AgentId(0), 5}};
+  ASSERT_TRUE(program.solve(above, costs));
+  EXPECT_EQ(above.bound, 5);
+  EXPECT_FALSE(above.branch);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test
