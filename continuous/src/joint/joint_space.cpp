@@ -33,17 +33,17 @@ bool JointSpace::are_goals(const JointPlaces& places) const {
   return true;
 }
 
-JointSpace::Ages JointSpace::bad_ages(const JointPlaces& places, const JointStep& step,
-                                      std::size_t mover) {
+std::optional<TickInterval> JointSpace::bad_ages(const JointPlaces& places, const JointStep& step,
+                                                 std::size_t mover) {
   const ClassId a = class_of(mover), b = class_of(step.agent);
   const EdgeId e = edge(places, mover), f(step.edge);
   if (step.begins) {
     const auto& offsets = contacts_.offsets(a, e, b, f);
-    return offsets ? Ages({offsets->begin - 1, offsets->end}) : std::nullopt;
+    // The stretch whose inner ticks are the unsafe offsets.
+    return offsets ? std::optional(TickInterval{offsets->begin - 1, offsets->end}) : std::nullopt;
   }
   // A stay begins, which has to end before the contact, or to begin after it.
-  const auto& window = contacts_.window(a, e, b, instance_.roadmap().edge(f).to);
-  return window ? Ages({window->begin, window->end}) : std::nullopt;
+  return contacts_.window(a, e, b, instance_.roadmap().edge(f).to);
 }
 
 Ticks JointSpace::latest_leave(const JointPlaces& places, std::size_t mover, std::size_t k) {
@@ -78,10 +78,10 @@ void JointSpace::add_variants(const JointPlaces& places, JointStep step,
   steps.push_back(step);
   for (std::size_t j = 0; j < size(); ++j) {
     if (j == step.agent || !is_moving(places, j)) continue;
-    const Ages ages = bad_ages(places, step, j);
-    if (!ages) continue;
-    const bool can_be_young = ages->young >= 0;
-    const bool can_be_old = ages->old <= duration(j, edge(places, j));
+    const auto bad = bad_ages(places, step, j);
+    if (!bad) continue;
+    const bool can_be_young = bad->begin >= 0;
+    const bool can_be_old = bad->end <= duration(j, edge(places, j));
     const std::uint32_t old = std::uint32_t{1} << j;
     const std::size_t last = steps.size();
     if (!can_be_young && !can_be_old) {
@@ -109,10 +109,10 @@ void JointSpace::list_limits(const JointPlaces& places, const JointStep& step,
       const Ticks leave = latest_leave(places, j, step.agent);
       if (leave < kForever) limits.push_back({j, false, leave});
     }
-    const Ages ages = bad_ages(places, step, j);
-    if (!ages) continue;
+    const auto bad = bad_ages(places, step, j);
+    if (!bad) continue;
     const bool is_old = (step.old_moves >> j & 1) != 0;
-    limits.push_back({j, is_old, is_old ? ages->old : ages->young});
+    limits.push_back({j, is_old, is_old ? bad->end : bad->begin});
   }
 }
 

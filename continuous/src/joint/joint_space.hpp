@@ -8,6 +8,7 @@
 
 #include "paths/scene.hpp"
 #include "paths/timed_path.hpp"
+#include "paths/unsafe_starts.hpp"
 
 namespace quadrille::continuous {
 
@@ -80,17 +81,14 @@ class JointSpace {
   void list_deadlines(const JointPlaces& places, std::vector<AgeLimit>& limits);
 
  private:
-  /// Ages of a move at which an event must not happen: those strictly between.
-  struct BadAges {
-    Ticks young, old;
-  };
-  using Ages = std::optional<BadAges>;
   [[nodiscard]] ClassId class_of(std::size_t k) const { return instance_.class_of(agents_[k]); }
   [[nodiscard]] static std::uint64_t bit(std::size_t mover, std::size_t stander) {
     return std::uint64_t{1} << (mover * kMaxJointAgents + stander);
   }
-  /// Of the move of agent `mover`, for an event of agent k.
-  [[nodiscard]] Ages bad_ages(const JointPlaces& places, const JointStep& step, std::size_t mover);
+  /// The ages of the move of agent `mover` at which the event must not happen: a stretch, so that
+  /// begin and end are ages at which it may.
+  [[nodiscard]] std::optional<TickInterval> bad_ages(const JointPlaces& places,
+                                                     const JointStep& step, std::size_t mover);
   /// Until when agent k may stand where it does after the begin of another's move; kForever: for
   /// ever.
   [[nodiscard]] Ticks latest_leave(const JointPlaces& places, std::size_t mover, std::size_t k);
