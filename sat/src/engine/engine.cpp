@@ -178,6 +178,11 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     // A theory that stops has not looked at the model.
     const bool is_model = answer == 10 && !host_.wants_stop();
     last_ = is_model ? Verdict::sat : answer == 20 ? Verdict::unsat : Verdict::unknown;
+    if (last_ == Verdict::unsat && observer_ != nullptr) {
+      std::vector<Lit> clause = failed_;
+      for (Lit& lit : clause) lit = ~lit;
+      observer_->on_core(clause);
+    }
     return last_;
   }
 

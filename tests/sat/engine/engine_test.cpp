@@ -231,6 +231,34 @@ TEST(Engine, TellsTheObserverEachClauseAndEachConsequence) {
   EXPECT_TRUE(engine.core().empty());
 }
 
+TEST(Engine, TellsTheObserverTheCoreOfEachRefutation) {
+  struct Recorder final : ClauseObserver {
+    void on_lemma(const Lemma&) override {}
+    void on_learned(std::span<const Lit>) override {}
+    void on_core(std::span<const Lit> clause) override {
+      cores.emplace_back(clause.begin(), clause.end());
+    }
+    std::vector<Clause> cores;
+  } recorder;
+  EngineOptions options;
+  options.observer = &recorder;
+  Engine engine(nullptr, options);
+  LimitMonitor unlimited{Limits{}}, limits_over{Limits{}};
+  const Lit a = engine.new_lit(), b = engine.new_lit(), c = engine.new_lit();
+  add(engine, {~a, ~b});
+  const std::vector<Lit> assumptions{c, b, a};
+  ASSERT_EQ(engine.solve(assumptions, unlimited), Verdict::unsat);
+  EXPECT_EQ(recorder.cores, (std::vector<Clause>{{~b, ~a}}));
+  ASSERT_EQ(solve(engine), Verdict::sat);
+  limits_over.stop(StopReason::conflicts);
+  ASSERT_EQ(engine.solve(assumptions, limits_over), Verdict::unknown);
+  EXPECT_EQ(recorder.cores.size(), 1u);
+  add(engine, {a});
+  add(engine, {b});
+  ASSERT_EQ(engine.solve(assumptions, unlimited), Verdict::unsat);
+  EXPECT_EQ(recorder.cores, (std::vector<Clause>{{~b, ~a}, {}}));
+}
+
 TEST(Engine, IsDeterministicForASeed) {
   Statistics first;
   for (int run = 0; run < 2; ++run) {
@@ -274,6 +302,7 @@ class Throwing final : public Theory, public ClauseObserver {
   }
   void on_lemma(const Lemma&) override { count(); }
   void on_learned(std::span<const Lit>) override { count(); }
+  void on_core(std::span<const Lit>) override { count(); }
 
  private:
   void count() {

@@ -17,13 +17,16 @@ namespace quadrille::sat {
 /// Checks while the solver runs that no clause excludes a plan, and keeps the first complaint.
 ///
 /// On request, each lemma is derived again: path, collision and order lemmas as the domain says,
-/// cores by a CoreAuditor. With a known plan, each lemma and each learned clause has to be true in
-/// it. Counters are definitions "inputs -> output": the least values that satisfy them belong to
-/// the plan, which is why definitions have to come before clauses that use them.
+/// cores by a CoreAuditor: core clauses, and the core of each refutation, also where it becomes a
+/// bound and no clause, and where it has no literals. With a known plan, which may cost anything,
+/// each lemma, each learned clause and each core has to be true in it. Counters are definitions
+/// "inputs -> output": the least values that satisfy them belong to the plan, which is why
+/// definitions have to come before clauses that use them.
 class ClauseAuditor : public ClauseObserver {
  public:
   void on_lemma(const Lemma& lemma) final;
   void on_learned(std::span<const Lit> clause) final;
+  void on_core(std::span<const Lit> clause) final;
 
   [[nodiscard]] const std::optional<std::string>& complaint() const noexcept { return complaint_; }
 
@@ -43,6 +46,8 @@ class ClauseAuditor : public ClauseObserver {
  private:
   [[nodiscard]] std::string derive_again(const Lemma& lemma);
   [[nodiscard]] bool is_true_in_plan(Lit lit) const;
+  /// False without a known plan.
+  [[nodiscard]] bool is_false_in_plan(Clause clause) const;
   /// Of a counting lemma: makes an output true if need be.
   [[nodiscard]] bool define_output(const Lemma& lemma);
 

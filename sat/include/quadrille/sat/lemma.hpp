@@ -40,14 +40,19 @@ struct Lemma {
   bool forgettable = false;
 };
 
-/// Hears every clause that the engine is given, and every clause that the solver derives from them.
-/// For debugging and for proofs. Called on the solving thread; must not call the engine.
+/// Hears every clause that the engine is given, every clause that the solver derives from them, and
+/// every core. For debugging and for proofs. Called on the solving thread; must not call the
+/// engine.
 class ClauseObserver {
  public:
   virtual ~ClauseObserver() = default;
   virtual void on_lemma(const Lemma& lemma) = 0;
   /// A consequence of all clauses so far; never depends on assumptions.
   virtual void on_learned(std::span<const Lit> clause) = 0;
+  /// For each verdict `unsat`: the negations of Engine::core, of which one has to be true. A
+  /// consequence of all clauses so far, which a search may conclude a bound from without ever
+  /// adding it as a clause. Empty if the clauses contradict each other.
+  virtual void on_core(std::span<const Lit> /*clause*/) {}
 };
 
 }  // namespace quadrille::sat
