@@ -76,6 +76,9 @@ class Auditors final : public sat::ClauseObserver {
   void on_learned(std::span<const sat::Lit> clause) override {
     if (of_plan_) of_plan_->on_learned(clause);
   }
+  void on_core(std::span<const sat::Lit> clause) override {
+    if (of_cores_) of_cores_->on_core(clause);
+  }
   /// Null if cores are not audited.
   [[nodiscard]] sat::CoreAuditor* of_cores() { return of_cores_ ? &*of_cores_ : nullptr; }
   /// The first of each kind.

@@ -26,7 +26,7 @@ void ClauseAuditor::on_learned(Clause clause) {
 
 void ClauseAuditor::on_core(Clause clause) {
   if (complaint_) return;
-  if (cores_) cores_->audit(clause);
+  if (cores_) cores_->on_core(clause);
   if (cores_ && cores_->complaint())
     complaint_ = "a core does not follow from the clauses:" + describe(clause);
   else if (is_false_in_plan(clause))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/sat/core_auditor.hpp"
 
+#include <utility>
+
 namespace quadrille::sat {
 
 CoreAuditor::CoreAuditor(int max_conflicts)
@@ -17,12 +19,11 @@ void CoreAuditor::on_lemma(const Lemma& lemma) {
   solver_.add_clause(lemma);
 }
 
-void CoreAuditor::audit(std::span<const Lit> core) {
+void CoreAuditor::prove(std::span<const Lit> core, std::vector<Lit> given) {
   if (complaint_) return;
-  make_variables(core);
-  make_variables(given_);
-  std::vector<Lit> assumptions = given_;
+  std::vector<Lit> assumptions = std::move(given);
   for (const Lit lit : core) assumptions.push_back(~lit);
+  make_variables(assumptions);
   const Verdict verdict = solver_.solve(assumptions, limits_, {max_conflicts_});
   if (verdict == Verdict::unsat) ++num_proved_;
   if (verdict == Verdict::unknown) ++num_open_;

@@ -44,6 +44,17 @@ TEST(CoreAuditor, CoresHoldUnderWhatIsAssumed) {
   EXPECT_TRUE(auditor.complaint());
 }
 
+TEST(CoreAuditor, CoresOfRefutationsHoldWithNothingAssumed) {
+  CoreAuditor auditor;
+  tell(auditor, LemmaKind::path, {lit(1), lit(2), lit(3)});
+  auditor.assume({lit(-3)});
+  auditor.on_core(std::vector<Lit>{lit(1), lit(2), lit(3)});
+  EXPECT_EQ(auditor.complaint(), std::nullopt);
+  EXPECT_EQ(auditor.num_proved(), 1);
+  auditor.on_core(std::vector<Lit>{lit(1), lit(2)});
+  EXPECT_EQ(auditor.complaint(), "a core does not follow from the clauses: 1 2");
+}
+
 TEST(CoreAuditor, LeavesOpenWhatTakesLong) {
   // Five pigeons, four holes: pigeon p is in hole h if 4 p + h + 1 is true.
   for (const int max_conflicts : {1, CoreAuditor::kMaxConflicts}) {

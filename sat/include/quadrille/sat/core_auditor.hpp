@@ -16,9 +16,10 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
 
-/// Proves each core clause that an engine is given again, from the clauses that the engine was
-/// given before, in a solver of its own that has no theory and no assumptions but what is said
-/// here. It keeps all of those clauses: for debugging, on small instances.
+/// Proves the core of each refutation again, and each core clause that an engine is given, from the
+/// clauses that the engine was given before, in a solver of its own that has no theory and no
+/// assumptions but what is said here. It keeps all of those clauses: for debugging, on small
+/// instances.
 class CoreAuditor final : public ClauseObserver {
  public:
   static constexpr int kMaxConflicts = 10'000;
@@ -27,12 +28,14 @@ class CoreAuditor final : public ClauseObserver {
 
   void on_lemma(const Lemma& lemma) override;
   void on_learned(std::span<const Lit> /*clause*/) override {}
+  /// With nothing assumed: a core names all that it rests on.
+  void on_core(std::span<const Lit> clause) override { prove(clause, {}); }
 
-  /// From now on, cores have to hold only where all of these do.
+  /// From now on, core clauses have to hold only where all of these do.
   void assume(std::vector<Lit> given) { given_ = std::move(given); }
   /// Some literal of `core` follows from the clauses so far and from what is assumed: proves it
   /// again. An empty core says that these contradict each other.
-  void audit(std::span<const Lit> core);
+  void audit(std::span<const Lit> core) { prove(core, given_); }
 
   /// The first core that does not follow.
   [[nodiscard]] const std::optional<std::string>& complaint() const noexcept { return complaint_; }
@@ -42,6 +45,7 @@ class CoreAuditor final : public ClauseObserver {
 
  private:
   void make_variables(std::span<const Lit> lits);
+  void prove(std::span<const Lit> core, std::vector<Lit> given);
 
   const int max_conflicts_;
   LimitMonitor limits_;
