@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace quadrille::cli {
 namespace {
 
@@ -21,6 +23,13 @@ std::string find_contradiction(const StatedOutcome& stated, Cost sum_of_costs, C
     return fmt::format(
         "the file states that the plan is {}, but the lower bound is {} and the cost {}",
         stated.status == Status::optimal ? "optimal" : "no more than feasible", bound, cost);
+  if (stated.gap_percent) {
+    constexpr double kRounding = 1e-9;
+    const double gap = gap_percent(cost, bound);
+    if (!(std::abs(*stated.gap_percent - gap) <= kRounding * (1 + gap)))
+      return fmt::format("the file states a gap of {} per cent, but it is {}", *stated.gap_percent,
+                         gap);
+  }
   return "";
 }
 

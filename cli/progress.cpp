@@ -6,20 +6,32 @@
 
 #include "output.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "report.hpp"
 
 namespace quadrille::cli {
 
-std::string progress_text(const discrete::Progress& progress) {
-  const std::string plan = progress.cost ? fmt::format(", plan {}", *progress.cost) : "";
-  return fmt::format("cost >= {}{}, {:.1f} s, {} conflicts", progress.lower_bound, plan,
+namespace {
+
+/// `print`: how a cost is written.
+template <class Progress, class Print>
+std::string progress_text(const Progress& progress, const Print& print) {
+  std::string plan;
+  if (progress.cost)
+    plan = fmt::format(", plan {}{}", print(*progress.cost),
+                       gap_text(gap_percent(*progress.cost, progress.lower_bound)));
+  return fmt::format("cost >= {}{}, {:.1f} s, {} conflicts", print(progress.lower_bound), plan,
                      progress.elapsed_s, progress.conflicts);
 }
 
+}  // namespace
+
+std::string progress_text(const discrete::Progress& progress) {
+  return progress_text(progress, [](Cost cost) { return cost; });
+}
+
 std::string progress_text(const continuous::Progress& progress, double resolution) {
-  const auto time = [&](Cost ticks) { return continuous::in_input_units(ticks, resolution); };
-  const std::string plan = progress.cost ? fmt::format(", plan {}", time(*progress.cost)) : "";
-  return fmt::format("cost >= {}{}, {:.1f} s, {} conflicts", time(progress.lower_bound), plan,
-                     progress.elapsed_s, progress.conflicts);
+  return progress_text(progress,
+                       [&](Cost ticks) { return continuous::in_input_units(ticks, resolution); });
 }
 
 ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILENO) == 1) {}

@@ -48,6 +48,11 @@ ExitCode exit_code(Status status) {
   return ExitCode::internal;
 }
 
+std::string gap_text(double gap_percent) {
+  if (!(gap_percent > 0 && std::isfinite(gap_percent))) return "";
+  return fmt::format(", gap {:.2f} %", gap_percent);
+}
+
 std::string describe(const OutcomeText& outcome) {
   std::string text = fmt::format("result     {}", to_string(outcome.status));
   if (outcome.stop != StopReason::none)
@@ -55,8 +60,9 @@ std::string describe(const OutcomeText& outcome) {
   text += "\n";
   if (!outcome.explanation.empty()) text += fmt::format("why        {}\n", outcome.explanation);
   if (outcome.cost || outcome.status == Status::unknown)
-    text += fmt::format("cost       {} ({}), lower bound {}\n", outcome.cost.value_or("unknown"),
-                        to_string(outcome.objective), outcome.lower_bound);
+    text += fmt::format("cost       {} ({}), lower bound {}{}\n", outcome.cost.value_or("unknown"),
+                        to_string(outcome.objective), outcome.lower_bound,
+                        gap_text(outcome.gap_percent));
   const Statistics& s = outcome.statistics;
   return text +
          fmt::format("search     {:.2f} s, {} SAT calls, {} conflicts, {} collision clauses\n",

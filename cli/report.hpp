@@ -44,18 +44,30 @@ struct OutcomeText {
   Objective objective = Objective::sum_of_costs;
   std::optional<std::string> cost;
   std::string lower_bound;
+  double gap_percent = 0;  ///< Between them, if there is a cost.
   Statistics statistics;
 };
+/// ", gap 1.25 %"; empty where it is 0 or infinite.
+[[nodiscard]] std::string gap_text(double gap_percent);
+
 /// The lines "result", "why", "cost" and "search" of the human output.
 [[nodiscard]] std::string describe(const OutcomeText& outcome);
 /// `print`: how a cost is written.
 template <class Outcome, class Print>
 [[nodiscard]] std::string describe_result(const Outcome& outcome, Objective objective,
                                           const Print& print) {
-  OutcomeText text{outcome.status,    outcome.stop, outcome.explanation,
-                   objective,         {},           print(outcome.lower_bound),
+  OutcomeText text{outcome.status,
+                   outcome.stop,
+                   outcome.explanation,
+                   objective,
+                   {},
+                   print(outcome.lower_bound),
+                   0,
                    outcome.statistics};
-  if (outcome.cost) text.cost = print(*outcome.cost);
+  if (outcome.cost) {
+    text.cost = print(*outcome.cost);
+    text.gap_percent = gap_percent(*outcome.cost, outcome.lower_bound);
+  }
   return describe(text);
 }
 
@@ -76,6 +88,14 @@ class ResultJson {
   ResultJson(Status status, Objective objective);
 
   void add(std::string_view key, const Json& value);
+  /// "gap_percent": null without a plan, and where it is infinite.
+  template <class Outcome>
+  void add_gap(const Outcome& outcome) {
+    Json gap;
+    if (outcome.cost && (outcome.lower_bound > 0 || *outcome.cost == 0))
+      gap = gap_percent(*outcome.cost, outcome.lower_bound);
+    add("gap_percent", gap);
+  }
   /// "stop_reason", "explanation" and "internal_error".
   template <class Outcome>
   void add_end_of_search(const Outcome& outcome) {

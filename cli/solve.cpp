@@ -117,7 +117,7 @@ void add_limit_options(CLI::App& app, SolveArguments& arguments) {
               "Stop after this many conflicts of the SAT solver")
       ->group(group);
   add_per_cent(app, "--gap", arguments.options.gap_percent,
-               "Stop when the plan is proved to cost at most this many per cent too much")
+               "Stop when the plan costs at most this many per cent more than is proved necessary")
       ->group(group);
 }
 

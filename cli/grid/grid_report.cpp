@@ -71,6 +71,7 @@ std::string result_json(const discrete::Instance& instance, const SolveArguments
   ResultJson json(outcome.status, options.objective);
   json.add("cost", or_null(outcome.cost));
   json.add("lower_bound", infeasible ? Json(nullptr) : Json(outcome.lower_bound));
+  json.add_gap(outcome);
   json.add_end_of_search(outcome);
   json.add("agents", instance.num_agents());
   return json.finish(

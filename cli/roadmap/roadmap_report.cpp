@@ -72,6 +72,7 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   json.add("cost_ticks", or_null(outcome.cost));
   json.add("lower_bound", has_bound ? time(outcome.lower_bound) : Json(nullptr));
   json.add("lower_bound_ticks", has_bound ? Json(outcome.lower_bound) : Json(nullptr));
+  json.add_gap(outcome);
   json.add("resolution", instance != nullptr ? Json(resolution) : Json(nullptr));
   json.add("claim", fmt::format("{} {}", kClaim[0], kClaim[1]));
   json.add_end_of_search(outcome);

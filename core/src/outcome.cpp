@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/core/outcome.hpp"
 
+#include <limits>
+
+#include "quadrille/core/contract.hpp"
+
 namespace quadrille {
 
 std::string_view to_string(Objective objective) noexcept {
@@ -45,6 +49,17 @@ std::string_view to_string(StopReason reason) noexcept {
       return "gap";
   }
   return "?";
+}
+
+double gap_percent(Cost cost, Cost lower_bound) {
+  QUADRILLE_REQUIRE(0 <= lower_bound && lower_bound <= cost, "a bound and a plan above it");
+  if (cost == lower_bound) return 0;
+  if (lower_bound == 0) return std::numeric_limits<double>::infinity();
+  return 100 * static_cast<double>(cost - lower_bound) / static_cast<double>(lower_bound);
+}
+
+bool is_within_gap(std::optional<double> wanted, Cost cost, Cost lower_bound) {
+  return wanted && gap_percent(cost, lower_bound) <= *wanted;
 }
 
 }  // namespace quadrille

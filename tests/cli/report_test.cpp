@@ -41,11 +41,11 @@ TEST_F(ReportTest, JsonHasAllThatIsDocumented) {
                           path("r.json")}));
   ASSERT_EQ(finished.code, 0);
   const json result = json::parse(read("r.json"));
-  for (const char* key :
-       {"quadrille", "status", "objective", "cost", "lower_bound", "stop_reason", "explanation",
-        "internal_error", "agents", "statistics", "version", "seed", "options", "plan"})
+  for (const char* key : {"quadrille", "status", "objective", "cost", "lower_bound", "gap_percent",
+                          "stop_reason", "explanation", "internal_error", "agents", "statistics",
+                          "version", "seed", "options", "plan"})
     EXPECT_TRUE(result.contains(key)) << key;
-  EXPECT_EQ(result.size(), 14u);
+  EXPECT_EQ(result.size(), 15u);
   for (const char* key :
        {"cpu_s", "wall_s", "peak_rss_mib", "sat_calls", "conflicts", "decisions", "variables",
         "clauses", "collision_clauses", "checks", "models_checked", "cores"})

@@ -36,13 +36,29 @@ TEST_F(RoadmapTest, JsonHasAllThatIsDocumented) {
   ASSERT_EQ(
       run(discs("solve", {"--seed", "9", "--time-limit", "30", "--json", path("r.json")})).code, 0);
   const json result = json::parse(read("r.json"));
-  for (const char* key : {"quadrille",  "status",      "objective",         "cost",
-                          "cost_ticks", "lower_bound", "lower_bound_ticks", "resolution",
-                          "claim",      "stop_reason", "explanation",       "internal_error",
-                          "agents",     "radii",       "least_clearance",   "statistics",
-                          "version",    "seed",        "options",           "plan"})
+  for (const char* key : {"quadrille",
+                          "status",
+                          "objective",
+                          "cost",
+                          "cost_ticks",
+                          "lower_bound",
+                          "lower_bound_ticks",
+                          "resolution",
+                          "claim",
+                          "stop_reason",
+                          "explanation",
+                          "internal_error",
+                          "agents",
+                          "radii",
+                          "least_clearance",
+                          "statistics",
+                          "gap_percent",
+                          "version",
+                          "seed",
+                          "options",
+                          "plan"})
     EXPECT_TRUE(result.contains(key)) << key;
-  EXPECT_EQ(result.size(), 20u);
+  EXPECT_EQ(result.size(), 21u);
   EXPECT_EQ(result["status"], "optimal");
   EXPECT_EQ(result["cost"], 5.015);
   EXPECT_EQ(result["cost_ticks"], 5015);

@@ -51,11 +51,15 @@ TEST_F(RoundTripTest, VerifyRefusesAResultThatContradictsItself) {
     changed.update(change);
     return run(small("verify", {write("changed.json", changed.dump())}));
   };
-  EXPECT_EQ(verdict({{"status", "feasible"}, {"lower_bound", 7}}).code, 0);
+  EXPECT_EQ(verdict({{"status", "feasible"}, {"lower_bound", 7}, {"gap_percent", nullptr}}).code,
+            0);
   EXPECT_EQ(verdict({{"lower_bound", nullptr}}).code, 0);
+  EXPECT_EQ(verdict({{"status", "feasible"}, {"lower_bound", 7}, {"gap_percent", 100.0 / 7}}).code,
+            0);
   const std::pair<json, std::string> cases[] = {
       {{{"lower_bound", 9}}, "states a lower bound of 9, but the plan costs 8"},
       {{{"lower_bound", 7}}, "the plan is optimal, but the lower bound is 7 and the cost 8"},
+      {{{"gap_percent", 12.5}}, "states a gap of 12.5 per cent, but it is 0"},
       {{{"status", "feasible"}}, "no more than feasible, but the lower bound is 8 and the cost 8"},
       {{{"status", "infeasible"}}, "states that the instance is infeasible, but has a plan"},
       {{{"status", "unknown"}}, "states that the instance is unknown, but has a plan"},

@@ -19,6 +19,7 @@ bool PlanHeader::read(std::initializer_list<Checker::Member> more, StatedOutcome
                                           {"agents", &agents_, false},
                                           {"status", &status_, false},
                                           {"lower_bound", &bound_, false},
+                                          {"gap_percent", &gap_, false},
                                           {"statistics", &unread[0], false},
                                           {"seed", &unread[1], false},
                                           {"options", &unread[2], false},
@@ -26,7 +27,8 @@ bool PlanHeader::read(std::initializer_list<Checker::Member> more, StatedOutcome
                                           {"internal_error", &unread[4], false},
                                           {"explanation", &unread[5], false}};
   members.insert(members.end(), more);
-  return check_.members(Document::kRoot, members) && read_kind(stated) && read_objective(stated);
+  return check_.members(Document::kRoot, members) && read_kind(stated) && read_objective(stated) &&
+         read_gap(stated);
 }
 
 bool PlanHeader::read_kind(StatedOutcome& stated) {
@@ -59,6 +61,10 @@ bool PlanHeader::read_objective(StatedOutcome& stated) {
                        "expected 'sum-of-costs' or 'makespan', found " + in_quotes(name));
   stated.objective = *known;
   return true;
+}
+
+bool PlanHeader::read_gap(StatedOutcome& stated) {
+  return is_null(gap_) || check_.number(*gap_, stated.gap_percent.emplace());
 }
 
 bool PlanHeader::is_null(const std::optional<Node>& node) const {

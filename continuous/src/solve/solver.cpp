@@ -38,13 +38,6 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   return std::nullopt;
 }
 
-/// Whether the gap that is left is as small as was asked for, and no proof of optimality.
-bool is_close(const SolveOptions& options, Cost cost, Cost bound) {
-  return options.gap_percent && cost > bound &&
-         static_cast<double>(cost - bound) * 100 <=
-             *options.gap_percent * static_cast<double>(cost);
-}
-
 std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_agents) {
   if (blocked.size() == num_agents) return "the agents cannot all reach their goals";
   std::string text = "agents";
@@ -187,7 +180,9 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     const Cost cost_of_plan = cost(*report.plan, options.objective);
     if (progress.incumbent() != cost_of_plan) outcome.plan = report.plan;  // if a limit is met
     progress.set_incumbent(cost_of_plan);
-    if (is_close(options, cost_of_plan, outcome.lower_bound)) limits.stop(StopReason::gap);
+    const Cost bound = outcome.lower_bound;
+    if (bound < cost_of_plan && is_within_gap(options.gap_percent, cost_of_plan, bound))
+      limits.stop(StopReason::gap);
     progress.yield();
   };
   const auto report =

@@ -128,11 +128,6 @@ SolveOptions options_of(const SolveOptions& options, const Tuner& tuner, std::si
 
 }  // namespace
 
-bool is_within_gap(const SolveOptions& options, Cost cost, Cost bound) noexcept {
-  return options.gap_percent && static_cast<double>(cost - bound) * 100 <=
-                                    *options.gap_percent * static_cast<double>(cost);
-}
-
 bool is_proof(const SolveOutcome& outcome) {
   return !outcome.internal_error &&
          (outcome.status == Status::optimal || outcome.status == Status::infeasible ||
@@ -167,7 +162,7 @@ SolveOutcome combine(std::vector<SolveOutcome> outcomes, std::optional<std::size
     answer.status = Status::optimal;
     answer.stop = StopReason::none;
     answer.explanation.clear();
-  } else if (is_within_gap(options, *answer.cost, bound)) {
+  } else if (is_within_gap(options.gap_percent, *answer.cost, bound)) {
     answer.stop = StopReason::gap;
   }
   return answer;

@@ -29,9 +29,6 @@ class Companion {
 [[nodiscard]] SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
                                        const Tuner& tuner, Companion* companion);
 
-/// Whether a plan of cost `cost` is as close to the proven bound as was asked for.
-[[nodiscard]] bool is_within_gap(const SolveOptions& options, Cost cost, Cost bound) noexcept;
-
 /// Whether nothing more is to be done: not so after an internal error, which proves nothing.
 [[nodiscard]] bool is_proof(const SolveOutcome& outcome);
 

@@ -38,11 +38,4 @@ class Run {
 [[nodiscard]] std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options,
                                             const Tuning& tuning);
 
-/// Whether a plan of cost `cost` is as close to the proven bound as was asked for.
-[[nodiscard]] inline bool is_within_gap(const SolveOptions& options, Cost cost,
-                                        Cost bound) noexcept {
-  return options.gap_percent && static_cast<double>(cost - bound) * 100 <=
-                                    *options.gap_percent * static_cast<double>(cost);
-}
-
 }  // namespace quadrille::discrete

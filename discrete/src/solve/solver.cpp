@@ -92,7 +92,8 @@ class Search final : private sat::YieldPoint {
   /// Ends the search when the bounds meet, or are as close as was asked for.
   void consider_stop() {
     const std::optional<Cost> cost = incumbent_.upper();
-    if (cost && (incumbent_.are_closed() || is_within_gap(options_, *cost, incumbent_.lower())))
+    if (cost &&
+        (incumbent_.are_closed() || is_within_gap(options_.gap_percent, *cost, incumbent_.lower())))
       limits_.stop(StopReason::gap);
   }
 

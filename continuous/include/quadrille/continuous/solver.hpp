@@ -52,8 +52,8 @@ struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
   Limits limits;
-  /// Stop when the plan is proved to cost at most this many per cent of its cost too much. Not
-  /// negative.
+  /// Stop when the plan costs at most this many per cent more than the proven lower bound, see
+  /// quadrille/core/outcome.hpp. Not negative.
   std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
   /// Of dpll: effort, in comparisons of times, for looking at all routes of at most kMaxRouteAgents

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "quadrille/core/export.hpp"
+#include "quadrille/core/ids.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -30,6 +32,12 @@ enum class StopReason { none, wall_time, cpu_time, memory, conflicts, interrupt,
 [[nodiscard]] std::string_view to_string(Status status) noexcept;  ///< "optimal" | ...
 [[nodiscard]] std::string_view to_string(
     StopReason reason) noexcept;  ///< "none" | "wall-time" | ...
+
+/// By how many per cent of the lower bound a plan may be too dear: 100 * (cost - bound) / bound.
+/// Infinite for a bound of 0 and a higher cost. Requires 0 <= bound <= cost.
+[[nodiscard]] double gap_percent(Cost cost, Cost lower_bound);
+/// Whether that is no more than `wanted`; not so when nothing is wanted.
+[[nodiscard]] bool is_within_gap(std::optional<double> wanted, Cost cost, Cost lower_bound);
 
 }  // namespace quadrille
 

@@ -19,6 +19,7 @@ struct StatedOutcome {
   std::optional<Status> status;
   /// The lower bound, and of which cost.
   std::optional<Cost> lower_bound;
+  std::optional<double> gap_percent;
   Objective objective = Objective::sum_of_costs;
 };
 

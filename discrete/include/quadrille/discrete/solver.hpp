@@ -112,8 +112,8 @@ struct SolveOptions {
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
   bool first_plan = true;
-  /// Stop when the plan is proved to cost at most this many per cent of its cost too much. Not
-  /// negative.
+  /// Stop when the plan costs at most this many per cent more than the proven lower bound, see
+  /// quadrille/core/outcome.hpp. Not negative.
   std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
   /// More than one: that many searches side by side, this one and others with other systems; the

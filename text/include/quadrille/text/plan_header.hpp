@@ -25,7 +25,7 @@ class PlanHeader {
   PlanHeader(const Document& document, Checker& check) : document_(document), check_(check) {}
 
   /// Finds the members of the root, `more` of the domain among them, and reads the kind of the
-  /// file, the status and the objective.
+  /// file, the status, the objective and the gap.
   bool read(std::initializer_list<Checker::Member> more, StatedOutcome& stated);
   /// The members "cost" and "lower_bound", in the domain's units.
   [[nodiscard]] const std::optional<Node>& cost() const noexcept { return cost_; }
@@ -43,10 +43,11 @@ class PlanHeader {
  private:
   bool read_kind(StatedOutcome& stated);
   bool read_objective(StatedOutcome& stated);
+  bool read_gap(StatedOutcome& stated);
 
   const Document& document_;
   Checker& check_;
-  std::optional<Node> kind_, version_, status_, objective_, cost_, bound_, plan_, agents_;
+  std::optional<Node> kind_, version_, status_, objective_, cost_, bound_, gap_, plan_, agents_;
 };
 
 }  // namespace quadrille::text
