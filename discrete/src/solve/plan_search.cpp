@@ -10,6 +10,8 @@ namespace {
 
 /// Of a search for a first plan that nothing else runs beside, and of its slices.
 constexpr std::int64_t kFirstEffort = 20'000'000, kFirstSlice = 200'000;
+constexpr std::int64_t kLeastSlice = 20'000;
+constexpr std::int64_t kLongestDraftWait = 64;
 /// Over each path of a draft: copied, reserved, taken out again.
 constexpr std::int64_t kPasses = 5;
 
@@ -44,6 +46,7 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
 
 void PlanImprovement::improve_draft(std::int64_t effort) {
   const Plan draft = std::exchange(draft_, {});
+  draft_was_good_ = false;
   if (draft.paths.size() != context_.instance.num_agents()) return;
   const auto plan = repair_.repair(draft, context_.limits);
   if (!plan) return;
@@ -52,7 +55,17 @@ void PlanImprovement::improve_draft(std::int64_t effort) {
   else
     rival_.emplace(context_.instance, context_.distances, context_.objective, *plan, context_.seed);
   static_cast<void>(rival_->improve(effort, context_.limits));
-  if (rival_->cost() < *context_.incumbent.upper()) context_.incumbent.offer(rival_->plan());
+  draft_was_good_ = rival_->cost() < *context_.incumbent.upper();
+  if (draft_was_good_) context_.incumbent.offer(rival_->plan());
+}
+
+PlanSearch::PlanSearch(const PlanSearchContext& context)
+    : context_(context), first_plan_(context), improvement_(context), slice_(kLeastSlice) {
+  std::int64_t steps = 0;
+  for (const AgentId i : context.instance.agents())
+    steps += (*context.distances)(i, context.instance.tasks()[i].start);
+  slice_ = std::max(slice_, steps);
+  effort_to_draft_ = slice_;
 }
 
 bool PlanSearch::start() {
@@ -63,22 +76,47 @@ bool PlanSearch::start() {
 }
 
 void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>& draft) {
-  for (bool is_first = true; search_effort >= due_ && !context_.limits.exhausted();
-       is_first = false) {
-    const std::optional<Cost> before = context_.incumbent.upper();
-    std::int64_t effort = kSlice;
-    if (before) {
-      // The search has one draft at a time.
-      if (is_first) improvement_.set_draft(draft());
-      static_cast<void>(improvement_.advance({.effort = kSlice}));
-      effort += improvement_.extra_effort();
-    } else {
-      static_cast<void>(first_plan_.advance({.effort = kSlice}));
+  count_search(search_effort);
+  if (credit_ < slice_) return;
+  const Incumbent& incumbent = context_.incumbent;
+  const std::int64_t credit = credit_;
+  const std::optional<Cost> before = incumbent.upper();
+  bool is_draft_fresh = true;  // The search has one draft at a time.
+  while (credit_ >= slice_ && !incumbent.are_closed() && !context_.limits.exhausted()) {
+    if (!incumbent.upper()) {
+      static_cast<void>(first_plan_.advance({.effort = slice_}));
+      credit_ -= slice_;
+      continue;
     }
-    wait_ =
-        context_.incumbent.upper() != before ? kShortestWait : std::min(kLongestWait, wait_ * 2);
-    due_ += wait_ * effort;
+    const bool with_draft = is_draft_fresh && effort_to_draft_ <= 0;
+    if (with_draft) improvement_.set_draft(draft());
+    is_draft_fresh = is_draft_fresh && !with_draft;
+    static_cast<void>(improvement_.advance({.effort = slice_}));
+    const std::int64_t extra = improvement_.extra_effort();
+    credit_ -= slice_ + extra;
+    effort_to_draft_ -= slice_;
+    if (!with_draft) continue;
+    // Drafts cost more than slices: other improvement has as much, and the more the longer drafts
+    // have been of no use.
+    draft_wait_ = improvement_.draft_was_good() ? 1 : std::min(2 * draft_wait_, kLongestDraftWait);
+    effort_to_draft_ = draft_wait_ * extra;
   }
+  seen_upper_ = incumbent.upper();
+  if (before)
+    gain_.count_plans(credit - credit_, *before - *seen_upper_,
+                      gap_percent(*seen_upper_, incumbent.lower()));
+}
+
+void PlanSearch::count_search(std::int64_t search_effort) {
+  const Incumbent& incumbent = context_.incumbent;
+  const std::int64_t effort = search_effort - seen_effort_;
+  Cost gain = incumbent.lower() - seen_lower_;
+  if (seen_upper_) gain += *seen_upper_ - *incumbent.upper();
+  gain_.count_search(effort, gain);
+  credit_ += gain_.due(effort);
+  seen_effort_ = search_effort;
+  seen_lower_ = incumbent.lower();
+  seen_upper_ = incumbent.upper();
 }
 
 }  // namespace quadrille::discrete

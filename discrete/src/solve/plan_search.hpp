@@ -11,6 +11,7 @@
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/sat/strategy.hpp"
 #include "solve/incumbent.hpp"
+#include "solve/marginal_gain.hpp"
 
 namespace quadrille::discrete {
 
@@ -52,6 +53,8 @@ class PlanImprovement final : public sat::Strategy {
   [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
   /// What the last slice did beyond its effort.
   [[nodiscard]] std::int64_t extra_effort() const noexcept { return extra_effort_; }
+  /// The draft of the last slice became the incumbent.
+  [[nodiscard]] bool draft_was_good() const noexcept { return draft_was_good_; }
 
  private:
   void improve_draft(std::int64_t effort);
@@ -61,15 +64,15 @@ class PlanImprovement final : public sat::Strategy {
   std::optional<PlanImprover> improver_, rival_;
   Plan draft_;
   std::int64_t extra_effort_ = 0;
+  bool draft_was_good_ = false;
 };
 
 /// The schedule of both beside a search that raises the lower bound. Slices, and what the search
 /// did since the last one, are counted in elementary steps, never by clocks, so that all stays
-/// deterministic. They get a share of the time that becomes smaller while they find nothing.
+/// deterministic.
 class PlanSearch {
  public:
-  explicit PlanSearch(const PlanSearchContext& context)
-      : context_(context), first_plan_(context), improvement_(context) {}
+  explicit PlanSearch(const PlanSearchContext& context);
 
   /// Looks for a first plan for a while. To be called until it returns false: there is a plan, or
   /// it is hard to find and others should have their turn.
@@ -79,15 +82,19 @@ class PlanSearch {
   void advance(std::int64_t search_effort, const std::function<Plan()>& draft);
 
  private:
-  static constexpr std::int64_t kSlice = 20'000;
-  // Steps of the search for each step of these strategies.
-  static constexpr std::int64_t kShortestWait = 8, kLongestWait = 64;
+  void count_search(std::int64_t search_effort);
+  void take_turn(const std::function<Plan()>& draft);
 
   const PlanSearchContext context_;
   FirstPlan first_plan_;
   PlanImprovement improvement_;
-  std::int64_t wait_ = kShortestWait;
-  std::int64_t due_ = kShortestWait * kSlice;  // search effort
+  MarginalGain gain_;
+  std::int64_t slice_;
+  std::int64_t credit_ = 0;       // steps for plans that are due
+  std::int64_t seen_effort_ = 0;  // of the search, counted
+  Cost seen_lower_ = 0;
+  std::optional<Cost> seen_upper_;
+  std::int64_t effort_to_draft_, draft_wait_ = 1;
   std::int64_t start_effort_ = 0;
 };
 

@@ -82,7 +82,7 @@ TEST(Portfolio, MergedBoundsThatMeetAreAProofWithoutStop) {
 
 TEST(Portfolio, MergedBoundsAreTestedAgainstTheGap) {
   SolveOptions options;
-  options.gap_percent = 20;
+  options.gap_percent = 25;
   EXPECT_EQ(combine(list(feasible(10, 5), only_bound(8)), std::nullopt, options).stop,
             StopReason::gap);
   EXPECT_EQ(combine(list(feasible(10, 5), only_bound(7)), std::nullopt, options).stop,

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "quadrille/core/ids.hpp"
+
+namespace quadrille::discrete {
+
+/// How much effort the strategies for plans get beside the search: more and more while they close
+/// the gap faster than the search does, less and less while they do not. The marginal gain of both
+/// is what they took off the gap lately, per step. Counts only, no clocks.
+class MarginalGain {
+ public:
+  /// The search did `effort` steps and took `gain` off the gap.
+  void count_search(std::int64_t effort, Cost gain) { search_.add(kStepOfSearch * effort, gain); }
+  /// As well for plans; decides on the share from now on. `gap_percent`: what is left.
+  void count_plans(std::int64_t effort, Cost gain, double gap_percent);
+
+  /// Steps for plans that are due for so many of the search.
+  [[nodiscard]] std::int64_t due(std::int64_t search_effort) const {
+    return search_effort * kStepOfSearch * share_ / kUnit;
+  }
+
+ private:
+  /// Sums that forget.
+  struct Lately {
+    std::int64_t effort = 0;
+    Cost gain = 0;
+    void add(std::int64_t more_effort, Cost more_gain);
+  };
+  /// Steps for plans that take as long as one of the search. Measured: 2 to 6.
+  static constexpr std::int64_t kStepOfSearch = 4;
+  static constexpr std::int64_t kUnit = 256, kLeast = 1, kFirst = 8, kLargest = 768;
+
+  Lately search_, plans_;
+  std::int64_t share_ = kFirst;  // of kUnit
+};
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "solve/marginal_gain.hpp"
+
+#include <gtest/gtest.h>
+
+namespace quadrille::discrete {
+namespace {
+
+constexpr std::int64_t kSearch = 1'000'000, kPlans = 100'000;
+constexpr double kOpen = 50, kNearlyClosed = 0.5;  // per cent
+
+/// What is due for a second or so of the search, after turns in which both gained so much.
+std::int64_t due_after(int turns, Cost gain_of_search, Cost gain_of_plans, double gap_percent) {
+  MarginalGain gain;
+  for (int turn = 0; turn < turns; ++turn) {
+    gain.count_search(kSearch, gain_of_search);
+    gain.count_plans(kPlans, gain_of_plans, gap_percent);
+  }
+  return gain.due(kSearch);
+}
+
+TEST(MarginalGain, WhoClosesTheGapFasterGetsMore) {
+  const std::int64_t first = due_after(0, 0, 0, kOpen);
+  EXPECT_GT(first, 0);
+  EXPECT_GT(due_after(1, 0, 1, kOpen), first);
+  EXPECT_GT(due_after(20, 10, 100, kOpen), 20 * first);
+  EXPECT_LT(due_after(1, 1, 0, kOpen), first);
+  // A step of the search takes longer, so that 4'000'000 of its 1'000'000 count for plans' 100'000.
+  EXPECT_GT(due_after(1, 41, 2, kOpen), 0);
+  EXPECT_LT(due_after(1, 100, 2, kOpen), first);
+  EXPECT_GT(due_after(1, 40, 2, kOpen), first);
+}
+
+TEST(MarginalGain, NobodyStarves) {
+  const std::int64_t least = due_after(100, 100, 0, kOpen), most = due_after(100, 0, 100, kOpen);
+  EXPECT_GT(least, 0);
+  EXPECT_EQ(least, due_after(200, 100, 0, kOpen));
+  EXPECT_EQ(most, due_after(200, 0, 100, kOpen));
+  EXPECT_LT(most, 20 * kSearch);
+}
+
+TEST(MarginalGain, NothingIsGainedByNobody) {
+  EXPECT_EQ(due_after(100, 0, 0, kOpen), due_after(100, 100, 0, kOpen));
+}
+
+TEST(MarginalGain, CloseToTheEndTheProofHasPriority) {
+  EXPECT_LE(due_after(100, 0, 100, kNearlyClosed), due_after(0, 0, 0, kOpen));
+  MarginalGain gain;
+  for (int turn = 0; turn < 100; ++turn) gain.count_plans(kPlans, 100, kOpen);
+  const std::int64_t before = gain.due(kSearch);
+  gain.count_plans(kPlans, 100, kNearlyClosed);
+  EXPECT_LT(gain.due(kSearch), before);
+}
+
+TEST(MarginalGain, WhatIsLongAgoIsForgotten) {
+  MarginalGain gain;
+  gain.count_search(kSearch, 1'000'000);
+  for (int turn = 0; turn < 100; ++turn) {
+    gain.count_search(kSearch, 0);
+    gain.count_plans(kPlans, 1, kOpen);
+  }
+  EXPECT_GT(gain.due(kSearch), due_after(0, 0, 0, kOpen));
+}
+
+}  // namespace
+}  // namespace quadrille::discrete
