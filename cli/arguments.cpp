@@ -60,9 +60,11 @@ CLI::Option* add_seconds(CLI::App& app, const std::string& name, std::optional<d
       ->type_name("SECONDS");
 }
 
-CLI::Option* add_per_cent(CLI::App& app, const std::string& name, std::optional<double>& number,
-                          const std::string& help) {
-  return add_number(app, name, number, 100, "a number from 0 to 100", help)->type_name("PER CENT");
+CLI::Option* add_per_cents(CLI::App& app, const std::string& name, std::optional<double>& number,
+                           const std::string& help) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  return add_number(app, name, number, kMost, "a number of per cent, 0 or more", help)
+      ->type_name("PER CENT");
 }
 
 CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<double>& number,

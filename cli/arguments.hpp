@@ -31,9 +31,9 @@ CLI::Option* add_integer(CLI::App& app, const std::string& name,
 /// Adds an option that takes a finite number of seconds >= 0.
 CLI::Option* add_seconds(CLI::App& app, const std::string& name, std::optional<double>& number,
                          const std::string& help);
-/// A number from 0 to 100.
-CLI::Option* add_per_cent(CLI::App& app, const std::string& name, std::optional<double>& number,
-                          const std::string& help);
+/// A number of at least 0.
+CLI::Option* add_per_cents(CLI::App& app, const std::string& name, std::optional<double>& number,
+                           const std::string& help);
 /// Adds an option that takes a number in [0, 1].
 CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<double>& number,
                        const std::string& help);

@@ -44,6 +44,10 @@ void Delivery::write_plan(const std::optional<Result<std::string>>& text) {
   }
 }
 
+void Delivery::write_interim_plan(const Result<std::string>& text) {
+  if (plan_file_ && text) static_cast<void>(plan_file_->write(*text));
+}
+
 void Delivery::write_json(const std::string& text) {
   if (json_file_) write(*json_file_, text);
 }

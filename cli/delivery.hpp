@@ -28,6 +28,8 @@ class Delivery {
 
   /// `text`: the plan, or why it cannot be expressed; nullopt without a plan.
   void write_plan(const std::optional<Result<std::string>>& text);
+  /// A plan that is not the last one. Nothing is said if that fails: the last one will fail, too.
+  void write_interim_plan(const Result<std::string>& text);
   [[nodiscard]] bool has_json_file() const noexcept { return json_file_.has_value(); }
   void write_json(const std::string& text);
   /// The end of the human output.

@@ -116,8 +116,8 @@ void add_limit_options(CLI::App& app, SolveArguments& arguments) {
   add_integer(app, "--conflict-limit", limits.conflicts, 0, INT64_MAX,
               "Stop after this many conflicts of the SAT solver")
       ->group(group);
-  add_per_cent(app, "--gap", arguments.options.gap_percent,
-               "Stop when the plan costs at most this many per cent more than is proved necessary")
+  add_per_cents(app, "--gap", arguments.options.gap_percent,
+                "Stop when the plan costs at most this many per cent more than is proved necessary")
       ->group(group);
 }
 
@@ -128,6 +128,9 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
   add_plan_format(app, "--plan-format", arguments.plan_format,
                   "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs; default: by the\n"
                   "name of the file, else json")
+      ->group(group);
+  add_seconds(app, "--plan-every", arguments.plan_every,
+              "Write each better plan to the file of --plan, at most once in so many seconds")
       ->group(group);
   add_file(app, "--json", arguments.json, "Write the result as JSON; - is standard output")
       ->group(group);
@@ -156,6 +159,8 @@ std::string check_solve_outputs(const SolveArguments& arguments) {
                      &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.known_plan});
   if (wrong.empty() && arguments.plan_format.is_given() && arguments.plan.empty())
     wrong = "--plan-format needs --plan";
+  if (wrong.empty() && arguments.plan_every && (arguments.plan.empty() || arguments.plan == "-"))
+    wrong = "--plan-every needs --plan with a file";
   return wrong;
 }
 

@@ -23,6 +23,7 @@ struct SolveArguments {
   std::string known_plan;  ///< File name; empty without one.
   std::string plan, json;  ///< Output files; empty without, "-" for standard output.
   PlanFormats plan_format;
+  std::optional<double> plan_every;  ///< Seconds.
   bool quiet = false;
 };
 

@@ -36,7 +36,7 @@ std::optional<Error> read_known_plan(const std::string& name, const Instance& in
 ///
 ///     instance(), objective()
 ///     describe_request()                 the first lines of the human output
-///     solve(ProgressLine&)               Result<Outcome>
+///     solve(ProgressLine&, on_plan)      Result<Outcome>; on_plan(plan) hears of better plans
 ///     plan_text(plan)                    Result<std::string>, the file of --plan
 ///     json(outcome, replay)              the file of --json
 ///     describe(outcome, replay)          the last lines of the human output
@@ -48,7 +48,12 @@ ExitCode solve_and_deliver(const Domain& domain, const SolveArguments& arguments
   delivery.console().print(domain.describe_request());
   auto answer = [&] {
     ProgressLine line(!arguments.quiet);
-    return domain.solve(line);
+    const auto write_plan = [&](const auto& plan) {
+      // Nothing is given out that does not stand a replay.
+      if (verify(domain.instance(), plan).valid())
+        delivery.write_interim_plan(domain.plan_text(plan));
+    };
+    return domain.solve(line, write_plan);
   }();
   if (!answer) {
     report_error(answer.error());

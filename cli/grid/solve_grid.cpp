@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -64,8 +65,13 @@ class GridSolve {
                                                 to_string(options.system), check,
                                                 to_string(options.objective), options.seed);
   }
-  [[nodiscard]] Result<SolveOutcome> solve(ProgressLine& line) const {
+  [[nodiscard]] Result<SolveOutcome> solve(
+      ProgressLine& line, const std::function<void(const discrete::Plan&)>& on_plan) const {
     discrete::SolveOptions options = arguments_.options;
+    if (arguments_.plan_every) {
+      options.on_plan = on_plan;
+      options.plan_interval_s = *arguments_.plan_every;
+    }
     if (line.active())
       options.on_progress = [&line](const auto& progress) { line.show(progress_text(progress)); };
     return discrete::solve(instance(), options);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -62,8 +63,13 @@ class RoadmapSolve {
                                                 to_string(options_.system),
                                                 to_string(options_.objective), options_.seed);
   }
-  [[nodiscard]] Result<SolveOutcome> solve(ProgressLine& line) const {
+  [[nodiscard]] Result<SolveOutcome> solve(
+      ProgressLine& line, const std::function<void(const continuous::Plan&)>& on_plan) const {
     SolveOptions options = options_;
+    if (arguments_.plan_every) {
+      options.on_plan = on_plan;
+      options.plan_interval_s = *arguments_.plan_every;
+    }
     if (line.active())
       options.on_progress = [&](const continuous::Progress& progress) {
         line.show(progress_text(progress, instance().resolution()));

@@ -63,6 +63,19 @@ TEST_F(InterruptTest, TheLowerBoundIsNotForgotten) {
   EXPECT_GT(json::parse(finished.out)["lower_bound"], 0);
 }
 
+TEST_F(InterruptTest, WhoIsKilledLeavesThePlanThatItHad) {
+  Process process(folder_,
+                  hard("solve", {"--plan", path("p.json"), "--plan-every", "0", "--quiet"}));
+  for (int ms = 0; ms < 20'000 && !exists("p.json"); ms += 10) sleep_ms(10);
+  for (int look = 0; look < 5; ++look) {  // while it is replaced
+    EXPECT_EQ(run(hard("verify", {path("p.json")})).code, 0);
+    sleep_ms(20);
+  }
+  process.signal(SIGKILL);
+  EXPECT_EQ(process.wait(2).signal, SIGKILL);
+  EXPECT_EQ(run(hard("verify", {path("p.json")})).code, 0);
+}
+
 TEST_F(InterruptTest, NoTemporaryFilesStay) {
   const auto arguments = hard("solve", {"--json", path("r.json"), "--plan", path("p.json")});
   const auto before = files();

@@ -100,6 +100,8 @@ TEST_F(RoadmapInputTest, WrongCommandLinesExitWith64AndNameTheCulprit) {
       {xml("solve", {"--instance", "i"}), "--roadmap goes with --task"},
       {xml("solve", {"--system", "mdd-sat"}), "a roadmap needs --system dpll or smt-cbs"},
       {xml("solve", {"--plan-format", "json"}), "--plan-format needs --plan"},
+      {xml("solve", {"--plan-every", "1"}), "--plan-every needs --plan with a file"},
+      {xml("solve", {"--plan", "-", "--plan-every", "1"}), "--plan-every needs --plan with a file"},
       {xml("solve", {"--plan", "p", "--plan-format", "yaml"}), "yaml is not for roadmaps"},
       {small("solve", {"--plan", "p", "--plan-format", "ccbs"}), "ccbs is for roadmaps"},
       {small("verify", {"p", "--plan-format", "ccbs"}), "ccbs is for roadmaps"},

@@ -33,6 +33,8 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   if (!(options.progress_interval_s >= 0))
     return Error{
         ErrorCode::out_of_range, "the progress interval is not a number of at least 0", {}};
+  if (!(options.plan_interval_s >= 0))
+    return Error{ErrorCode::out_of_range, "the plan interval is not a number of at least 0", {}};
   if (options.debug.known_plan && !verify(instance, *options.debug.known_plan).valid())
     return Error{ErrorCode::invalid_plan, "the known plan is not a plan of this instance", {}};
   return std::nullopt;
@@ -87,7 +89,8 @@ class Auditors final : public sat::ClauseObserver {
   std::optional<sat::CoreAuditor> of_cores_;
 };
 
-/// Tells of the progress in the pauses of the search, as often as the options say.
+/// Tells of the progress and of better plans in the pauses of the search, as often as the options
+/// say.
 class ProgressReport final : public sat::YieldPoint {
  public:
   ProgressReport(const SolveOptions& options, const LimitMonitor& limits,
@@ -100,18 +103,24 @@ class ProgressReport final : public sat::YieldPoint {
   [[nodiscard]] std::optional<Cost> incumbent() const { return incumbent_; }
 
   void yield() override {
-    if (!options_.on_progress || limits_.elapsed_wall() < next_s_) return;
-    options_.on_progress(
-        {outcome_.lower_bound, incumbent_, limits_.elapsed_wall(), limits_.conflicts()});
-    next_s_ = limits_.elapsed_wall() + options_.progress_interval_s;
+    const double now = limits_.elapsed_wall();
+    if (options_.on_progress && now >= next_s_) {
+      options_.on_progress({outcome_.lower_bound, incumbent_, now, limits_.conflicts()});
+      next_s_ = now + options_.progress_interval_s;
+    }
+    if (options_.on_plan && incumbent_ && incumbent_ != reported_cost_ && now >= next_plan_s_) {
+      options_.on_plan(*outcome_.plan);
+      reported_cost_ = incumbent_;
+      next_plan_s_ = now + options_.plan_interval_s;
+    }
   }
 
  private:
   const SolveOptions& options_;
   const LimitMonitor& limits_;
   const SolveOutcome& outcome_;
-  std::optional<Cost> incumbent_;
-  double next_s_;
+  std::optional<Cost> incumbent_, reported_cost_;
+  double next_s_, next_plan_s_ = 0;
 };
 
 /// What the agents cost when each is alone. Requires that all can reach their goals then.

@@ -111,6 +111,7 @@ SolveOptions options_of(const SolveOptions& options, const Tuner& tuner, std::si
   using Kind = CheckSchedule::Kind;
   SolveOptions other = options;
   other.on_progress = {};
+  other.on_plan = {};
   other.first_plan = false;
   other.cost_search = CostSearch::core_guided;
   other.mdd.growth = MddGrowth::on_demand;

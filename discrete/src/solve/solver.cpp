@@ -87,6 +87,7 @@ class Search final : private sat::YieldPoint {
     }
     consider_stop();
     report_progress();
+    report_plan();
   }
 
   /// Ends the search when the bounds meet, or are as close as was asked for.
@@ -102,6 +103,15 @@ class Search final : private sat::YieldPoint {
     options_.on_progress(
         {incumbent_.lower(), incumbent_.upper(), limits_.elapsed_wall(), limits_.conflicts()});
     next_report_s_ = limits_.elapsed_wall() + options_.progress_interval_s;
+  }
+
+  void report_plan() {
+    if (!options_.on_plan || !incumbent_.upper() || incumbent_.upper() == reported_cost_ ||
+        limits_.elapsed_wall() < next_plan_s_)
+      return;
+    options_.on_plan(incumbent_.plan());
+    reported_cost_ = incumbent_.upper();
+    next_plan_s_ = limits_.elapsed_wall() + options_.plan_interval_s;
   }
 
   [[nodiscard]] sat::SearchEnd search_costs(Run& run) {
@@ -148,7 +158,8 @@ class Search final : private sat::YieldPoint {
   Incumbent incumbent_;
   std::optional<PlanSearch> plans_;
   const Run* run_ = nullptr;  // when it is prepared
-  double next_report_s_ = 0;
+  double next_report_s_ = 0, next_plan_s_ = 0;
+  std::optional<Cost> reported_cost_;
 };
 
 /// The plan has to pass `verify` and to cost what was proved.
@@ -181,6 +192,8 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return refuse(ErrorCode::out_of_range, "the number of threads is not from 1 to 64");
   if (!(options.progress_interval_s >= 0))
     return refuse(ErrorCode::out_of_range, "the progress interval is not a number of at least 0");
+  if (!(options.plan_interval_s >= 0))
+    return refuse(ErrorCode::out_of_range, "the plan interval is not a number of at least 0");
   if (options.seed > 2'000'000'000)
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
   if (options.debug.known_plan && !verify(instance, *options.debug.known_plan).valid())

@@ -2,6 +2,7 @@
 // Limits: a search that is cut short anywhere claims nothing that is not true.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -92,6 +93,24 @@ TEST(SolverLimits, ProgressIsToldInOrder) {
     };
     const SolveOutcome outcome = solve(c.instance, options).value();
     EXPECT_EQ(outcome.cost, c.truth.cost);
+  }
+  EXPECT_GE(num_told, 12);
+}
+
+TEST(SolverLimits, BetterPlansAreTold) {
+  int num_told = 0;
+  for (const Case& c : cases(12)) {
+    SolveOptions options = c.options;
+    options.plan_interval_s = 0;
+    Cost last = std::numeric_limits<Cost>::max();
+    options.on_plan = [&](const Plan& plan) {
+      ++num_told;
+      EXPECT_TRUE(verify(c.instance, plan).valid());
+      EXPECT_LT(cost(plan, options.objective), last);
+      last = cost(plan, options.objective);
+    };
+    const SolveOutcome outcome = solve(c.instance, options).value();
+    EXPECT_LE(outcome.cost, last);
   }
   EXPECT_GE(num_told, 12);
 }

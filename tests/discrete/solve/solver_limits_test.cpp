@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "quadrille/discrete/verify.hpp"
 #include "support/case_text.hpp"
 #include "support/environment.hpp"
 #include "support/solver_cases.hpp"
@@ -110,6 +114,26 @@ TEST(SolverLimits, Conflicts) {
     }
   }
   EXPECT_GT(num_stopped, 20);
+}
+
+TEST(SolverLimits, BetterPlansAreTold) {
+  const Instance instance = hard_instance();
+  for (TunedOptions options : systems_for_both_objectives()) {
+    if (!options.first_plan) continue;
+    options.limits.conflicts = 300;
+    options.plan_interval_s = 0;
+    std::vector<Cost> told;
+    options.on_plan = [&](const Plan& plan) {
+      EXPECT_TRUE(verify(instance, plan).valid());
+      told.push_back(plan.cost(options.objective));
+    };
+    const SolveOutcome outcome = solve(instance, options).value();
+    ASSERT_FALSE(told.empty()) << options_text(options);
+    EXPECT_TRUE(std::is_sorted(told.rbegin(), told.rend(), std::less_equal<>()));
+    EXPECT_LE(outcome.cost, told.back());
+    options.on_plan = {};
+    EXPECT_EQ(solve(instance, options).value().plan, outcome.plan) << "nothing depends on it";
+  }
 }
 
 TEST(SolverLimits, Memory) {

@@ -126,6 +126,11 @@ struct SolveOptions {
   /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;
   double progress_interval_s = 0.25;  ///< At least 0.
+  /// Called on the solving thread with the best plan so far, if it is cheaper than at the last
+  /// call, at most once in `plan_interval_s` seconds; the answer may be better still. May be empty.
+  /// What it throws ends the search and comes out of `solve`.
+  std::function<void(const Plan&)> on_plan;
+  double plan_interval_s = 1;  ///< At least 0.
   DebugOptions debug;
 };
 
