@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "primal/plan_repair.hpp"
 
+#include <algorithm>
 #include <utility>
-#include <vector>
+
+#include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
+namespace {
+
+// A neighbourhood is given up when its new paths take more effort than so much per timestep of the
+// old ones, plus something for short paths.
+constexpr std::int64_t kEffortPerTimestep = 50;
+constexpr std::int64_t kLeastEffort = 1000;
+// Agents taken out together: powers of two.
+constexpr std::uint64_t kNumSizes = 5;
+// So many neighbourhoods in a row that do not help make the next ones larger, and dearer.
+constexpr std::int64_t kPatience = 16;
+// How much later than alone an agent may arrive: powers of two as well. The smaller, the cheaper
+// the plan, and the sooner the planner knows that there is nothing better.
+constexpr Timestep kLeastSlack = 2;
+constexpr std::uint64_t kNumSlacks = 10;
+
+}  // namespace
 
 PlanRepair::PlanRepair(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
                        std::uint32_t seed)
@@ -12,47 +30,164 @@ PlanRepair::PlanRepair(const Instance& instance, std::shared_ptr<const GoalDista
       distances_(std::move(distances)),
       random_(seed),
       reservations_(instance.graph().num_vertices()),
-      planner_(instance_, *distances_, random_) {}
+      planner_(instance_, *distances_, random_),
+      meetings_(instance.num_agents(), 0),
+      place_(instance.num_agents(), 0),
+      is_chosen_(instance.num_agents(), 0),
+      is_queued_(instance.graph().num_vertices(), 0) {}
 
-std::optional<Plan> PlanRepair::repair(const Plan& draft, LimitMonitor& limits) {
-  constexpr std::int64_t kEffortPerTimestep = 100;  // for who has to go out of everybody's way
-  Plan plan = draft;
-  trim(plan);
-  std::vector<AgentId> agents, kept, rest;
-  for (const AgentId agent : instance_.agents()) agents.push_back(agent);
-  random_.shuffle_front(agents, agents.size());
-  for (const AgentId agent : agents) {
-    const bool is_kept = is_free(plan.paths[agent]);
-    if (is_kept) reservations_.add(agent, plan.paths[agent]);
-    (is_kept ? kept : rest).push_back(agent);
-  }
-  bool works = true;
-  for (const AgentId agent : rest) {
-    const auto effort = kEffortPerTimestep * static_cast<std::int64_t>(plan.paths[agent].size());
-    auto path = planner_.find(agent, reservations_, kForever - 1, effort, limits);
-    works = path.has_value();
-    if (!works) break;
-    plan.paths[agent] = std::move(*path);
-    reservations_.add(agent, plan.paths[agent]);
-    kept.push_back(agent);
-  }
-  for (const AgentId agent : kept) reservations_.remove(plan.paths[agent]);
-  if (!works) return std::nullopt;
-  return plan;
+std::optional<Plan> PlanRepair::repair(const Plan& draft, std::int64_t effort,
+                                       LimitMonitor& limits) {
+  restart_from(draft);
+  if (!advance(effort, limits)) return std::nullopt;
+  return plan_;
 }
 
-bool PlanRepair::is_free(const Path& path) const {
-  const auto arrival = static_cast<Timestep>(path.size()) - 1;
-  for (Timestep t = 0; t <= arrival; ++t) {
-    const VertexId v = path[static_cast<std::size_t>(t)];
-    if (reservations_.stay_at(v, t) != nullptr) return false;
-    if (t == arrival) break;
-    const VertexId w = path[static_cast<std::size_t>(t) + 1];
-    const Stay* ahead = reservations_.stay_at(w, t);
-    if (ahead != nullptr && ahead->end == t && ahead->next == v) return false;
+void PlanRepair::restart_from(const Plan& draft) {
+  QUADRILLE_REQUIRE(draft.paths.size() == instance_.num_agents(), "one path per agent");
+  reservations_.clear();
+  std::fill(meetings_.begin(), meetings_.end(), 0);
+  num_meetings_ = 0;
+  colliding_.clear();
+  plan_ = draft;
+  trim(plan_);
+  for (const AgentId agent : instance_.agents()) {
+    effort_ += static_cast<std::int64_t>(plan_.paths[agent].size()) / 4 + 1;
+    reserve(agent);
   }
-  const auto stays = reservations_.stays(path.back());
-  return stays.empty() || stays.back().end < arrival;
+}
+
+bool PlanRepair::advance(std::int64_t effort, LimitMonitor& limits) {
+  const std::int64_t enough = effort_ > INT64_MAX - effort ? INT64_MAX : effort_ + effort;
+  while (num_meetings_ > 0 && effort_ < enough && !limits.exhausted()) step(limits);
+  return num_meetings_ == 0;
+}
+
+void PlanRepair::step(LimitMonitor& limits) {
+  // One or two as long as that helps: this keeps most paths, and is soon done.
+  const auto patience = static_cast<std::uint64_t>(num_failures_ / kPatience);
+  choose(std::size_t{1} << random_.below(std::min(kNumSizes, 2 + patience)));
+  const std::int64_t before = num_meetings_;
+  old_paths_.clear();
+  for (const AgentId agent : chosen_) {
+    release(agent);
+    old_paths_.push_back(std::move(plan_.paths[agent]));
+    effort_ += static_cast<std::int64_t>(old_paths_.back().size()) / 4 + 1;
+  }
+  const Timestep slack = kLeastSlack << random_.below(kNumSlacks);
+  const std::int64_t effort_before = planner_.effort();
+  std::size_t num_new = 0;
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    const AgentId agent = chosen_[k];
+    const Timestep least = (*distances_)(agent, instance_.tasks()[agent].start);
+    const auto old_arrival = static_cast<Timestep>(old_paths_[k].size()) - 1;
+    const Timestep latest = std::max(least + slack, old_arrival);
+    auto found = planner_.find(agent, reservations_, latest, before - num_meetings_,
+                               allowed(old_paths_[k]), limits);
+    if (!found) break;
+    plan_.paths[agent] = std::move(found->path);
+    reserve(agent);
+    ++num_new;
+  }
+  effort_ += planner_.effort() - effort_before;
+  if (num_new < chosen_.size()) put_back(num_new);
+  num_failures_ = num_meetings_ < before ? 0 : num_failures_ + 1;
+}
+
+/// Grows with the number of neighbourhoods in a row that did not help.
+std::int64_t PlanRepair::allowed(const Path& old_path) const {
+  const auto length = static_cast<std::int64_t>(old_path.size());
+  return (kEffortPerTimestep * length + kLeastEffort) * (1 + num_failures_ / 64);
+}
+
+void PlanRepair::put_back(std::size_t num_new) {
+  for (std::size_t k = 0; k < num_new; ++k) release(chosen_[k]);
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    plan_.paths[chosen_[k]] = std::move(old_paths_[k]);
+    reserve(chosen_[k]);
+  }
+}
+
+/// An agent that meets others, those it meets, those these meet, and so on; and when that is not
+/// enough, those who pass the vertices near its path.
+void PlanRepair::choose(std::size_t size) {
+  chosen_.clear();
+  const AgentId seed = colliding_[static_cast<std::size_t>(random_.below(colliding_.size()))];
+  take(seed);
+  for (std::size_t head = 0; head < chosen_.size() && chosen_.size() < size; ++head) {
+    met_.clear();
+    reservations_.for_each_meeting(chosen_[head], plan_.paths[chosen_[head]],
+                                   [this](AgentId other) { met_.push_back(other); });
+    random_.shuffle_front(met_, met_.size());
+    for (const AgentId other : met_)
+      if (chosen_.size() < size) take(other);
+  }
+  if (chosen_.size() < size) {
+    const Path& path = plan_.paths[seed];
+    gather_around(path[static_cast<std::size_t>(random_.below(path.size()))], size);
+  }
+  random_.shuffle_front(chosen_, chosen_.size());
+  for (const AgentId agent : chosen_) is_chosen_[agent] = 0;
+}
+
+void PlanRepair::gather_around(VertexId centre, std::size_t size) {
+  queue_.assign(1, centre);
+  is_queued_[centre] = 1;
+  for (std::size_t head = 0; head < queue_.size() && chosen_.size() < size; ++head) {
+    const VertexId v = queue_[head];
+    const auto stays = reservations_.stays(v);
+    const std::size_t count = stays.size();
+    const std::size_t shift = count == 0 ? 0 : static_cast<std::size_t>(random_.below(count));
+    for (std::size_t k = 0; k < count && chosen_.size() < size; ++k)
+      take(stays[(k + shift) % count].agent);
+    for (const VertexId w : instance_.graph().neighbours(v)) {
+      if (is_queued_[w] != 0) continue;
+      is_queued_[w] = 1;
+      queue_.push_back(w);
+    }
+  }
+  effort_ += static_cast<std::int64_t>(queue_.size()) / 4;
+  for (const VertexId v : queue_) is_queued_[v] = 0;
+}
+
+void PlanRepair::take(AgentId agent) {
+  if (is_chosen_[agent] != 0) return;
+  is_chosen_[agent] = 1;
+  chosen_.push_back(agent);
+}
+
+void PlanRepair::reserve(AgentId agent) {
+  const Path& path = plan_.paths[agent];
+  reservations_.for_each_meeting(agent, path, [&](AgentId other) {
+    change_meetings(agent, 1);
+    change_meetings(other, 1);
+    ++num_meetings_;
+  });
+  reservations_.add(agent, path);
+}
+
+void PlanRepair::release(AgentId agent) {
+  const Path& path = plan_.paths[agent];
+  reservations_.remove(agent, path);
+  reservations_.for_each_meeting(agent, path, [&](AgentId other) {
+    change_meetings(agent, -1);
+    change_meetings(other, -1);
+    --num_meetings_;
+  });
+}
+
+void PlanRepair::change_meetings(AgentId agent, std::int64_t change) {
+  std::int64_t& count = meetings_[agent];
+  if (count == 0) {
+    place_[agent] = colliding_.size();
+    colliding_.push_back(agent);
+  }
+  count += change;
+  if (count > 0) return;
+  const AgentId last = colliding_.back();
+  colliding_[place_[agent]] = last;
+  place_[last] = place_[agent];
+  colliding_.pop_back();
 }
 
 }  // namespace quadrille::discrete

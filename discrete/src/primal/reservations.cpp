@@ -4,23 +4,6 @@
 #include <algorithm>
 
 namespace quadrille::discrete {
-namespace {
-
-/// Calls f(vertex, stay) for the stays of a path, in order.
-template <class F>
-void for_each_stay(AgentId agent, const Path& path, const F& f) {
-  std::size_t begin = 0;
-  for (std::size_t t = 1; t <= path.size(); ++t) {
-    const bool is_last = t == path.size();
-    if (!is_last && path[t] == path[begin]) continue;
-    f(path[begin],
-      Stay{static_cast<Timestep>(begin), is_last ? kForever : static_cast<Timestep>(t - 1),
-           is_last ? path[begin] : path[t], agent});
-    begin = t;
-  }
-}
-
-}  // namespace
 
 void Reservations::add(AgentId agent, const Path& path) {
   for_each_stay(agent, path, [&](VertexId v, const Stay& stay) {

@@ -18,6 +18,20 @@ struct Stay {
   AgentId agent;
 };
 
+/// Calls f(vertex, stay) for the stays of a trimmed path, in order.
+template <class F>
+void for_each_stay(AgentId agent, const Path& path, const F& f) {
+  std::size_t begin = 0;
+  for (std::size_t t = 1; t <= path.size(); ++t) {
+    const bool is_last = t == path.size();
+    if (!is_last && path[t] == path[begin]) continue;
+    f(path[begin],
+      Stay{static_cast<Timestep>(begin), is_last ? kForever : static_cast<Timestep>(t - 1),
+           is_last ? path[begin] : path[t], agent});
+    begin = t;
+  }
+}
+
 /// Who is where when: the stays of a set of collision-free paths, by vertex. Memory follows the
 /// number of vertices and of stays, not the horizon.
 class Reservations {

@@ -48,7 +48,7 @@ void PlanImprovement::improve_draft(std::int64_t effort) {
   const Plan draft = std::exchange(draft_, {});
   draft_was_good_ = false;
   if (draft.paths.size() != context_.instance.num_agents()) return;
-  const auto plan = repair_.repair(draft, context_.limits);
+  const auto plan = repair_.repair(draft, effort, context_.limits);
   if (!plan) return;
   if (rival_)
     rival_->restart_from(*plan);

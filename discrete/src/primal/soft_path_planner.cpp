@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "primal/soft_path_planner.hpp"
+
+#include <algorithm>
+
+namespace quadrille::discrete {
+
+SoftPathPlanner::SoftPathPlanner(const Instance& instance, const GoalDistances& distances,
+                                 Random& random)
+    : instance_(instance),
+      distances_(distances),
+      random_(random),
+      heads_(instance.graph().num_vertices()) {}
+
+std::optional<SoftPathPlanner::Result> SoftPathPlanner::find(AgentId agent,
+                                                             const SoftReservations& reservations,
+                                                             Timestep latest, std::int64_t most,
+                                                             std::int64_t effort,
+                                                             LimitMonitor& limits) {
+  const std::int64_t enough = effort_ + effort;
+  begin(agent, reservations, latest, most);
+  while (const auto label = next()) {
+    if (labels_[*label].piece == kAtRest)
+      return Result{path_to(*label), labels_[*label].num_meetings};
+    if (effort_ >= enough || ((++effort_ & 63) == 0 && limits.exhausted())) return std::nullopt;
+    expand(*label);
+  }
+  return std::nullopt;
+}
+
+void SoftPathPlanner::begin(AgentId agent, const SoftReservations& reservations, Timestep latest,
+                            std::int64_t most) {
+  agent_ = agent;
+  reservations_ = &reservations;
+  latest_ = latest;
+  most_ = most;
+  const auto [start, goal] = instance_.tasks()[agent];
+  goal_ = goal;
+  ++search_;
+  labels_.clear();
+  for (std::size_t k = 0; k < num_levels_; ++k) {
+    Level& level = levels_[k];
+    for (std::size_t i = level.at; i < level.end; ++i) level.buckets[i].clear();
+    level.at = level.end = 0;
+  }
+  level_ = num_levels_ = 0;
+  earliest_ = distances_(agent, start);
+  const auto pieces = reservations.pieces(start);
+  add({start, 0, 0, SoftReservations::end_of(pieces, 0), pieces.front().present, kNone, kNone,
+       false});
+}
+
+/// The label to expand next.
+std::optional<SoftPathPlanner::LabelIndex> SoftPathPlanner::next() {
+  for (; level_ < num_levels_; ++level_) {
+    Level& level = levels_[level_];
+    for (; level.at < level.end; ++level.at) {
+      auto& bucket = level.buckets[level.at];
+      while (!bucket.empty()) {
+        // Last in, first out: among equals the one that is nearest to the goal, as a rule.
+        const LabelIndex label = bucket.back();
+        bucket.pop_back();
+        if (!labels_[label].is_outdated) return label;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+void SoftPathPlanner::expand(LabelIndex from) {
+  const VertexId v = labels_[from].vertex;
+  if (v == goal_) rest(from);
+  wait(from);
+  const auto near = instance_.graph().neighbours(v);
+  if (near.empty()) return;
+  // A random first neighbour makes a random path among many that are as good.
+  const auto shift = static_cast<std::size_t>(random_.below(near.size()));
+  for (std::size_t k = 0; k < near.size(); ++k) reach(from, near[(k + shift) % near.size()]);
+}
+
+/// Stays while others come or go.
+void SoftPathPlanner::wait(LabelIndex from) {
+  Label label = labels_[from];
+  if (label.piece_end == kForever) return;
+  const auto pieces = reservations_->pieces(label.vertex);
+  ++label.piece;
+  label.time = pieces[label.piece].begin;
+  label.piece_end = SoftReservations::end_of(pieces, label.piece);
+  label.num_meetings += pieces[label.piece].begins;
+  label.parent = from;
+  add(label);
+}
+
+/// Adds the arrivals in all pieces of a neighbour that overlap the rest of the label's piece.
+void SoftPathPlanner::reach(LabelIndex from, VertexId to) {
+  const Label label = labels_[from];
+  const Timestep distance = distances_(agent_, to);
+  if (distance > latest_) return;
+  const Timestep first = label.time + 1;
+  const Timestep last = std::min(label.piece_end, latest_ - distance - 1) + 1;
+  if (first > last) return;
+  const auto pieces = reservations_->pieces(to);
+  for (std::size_t k = SoftReservations::piece_at(pieces, first);
+       k < pieces.size() && pieces[k].begin <= last; ++k) {
+    const Timestep arrival = std::max(first, pieces[k].begin);
+    std::uint32_t met = pieces[k].present;
+    // Whoever leaves for the label's vertex when the agent comes swaps with it. The label's piece
+    // ends then, so waiting in it does not help.
+    if (arrival == pieces[k].begin && pieces[k].ends > 0)
+      met += reservations_->swaps(label.vertex, to, arrival);
+    add({to, static_cast<std::uint32_t>(k), arrival, SoftReservations::end_of(pieces, k),
+         label.num_meetings + met, from, kNone, false});
+  }
+}
+
+/// Stays in the goal for ever, and meets all who are still to come.
+void SoftPathPlanner::rest(LabelIndex from) {
+  Label label = labels_[from];
+  const auto stays = reservations_->stays(goal_);
+  const auto later = std::partition_point(
+      stays.begin(), stays.end(), [&](const Stay& stay) { return stay.begin <= label.piece_end; });
+  label.num_meetings += static_cast<std::uint32_t>(stays.end() - later);
+  label.piece = kAtRest;
+  label.parent = from;
+  add(label);
+}
+
+void SoftPathPlanner::add(const Label& label) {
+  const Timestep distance = distances_(agent_, label.vertex);
+  if (label.num_meetings > most_ || distance > latest_ || label.time > latest_ - distance) return;
+  Head& head = heads_[label.vertex];
+  if (head.search != search_) head = {search_, kNone};
+  for (LabelIndex other = head.first; other != kNone; other = labels_[other].next_here) {
+    Label& known = labels_[other];
+    if (known.piece != label.piece || known.is_outdated) continue;
+    if (known.num_meetings <= label.num_meetings && known.time <= label.time) return;
+    if (known.num_meetings >= label.num_meetings && known.time >= label.time)
+      known.is_outdated = true;
+  }
+  const auto index = static_cast<LabelIndex>(labels_.size());
+  labels_.push_back(label);
+  labels_.back().next_here = head.first;
+  labels_.back().is_outdated = false;
+  head.first = index;
+  if (label.num_meetings >= num_levels_) {
+    num_levels_ = label.num_meetings + 1;
+    if (levels_.size() < num_levels_) levels_.resize(num_levels_);
+  }
+  Level& level = levels_[label.num_meetings];
+  const auto at = static_cast<std::size_t>(label.time + distance - earliest_);
+  if (at >= level.end) {
+    level.end = at + 1;
+    if (level.buckets.size() < level.end) level.buckets.resize(level.end);
+  }
+  level.buckets[at].push_back(index);
+}
+
+Path SoftPathPlanner::path_to(LabelIndex last) const {
+  // The time at rest begins with the last label before it that came from another vertex.
+  Path path;
+  LabelIndex at = labels_[last].parent;
+  path.resize(static_cast<std::size_t>(labels_[at].time) + 1);
+  std::size_t end = path.size();  // What is behind is filled.
+  for (; at != kNone; at = labels_[at].parent) {
+    const auto begin = static_cast<std::size_t>(labels_[at].time);
+    std::fill(path.begin() + static_cast<std::ptrdiff_t>(begin),
+              path.begin() + static_cast<std::ptrdiff_t>(end), labels_[at].vertex);
+    end = begin;
+  }
+  return path;
+}
+
+}  // namespace quadrille::discrete
