@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "primal/plan_repair.hpp"
+#include "primal/draft_repair.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/sat/strategy.hpp"
 #include "solve/incumbent.hpp"
@@ -46,25 +46,21 @@ class PlanImprovement final : public sat::Strategy {
   explicit PlanImprovement(const PlanSearchContext& context)
       : context_(context), repair_(context.instance, context.distances, context.seed) {}
 
-  /// Paths for the next slice, which may collide; no paths: none.
-  void set_draft(Plan draft) { draft_ = std::move(draft); }
-  /// Requires an incumbent, and a slice with effort: so much for the incumbent, and so much again
-  /// for a rival if there is a draft. What the draft itself costs comes on top, twice.
+  /// Tells where paths can be had that may collide, or none; they are taken when they are wanted.
+  void offer_draft(const std::function<Plan()>& draft);
+  /// Requires an incumbent, and a slice with effort: so much for the incumbent, so much for the
+  /// repair of a draft if there is one, and so much again for the rival when it is repaired.
   [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
-  /// What the last slice did beyond its effort.
-  [[nodiscard]] std::int64_t extra_effort() const noexcept { return extra_effort_; }
-  /// The draft of the last slice became the incumbent.
-  [[nodiscard]] bool draft_was_good() const noexcept { return draft_was_good_; }
+  /// Of the last slice, in all.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 
  private:
   void improve_draft(std::int64_t effort);
 
   const PlanSearchContext context_;
-  PlanRepair repair_;
+  DraftRepair repair_;
   std::optional<PlanImprover> improver_, rival_;
-  Plan draft_;
-  std::int64_t extra_effort_ = 0;
-  bool draft_was_good_ = false;
+  std::int64_t effort_ = 0;
 };
 
 /// The schedule of both beside a search that raises the lower bound. Slices, and what the search
@@ -94,7 +90,6 @@ class PlanSearch {
   std::int64_t seen_effort_ = 0;  // of the search, counted
   Cost seen_lower_ = 0;
   std::optional<Cost> seen_upper_;
-  std::int64_t effort_to_draft_, draft_wait_ = 1;
   std::int64_t start_effort_ = 0;
 };
 
