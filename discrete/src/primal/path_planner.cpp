@@ -8,7 +8,8 @@ namespace quadrille::discrete {
 PathPlanner::PathPlanner(const Instance& instance, const GoalDistances& distances, Random& random)
     : instance_(instance),
       distances_(distances),
-      random_(random),
+      ties_(random),
+      row_(distances.row(AgentId(0))),
       heads_(instance.graph().num_vertices()) {}
 
 std::optional<Path> PathPlanner::find(AgentId agent, const Reservations& reservations,
@@ -34,7 +35,7 @@ std::optional<Path> PathPlanner::find(AgentId agent, const Reservations& reserva
 
 /// False when there can be no path.
 bool PathPlanner::begin(AgentId agent, const Reservations& reservations, Timestep latest) {
-  agent_ = agent;
+  row_ = distances_.row(agent);
   reservations_ = &reservations;
   latest_ = latest;
   const auto [start, goal] = instance_.tasks()[agent];
@@ -46,30 +47,39 @@ bool PathPlanner::begin(AgentId agent, const Reservations& reservations, Timeste
   // The agent can only stay in its goal once all others have passed it for the last time.
   const auto passing = reservations.stays(goal);
   if (!passing.empty() && passing.back().end == kForever) return false;
-  earliest_ = std::max(distances_(agent, start), passing.empty() ? 0 : passing.back().end + 1);
+  earliest_ = std::max(row_[start], passing.empty() ? 0 : passing.back().end + 1);
   if (earliest_ > latest_) return false;
   const auto stays = reservations.stays(start);
-  add(start, 0, 0, stays.empty() ? kForever : stays.front().begin - 1, kNone);
+  add(start, 0, 0, stays.empty() ? kForever : stays.front().begin - 1, kNone, row_[start]);
   return true;
 }
 
 void PathPlanner::expand(LabelIndex from) {
   const auto near = instance_.graph().neighbours(labels_[from].vertex);
-  if (near.empty()) return;
   // A random first neighbour makes a random path among many of the same length.
-  const auto shift = static_cast<std::size_t>(random_.below(near.size()));
-  for (std::size_t k = 0; k < near.size(); ++k) reach(from, near[(k + shift) % near.size()]);
+  const std::size_t shift = ties_.draw(near.size());
+  for (std::size_t k = shift; k < near.size(); ++k) reach(from, near[k]);
+  for (std::size_t k = 0; k < shift; ++k) reach(from, near[k]);
 }
 
 /// Adds the arrivals in all gaps of a neighbour that overlap the rest of the label's gap.
 void PathPlanner::reach(LabelIndex from, VertexId to) {
-  const Timestep distance = distances_(agent_, to);
+  const Timestep distance = row_[to];
   const Label label = labels_[from];
   const Timestep first = label.time + 1;
   const Timestep last = std::min(label.gap_end, latest_ - distance - 1) + 1;
   if (first > last) return;
   const auto stays = reservations_->stays(to);
-  for (std::size_t gap = reservations_->first_ending_from(to, first); gap <= stays.size(); ++gap) {
+  std::size_t gap = 0;
+  if (label.parent != kNone && labels_[label.parent].vertex == to &&
+      labels_[label.parent].gap_end >= first) {
+    // Where it comes from, it was earlier; only the gaps after that one are left.
+    if (labels_[label.parent].gap_end >= last) return;
+    gap = labels_[label.parent].gap + 1;
+  } else {
+    gap = reservations_->first_ending_from(to, first);
+  }
+  for (; gap <= stays.size(); ++gap) {
     const Stay* const before = gap == 0 ? nullptr : &stays[gap - 1];
     if (before != nullptr && before->end == kForever) return;
     const Timestep begin = before == nullptr ? 0 : before->end + 1;
@@ -80,12 +90,12 @@ void PathPlanner::reach(LabelIndex from, VertexId to) {
     // Whoever leaves for the label's vertex when the agent comes would swap with it. The label's
     // gap ends then, so waiting does not help.
     if (before != nullptr && arrival == begin && before->next == label.vertex) continue;
-    add(to, static_cast<std::uint32_t>(gap), arrival, end, from);
+    add(to, static_cast<std::uint32_t>(gap), arrival, end, from, distance);
   }
 }
 
 void PathPlanner::add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end,
-                      LabelIndex parent) {
+                      LabelIndex parent, Timestep distance) {
   Head& head = heads_[v];
   if (head.search != search_) head = {search_, kNone};
   for (LabelIndex other = head.first; other != kNone; other = labels_[other].next_here) {
@@ -98,7 +108,7 @@ void PathPlanner::add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap
   const auto index = static_cast<LabelIndex>(labels_.size());
   labels_.push_back({v, gap, time, gap_end, parent, head.first, false});
   head.first = index;
-  const Timestep estimate = std::max(time + distances_(agent_, v), earliest_);
+  const Timestep estimate = std::max(time + distance, earliest_);
   const auto at = static_cast<std::size_t>(estimate - earliest_);
   if (at >= num_buckets_) {
     num_buckets_ = at + 1;

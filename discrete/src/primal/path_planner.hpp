@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "primal/reservations.hpp"
+#include "primal/tie_breaker.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
@@ -49,7 +50,8 @@ class PathPlanner {
   bool begin(AgentId agent, const Reservations& reservations, Timestep latest);
   void expand(LabelIndex from);
   void reach(LabelIndex from, VertexId to);
-  void add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end, LabelIndex parent);
+  void add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end, LabelIndex parent,
+           Timestep distance);
   [[nodiscard]] bool is_goal(const Label& label) const {
     return label.vertex == goal_ && label.gap_end == kForever;
   }
@@ -57,12 +59,12 @@ class PathPlanner {
 
   const Instance& instance_;
   const GoalDistances& distances_;
-  Random& random_;
+  TieBreaker ties_;
   std::int64_t effort_ = 0;
 
   // Of the current search.
   std::uint32_t search_ = 0;
-  AgentId agent_;
+  GoalDistances::Row row_;
   VertexId goal_;
   const Reservations* reservations_ = nullptr;
   Timestep earliest_ = 0, latest_ = 0;  // No arrival before, none after.

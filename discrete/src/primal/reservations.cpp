@@ -21,13 +21,6 @@ void Reservations::remove(const Path& path) {
   });
 }
 
-std::size_t Reservations::first_ending_from(VertexId v, Timestep t) const {
-  const auto& stays = stays_[v];
-  const auto it = std::partition_point(stays.begin(), stays.end(),
-                                       [t](const Stay& stay) { return stay.end < t; });
-  return static_cast<std::size_t>(it - stays.begin());
-}
-
 const Stay* Reservations::stay_at(VertexId v, Timestep t) const {
   const auto& stays = stays_[v];
   const std::size_t at = first_ending_from(v, t);

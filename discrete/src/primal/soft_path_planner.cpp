@@ -9,7 +9,8 @@ SoftPathPlanner::SoftPathPlanner(const Instance& instance, const GoalDistances& 
                                  Random& random)
     : instance_(instance),
       distances_(distances),
-      random_(random),
+      ties_(random),
+      row_(distances.row(AgentId(0))),
       heads_(instance.graph().num_vertices()) {}
 
 std::optional<SoftPathPlanner::Result> SoftPathPlanner::find(AgentId agent,
@@ -30,7 +31,7 @@ std::optional<SoftPathPlanner::Result> SoftPathPlanner::find(AgentId agent,
 
 void SoftPathPlanner::begin(AgentId agent, const SoftReservations& reservations, Timestep latest,
                             std::int64_t most) {
-  agent_ = agent;
+  row_ = distances_.row(agent);
   reservations_ = &reservations;
   latest_ = latest;
   most_ = most;
@@ -44,10 +45,11 @@ void SoftPathPlanner::begin(AgentId agent, const SoftReservations& reservations,
     level.at = level.end = 0;
   }
   level_ = num_levels_ = 0;
-  earliest_ = distances_(agent, start);
+  earliest_ = row_[start];
   const auto pieces = reservations.pieces(start);
   add({start, 0, 0, SoftReservations::end_of(pieces, 0), pieces.front().present, kNone, kNone,
-       false});
+       false},
+      earliest_);
 }
 
 /// The label to expand next.
@@ -72,10 +74,10 @@ void SoftPathPlanner::expand(LabelIndex from) {
   if (v == goal_) rest(from);
   wait(from);
   const auto near = instance_.graph().neighbours(v);
-  if (near.empty()) return;
   // A random first neighbour makes a random path among many that are as good.
-  const auto shift = static_cast<std::size_t>(random_.below(near.size()));
-  for (std::size_t k = 0; k < near.size(); ++k) reach(from, near[(k + shift) % near.size()]);
+  const std::size_t shift = ties_.draw(near.size());
+  for (std::size_t k = shift; k < near.size(); ++k) reach(from, near[k]);
+  for (std::size_t k = 0; k < shift; ++k) reach(from, near[k]);
 }
 
 /// Stays while others come or go.
@@ -88,13 +90,13 @@ void SoftPathPlanner::wait(LabelIndex from) {
   label.piece_end = SoftReservations::end_of(pieces, label.piece);
   label.num_meetings += pieces[label.piece].begins;
   label.parent = from;
-  add(label);
+  add(label, row_[label.vertex]);
 }
 
 /// Adds the arrivals in all pieces of a neighbour that overlap the rest of the label's piece.
 void SoftPathPlanner::reach(LabelIndex from, VertexId to) {
   const Label label = labels_[from];
-  const Timestep distance = distances_(agent_, to);
+  const Timestep distance = row_[to];
   if (distance > latest_) return;
   const Timestep first = label.time + 1;
   const Timestep last = std::min(label.piece_end, latest_ - distance - 1) + 1;
@@ -106,10 +108,11 @@ void SoftPathPlanner::reach(LabelIndex from, VertexId to) {
     std::uint32_t met = pieces[k].present;
     // Whoever leaves for the label's vertex when the agent comes swaps with it. The label's piece
     // ends then, so waiting in it does not help.
-    if (arrival == pieces[k].begin && pieces[k].ends > 0)
+    if (arrival == pieces[k].begin && pieces[k].ends > 0 && label.piece_end == arrival - 1)
       met += reservations_->swaps(label.vertex, to, arrival);
     add({to, static_cast<std::uint32_t>(k), arrival, SoftReservations::end_of(pieces, k),
-         label.num_meetings + met, from, kNone, false});
+         label.num_meetings + met, from, kNone, false},
+        distance);
   }
 }
 
@@ -122,11 +125,10 @@ void SoftPathPlanner::rest(LabelIndex from) {
   label.num_meetings += static_cast<std::uint32_t>(stays.end() - later);
   label.piece = kAtRest;
   label.parent = from;
-  add(label);
+  add(label, row_[label.vertex]);
 }
 
-void SoftPathPlanner::add(const Label& label) {
-  const Timestep distance = distances_(agent_, label.vertex);
+void SoftPathPlanner::add(const Label& label, Timestep distance) {
   if (label.num_meetings > most_ || distance > latest_ || label.time > latest_ - distance) return;
   Head& head = heads_[label.vertex];
   if (head.search != search_) head = {search_, kNone};

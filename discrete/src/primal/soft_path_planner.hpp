@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "primal/soft_reservations.hpp"
+#include "primal/tie_breaker.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
@@ -67,17 +68,17 @@ class SoftPathPlanner {
   void wait(LabelIndex from);
   void reach(LabelIndex from, VertexId to);
   void rest(LabelIndex from);
-  void add(const Label& label);
+  void add(const Label& label, Timestep distance);
   [[nodiscard]] Path path_to(LabelIndex last) const;
 
   const Instance& instance_;
   const GoalDistances& distances_;
-  Random& random_;
+  TieBreaker ties_;
   std::int64_t effort_ = 0;
 
   // Of the current search.
   std::uint32_t search_ = 0;
-  AgentId agent_;
+  GoalDistances::Row row_;
   VertexId goal_;
   const SoftReservations* reservations_ = nullptr;
   Timestep earliest_ = 0, latest_ = 0;  // No arrival before, none after.

@@ -46,12 +46,6 @@ void SoftReservations::clear() {
   }
 }
 
-std::size_t SoftReservations::piece_at(std::span<const Piece> pieces, Timestep t) {
-  const auto after = std::partition_point(pieces.begin(), pieces.end(),
-                                          [t](const Piece& piece) { return piece.begin <= t; });
-  return static_cast<std::size_t>(after - pieces.begin()) - 1;
-}
-
 std::uint32_t SoftReservations::swaps(VertexId from, VertexId to, Timestep arrival) const {
   std::uint32_t count = 0;
   for (const Stay& stay : stays(to)) {
