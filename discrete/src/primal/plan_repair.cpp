@@ -9,18 +9,19 @@
 namespace quadrille::discrete {
 namespace {
 
-// A neighbourhood is given up when its new paths take more effort than so much per timestep of the
-// old ones, plus something for short paths.
-constexpr std::int64_t kEffortPerTimestep = 50;
+// A path is given up when it takes more effort than so much per timestep of the old one, plus
+// something for short paths; the more failures, the more.
+constexpr std::int64_t kEffortPerTimestep = 100;
 constexpr std::int64_t kLeastEffort = 1000;
-// Agents taken out together: powers of two.
-constexpr std::uint64_t kNumSizes = 5;
-// So many neighbourhoods in a row that do not help make the next ones larger, and dearer.
-constexpr std::int64_t kPatience = 16;
+constexpr std::int64_t kFailuresPerEffort = 8;
+// Agents taken out together: powers of two. One or two at first, which keeps most paths.
+constexpr std::uint64_t kFirstSizes = 2, kMostSizes = 4;
 // How much later than alone an agent may arrive: powers of two as well. The smaller, the cheaper
 // the plan, and the sooner the planner knows that there is nothing better.
 constexpr Timestep kLeastSlack = 2;
-constexpr std::uint64_t kNumSlacks = 10;
+constexpr std::uint64_t kFirstSlacks = 3, kMostSlacks = 10;
+// After so many failures both ranges are wider by one.
+constexpr std::int64_t kPatience = 4;
 
 }  // namespace
 
@@ -47,7 +48,7 @@ void PlanRepair::restart_from(const Plan& draft) {
   QUADRILLE_REQUIRE(draft.paths.size() == instance_.num_agents(), "one path per agent");
   reservations_.clear();
   std::fill(meetings_.begin(), meetings_.end(), 0);
-  num_meetings_ = 0;
+  num_meetings_ = num_failures_ = 0;
   colliding_.clear();
   plan_ = draft;
   trim(plan_);
@@ -64,9 +65,8 @@ bool PlanRepair::advance(std::int64_t effort, LimitMonitor& limits) {
 }
 
 void PlanRepair::step(LimitMonitor& limits) {
-  // One or two as long as that helps: this keeps most paths, and is soon done.
-  const auto patience = static_cast<std::uint64_t>(num_failures_ / kPatience);
-  choose(std::size_t{1} << random_.below(std::min(kNumSizes, 2 + patience)));
+  const auto impatience = static_cast<std::uint64_t>(num_failures_ / kPatience);
+  choose(std::size_t{1} << random_.below(std::min(kMostSizes, kFirstSizes + impatience)));
   const std::int64_t before = num_meetings_;
   old_paths_.clear();
   for (const AgentId agent : chosen_) {
@@ -74,7 +74,8 @@ void PlanRepair::step(LimitMonitor& limits) {
     old_paths_.push_back(std::move(plan_.paths[agent]));
     effort_ += static_cast<std::int64_t>(old_paths_.back().size()) / 4 + 1;
   }
-  const Timestep slack = kLeastSlack << random_.below(kNumSlacks);
+  const Timestep slack = kLeastSlack
+                         << random_.below(std::min(kMostSlacks, kFirstSlacks + impatience));
   const std::int64_t effort_before = planner_.effort();
   std::size_t num_new = 0;
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
@@ -91,13 +92,14 @@ void PlanRepair::step(LimitMonitor& limits) {
   }
   effort_ += planner_.effort() - effort_before;
   if (num_new < chosen_.size()) put_back(num_new);
-  num_failures_ = num_meetings_ < before ? 0 : num_failures_ + 1;
+  // Where one meeting was hard to end the next one will be, too.
+  num_failures_ = num_meetings_ < before ? num_failures_ * 3 / 4 : num_failures_ + 1;
 }
 
-/// Grows with the number of neighbourhoods in a row that did not help.
+/// The effort that a new path may take.
 std::int64_t PlanRepair::allowed(const Path& old_path) const {
   const auto length = static_cast<std::int64_t>(old_path.size());
-  return (kEffortPerTimestep * length + kLeastEffort) * (1 + num_failures_ / 64);
+  return (kEffortPerTimestep * length + kLeastEffort) * (1 + num_failures_ / kFailuresPerEffort);
 }
 
 void PlanRepair::put_back(std::size_t num_new) {

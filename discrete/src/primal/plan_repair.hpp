@@ -68,7 +68,7 @@ class PlanRepair {
   std::vector<VertexId> queue_;
   IdVector<VertexId, char> is_queued_;
   std::vector<Path> old_paths_;    // Of those chosen.
-  std::int64_t num_failures_ = 0;  // Neighbourhoods in a row that did not help.
+  std::int64_t num_failures_ = 0;  // Neighbourhoods that did not help; forgotten by and by.
   std::int64_t effort_ = 0;
 };
 

@@ -79,7 +79,6 @@ class PlanSearch {
 
  private:
   void count_search(std::int64_t search_effort);
-  void take_turn(const std::function<Plan()>& draft);
 
   const PlanSearchContext context_;
   FirstPlan first_plan_;

@@ -88,7 +88,7 @@ TEST(PlanRepair, KeepsMostPathsWhereThereIsRoom) {
 }
 
 TEST(PlanRepair, NeverMeetsMoreAndDoesNotDependOnSlices) {
-  const Instance instance = crowd(12, 100, 3);
+  const Instance instance = crowd(12, 80, 3);
   const auto distances = distances_of(instance);
   const Plan draft = lonely_paths(instance, *distances, 1);
   LimitMonitor limits{Limits{}};
