@@ -148,6 +148,31 @@ TEST(PlanImprover, GoesOnFromAnotherPlan) {
   EXPECT_LT(improver.cost(), other.cost(Objective::sum_of_costs));
 }
 
+TEST(PlanImprover, IsNeverCostlierThanAPlanInjectedAtAnyMoment) {
+  support::Random random(12);
+  const Instance instance = crowd(12, 70, 10);
+  const auto distances = distances_of(instance);
+  LimitMonitor limits{Limits{}};
+  PlanImprover giver(instance, distances, Objective::sum_of_costs, searched(instance, 1).plan(), 1);
+  PlanImprover taker(instance, distances, Objective::sum_of_costs, searched(instance, 2).plan(), 2);
+  std::size_t num_injected = 0;
+  Cost best = taker.cost();
+  for (int round = 0; round < 300; ++round) {
+    giver.improve(static_cast<std::int64_t>(random.below(2000)), limits);
+    taker.improve(static_cast<std::int64_t>(random.below(1000)), limits);
+    ASSERT_LE(taker.cost(), best);
+    if (giver.cost() < taker.cost()) {
+      taker.restart_from(giver.plan());
+      ASSERT_EQ(taker.cost(), giver.cost());
+      ++num_injected;
+    }
+    best = taker.cost();
+    ASSERT_TRUE(verify(instance, taker.plan()).valid());
+    ASSERT_EQ(best, taker.plan().cost(Objective::sum_of_costs));
+  }
+  EXPECT_GE(num_injected, 3U);
+}
+
 TEST(PlanImprover, KeepsAValidPlanWhereverItIsCut) {
   const Instance instance = crowd(30, 300, 9);
   const auto distances = distances_of(instance);
