@@ -14,6 +14,8 @@ namespace {
 constexpr std::int64_t kEffortPerTimestep = 100;
 constexpr std::int64_t kLeastEffort = 1000;
 constexpr std::int64_t kFailuresPerEffort = 8;
+// More than so many count as so many: slices remain slices, and memory bounded.
+constexpr std::int64_t kMostFailures = 64;
 // Agents taken out together: powers of two. One or two at first, which keeps most paths.
 constexpr std::uint64_t kFirstSizes = 2, kMostSizes = 4;
 // How much later than alone an agent may arrive: powers of two as well. The smaller, the cheaper
@@ -93,7 +95,8 @@ void PlanRepair::step(LimitMonitor& limits) {
   effort_ += planner_.effort() - effort_before;
   if (num_new < chosen_.size()) put_back(num_new);
   // Where one meeting was hard to end the next one will be, too.
-  num_failures_ = num_meetings_ < before ? num_failures_ * 3 / 4 : num_failures_ + 1;
+  num_failures_ =
+      num_meetings_ < before ? num_failures_ * 3 / 4 : std::min(kMostFailures, num_failures_ + 1);
 }
 
 /// The effort that a new path may take.
