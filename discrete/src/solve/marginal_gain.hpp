@@ -12,6 +12,8 @@ namespace quadrille::discrete {
 /// is what they took off the gap lately, per step. Counts only, no clocks.
 class MarginalGain {
  public:
+  static constexpr double kLargeGap = 4;  ///< Per cent. From it on plans may get the most.
+
   /// The search did `effort` steps and took `gain` off the gap.
   void count_search(std::int64_t effort, Cost gain) { search_.add(kStepOfSearch * effort, gain); }
   /// As well for plans; decides on the share from now on. `gap_percent`: what is left.
@@ -20,6 +22,10 @@ class MarginalGain {
   /// Steps for plans that are due for so many of the search.
   [[nodiscard]] std::int64_t due(std::int64_t search_effort) const {
     return search_effort * kStepOfSearch * share_ / kUnit;
+  }
+  /// As much as it can be: for what shows its gain in the end only.
+  [[nodiscard]] static std::int64_t most_due(std::int64_t search_effort) {
+    return search_effort * kStepOfSearch * kLargest / kUnit;
   }
 
  private:

@@ -27,19 +27,26 @@ void PlanImprovement::offer_draft(const std::function<Plan()>& draft) {
     return;
   }
   const Plan paths = draft();
-  if (paths.paths.size() == context_.instance.num_agents()) repair_.begin(paths);
+  if (paths.paths.size() != context_.instance.num_agents()) return;
+  repair_.begin(paths);
+  ++num_drafts_;
 }
 
 sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
   Incumbent& incumbent = context_.incumbent;
+  effort_ = 0;
+  if (is_at_first_draft()) {
+    improve_draft(*slice.effort);
+    return sat::Outcome::working;
+  }
   if (!improver_)
     improver_.emplace(context_.instance, context_.distances, context_.objective, incumbent.plan(),
                       context_.seed);
   else if (*incumbent.upper() < improver_->cost())
     improver_->restart_from(incumbent.plan());
   if (improver_->improve(*slice.effort, context_.limits)) incumbent.offer(improver_->plan());
-  effort_ = *slice.effort;
+  effort_ += *slice.effort;
   if (repair_.is_at_work()) improve_draft(*slice.effort);
   return sat::Outcome::working;
 }
@@ -67,6 +74,7 @@ PlanSearch::PlanSearch(const PlanSearchContext& context)
   for (const AgentId i : context.instance.agents())
     steps += (*context.distances)(i, context.instance.tasks()[i].start);
   slice_ = std::max(slice_, steps);
+  credit_ = slice_ - kLeastSlice;  // the first turn does not come later where there is more to do
 }
 
 bool PlanSearch::start() {
@@ -104,7 +112,10 @@ void PlanSearch::count_search(std::int64_t search_effort) {
   Cost gain = incumbent.lower() - seen_lower_;
   if (seen_upper_) gain += *seen_upper_ - *incumbent.upper();
   gain_.count_search(effort, gain);
-  credit_ += gain_.due(effort);
+  const bool is_hopeful =
+      improvement_.is_at_first_draft() &&
+      gap_percent(*incumbent.upper(), incumbent.lower()) >= MarginalGain::kLargeGap;
+  credit_ += is_hopeful ? MarginalGain::most_due(effort) : gain_.due(effort);
   seen_effort_ = search_effort;
   seen_lower_ = incumbent.lower();
   seen_upper_ = incumbent.upper();
