@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "primal/restarted_search.hpp"
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
@@ -171,8 +172,8 @@ Plan PrimalSearch::plan() const { return impl_->plan(); }
 std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits, std::uint32_t seed) {
   const auto distances = GoalDistances::make(instance, limits);
   if (distances == nullptr) return std::nullopt;
-  PrimalSearch search(instance, distances, seed);
-  if (search.advance(INT64_MAX, limits) != PrimalSearch::State::found) return std::nullopt;
+  RestartedSearch search(instance, distances, seed);
+  if (search.advance(INT64_MAX, limits) != RestartedSearch::State::found) return std::nullopt;
   return search.plan();
 }
 

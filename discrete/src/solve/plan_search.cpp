@@ -16,7 +16,7 @@ constexpr std::int64_t kLeastSlice = 20'000;
 
 sat::Outcome FirstPlan::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
-  if (search_.advance(*slice.effort, context_.limits) == PrimalSearch::State::found)
+  if (search_.advance(*slice.effort, context_.limits) == RestartedSearch::State::found)
     context_.incumbent.offer(search_.plan());
   return sat::Outcome::working;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "primal/draft_repair.hpp"
+#include "primal/restarted_search.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/sat/strategy.hpp"
 #include "solve/incumbent.hpp"
@@ -36,7 +37,7 @@ class FirstPlan final : public sat::Strategy {
 
  private:
   const PlanSearchContext context_;
-  PrimalSearch search_;
+  RestartedSearch search_;
 };
 
 /// Makes the incumbent cheaper by large-neighbourhood search; and a rival of it, which is made of

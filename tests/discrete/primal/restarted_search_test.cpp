@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "primal/restarted_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "discrete/primal/primal_support.hpp"
+#include "quadrille/discrete/verify.hpp"
+#include "support/environment.hpp"
+#include "support/joint_search.hpp"
+
+namespace quadrille::discrete::primal_test {
+namespace {
+
+using State = RestartedSearch::State;
+using quadrille::support::scaled;
+using support::instance_text;
+
+TEST(RestartedSearch, FollowsTheSequenceOfLuby) {
+  const std::vector<std::int64_t> expected{1, 1, 2, 1, 1, 2, 4, 1, 1, 2, 1, 1, 2, 4, 8, 1};
+  for (std::uint32_t k = 1; k <= expected.size(); ++k) EXPECT_EQ(luby(k), expected[k - 1]) << k;
+}
+
+TEST(RestartedSearch, FindsAPlanIfAndOnlyIfThereIsOne) {
+  support::Random random(3);
+  std::size_t num_feasible = 0, num_infeasible = 0;
+  for (std::size_t round = 0; round < scaled(1000); ++round) {
+    const Instance instance = random_instance(random);
+    const auto answer = support::joint_search(instance, Objective::makespan);
+    if (answer.status == Status::unknown) continue;
+    LimitMonitor limits{Limits{}};
+    RestartedSearch search(instance, distances_of(instance), static_cast<std::uint32_t>(round));
+    State state = State::searching;
+    while (state == State::searching) state = search.advance(1 + random.below(100'000), limits);
+    ASSERT_EQ(state, answer.status == Status::optimal ? State::found : State::exhausted)
+        << instance_text(instance);
+    ++(state == State::found ? num_feasible : num_infeasible);
+    if (state == State::found) {
+      ASSERT_TRUE(verify(instance, search.plan()).valid()) << instance_text(instance);
+    }
+  }
+  EXPECT_GE(num_feasible, scaled(250));
+  EXPECT_GE(num_infeasible, scaled(125));
+}
+
+// Boards of up to 97 % agents, thousands of them, each within a few megasteps.
+TEST(RestartedSearch, FindsPlansForCrowds) {
+  std::size_t num_without = 0;
+  const std::size_t rounds = scaled(1500);
+  for (std::size_t round = 0; round < rounds; ++round) {
+    const auto side = static_cast<std::int32_t>(4 + round % 13);
+    const auto cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    const std::size_t agents = cells * (50 + round * 7 % 48) / 100;
+    const Instance instance = crowd(side, agents, round);
+    LimitMonitor limits{Limits{}};
+    RestartedSearch search(instance, distances_of(instance), 0);
+    if (search.advance(20'000'000, limits) != State::found) {
+      ++num_without;
+      continue;
+    }
+    ASSERT_TRUE(verify(instance, search.plan()).valid()) << side << " " << agents;
+  }
+  EXPECT_EQ(num_without, 0);
+}
+
+TEST(RestartedSearch, TheSameEffortsGiveTheSamePlan) {
+  const Instance instance = crowd(9, 70, 5);
+  const auto found = [&] {
+    LimitMonitor limits{Limits{}};
+    RestartedSearch search(instance, distances_of(instance), 3);
+    while (search.advance(1000, limits) == State::searching) {
+    }
+    return search.plan();
+  };
+  const Plan plan = found();
+  EXPECT_EQ(found(), plan);
+}
+
+}  // namespace
+}  // namespace quadrille::discrete::primal_test
