@@ -33,13 +33,15 @@ class DraftRepair {
   bool advance(std::int64_t effort, LimitMonitor& limits);
   /// Requires that `advance` returned true at last.
   [[nodiscard]] const Plan& plan() const noexcept { return repair_.plan(); }
+  /// The last draft was dropped.
+  [[nodiscard]] bool resisted() const noexcept { return patience_ > 1; }
   /// Elementary steps so far.
   [[nodiscard]] std::int64_t effort() const noexcept { return repair_.effort(); }
   /// Was the plan of any use?
   void report(bool was_useful);
 
  private:
-  static constexpr std::int64_t kLongestPause = 64;
+  static constexpr std::int64_t kLongestPause = 7;
 
   PlanRepair repair_;
   bool is_at_work_ = false;

@@ -11,6 +11,8 @@ namespace {
 /// Of a search for a first plan that nothing else runs beside, and of its slices.
 constexpr std::int64_t kFirstEffort = 20'000'000, kFirstSlice = 200'000;
 constexpr std::int64_t kLeastSlice = 20'000;
+/// Steps of the search, some two seconds: what it solves sooner needs no better plans.
+constexpr std::int64_t kPatience = 1'600'000;
 
 }  // namespace
 
@@ -47,7 +49,9 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
     improver_->restart_from(incumbent.plan());
   if (improver_->improve(*slice.effort, context_.limits)) incumbent.offer(improver_->plan());
   effort_ += *slice.effort;
-  if (repair_.is_at_work()) improve_draft(*slice.effort);
+  // Where drafts resist, the incumbent gets two thirds.
+  const bool is_turn = !repair_.resisted() || 2 * repair_.effort() <= improver_->effort();
+  if (repair_.is_at_work() && is_turn) improve_draft(*slice.effort);
   return sat::Outcome::working;
 }
 
@@ -69,12 +73,11 @@ void PlanImprovement::improve_draft(std::int64_t effort) {
 }
 
 PlanSearch::PlanSearch(const PlanSearchContext& context)
-    : context_(context), first_plan_(context), improvement_(context), slice_(kLeastSlice) {
+    : context_(context), first_plan_(context), improvement_(context) {
   std::int64_t steps = 0;
   for (const AgentId i : context.instance.agents())
     steps += (*context.distances)(i, context.instance.tasks()[i].start);
-  slice_ = std::max(slice_, steps);
-  credit_ = slice_ - kLeastSlice;  // the first turn does not come later where there is more to do
+  long_slice_ = std::max(kLeastSlice, steps);
 }
 
 bool PlanSearch::start() {
@@ -86,18 +89,21 @@ bool PlanSearch::start() {
 
 void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>& draft) {
   count_search(search_effort);
-  if (credit_ < slice_) return;
+  // As long as one path of everybody, so that there are several neighbourhoods in it; short where
+  // turns would be rare.
+  const std::int64_t slice = credit_ >= long_slice_ ? long_slice_ : kLeastSlice;
+  if (credit_ < slice) return;
   const Incumbent& incumbent = context_.incumbent;
   const std::int64_t credit = credit_;
   const std::optional<Cost> before = incumbent.upper();
   if (before) improvement_.offer_draft(draft);
-  while (credit_ >= slice_ && !incumbent.are_closed() && !context_.limits.exhausted()) {
+  while (credit_ >= slice && !incumbent.are_closed() && !context_.limits.exhausted()) {
     if (incumbent.upper()) {
-      static_cast<void>(improvement_.advance({.effort = slice_}));
+      static_cast<void>(improvement_.advance({.effort = slice}));
       credit_ -= improvement_.effort();
     } else {
-      static_cast<void>(first_plan_.advance({.effort = slice_}));
-      credit_ -= slice_;
+      static_cast<void>(first_plan_.advance({.effort = slice}));
+      credit_ -= slice;
     }
   }
   seen_upper_ = incumbent.upper();
@@ -113,7 +119,7 @@ void PlanSearch::count_search(std::int64_t search_effort) {
   if (seen_upper_) gain += *seen_upper_ - *incumbent.upper();
   gain_.count_search(effort, gain);
   const bool is_hopeful =
-      improvement_.is_at_first_draft() &&
+      improvement_.is_at_first_draft() && search_effort >= kPatience &&
       gap_percent(*incumbent.upper(), incumbent.lower()) >= MarginalGain::kLargeGap;
   credit_ += is_hopeful ? MarginalGain::most_due(effort) : gain_.due(effort);
   seen_effort_ = search_effort;

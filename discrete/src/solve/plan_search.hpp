@@ -93,7 +93,7 @@ class PlanSearch {
   FirstPlan first_plan_;
   PlanImprovement improvement_;
   MarginalGain gain_;
-  std::int64_t slice_;
+  std::int64_t long_slice_;
   std::int64_t credit_ = 0;       // steps for plans that are due
   std::int64_t seen_effort_ = 0;  // of the search, counted
   Cost seen_lower_ = 0;

@@ -53,7 +53,7 @@ TEST(DraftRepair, TakesOneDraftAtATimeAndFewerWhenTheyAreOfNoUse) {
       repair.report(useful != 0);
     }
   EXPECT_EQ(taken[1], 100);
-  EXPECT_EQ(taken[0], 6);  // After 1, 3, 7, 15 and 31 others.
+  EXPECT_EQ(taken[0], 14);  // After 1, 3 and then each time 7 others.
 }
 
 TEST(DraftRepair, DropsWhatResists) {
