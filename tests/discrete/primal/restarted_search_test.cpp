@@ -33,7 +33,8 @@ TEST(RestartedSearch, FindsAPlanIfAndOnlyIfThereIsOne) {
     LimitMonitor limits{Limits{}};
     RestartedSearch search(instance, distances_of(instance), static_cast<std::uint32_t>(round));
     State state = State::searching;
-    while (state == State::searching) state = search.advance(1 + random.below(100'000), limits);
+    while (state == State::searching)
+      state = search.advance(1 + static_cast<std::int64_t>(random.below(100'000)), limits);
     ASSERT_EQ(state, answer.status == Status::optimal ? State::found : State::exhausted)
         << instance_text(instance);
     ++(state == State::found ? num_feasible : num_infeasible);
