@@ -12,8 +12,6 @@ namespace quadrille::discrete {
 /// is what they took off the gap lately, per step. Counts only, no clocks.
 class MarginalGain {
  public:
-  static constexpr double kLargeGap = 4;  ///< Per cent. From it on plans may get the most.
-
   /// The search did `effort` steps and took `gain` off the gap.
   void count_search(std::int64_t effort, Cost gain) { search_.add(kStepOfSearch * effort, gain); }
   /// As well for plans; decides on the share from now on. `gap_percent`: what is left.

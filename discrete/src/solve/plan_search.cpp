@@ -13,6 +13,8 @@ constexpr std::int64_t kFirstEffort = 20'000'000, kFirstSlice = 200'000;
 constexpr std::int64_t kLeastSlice = 20'000;
 /// Steps of the search, some two seconds: what it solves sooner needs no better plans.
 constexpr std::int64_t kPatience = 1'600'000;
+/// Per cent. With a smaller one the first draft is repaired in the time that plans have anyway.
+constexpr double kHopefulGap = 4;
 
 }  // namespace
 
@@ -47,12 +49,19 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
                       context_.seed);
   else if (*incumbent.upper() < improver_->cost())
     improver_->restart_from(incumbent.plan());
-  if (improver_->improve(*slice.effort, context_.limits)) incumbent.offer(improver_->plan());
-  effort_ += *slice.effort;
+  if (improve(*improver_, *slice.effort)) incumbent.offer(improver_->plan());
   // Where drafts resist, the incumbent gets two thirds.
   const bool is_turn = !repair_.resisted() || 2 * repair_.effort() <= improver_->effort();
   if (repair_.is_at_work() && is_turn) improve_draft(*slice.effort);
   return sat::Outcome::working;
+}
+
+/// What it takes may be more: neighbourhoods are not cut short.
+bool PlanImprovement::improve(PlanImprover& improver, std::int64_t effort) {
+  const std::int64_t before = improver.effort();
+  const bool is_better = improver.improve(effort, context_.limits);
+  effort_ += improver.effort() - before;
+  return is_better;
 }
 
 void PlanImprovement::improve_draft(std::int64_t effort) {
@@ -65,8 +74,7 @@ void PlanImprovement::improve_draft(std::int64_t effort) {
   else
     rival_.emplace(context_.instance, context_.distances, context_.objective, repair_.plan(),
                    context_.seed);
-  static_cast<void>(rival_->improve(effort, context_.limits));
-  effort_ += effort;
+  static_cast<void>(improve(*rival_, effort));
   const bool is_cheaper = rival_->cost() < *context_.incumbent.upper();
   repair_.report(is_cheaper);
   if (is_cheaper) context_.incumbent.offer(rival_->plan());
@@ -100,7 +108,10 @@ void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>
   while (credit_ >= slice && !incumbent.are_closed() && !context_.limits.exhausted()) {
     if (incumbent.upper()) {
       static_cast<void>(improvement_.advance({.effort = slice}));
-      credit_ -= improvement_.effort();
+      credit_ -= std::max(slice, improvement_.effort());
+      // What is left was for the draft.
+      if (is_hopeful_ && !improvement_.is_at_first_draft())
+        credit_ = std::min<std::int64_t>(credit_, 0);
     } else {
       static_cast<void>(first_plan_.advance({.effort = slice}));
       credit_ -= slice;
@@ -118,10 +129,9 @@ void PlanSearch::count_search(std::int64_t search_effort) {
   Cost gain = incumbent.lower() - seen_lower_;
   if (seen_upper_) gain += *seen_upper_ - *incumbent.upper();
   gain_.count_search(effort, gain);
-  const bool is_hopeful =
-      improvement_.is_at_first_draft() && search_effort >= kPatience &&
-      gap_percent(*incumbent.upper(), incumbent.lower()) >= MarginalGain::kLargeGap;
-  credit_ += is_hopeful ? MarginalGain::most_due(effort) : gain_.due(effort);
+  is_hopeful_ = improvement_.is_at_first_draft() && search_effort >= kPatience &&
+                gap_percent(*incumbent.upper(), incumbent.lower()) >= kHopefulGap;
+  credit_ += is_hopeful_ ? MarginalGain::most_due(effort) : gain_.due(effort);
   seen_effort_ = search_effort;
   seen_lower_ = incumbent.lower();
   seen_upper_ = incumbent.upper();

@@ -63,6 +63,7 @@ class PlanImprovement final : public sat::Strategy {
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 
  private:
+  bool improve(PlanImprover& improver, std::int64_t effort);
   void improve_draft(std::int64_t effort);
 
   const PlanSearchContext context_;
@@ -96,6 +97,7 @@ class PlanSearch {
   std::int64_t long_slice_;
   std::int64_t credit_ = 0;       // steps for plans that are due
   std::int64_t seen_effort_ = 0;  // of the search, counted
+  bool is_hopeful_ = false;       // credit is for the first draft
   Cost seen_lower_ = 0;
   std::optional<Cost> seen_upper_;
   std::int64_t start_effort_ = 0;
