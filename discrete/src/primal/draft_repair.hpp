@@ -33,8 +33,9 @@ class DraftRepair {
   bool advance(std::int64_t effort, LimitMonitor& limits);
   /// Requires that `advance` returned true at last.
   [[nodiscard]] const Plan& plan() const noexcept { return repair_.plan(); }
-  /// The last draft was dropped.
-  [[nodiscard]] bool resisted() const noexcept { return patience_ > 1; }
+  /// How long a draft is tried: 1 at first, doubled whenever a draft is dropped, halved when one
+  /// becomes a plan.
+  [[nodiscard]] std::int64_t patience() const noexcept { return patience_; }
   /// Elementary steps so far.
   [[nodiscard]] std::int64_t effort() const noexcept { return repair_.effort(); }
   /// Was the plan of any use?

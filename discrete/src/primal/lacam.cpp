@@ -5,17 +5,17 @@
 #include <numeric>
 #include <utility>
 
-#include "primal/restarted_search.hpp"
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
 
-PrimalSearch::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-                         std::uint32_t seed)
+Lacam::Lacam(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+             std::uint32_t seed, std::shared_ptr<const Guide> guide)
     : instance_(instance),
       distances_(std::move(distances)),
+      guide_(std::move(guide)),
       random_(seed),
-      pibt_(instance_, *distances_, random_),
+      pibt_(instance_, *distances_, random_, guide_.get()),
       rank_(instance_.num_agents(), 0) {
   Configuration starts;
   std::vector<AgentId> by_distance;
@@ -35,7 +35,7 @@ PrimalSearch::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
   visit(std::move(starts), kNone);
 }
 
-PrimalSearch::State PrimalSearch::Impl::advance(std::int64_t effort, LimitMonitor& limits) {
+Lacam::State Lacam::advance(std::int64_t effort, LimitMonitor& limits) {
   const std::int64_t enough = effort_ > INT64_MAX - effort ? INT64_MAX : effort_ + effort;
   while (state_ == State::searching && effort_ < enough && !limits.exhausted()) {
     if (open_.empty()) {
@@ -54,7 +54,7 @@ PrimalSearch::State PrimalSearch::Impl::advance(std::int64_t effort, LimitMonito
   return state_;
 }
 
-void PrimalSearch::Impl::try_next_order(NodeIndex index) {
+void Lacam::try_next_order(NodeIndex index) {
   Node& node = nodes_[index];
   const auto order = static_cast<std::uint32_t>(node.next_order++);
   collect_orders(node, order);
@@ -63,7 +63,7 @@ void PrimalSearch::Impl::try_next_order(NodeIndex index) {
     visit(successor_, index);
 }
 
-void PrimalSearch::Impl::collect_orders(const Node& node, std::uint32_t order) {
+void Lacam::collect_orders(const Node& node, std::uint32_t order) {
   given_.clear();
   for (; node.orders[order].depth > 0; order = node.orders[order].parent) {
     const OrderNode& link = node.orders[order];
@@ -71,7 +71,7 @@ void PrimalSearch::Impl::collect_orders(const Node& node, std::uint32_t order) {
   }
 }
 
-void PrimalSearch::Impl::add_suborders(Node& node, std::uint32_t order) {
+void Lacam::add_suborders(Node& node, std::uint32_t order) {
   const std::uint32_t depth = node.orders[order].depth;
   if (depth == goals_.size()) return;
   const AgentId agent = node.priority[depth];
@@ -85,7 +85,7 @@ void PrimalSearch::Impl::add_suborders(Node& node, std::uint32_t order) {
 
 /// Whether the order collides with one of those just collected: then no order after it can be
 /// obeyed either.
-bool PrimalSearch::Impl::contradicts(const Node& node, AgentId agent, VertexId to) const {
+bool Lacam::contradicts(const Node& node, AgentId agent, VertexId to) const {
   const VertexId here = node.configuration[agent.index()];
   return std::any_of(given_.begin(), given_.end(), [&](const Pibt::Order& other) {
     return other.to == to || (other.to == here && node.configuration[other.agent.index()] == to);
@@ -93,7 +93,7 @@ bool PrimalSearch::Impl::contradicts(const Node& node, AgentId agent, VertexId t
 }
 
 /// Puts a configuration on top of the stack, as a new node unless it was visited before.
-void PrimalSearch::Impl::visit(Configuration configuration, NodeIndex parent) {
+void Lacam::visit(Configuration configuration, NodeIndex parent) {
   const std::uint64_t key = key_of(configuration);
   NodeIndex index = find(key, configuration);
   if (index == kNone) {
@@ -106,7 +106,7 @@ void PrimalSearch::Impl::visit(Configuration configuration, NodeIndex parent) {
 }
 
 /// Agents that have been away from their goal for long go first.
-void PrimalSearch::Impl::set_priority(Node& node, const Node* parent) {
+void Lacam::set_priority(Node& node, const Node* parent) {
   const std::size_t agents = goals_.size();
   node.waiting.assign(agents, 0);
   node.priority.clear();
@@ -121,8 +121,7 @@ void PrimalSearch::Impl::set_priority(Node& node, const Node* parent) {
   });
 }
 
-PrimalSearch::Impl::NodeIndex PrimalSearch::Impl::find(std::uint64_t key,
-                                                       const Configuration& configuration) const {
+Lacam::NodeIndex Lacam::find(std::uint64_t key, const Configuration& configuration) const {
   const auto [begin, end] = visited_.equal_range(key);
   const auto same = std::find_if(begin, end, [&](const auto& entry) {
     return nodes_[entry.second].configuration == configuration;
@@ -130,7 +129,7 @@ PrimalSearch::Impl::NodeIndex PrimalSearch::Impl::find(std::uint64_t key,
   return same == end ? kNone : same->second;
 }
 
-std::uint64_t PrimalSearch::Impl::key_of(const Configuration& configuration) {
+std::uint64_t Lacam::key_of(const Configuration& configuration) {
   std::uint64_t key = 0;
   for (const VertexId v : configuration) {
     key = (key ^ v.value()) * 0x9e3779b97f4a7c15ULL;
@@ -139,7 +138,7 @@ std::uint64_t PrimalSearch::Impl::key_of(const Configuration& configuration) {
   return key;
 }
 
-Plan PrimalSearch::Impl::plan() const {
+Plan Lacam::plan() const {
   QUADRILLE_REQUIRE(state_ == State::found, "the search has found a plan");
   std::vector<NodeIndex> steps;
   for (NodeIndex k = open_.back(); k != kNone; k = nodes_[k].parent) steps.push_back(k);
@@ -150,31 +149,6 @@ Plan PrimalSearch::Impl::plan() const {
       plan.paths[agent].push_back(nodes_[*step].configuration[agent.index()]);
   trim(plan);
   return plan;
-}
-
-PrimalSearch::PrimalSearch(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-                           std::uint32_t seed)
-    : impl_(std::make_unique<Impl>(instance, std::move(distances), seed)) {}
-PrimalSearch::~PrimalSearch() = default;
-PrimalSearch::PrimalSearch(PrimalSearch&&) noexcept = default;
-PrimalSearch& PrimalSearch::operator=(PrimalSearch&&) noexcept = default;
-
-PrimalSearch::State PrimalSearch::advance(std::int64_t effort, LimitMonitor& limits) {
-  return impl_->advance(effort, limits);
-}
-PrimalSearch::State PrimalSearch::state() const noexcept { return impl_->state(); }
-std::int64_t PrimalSearch::effort() const noexcept { return impl_->effort(); }
-std::size_t PrimalSearch::num_configurations() const noexcept {
-  return impl_->num_configurations();
-}
-Plan PrimalSearch::plan() const { return impl_->plan(); }
-
-std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits, std::uint32_t seed) {
-  const auto distances = GoalDistances::make(instance, limits);
-  if (distances == nullptr) return std::nullopt;
-  RestartedSearch search(instance, distances, seed);
-  if (search.advance(INT64_MAX, limits) != RestartedSearch::State::found) return std::nullopt;
-  return search.plan();
 }
 
 }  // namespace quadrille::discrete

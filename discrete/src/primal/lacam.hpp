@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "primal/guide.hpp"
 #include "primal/pibt.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/primal.hpp"
@@ -17,15 +18,27 @@ namespace quadrille::discrete {
 /// successors of a configuration come one at a time from PIBT, under orders for some agents; the
 /// orders of a node are enumerated in a tree of their own, breadth first, from no order at all to
 /// one for each agent. So each node yields good successors first and all of them in the end.
-class PrimalSearch::Impl {
+///
+/// LaCAM (Okumura, "LaCAM: search-based algorithm for quick multi-agent pathfinding", AAAI 2023).
+/// Complete: with enough time and memory it finds a plan if there is one. Memory grows by about 12
+/// bytes per agent and configuration visited.
+class Lacam {
  public:
-  Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-       std::uint32_t seed);
+  using State = PrimalSearch::State;
+
+  /// `instance` outlives the object. `guide` may be null: nothing is guided then.
+  Lacam(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+        std::uint32_t seed, std::shared_ptr<const Guide> guide);
+  Lacam(const Lacam&) = delete;
+  Lacam& operator=(const Lacam&) = delete;
+
+  /// Searches on until `effort` more is spent, a limit is met or the search is over.
 
   State advance(std::int64_t effort, LimitMonitor& limits);
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
   [[nodiscard]] std::size_t num_configurations() const noexcept { return nodes_.size(); }
+  /// Trimmed. Requires State::found.
   [[nodiscard]] Plan plan() const;
 
  private:
@@ -58,8 +71,9 @@ class PrimalSearch::Impl {
   [[nodiscard]] NodeIndex find(std::uint64_t key, const Configuration& configuration) const;
   [[nodiscard]] static std::uint64_t key_of(const Configuration& configuration);
 
-  Instance instance_;
-  std::shared_ptr<const GoalDistances> distances_;
+  const Instance& instance_;
+  const std::shared_ptr<const GoalDistances> distances_;
+  const std::shared_ptr<const Guide> guide_;
   Random random_;
   Pibt pibt_;
   Configuration goals_;

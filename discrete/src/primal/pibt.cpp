@@ -6,11 +6,13 @@
 
 namespace quadrille::discrete {
 
-Pibt::Pibt(const Instance& instance, const GoalDistances& distances, Random& random)
+Pibt::Pibt(const Instance& instance, const GoalDistances& distances, Random& random,
+           const Guide* guide)
     : instance_(instance),
       graph_(instance.graph()),
       distances_(distances),
       random_(random),
+      guide_(guide),
       decided_(instance.num_agents(), 0),
       occupant_(graph_.num_vertices(), kNobody),
       claimer_(graph_.num_vertices(), kNobody) {}
@@ -82,8 +84,10 @@ bool Pibt::place(AgentId root) {
 void Pibt::push_frame(AgentId agent) {
   const VertexId here = from_[agent.index()];
   const std::size_t first = candidates_.size();
+  const auto guided = guide_ != nullptr ? guide_->next(agent, here) : std::nullopt;
   const auto add = [&](VertexId v) {
-    candidates_.push_back({distances_(agent, v), random_.below(1U << 30), v});
+    const Timestep distance = v == guided ? -1 : distances_(agent, v);
+    candidates_.push_back({distance, random_.below(1U << 30), v});
   };
   for (const VertexId v : graph_.neighbours(here)) add(v);
   add(here);

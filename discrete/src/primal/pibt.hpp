@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "primal/guide.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
@@ -22,8 +23,10 @@ class Pibt {
     VertexId to;
   };
 
-  /// All outlive this object.
-  Pibt(const Instance& instance, const GoalDistances& distances, Random& random);
+  /// All outlive this object. `guide` may be null. An agent on its guide's path would like to
+  /// follow it most of all; one off it is drawn to the goal by the distances.
+  Pibt(const Instance& instance, const GoalDistances& distances, Random& random,
+       const Guide* guide = nullptr);
 
   /// Makes `to` a configuration that can follow `from` and obeys the orders; earlier agents in
   /// `priority` choose first. False if it found none, which with orders for all agents means that
@@ -66,6 +69,7 @@ class Pibt {
   const Graph& graph_;
   const GoalDistances& distances_;
   Random& random_;
+  const Guide* const guide_;
   std::span<const VertexId> from_;
   std::vector<VertexId>* to_ = nullptr;
   std::vector<char> decided_;                             // By agent.

@@ -20,7 +20,7 @@ constexpr double kHopefulGap = 4;
 
 sat::Outcome FirstPlan::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
-  if (search_.advance(*slice.effort, context_.limits) == RestartedSearch::State::found)
+  if (search_.advance(*slice.effort, context_.limits) == PrimalSearch::State::found)
     context_.incumbent.offer(search_.plan());
   return sat::Outcome::working;
 }
@@ -50,8 +50,9 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   else if (*incumbent.upper() < improver_->cost())
     improver_->restart_from(incumbent.plan());
   if (improve(*improver_, *slice.effort)) incumbent.offer(improver_->plan());
-  // Where drafts resist, the incumbent gets two thirds.
-  const bool is_turn = !repair_.resisted() || 2 * repair_.effort() <= improver_->effort();
+  // The more drafts have resisted, the more of the time the incumbent gets.
+  const bool is_turn =
+      repair_.patience() == 1 || repair_.patience() * repair_.effort() <= improver_->effort();
   if (repair_.is_at_work() && is_turn) improve_draft(*slice.effort);
   return sat::Outcome::working;
 }
@@ -90,8 +91,7 @@ PlanSearch::PlanSearch(const PlanSearchContext& context)
 
 bool PlanSearch::start() {
   static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
-  start_effort_ += kFirstSlice;
-  return !context_.incumbent.upper() && start_effort_ < kFirstEffort &&
+  return !first_plan_.is_over() && first_plan_.effort() < kFirstEffort &&
          !context_.limits.exhausted_now();
 }
 
@@ -113,8 +113,9 @@ void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>
       if (is_hopeful_ && !improvement_.is_at_first_draft())
         credit_ = std::min<std::int64_t>(credit_, 0);
     } else {
+      const std::int64_t before_it = first_plan_.effort();
       static_cast<void>(first_plan_.advance({.effort = slice}));
-      credit_ -= slice;
+      credit_ -= std::max(slice, first_plan_.effort() - before_it);
     }
   }
   seen_upper_ = incumbent.upper();

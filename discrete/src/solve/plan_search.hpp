@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "primal/draft_repair.hpp"
-#include "primal/restarted_search.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/sat/strategy.hpp"
 #include "solve/incumbent.hpp"
@@ -34,10 +33,14 @@ class FirstPlan final : public sat::Strategy {
 
   /// Requires a slice with effort.
   [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
+  /// No plan comes any more, or no cheaper one.
+  [[nodiscard]] bool is_over() const noexcept { return search_.is_over(); }
+  /// Of all slices; a slice may take more than it is given, because guides are not cut.
+  [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
 
  private:
   const PlanSearchContext context_;
-  RestartedSearch search_;
+  PrimalSearch search_;
 };
 
 /// Makes the incumbent cheaper by large-neighbourhood search; and a rival of it, which is made of
@@ -100,7 +103,6 @@ class PlanSearch {
   bool is_hopeful_ = false;       // credit is for the first draft
   Cost seen_lower_ = 0;
   std::optional<Cost> seen_upper_;
-  std::int64_t start_effort_ = 0;
 };
 
 }  // namespace quadrille::discrete

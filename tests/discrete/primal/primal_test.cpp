@@ -196,7 +196,7 @@ TEST(PrimalSearch, DependsOnTheSeedAndNotOnSlicesOrRepetition) {
   LimitMonitor limits{Limits{}};
   PrimalSearch sliced(instance, distances_of(instance), 7);
   int slices = 0;
-  while (sliced.advance(1, limits) == State::searching) ++slices;
+  for (; !sliced.is_over(); ++slices) static_cast<void>(sliced.advance(1, limits));
   EXPECT_GT(slices, 5);
   EXPECT_EQ(sliced.plan(), once);
 }

@@ -22,16 +22,17 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
-/// Looks for a plan of any cost: LaCAM with PIBT as generator of configurations (Okumura, "LaCAM:
-/// search-based algorithm for quick multi-agent pathfinding", AAAI 2023; Okumura et al., "Priority
-/// inheritance with backtracking", AIJ 2022). Complete: with enough time and memory it finds a plan
-/// if there is one. Memory grows by about 12 bytes per agent and configuration visited.
-/// One thread.
+/// Looks for a plan of any cost, soon rather than cheap: LaCAM with PIBT as generator of
+/// configurations (Okumura, "LaCAM: search-based algorithm for quick multi-agent pathfinding", AAAI
+/// 2023; Okumura et al., "Priority inheritance with backtracking", AIJ 2022), guided by paths that
+/// avoid each other (Han and Yu, ICRA 2022), with restarts. Complete: with enough time and memory
+/// it finds a plan if there is one. Memory grows by about 12 bytes per agent and configuration
+/// visited. One thread.
 class PrimalSearch {
  public:
   enum class State {
     searching,  ///< `advance` can go on.
-    found,      ///< There is a plan.
+    found,      ///< There is a plan. `advance` may find a cheaper one unless the search is over.
     exhausted,  ///< Every reachable configuration was visited: there is no plan.
   };
 
@@ -45,10 +46,12 @@ class PrimalSearch {
   /// Searches on until `effort` more is spent, a limit is met or the search is over.
   State advance(std::int64_t effort, LimitMonitor& limits);
   [[nodiscard]] State state() const noexcept;
+  [[nodiscard]] bool is_over() const noexcept;         ///< `advance` does nothing any more.
   [[nodiscard]] std::int64_t effort() const noexcept;  ///< Spent so far.
-  /// Different configurations visited so far; in the end, without a plan, all that can be reached.
+  /// In the end, without a plan: the configurations that can be reached, all of which were visited;
+  /// 0 before, and where some goal cannot be reached.
   [[nodiscard]] std::size_t num_configurations() const noexcept;
-  /// Trimmed. Requires State::found. O(size of the plan).
+  /// The cheapest so far, trimmed. Requires State::found. O(size of the plan).
   [[nodiscard]] Plan plan() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/restarted_search.hpp"
+#include "primal/primal_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +14,16 @@
 namespace quadrille::discrete::primal_test {
 namespace {
 
-using State = RestartedSearch::State;
+using State = PrimalSearch::State;
 using quadrille::support::scaled;
 using support::instance_text;
 
-TEST(RestartedSearch, FollowsTheSequenceOfLuby) {
+TEST(PrimalSearch, FollowsTheSequenceOfLuby) {
   const std::vector<std::int64_t> expected{1, 1, 2, 1, 1, 2, 4, 1, 1, 2, 1, 1, 2, 4, 8, 1};
   for (std::uint32_t k = 1; k <= expected.size(); ++k) EXPECT_EQ(luby(k), expected[k - 1]) << k;
 }
 
-TEST(RestartedSearch, FindsAPlanIfAndOnlyIfThereIsOne) {
+TEST(PrimalSearch, FindsAPlanIfAndOnlyIfThereIsOne) {
   support::Random random(3);
   std::size_t num_feasible = 0, num_infeasible = 0;
   for (std::size_t round = 0; round < scaled(1000); ++round) {
@@ -31,7 +31,7 @@ TEST(RestartedSearch, FindsAPlanIfAndOnlyIfThereIsOne) {
     const auto answer = support::joint_search(instance, Objective::makespan);
     if (answer.status == Status::unknown) continue;
     LimitMonitor limits{Limits{}};
-    RestartedSearch search(instance, distances_of(instance), static_cast<std::uint32_t>(round));
+    PrimalSearch search(instance, distances_of(instance), static_cast<std::uint32_t>(round));
     State state = State::searching;
     while (state == State::searching)
       state = search.advance(1 + static_cast<std::int64_t>(random.below(100'000)), limits);
@@ -47,7 +47,7 @@ TEST(RestartedSearch, FindsAPlanIfAndOnlyIfThereIsOne) {
 }
 
 // Boards of up to 97 % agents, thousands of them, each within a few megasteps.
-TEST(RestartedSearch, FindsPlansForCrowds) {
+TEST(PrimalSearch, FindsPlansForCrowds) {
   std::size_t num_without = 0;
   const std::size_t rounds = scaled(1500);
   for (std::size_t round = 0; round < rounds; ++round) {
@@ -56,7 +56,7 @@ TEST(RestartedSearch, FindsPlansForCrowds) {
     const std::size_t agents = cells * (50 + round * 7 % 48) / 100;
     const Instance instance = crowd(side, agents, round);
     LimitMonitor limits{Limits{}};
-    RestartedSearch search(instance, distances_of(instance), 0);
+    PrimalSearch search(instance, distances_of(instance), 0);
     if (search.advance(20'000'000, limits) != State::found) {
       ++num_without;
       continue;
@@ -66,17 +66,36 @@ TEST(RestartedSearch, FindsPlansForCrowds) {
   EXPECT_EQ(num_without, 0);
 }
 
-TEST(RestartedSearch, TheSameEffortsGiveTheSamePlan) {
+TEST(PrimalSearch, TheSameEffortsGiveTheSamePlan) {
   const Instance instance = crowd(9, 70, 5);
   const auto found = [&] {
     LimitMonitor limits{Limits{}};
-    RestartedSearch search(instance, distances_of(instance), 3);
+    PrimalSearch search(instance, distances_of(instance), 3);
     while (search.advance(1000, limits) == State::searching) {
     }
     return search.plan();
   };
   const Plan plan = found();
   EXPECT_EQ(found(), plan);
+}
+
+TEST(PrimalSearch, GoesOnToACheaperPlan) {
+  std::size_t num_cheaper = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Instance instance = crowd(12, 60, seed);
+    LimitMonitor limits{Limits{}};
+    PrimalSearch search(instance, distances_of(instance), 0);
+    while (search.advance(100, limits) == State::searching) {
+    }
+    const Cost first = search.plan().cost(Objective::sum_of_costs);
+    while (!search.is_over()) ASSERT_EQ(search.advance(100, limits), State::found);
+    const Plan last = search.plan();
+    ASSERT_TRUE(verify(instance, last).valid());
+    ASSERT_LE(last.cost(Objective::sum_of_costs), first);
+    num_cheaper += last.cost(Objective::sum_of_costs) < first ? 1 : 0;
+  }
+  EXPECT_GE(num_cheaper, 5);
+  EXPECT_LE(num_cheaper, 35);  // Both guides are of use.
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "primal/guide.hpp"
+#include "primal/lacam.hpp"
+#include "quadrille/discrete/primal.hpp"
+
+namespace quadrille::discrete {
+
+/// Lacam with restarts, with and without guides.
+///
+/// Two guided searches have a turn each, and the cheaper plan is kept: their guides allow detours
+/// of different lengths, and which one is better depends on how crowded the map is. Without a plan
+/// then, a search without a guide takes turns with others of other seeds, guided and not, whose
+/// efforts follow the sequence of Luby et al. ("Optimal speedup of Las Vegas algorithms", IPL
+/// 1993). Why: how long a search takes on a crowded map has a heavy tail over the seeds; most find
+/// a plan at once, some not in a thousand times as long (Gomes et al., "Heavy-tailed phenomena in
+/// satisfiability and constraint satisfaction problems", JAR 2000). The search that goes on for
+/// ever keeps all complete; of the others one at a time is in memory.
+class PrimalSearch::Impl {
+ public:
+  Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+       std::uint32_t seed);
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  State advance(std::int64_t effort, LimitMonitor& limits);
+  [[nodiscard]] State state() const noexcept { return state_; }
+  [[nodiscard]] bool is_over() const noexcept;
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+  [[nodiscard]] std::size_t num_configurations() const noexcept { return num_configurations_; }
+  [[nodiscard]] const Plan& plan() const;
+
+ private:
+  static constexpr std::uint32_t kNumGuides = 2;
+
+  bool begin_turn(LimitMonitor& limits);
+  void end_turn(const Lacam& search);
+  bool make_guide(std::uint32_t kind, LimitMonitor& limits);
+  [[nodiscard]] bool is_turn_of_main() const noexcept {
+    return turn_ >= kNumGuides && (turn_ - kNumGuides) % 2 == 0;
+  }
+
+  const Instance instance_;
+  const std::shared_ptr<const GoalDistances> distances_;
+  const std::uint32_t seed_;
+  const std::int64_t unit_;  // The effort of most turns.
+  Cost ideal_ = 0;           // Of a plan in which nobody is in the way of others.
+  State state_ = State::searching;
+  std::array<std::shared_ptr<const Guide>, kNumGuides> guides_;
+  std::optional<Lacam> main_;  // Goes on for ever.
+  std::optional<Lacam> other_;
+  std::uint32_t turn_ = 0, num_restarts_ = 0;
+  std::optional<std::int64_t> turn_end_;  // In efforts of the search whose turn it is.
+  std::optional<Plan> plan_;              // The cheapest.
+  Cost cost_ = 0;
+  std::size_t num_configurations_ = 0;
+  std::int64_t effort_ = 0;
+};
+
+/// The k-th number of 1, 1, 2, 1, 1, 2, 4, 1, 1, 2, 1, 1, 2, 4, 8, ... Requires k >= 1.
+[[nodiscard]] std::int64_t luby(std::uint32_t k);
+
+}  // namespace quadrille::discrete
