@@ -38,7 +38,8 @@ class PlanImprover::Impl {
   struct Choice {
     Rule rule;
     std::size_t size;
-    std::int64_t score;
+    std::int64_t score = 0;
+    std::int64_t explored = 0;  // Effort for it when it was its turn, whatever its score.
   };
 
   /// What the new paths of a neighbourhood may cost.
@@ -47,6 +48,7 @@ class PlanImprover::Impl {
     Cost sum = 0;         // Of the arrivals.
   };
 
+  Choice& least_explored();
   Choice& draw_choice();
   AgentId draw_seed();
   [[nodiscard]] Budget budget_of(const std::vector<AgentId>& agents) const;
@@ -73,7 +75,7 @@ class PlanImprover::Impl {
   std::vector<Choice> choices_;
   std::vector<char> was_seed_;   // By agent: since all delayed agents had been seeds.
   std::vector<Path> old_paths_;  // Of the neighbourhood.
-  std::int64_t effort_ = 0;
+  std::int64_t effort_ = 0, explored_ = 0;
   bool was_rebuilt_ = false;  // Was the neighbourhood of all agents tried?
 };
 
