@@ -35,7 +35,7 @@ class MarginalGain {
   };
   /// Steps for plans that take as long as one of the search. Measured: 2 to 6.
   static constexpr std::int64_t kStepOfSearch = 4;
-  static constexpr std::int64_t kUnit = 256, kLeast = 1, kFirst = 8, kLargest = 768;
+  static constexpr std::int64_t kUnit = 256, kLeast = 1, kFirst = 8, kLargest = 1792;
 
   Lately search_, plans_;
   std::int64_t share_ = kFirst;  // of kUnit

@@ -36,7 +36,7 @@ TEST(MarginalGain, NobodyStarves) {
   EXPECT_GT(least, 0);
   EXPECT_EQ(least, due_after(200, 100, 0, kOpen));
   EXPECT_EQ(most, due_after(200, 0, 100, kOpen));
-  EXPECT_LT(most, 20 * kSearch);
+  EXPECT_LT(most, 40 * kSearch);
 }
 
 TEST(MarginalGain, NothingIsGainedByNobody) {
