@@ -92,11 +92,11 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
                "Do not look for a plan of any cost before and beside the proof")
       ->group(group);
   add_integer(app, "--threads", arguments.threads, 1, kMaxThreads,
-              "Searches side by side, with other systems; default 1")
+              "Searches side by side: for the bound, for plans, with other systems; default 1")
       ->group(group);
   app.add_flag("--race", options.race,
-               "With --threads: take the proof that comes first in time; the plan may differ from\n"
-               "run to run then")
+               "With --threads: do not wait for each other, take the proof that comes first in time;\n"
+               "the plan may differ from run to run then")
       ->group(group);
   add_integer(app, "--seed", arguments.seed, 0, kMaxSeed, "Seed of all random choices; default 0")
       ->group(group);

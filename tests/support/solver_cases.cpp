@@ -139,9 +139,10 @@ std::vector<TunedOptions> random_systems(Random& random, Objective objective) {
     if (random.percent(60)) options.lazy.chronological = random.percent(50);
     if (random.percent(50)) options.first_turn = 1 + static_cast<std::int64_t>(random.below(20));
     if (random.percent(50)) options.open = random.percent(80);
-    if (random.percent(5)) {
-      options.threads = 2 + random.below(2);
+    if (random.percent(15)) {
+      options.threads = 2 + random.below(3);
       options.race = random.percent(50);
+      if (random.percent(80)) options.round = 1 + static_cast<std::int64_t>(random.below(3000));
     }
     if (random.percent(30)) options.debug.known_plan = Plan();  // replaced by the oracle's
   }

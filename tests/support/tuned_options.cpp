@@ -13,6 +13,7 @@ Result<SolveOutcome> solve(const Instance& instance, const TunedOptions& options
       features.is_open = *options.open;
       tuning.cores = choose_tuning(features, of_one).cores;
     }
+    tuning.round = options.round.value_or(tuning.round);
     tuning.cores.first_turn = options.first_turn.value_or(tuning.cores.first_turn);
     return tuning;
   });

@@ -124,6 +124,17 @@ void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>
                       gap_percent(*seen_upper_, incumbent.lower()));
 }
 
+std::int64_t PlanSearch::work(const std::function<Plan()>& draft) {
+  const std::int64_t before = first_plan_.effort();
+  if (!first_plan_.is_over() && (!context_.incumbent.upper() || before < kFirstEffort)) {
+    static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
+    return std::max(kFirstSlice, first_plan_.effort() - before);
+  }
+  improvement_.offer_draft(draft);
+  static_cast<void>(improvement_.advance({.effort = long_slice_}));
+  return std::max(long_slice_, improvement_.effort());
+}
+
 void PlanSearch::count_search(std::int64_t search_effort) {
   const Incumbent& incumbent = context_.incumbent;
   const std::int64_t effort = search_effort - seen_effort_;

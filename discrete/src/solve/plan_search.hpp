@@ -89,6 +89,9 @@ class PlanSearch {
   /// To be called often with the steps of the search so far. `draft` tells the paths that the
   /// search had at last, see Run::draft.
   void advance(std::int64_t search_effort, const std::function<Plan()>& draft);
+  /// Instead of both, where a search in another thread has all the time that it needs: looks for
+  /// plans for a while. `draft` as above. Returns the steps that it took.
+  std::int64_t work(const std::function<Plan()>& draft);
 
  private:
   void count_search(std::int64_t search_effort);

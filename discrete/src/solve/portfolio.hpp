@@ -3,26 +3,41 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "quadrille/core/limits.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/solver.hpp"
+#include "solve/rounds.hpp"
 #include "solve/tuning.hpp"
 
 namespace quadrille::discrete {
 
-/// What others have to say about a running search.
+/// What a search is for, beside others.
+enum class Role {
+  both,   ///< Plans and the lower bound.
+  bound,  ///< The lower bound; plans come from elsewhere, and are made of its drafts.
+  plans,  ///< Plans only.
+};
+
+/// The others that a running search works with.
 class Companion {
  public:
   virtual ~Companion() = default;
-  /// Called now and then with the elementary steps of the search so far. May wait.
-  virtual void on_effort(std::int64_t effort) = 0;
+  [[nodiscard]] virtual Role role() const = 0;
+  /// Called now and then with the elementary steps of the search so far. May wait. At the end of a
+  /// round: `tell()` is told to the others, and what they told comes back.
+  [[nodiscard]] virtual std::optional<News> on_effort(std::int64_t effort,
+                                                      const std::function<News()>& tell) = 0;
   /// Set when the search is not needed any more.
   [[nodiscard]] virtual const std::atomic<bool>& cancelled() const = 0;
   /// Of all searches that run side by side.
   [[nodiscard]] virtual std::shared_ptr<ResourceAccount> account() const = 0;
+  /// Computed once for all. Null when a limit was met.
+  [[nodiscard]] virtual std::shared_ptr<const GoalDistances> distances(LimitMonitor& limits) = 0;
 };
 
 /// One search in the calling thread. `companion` may be null.
@@ -34,12 +49,15 @@ class Companion {
 
 /// The answer of several searches of one instance, not empty; `winner` has a proof. Without a proof
 /// an internal error of any of them is the answer, because it has to be seen; otherwise that is the
-/// cheapest plan with the largest bound, which may be as close together as `options` ask for.
+/// cheapest plan with the largest bound, which may be as close together as `options` ask for, and
+/// the statistics of the first.
 [[nodiscard]] SolveOutcome combine(std::vector<SolveOutcome> outcomes,
                                    std::optional<std::size_t> winner, const SolveOptions& options);
 
-/// Several searches in threads of their own, the first with `options` and the others with other
-/// systems; the first proof is the answer. Requires options.threads > 1.
+/// Several searches in threads of their own. The first one raises the lower bound with `options`,
+/// the second one looks for plans and makes them cheaper, further ones search with other systems
+/// (without options.first_plan the second one, too). They exchange bounds, plans and drafts. The
+/// first proof is the answer. Requires options.threads > 1.
 ///
 /// Unless options.race, all pass through rounds of equal effort together, and of the proofs in the
 /// earliest round that has one, that of the first search is taken: the same answer at any speed.

@@ -21,6 +21,9 @@
 namespace quadrille::discrete {
 namespace {
 
+/// Steps for plans that take as long as one of the search, for rounds that take about as long.
+constexpr std::int64_t kStepsForPlans = 4;
+
 /// One solve, with what all systems have in common: bounds from both sides.
 class Search final : private sat::YieldPoint {
  public:
@@ -32,32 +35,42 @@ class Search final : private sat::YieldPoint {
         limits_(limits),
         outcome_(outcome),
         companion_(companion),
+        role_(companion != nullptr ? companion->role() : Role::both),
         incumbent_(options.objective) {}
 
   void run() {
-    const auto distances = GoalDistances::make(instance_, limits_);
+    const auto distances = companion_ != nullptr ? companion_->distances(limits_)
+                                                 : GoalDistances::make(instance_, limits_);
     incumbent_.raise(free_bound(distances.get()));
-    outcome_.lower_bound = incumbent_.lower();
+    outcome_.lower_bound = lower();
     if (!distances) return;
-    if (options_.first_plan) {
+    if (options_.first_plan && role_ != Role::bound) {
       plans_.emplace(PlanSearchContext{instance_, distances, options_.objective, options_.seed,
                                        incumbent_, limits_});
-      while (plans_->start()) yield();
-      yield();
+      if (role_ == Role::both) {
+        while (plans_->start()) yield();
+        yield();
+      }
     }
     try {
-      if (!limits_.exhausted_now()) search(distances);
+      if (role_ == Role::plans)
+        look_for_plans();
+      else if (!limits_.exhausted_now())
+        search(distances);
     } catch (const LimitReached&) {  // while the search was set up
     } catch (const std::bad_alloc&) {
       // The search's memory is free again: the bound and the best plan are the answer.
       outcome_.stop = StopReason::memory;
     }
     run_ = nullptr;
-    outcome_.lower_bound = incumbent_.lower();
-    if (!outcome_.internal_error && incumbent_.upper()) {
-      outcome_.plan = incumbent_.plan();
-      outcome_.status = incumbent_.are_closed() ? Status::optimal : Status::feasible;
+    outcome_.lower_bound = lower();
+    if (outcome_.internal_error || !incumbent_.upper()) return;
+    if (*incumbent_.upper() < lower()) {
+      outcome_.internal_error = Error{ErrorCode::internal, "a plan costs less than the bound", {}};
+      return;
     }
+    outcome_.plan = incumbent_.plan();
+    outcome_.status = incumbent_.upper() == lower() ? Status::optimal : Status::feasible;
   }
 
  private:
@@ -78,11 +91,48 @@ class Search final : private sat::YieldPoint {
     return bound;
   }
 
+  /// All that anybody has proved. The search's own bound stays its own, because it follows from its
+  /// cores.
+  [[nodiscard]] Cost lower() const { return std::max(incumbent_.lower(), heard_lower_); }
+
+  /// Makes plans for as long as somebody else works on the bound.
+  void look_for_plans() {
+    std::int64_t effort = 0;
+    while (!limits_.exhausted_now() && !others_ended_) {
+      effort += plans_->work([this] { return draft_ ? *std::exchange(draft_, nullptr) : Plan(); });
+      exchange(effort / kStepsForPlans);
+      incumbent_.raise(heard_lower_);
+    }
+  }
+
+  void exchange(std::int64_t effort) {
+    if (companion_ == nullptr) return;
+    const auto heard = companion_->on_effort(effort, [this] { return news(); });
+    if (!heard) return;
+    heard_lower_ = std::max(heard_lower_, heard->lower);
+    if (heard->plan) incumbent_.offer(*heard->plan);
+    draft_ = heard->draft;
+    others_ended_ = heard->others_ended;
+  }
+
+  [[nodiscard]] News news() {
+    News news;
+    news.lower = lower();
+    if (incumbent_.upper()) {
+      if (!told_plan_ || incumbent_.upper() != told_cost_)
+        told_plan_ = std::make_shared<const Plan>(incumbent_.plan());
+      news.plan = told_plan_;
+      news.cost = told_cost_ = *incumbent_.upper();
+    }
+    if (role_ == Role::bound) news.draft = std::make_shared<const Plan>(run_->draft());
+    return news;
+  }
+
   // sat::YieldPoint
   void yield() override {
     if (run_ != nullptr) {
       const std::int64_t effort = run_->engine().effort();
-      if (companion_ != nullptr) companion_->on_effort(effort);
+      exchange(effort);
       if (plans_) plans_->advance(effort, [this] { return run_->draft(); });
     }
     consider_stop();
@@ -93,15 +143,14 @@ class Search final : private sat::YieldPoint {
   /// Ends the search when the bounds meet, or are as close as was asked for.
   void consider_stop() {
     const std::optional<Cost> cost = incumbent_.upper();
-    if (cost &&
-        (incumbent_.are_closed() || is_within_gap(options_.gap_percent, *cost, incumbent_.lower())))
+    if (cost && (*cost <= lower() || is_within_gap(options_.gap_percent, *cost, lower())))
       limits_.stop(StopReason::gap);
   }
 
   void report_progress() {
     if (!options_.on_progress || limits_.elapsed_wall() < next_report_s_) return;
     options_.on_progress(
-        {incumbent_.lower(), incumbent_.upper(), limits_.elapsed_wall(), limits_.conflicts()});
+        {lower(), incumbent_.upper(), limits_.elapsed_wall(), limits_.conflicts()});
     next_report_s_ = limits_.elapsed_wall() + options_.progress_interval_s;
   }
 
@@ -155,11 +204,17 @@ class Search final : private sat::YieldPoint {
   LimitMonitor& limits_;
   SolveOutcome& outcome_;
   Companion* const companion_;
+  const Role role_;
   Incumbent incumbent_;
   std::optional<PlanSearch> plans_;
   const Run* run_ = nullptr;  // when it is prepared
   double next_report_s_ = 0, next_plan_s_ = 0;
   std::optional<Cost> reported_cost_;
+  // What was heard from others, and told to them.
+  Cost heard_lower_ = 0;
+  std::shared_ptr<const Plan> draft_, told_plan_;
+  Cost told_cost_ = 0;
+  bool others_ended_ = false;
 };
 
 /// The plan has to pass `verify` and to cost what was proved.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "lazy/explicit_paths.hpp"
@@ -23,6 +24,7 @@ struct Tuning {
   bool bump_reasons = true;  ///< Of CaDiCaL.
   ExplicitPaths::Price explicit_paths;
   sat::CoreGuidedOptions cores;
+  std::int64_t round = 500'000;  ///< Of a portfolio, in steps of the search: some 0.5 s. 1 or more.
 };
 /// The table of settings.
 [[nodiscard]] Tuning choose_tuning(const Features& features, const SolveOptions& options);

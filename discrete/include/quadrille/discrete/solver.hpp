@@ -116,11 +116,12 @@ struct SolveOptions {
   /// quadrille/core/outcome.hpp. Not negative.
   std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
-  /// More than one: that many searches side by side, this one and others with other systems; the
-  /// first proof is the answer. 1 .. 64.
+  /// More than one: that many searches side by side. The first raises the lower bound, the second
+  /// makes plans (with first_plan), further ones search with other systems. They exchange bounds and
+  /// plans; the first proof is the answer. 1 .. 64.
   std::size_t threads = 1;
-  /// With several threads, take the proof that comes first in time. Otherwise it is the first one
-  /// counted in steps, so that the answer is always the same.
+  /// With several threads, exchange at once and take the proof that comes first in time. Otherwise
+  /// both go by steps, so that the answer is always the same.
   bool race = false;
   /// Called on the solving thread, at most once in `progress_interval_s` seconds. May be empty.
   /// What it throws ends the search and comes out of `solve`.
