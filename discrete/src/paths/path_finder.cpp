@@ -9,19 +9,12 @@ namespace quadrille::discrete {
 
 void PathFinder::start_search() {
   if (++stamp_ == 0) {
-    layers_.clear();
+    heads_.assign(heads_.size(), {});
     stamp_ = 1;
   }
+  closed_.clear();
   for (Buckets& buckets : open_)
     for (auto& bucket : buckets) bucket.clear();
-}
-
-void PathFinder::make_layers(Timestep slack) {
-  const auto last = static_cast<std::size_t>(slack);
-  while (layers_.size() <= last) {
-    if (limits_ != nullptr) limits_->check_room_for(num_vertices_ * sizeof(Closed));
-    layers_.emplace_back(num_vertices_);
-  }
 }
 
 void PathFinder::push(Buckets& buckets, Timestep at, State state) {
@@ -30,16 +23,37 @@ void PathFinder::push(Buckets& buckets, Timestep at, State state) {
   buckets[index].push_back(state);
 }
 
-void PathFinder::trace(const Query& query, Timestep arrival, Path& path) {
+bool PathFinder::is_closed(VertexId v, Timestep slack) const {
+  const Head& head = heads_[v];
+  if (head.stamp != stamp_ || head.largest < slack) return false;
+  if (head.largest == slack) return true;
+  ClosedIndex at = head.last;
+  while (at != kNone && closed_[at].slack != slack) at = closed_[at].earlier;
+  return at != kNone;
+}
+
+PathFinder::ClosedIndex PathFinder::close(State state, Timestep slack) {
+  if (limits_ != nullptr && closed_.size() == closed_.capacity())
+    limits_->check_room_for(2 * closed_.size() * sizeof(Closed));
+  Head& head = heads_[state.vertex];
+  if (head.stamp != stamp_) head = {stamp_, -1, kNone};
+  const auto index = static_cast<ClosedIndex>(closed_.size());
+  closed_.push_back({state, slack, head.last});
+  head.largest = std::max(head.largest, slack);
+  head.last = index;
+  return index;
+}
+
+void PathFinder::trace(const Query& query, ClosedIndex last, Path& path) const {
+  const Timestep arrival = query.distances.free_cost() + closed_[last].slack;
   path.resize(static_cast<std::size_t>(arrival) + 1);
-  VertexId v = query.distances.goal();
-  for (Timestep t = arrival; t > 0; --t) {
-    path[static_cast<std::size_t>(t)] = v;
-    const auto slack = static_cast<std::size_t>(query.distances.slack(v, t));
-    v = layers_[slack][v.index()].parent;
+  ClosedIndex at = last;
+  for (auto vertex = path.rbegin(); vertex != path.rend(); ++vertex) {
+    QUADRILLE_REQUIRE(at != kNone, "a path begins at timestep 0");
+    *vertex = closed_[at].state.vertex;
+    at = closed_[at].state.parent;
   }
-  path[0] = v;
-  QUADRILLE_REQUIRE(v == query.distances.start(), "a path begins at the start");
+  QUADRILLE_REQUIRE(at == kNone && path[0] == query.distances.start(), "a path begins at the start");
 }
 
 template <class Hit, class Push>
@@ -52,7 +66,7 @@ void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hi
   const Timestep h = d.to_goal(v), t = d.free_cost() + slack - h;
   const auto step = [&](VertexId w, Timestep slack_then) {
     if (slack_then > max_slack) return;
-    if (layers_[static_cast<std::size_t>(slack_then)][w.index()].stamp == stamp_) return;
+    if (is_closed(w, slack_then)) return;
     bool blocked = false;
     const auto note = [&](std::uint32_t slot) {
       blocked = true;
@@ -62,7 +76,6 @@ void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hi
     if (!blocked && w != v) query.obstacles.for_each_on(v, w, t, note);
     if (!blocked) push(w, slack_then, t + 1);
   };
-  make_layers(std::min(slack + 2, max_slack));
   step(v, slack + 1);
   for (const VertexId w : d.graph().neighbours(v)) step(w, slack + 1 + d.to_goal(w) - h);
 }
@@ -74,21 +87,19 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
   first_hits_.assign(query.obstacles.num_slots(), kNoHit);
   const Timestep max_slack = query.max_cost - d.free_cost();
   if (max_slack < 0 || query.obstacles.earliest_rest() > query.max_cost) return false;
-  make_layers(0);
-  push(open_[0], 0, {d.start(), d.start()});
+  push(open_[0], 0, {d.start(), kNone});
   for (Timestep slack = 0; slack <= max_slack; ++slack) {
     Buckets& buckets = open_[static_cast<std::size_t>(slack % 3)];
     for (std::size_t c = 0; c < buckets.size(); ++c) {
       while (!buckets[c].empty()) {
         const State state = buckets[c].back();
         buckets[c].pop_back();
-        Closed& mark = layers_[static_cast<std::size_t>(slack)][state.vertex.index()];
-        if (mark.stamp == stamp_) continue;
-        mark = {stamp_, state.parent};
+        if (is_closed(state.vertex, slack)) continue;
+        const ClosedIndex index = close(state, slack);
         if (state.vertex == d.goal()) {
           const Timestep arrival = d.free_cost() + slack;
           if (arrival >= query.obstacles.earliest_rest()) {
-            trace(query, arrival, path);
+            trace(query, index, path);
             return true;
           }
         }
@@ -102,7 +113,7 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
                                                        : query.others->collisions_of_step(
                                                              query.agent, state.vertex, w, arrival);
               push(open_[static_cast<std::size_t>(then % 3)], static_cast<Timestep>(c) + more,
-                   {w, state.vertex});
+                   {w, index});
             });
       }
     }
@@ -120,8 +131,7 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
   if (static_cast<int>(open_.size()) < below) open_.resize(static_cast<std::size_t>(below));
   start_search();
   if (below <= 0) return false;
-  make_layers(0);
-  push(open_[0], 0, {d.start(), d.start()});
+  push(open_[0], 0, {d.start(), kNone});
   for (int c = 0; c < below; ++c) {
     Buckets& buckets = open_[static_cast<std::size_t>(c)];
     for (std::size_t s = 0; s < buckets.size(); ++s) {  // steps never lessen the slack
@@ -130,13 +140,12 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
         const State state = buckets[s].back();
         buckets[s].pop_back();
         const auto slack = static_cast<Timestep>(s);
-        Closed& mark = layers_[static_cast<std::size_t>(slack)][state.vertex.index()];
-        if (mark.stamp == stamp_) continue;
-        mark = {stamp_, state.parent};
+        if (is_closed(state.vertex, slack)) continue;
+        const ClosedIndex index = close(state, slack);
         const Timestep arrival = d.free_cost() + slack;
         if (state.vertex == d.goal() && arrival >= query.obstacles.earliest_rest() &&
             c + query.others->collisions_of_rest(query.agent, arrival) < below) {
-          trace(query, arrival, path);
+          trace(query, index, path);
           return true;
         }
         expand(
@@ -144,7 +153,7 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
             [&](VertexId w, Timestep then, Timestep at) {
               const int sum =
                   c + query.others->collisions_of_step(query.agent, state.vertex, w, at);
-              if (sum < below) push(open_[static_cast<std::size_t>(sum)], then, {w, state.vertex});
+              if (sum < below) push(open_[static_cast<std::size_t>(sum)], then, {w, index});
             });
       }
     }

@@ -13,12 +13,13 @@
 namespace quadrille::discrete {
 
 /// Searches for paths of one agent around its obstacles, over states (vertex, slack): a wait adds
-/// 1 to the slack, a move 0, 1 or 2. Tables are stamped and exist only for slacks that were needed.
+/// 1 to the slack, a move 0, 1 or 2. Memory follows the number of vertices and of states expanded
+/// by one search, not the horizon.
 class PathFinder {
  public:
   /// Searches throw LimitReached when `limits` are met; null: there are none.
   explicit PathFinder(std::size_t num_vertices, LimitMonitor* limits = nullptr)
-      : num_vertices_(num_vertices), limits_(limits) {}
+      : limits_(limits), heads_(num_vertices) {}
 
   struct Query {
     AgentId agent;
@@ -46,32 +47,44 @@ class PathFinder {
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 
  private:
+  using ClosedIndex = std::uint32_t;
+  static constexpr ClosedIndex kNone = UINT32_MAX;
   struct State {
-    VertexId vertex, parent;
+    VertexId vertex;
+    ClosedIndex parent;
   };
   struct Closed {
+    State state;
+    Timestep slack;
+    ClosedIndex earlier;  // The state of the same vertex that was closed before it.
+  };
+  /// The closed states of a vertex, in the search with that stamp.
+  struct Head {
     std::uint32_t stamp = 0;
-    VertexId parent;
+    Timestep largest = -1;  // slack
+    ClosedIndex last = kNone;
   };
   using Buckets = std::vector<std::vector<State>>;
 
   void start_search();
-  /// Makes the layers up to a slack.
-  void make_layers(Timestep slack);
   static void push(Buckets& buckets, Timestep at, State state);
+  /// Whether the state was expanded. Takes time in the states of the vertex that were, none in a
+  /// search that closes them by increasing slack and asks for no smaller one.
+  [[nodiscard]] bool is_closed(VertexId v, Timestep slack) const;
+  ClosedIndex close(State state, Timestep slack);
   /// Calls `push(vertex, slack, arrival)` for each step that is new and `hit(slot, slack)` for each
-  /// obstacle that blocks one. Requires the layer of `slack`.
+  /// obstacle that blocks one.
   template <class Hit, class Push>
   void expand(const Query& query, VertexId v, Timestep slack, const Hit& hit, const Push& push);
-  /// The path that ends at the goal at `arrival`, from the parents in the closed states.
-  void trace(const Query& query, Timestep arrival, Path& path);
+  /// The path that ends with a closed state.
+  void trace(const Query& query, ClosedIndex last, Path& path) const;
 
-  std::size_t num_vertices_;
   LimitMonitor* limits_;
   std::int64_t effort_ = 0;
   std::uint32_t stamp_ = 0;
-  std::vector<std::vector<Closed>> layers_;  // by slack, then vertex
-  std::vector<Buckets> open_;                // cheapest: by slack % 3; quietest: by collisions
+  IdVector<VertexId, Head> heads_;
+  std::vector<Closed> closed_;
+  std::vector<Buckets> open_;  // cheapest: by slack % 3; quietest: by collisions
   std::vector<Timestep> first_hits_;
 };
 
