@@ -27,21 +27,36 @@ class ObstacleMap {
   /// Calls `tell(slot)` for each slot that forbids being in `v` at `t`.
   template <class Tell>
   void for_each_at(VertexId v, Timestep t, const Tell& tell) const {
-    const Head& head = heads_[v];
-    if (head.stamp != stamp_) return;
-    for (int e = head.visits; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
-      const Entry& entry = entries_[static_cast<std::size_t>(e)];
-      if (entry.first <= t && t <= entry.last) tell(entry.slot);
-    }
+    for_each_visit(v, [&](Timestep first, Timestep last, std::uint32_t slot) {
+      if (first <= t && t <= last) tell(slot);
+    });
   }
   /// Calls `tell(slot)` for each slot that forbids moving from `v` to `w` at `t`.
   template <class Tell>
   void for_each_on(VertexId v, VertexId w, Timestep t, const Tell& tell) const {
+    for_each_move(v, w, [&](Timestep then, std::uint32_t slot) {
+      if (then == t) tell(slot);
+    });
+  }
+
+  /// Calls `tell(first, last, slot)` for each span of time in which a slot forbids being in `v`.
+  template <class Tell>
+  void for_each_visit(VertexId v, const Tell& tell) const {
+    const Head& head = heads_[v];
+    if (head.stamp != stamp_) return;
+    for (int e = head.visits; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
+      const Entry& entry = entries_[static_cast<std::size_t>(e)];
+      tell(entry.first, entry.last, entry.slot);
+    }
+  }
+  /// Calls `tell(t, slot)` for each slot that forbids moving from `v` to `w` at some `t`.
+  template <class Tell>
+  void for_each_move(VertexId v, VertexId w, const Tell& tell) const {
     const Head& head = heads_[v];
     if (head.stamp != stamp_) return;
     for (int e = head.moves; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
       const Entry& entry = entries_[static_cast<std::size_t>(e)];
-      if (entry.first == t && entry.to == w) tell(entry.slot);
+      if (entry.to == w) tell(entry.first, entry.slot);
     }
   }
 

@@ -6,6 +6,12 @@
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
+namespace {
+/// Timesteps from a free arrival to the end of the last passage of the goal.
+constexpr Timestep kLate = 8;
+/// Efforts after which paths with few collisions are no longer looked for.
+constexpr std::int64_t kStatesPerVertex = 4, kStatesPerStep = 10;
+}  // namespace
 
 void PathFinder::start_search() {
   if (++stamp_ == 0) {
@@ -53,7 +59,8 @@ void PathFinder::trace(const Query& query, ClosedIndex last, Path& path) const {
     *vertex = closed_[at].state.vertex;
     at = closed_[at].state.parent;
   }
-  QUADRILLE_REQUIRE(at == kNone && path[0] == query.distances.start(), "a path begins at the start");
+  QUADRILLE_REQUIRE(at == kNone && path[0] == query.distances.start(),
+                    "a path begins at the start");
 }
 
 template <class Hit, class Push>
@@ -82,11 +89,24 @@ void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hi
 
 bool PathFinder::find_cheapest(const Query& query, Path& path) {
   const AgentDistances& d = query.distances;
+  first_hits_.assign(query.obstacles.num_slots(), kNoHit);
+  const Timestep earliest_rest = query.obstacles.earliest_rest();
+  if (std::max(d.free_cost(), earliest_rest) > query.max_cost) return false;
+  if (earliest_rest - d.free_cost() >= kLate) {
+    if (dive(query, path)) return true;
+  } else {
+    const auto enough = kStatesPerVertex * static_cast<std::int64_t>(heads_.size());
+    if (const End end = sweep(query, enough, path); end != End::gave_up) return end == End::found;
+  }
+  return safe_intervals_.find(d, query.obstacles, query.max_cost, first_hits_, path);
+}
+
+PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, Path& path) {
+  const AgentDistances& d = query.distances;
+  const std::int64_t last_effort = effort_ + max_effort;
   if (open_.size() < 3) open_.resize(3);
   start_search();
-  first_hits_.assign(query.obstacles.num_slots(), kNoHit);
   const Timestep max_slack = query.max_cost - d.free_cost();
-  if (max_slack < 0 || query.obstacles.earliest_rest() > query.max_cost) return false;
   push(open_[0], 0, {d.start(), kNone});
   for (Timestep slack = 0; slack <= max_slack; ++slack) {
     Buckets& buckets = open_[static_cast<std::size_t>(slack % 3)];
@@ -95,12 +115,13 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
         const State state = buckets[c].back();
         buckets[c].pop_back();
         if (is_closed(state.vertex, slack)) continue;
+        if (effort_ >= last_effort) return End::gave_up;
         const ClosedIndex index = close(state, slack);
         if (state.vertex == d.goal()) {
           const Timestep arrival = d.free_cost() + slack;
           if (arrival >= query.obstacles.earliest_rest()) {
             trace(query, index, path);
-            return true;
+            return End::found;
           }
         }
         expand(
@@ -118,7 +139,52 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
       }
     }
   }
+  return End::none;
+}
+
+bool PathFinder::dive(const Query& query, Path& path) {
+  const AgentDistances& d = query.distances;
+  const Timestep arrival = query.obstacles.earliest_rest();
+  const Query bounded{query.agent, d, query.obstacles, arrival, query.others};
+  const std::int64_t last_effort = effort_ + kStatesPerStep * (std::int64_t{arrival} + 1);
+  if (open_.empty()) open_.resize(1);
+  start_search();
+  Buckets& buckets = open_[0];  // by collisions; last in, first out
+  push(buckets, 0, {d.start(), kNone});
+  for (std::size_t c = 0; c < buckets.size(); ++c) {
+    while (!buckets[c].empty()) {
+      if (effort_ >= last_effort) return false;
+      const State state = buckets[c].back();
+      buckets[c].pop_back();
+      const Timestep slack = state.parent == kNone ? 0 : slack_after(d, state);
+      if (is_closed(state.vertex, slack)) continue;
+      const ClosedIndex index = close(state, slack);
+      if (state.vertex == d.goal() && d.free_cost() + slack == arrival) {
+        trace(query, index, path);
+        return true;
+      }
+      steps_.clear();
+      expand(
+          bounded, state.vertex, slack, [](std::uint32_t, Timestep) {},
+          [&](VertexId w, Timestep then, Timestep) { steps_.emplace_back(then, w); });
+      // Of the steps the one with the least slack comes first, a wait last.
+      std::stable_sort(steps_.begin(), steps_.end(),
+                       [](const auto& a, const auto& b) { return a.first > b.first; });
+      for (const auto& [then, w] : steps_) {
+        const Timestep at = d.free_cost() + then - d.to_goal(w);
+        const int more = query.others == nullptr
+                             ? 0
+                             : query.others->collisions_of_step(query.agent, state.vertex, w, at);
+        push(buckets, static_cast<Timestep>(c) + more, {w, index});
+      }
+    }
+  }
   return false;
+}
+
+Timestep PathFinder::slack_after(const AgentDistances& d, State state) const {
+  const Closed& before = closed_[state.parent];
+  return before.slack + 1 + d.to_goal(state.vertex) - d.to_goal(before.state.vertex);
 }
 
 bool PathFinder::find_quietest(const Query& query, int below, Path& path) {

@@ -8,6 +8,7 @@
 #include "paths/agent_distances.hpp"
 #include "paths/obstacle_map.hpp"
 #include "paths/path_index.hpp"
+#include "paths/safe_interval_search.hpp"
 #include "quadrille/core/limits.hpp"
 
 namespace quadrille::discrete {
@@ -19,7 +20,7 @@ class PathFinder {
  public:
   /// Searches throw LimitReached when `limits` are met; null: there are none.
   explicit PathFinder(std::size_t num_vertices, LimitMonitor* limits = nullptr)
-      : limits_(limits), heads_(num_vertices) {}
+      : limits_(limits), heads_(num_vertices), safe_intervals_(num_vertices, limits) {}
 
   struct Query {
     AgentId agent;
@@ -31,11 +32,14 @@ class PathFinder {
   };
 
   /// Finds a cheapest path of at most `max_cost`, among these one with few collisions. False if
-  /// there is none. Afterwards `first_hits` tells which obstacles were in the way.
+  /// there is none. Afterwards `first_hits` tells which obstacles were in the way. Where others
+  /// pass the goal late, and where the search takes long, it gives up looking at collisions, see
+  /// SafeIntervalSearch: its effort follows the vertices and not the slack.
   [[nodiscard]] bool find_cheapest(const Query& query, Path& path);
   /// By slot: the smallest slack at which an obstacle blocked a step of the last `find_cheapest`,
   /// kNoHit if it did not. Complete for all slacks below that of the path found, or up to the limit
-  /// if none was.
+  /// if none was; but when the path arrives as early as the goal can be kept, it may be empty of
+  /// hits, since the obstacles in the goal alone say why there is none that is cheaper.
   [[nodiscard]] std::span<const Timestep> first_hits() const noexcept { return first_hits_; }
   static constexpr Timestep kNoHit = INT32_MAX;
 
@@ -44,7 +48,7 @@ class PathFinder {
   [[nodiscard]] bool find_quietest(const Query& query, int below, Path& path);
 
   /// States expanded so far by all searches.
-  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_ + safe_intervals_.effort(); }
 
  private:
   using ClosedIndex = std::uint32_t;
@@ -66,6 +70,12 @@ class PathFinder {
   };
   using Buckets = std::vector<std::vector<State>>;
 
+  enum class End { found, none, gave_up };
+  /// All states by increasing slack, up to a number of them.
+  End sweep(const Query& query, std::int64_t max_effort, Path& path);
+  /// Looks for a path that arrives at the earliest rest and not before, ahead and in depth, as one
+  /// goes to the goal and waits beside it. False if that takes long, or if there is none.
+  bool dive(const Query& query, Path& path);
   void start_search();
   static void push(Buckets& buckets, Timestep at, State state);
   /// Whether the state was expanded. Takes time in the states of the vertex that were, none in a
@@ -76,6 +86,8 @@ class PathFinder {
   /// obstacle that blocks one.
   template <class Hit, class Push>
   void expand(const Query& query, VertexId v, Timestep slack, const Hit& hit, const Push& push);
+  /// Of a state that is not the first one.
+  [[nodiscard]] Timestep slack_after(const AgentDistances& distances, State state) const;
   /// The path that ends with a closed state.
   void trace(const Query& query, ClosedIndex last, Path& path) const;
 
@@ -86,6 +98,8 @@ class PathFinder {
   std::vector<Closed> closed_;
   std::vector<Buckets> open_;  // cheapest: by slack % 3; quietest: by collisions
   std::vector<Timestep> first_hits_;
+  std::vector<std::pair<Timestep, VertexId>> steps_;  // by slack, of the state expanded
+  SafeIntervalSearch safe_intervals_;
 };
 
 }  // namespace quadrille::discrete
