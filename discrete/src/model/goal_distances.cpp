@@ -1,48 +1,101 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/discrete/goal_distances.hpp"
 
+#include <algorithm>
+
+#include "model/breadth_first.hpp"
+
 namespace quadrille::discrete {
 namespace {
 
-/// Fills `rows`, one row of V entries per agent. False when a limit was met.
-template <class T>
-bool fill_rows(const Instance& instance, T no_way, LimitMonitor& limits, std::vector<T>& rows) {
-  const Graph& graph = instance.graph();
-  const std::size_t size = graph.num_vertices();
-  if (!limits.has_room_for(instance.num_agents() * size * sizeof(T))) return false;
-  rows.assign(instance.num_agents() * size, no_way);
-  std::vector<VertexId> queue;
-  queue.reserve(size);
-  for (const AgentId agent : instance.agents()) {
-    if (limits.exhausted_now()) return false;
-    T* const row = rows.data() + agent.index() * size;
-    queue.assign(1, instance.tasks()[agent].goal);
-    row[queue.front().index()] = 0;
-    for (std::size_t head = 0; head < queue.size(); ++head) {
-      if (head % 4096 == 4095 && limits.exhausted_now()) return false;
-      const VertexId v = queue[head];
-      const T next = static_cast<T>(row[v.index()] + 1);
-      for (const VertexId w : graph.neighbours(v)) {
-        if (row[w.index()] != no_way) continue;
-        row[w.index()] = next;
-        queue.push_back(w);
-      }
-    }
+/// No distance is larger. O(V + E).
+std::int64_t most_moves(const Graph& graph) {
+  BreadthFirst search(graph);
+  std::vector<bool> is_seen(graph.num_vertices(), false);
+  std::int64_t most = 0;
+  for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
+    if (is_seen[v.index()]) continue;
+    search.run(v);
+    for (const std::uint32_t w : search.order()) is_seen[w] = true;
+    // From any vertex to any other by way of v.
+    most = std::max(most, 2 * std::int64_t{search.distances()[search.order().back()]});
   }
-  return true;
+  return most;
 }
 
 }  // namespace
 
 std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instance,
-                                                         LimitMonitor& limits) {
-  std::shared_ptr<GoalDistances> distances(new GoalDistances());
-  distances->num_vertices_ = instance.graph().num_vertices();
-  // A distance is smaller than the number of vertices, so that it never looks like kNoWay.
-  const bool is_small = instance.graph().num_vertices() < kNoWay;
-  const bool complete = is_small ? fill_rows(instance, kNoWay, limits, distances->small_)
-                                 : fill_rows(instance, kUnreachable, limits, distances->large_);
-  return complete ? distances : nullptr;
+                                                         LimitMonitor& limits,
+                                                         std::size_t most_plain) {
+  std::shared_ptr<GoalDistances> table(new GoalDistances());
+  const Graph& graph = instance.graph();
+  table->group(graph);
+  const std::size_t agents = instance.num_agents(), size = graph.num_vertices();
+  const std::size_t bytes = table->num_bytes(), groups = table->group_centre_.size();
+  const bool is_plain = agents * size * sizeof(std::uint16_t) <= most_plain &&
+                        (size <= kNoWay || most_moves(graph) < kNoWay);
+  if (!limits.has_room_for(
+          agents * (is_plain ? size * sizeof(std::uint16_t) : bytes + groups * sizeof(Timestep))))
+    return nullptr;
+  table->plain_.resize(is_plain ? agents * size : 0);
+  table->bits_.resize(is_plain ? 0 : agents * bytes);
+  table->centres_.resize(is_plain ? 0 : agents * groups);
+  BreadthFirst search(graph);
+  for (const AgentId agent : instance.agents()) {
+    if (limits.exhausted_now() || !search.run(instance.tasks()[agent].goal, &limits))
+      return nullptr;
+    const std::vector<Timestep>& distances = search.distances();
+    if (is_plain)
+      std::transform(distances.begin(), distances.end() - 1,
+                     table->plain_.data() + agent.index() * size, [](Timestep distance) {
+                       return static_cast<std::uint16_t>(std::min<Timestep>(distance, kNoWay));
+                     });
+    else
+      table->pack(distances, table->bits_.data() + agent.index() * bytes,
+                  table->centres_.data() + agent.index() * groups);
+  }
+  return table;
+}
+
+/// Puts every vertex into a group with one at most kRadius away.
+void GoalDistances::group(const Graph& graph) {
+  constexpr std::uint32_t kNone = UINT32_MAX;
+  groups_.assign(graph.num_vertices(), kNone);
+  BreadthFirst search(graph);
+  for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
+    if (groups_[v.index()] != kNone) continue;
+    // With a centre that is far from the first vertex, which often lies at a border of what is
+    // left, groups are larger.
+    search.run_within(v, kRadius);
+    const std::uint32_t centre = search.order().back();
+    search.run_within(VertexId(centre), kRadius);
+    for (const std::uint32_t w : search.order())
+      if (groups_[w] == kNone) groups_[w] = static_cast<std::uint32_t>(group_centre_.size());
+    group_centre_.push_back(centre);
+  }
+}
+
+void GoalDistances::pack(const std::vector<Timestep>& distances, std::uint8_t* bits,
+                         Timestep* centres) const {
+  const std::size_t size = groups_.size();
+  const auto last_bits = [&](std::size_t v) { return distances[v] & 15; };
+  for (std::size_t v = 0; v + 1 < size; v += 2)
+    bits[v / 2] = static_cast<std::uint8_t>(last_bits(v) | (last_bits(v + 1) << 4));
+  if (size % 2 == 1) bits[size / 2] = static_cast<std::uint8_t>(last_bits(size - 1));
+  for (std::size_t k = 0; k < group_centre_.size(); ++k) centres[k] = distances[group_centre_[k]];
+}
+
+std::unique_ptr<const GoalDistances::OwnRow> GoalDistances::pack(
+    const IdVector<VertexId, Timestep>& distances) const {
+  auto own = std::make_unique<OwnRow>();
+  own->bits_.resize(num_bytes());
+  own->centres_.resize(group_centre_.size());
+  pack(distances.items(), own->bits_.data(), own->centres_.data());
+  own->row_.bits_ = own->bits_.data();
+  own->row_.centres_ = own->centres_.data();
+  own->row_.groups_ = groups_.data();
+  return own;
 }
 
 }  // namespace quadrille::discrete

@@ -3,14 +3,16 @@
 
 namespace quadrille::discrete {
 
-AgentDistances::AgentDistances(const Graph& graph, const Task& task, GoalDistances::Row to_goal)
-    : graph_(&graph), task_(task), to_goal_(to_goal) {
+AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& table, AgentId agent)
+    : graph_(&instance.graph()),
+      table_(&table),
+      task_(instance.tasks()[agent]),
+      to_goal_(table.row(agent)) {
   QUADRILLE_REQUIRE(free_cost() != kUnreachable, "the goal is reachable");
 }
 
-Timestep AgentDistances::from_start(VertexId v) const {
-  if (!from_start_) from_start_ = distances_from(*graph_, task_.start);
-  return (*from_start_)[v];
+void AgentDistances::find_from_start() const {
+  from_start_ = table_->pack(distances_from(*graph_, task_.start));
 }
 
 }  // namespace quadrille::discrete

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
@@ -11,9 +11,9 @@ namespace quadrille::discrete {
 /// What is fixed about the paths of one agent: its task and distances on the empty graph.
 class AgentDistances {
  public:
-  /// Requires that the goal can be reached from the start. `graph` and the table of `to_goal`
-  /// outlive the object.
-  AgentDistances(const Graph& graph, const Task& task, GoalDistances::Row to_goal);
+  /// Requires that the goal can be reached from the start. `instance` and `table`, which are of the
+  /// same graph and agents, outlive the object.
+  AgentDistances(const Instance& instance, const GoalDistances& table, AgentId agent);
 
   [[nodiscard]] const Graph& graph() const noexcept { return *graph_; }
   [[nodiscard]] VertexId start() const noexcept { return task_.start; }
@@ -27,13 +27,19 @@ class AgentDistances {
     return t + to_goal_[v] - free_cost();
   }
   /// Computed at the first call: only agents that meet others need it.
-  [[nodiscard]] Timestep from_start(VertexId v) const;
+  [[nodiscard]] Timestep from_start(VertexId v) const {
+    if (from_start_ == nullptr) find_from_start();
+    return (*from_start_)[v];
+  }
 
  private:
+  void find_from_start() const;
+
   const Graph* graph_;
+  const GoalDistances* table_;
   Task task_;
   GoalDistances::Row to_goal_;
-  mutable std::optional<IdVector<VertexId, Timestep>> from_start_;
+  mutable std::unique_ptr<const GoalDistances::OwnRow> from_start_;
 };
 
 }  // namespace quadrille::discrete

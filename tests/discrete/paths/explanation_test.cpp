@@ -50,8 +50,9 @@ TEST(Explanation, CutsOffEveryCheapPathAndPathsAreCheapest) {
   for (unsigned seed = 0; seed < 5000 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     const Trial trial = random_trial(seed);
-    const auto table = support::distances_of(*trial.graph, trial.task);
-    const AgentDistances distances(*trial.graph, trial.task, table->row(AgentId(0)));
+    const Instance instance = Instance::make(*trial.graph, {trial.task}).value();
+    const auto table = support::distances_of(instance);
+    const AgentDistances distances(instance, *table, AgentId(0));
     ObstacleMap map(trial.graph->num_vertices());
     map.load(trial.table, trial.active, trial.task.goal);
     const auto cap = static_cast<Timestep>(distances.free_cost() + static_cast<int>(seed % 19));
@@ -79,8 +80,9 @@ TEST(Explanation, LeavesOutWhatIsNotInTheWay) {
   trial.active = {trial.table.add_point(AgentId(0), {}, {VertexId(3), 1}),
                   trial.table.add_point(AgentId(0), {}, {VertexId(1), 1}),
                   trial.table.add_point(AgentId(0), {}, {VertexId(2), 1})};
-  const auto table = support::distances_of(*trial.graph, trial.task);
-  const AgentDistances distances(*trial.graph, trial.task, table->row(AgentId(0)));
+  const Instance instance = Instance::make(*trial.graph, {trial.task}).value();
+  const auto table = support::distances_of(instance);
+  const AgentDistances distances(instance, *table, AgentId(0));
   ObstacleMap map(4);
   PathFinder finder(4);
   Explainer explainer(4);

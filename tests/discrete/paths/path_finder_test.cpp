@@ -22,7 +22,7 @@ class PathFinderEffort : public testing::Test {
                                  {{at(5, 5), at(20, 20)}, {at(19, 0), at(19, 29)}})
                       .value()),
         table_(support::distances_of(instance_)),
-        distances_(instance_.graph(), instance_.tasks()[agent_], table_->row(agent_)),
+        distances_(instance_, *table_, agent_),
         map_(instance_.graph().num_vertices()),
         others_(instance_) {}
 

@@ -103,7 +103,7 @@ TEST(PathFinder, FindsAWayAroundOthersWithinTheCap) {
   index.replace(AgentId(1), {VertexId(1)});
   EXPECT_EQ(index.num_collisions(AgentId(0)), 1);
   const auto table = support::distances_of(instance);
-  const AgentDistances distances(graph, instance.tasks()[AgentId(0)], table->row(AgentId(0)));
+  const AgentDistances distances(instance, *table, AgentId(0));
   ObstacleMap map(6);
   map.load({}, {}, VertexId(2));
   PathFinder finder(6);

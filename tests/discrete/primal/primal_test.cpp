@@ -25,32 +25,6 @@ using support::random_graph;
 using support::random_grid;
 using support::replay;
 
-TEST(GoalDistances, AreThoseOfABreadthFirstSearch) {
-  support::Random random(1);
-  for (int round = 0; round < 200; ++round) {
-    const Instance instance = random_instance(random);
-    const auto distances = distances_of(instance);
-    for (const AgentId agent : instance.agents()) {
-      const auto expected = distances_from(instance.graph(), instance.tasks()[agent].goal);
-      for (const VertexId v : IdRange<VertexId>(instance.graph().num_vertices()))
-        ASSERT_EQ((*distances)(agent, v), expected[v]) << instance_text(instance);
-    }
-  }
-}
-
-TEST(GoalDistances, ServesLargeGraphsAndStopsAtLimits) {
-  // Longer than what fits into two bytes.
-  const Instance instance = Instance::make(Graph::grid(70'000, 1, std::vector<bool>(70'000, true)),
-                                           {{VertexId(0), VertexId(69'999)}})
-                                .value();
-  EXPECT_EQ((*distances_of(instance))(AgentId(0), VertexId(0)), 69'999);
-  const std::atomic<bool> interrupt = true;
-  Limits limits;
-  limits.interrupt = &interrupt;
-  LimitMonitor monitor(limits);
-  EXPECT_EQ(GoalDistances::make(instance, monitor), nullptr);
-}
-
 TEST(PrimalSearch, FindsAPlanIfAndOnlyIfThereIsOne) {
   support::Random random(2);
   std::size_t num_feasible = 0, num_infeasible = 0;
