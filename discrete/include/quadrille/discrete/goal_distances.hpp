@@ -22,8 +22,8 @@ namespace quadrille::discrete {
 /// the last four bits of its distance, which differs from that of the centre by at most 7.
 class GoalDistances {
  public:
-  /// A plain table that would take more bytes is packed. Measured: looking up takes about twice as
-  /// long then.
+  /// A plain table that would take more bytes is packed. Measured: solving takes 4 % longer then on
+  /// large maps, where plain tables are of 40 to 100 MiB.
   static constexpr std::size_t kMostPlain = std::size_t{256} << 20;
 
   /// One breadth-first search per agent: O(agents * (V + E)). Null when a limit was met.
