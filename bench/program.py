@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Runs `quadrille solve` and reads what it says; the tables of the runners."""
+import argparse
 import csv
 import json
 import os
+import re
 import shlex
 import subprocess
 import tempfile
@@ -17,11 +19,14 @@ class BenchError(Exception):
     """Something that ends the experiment; the message says what and where."""
 
 
-def run_child(command, wall_limit):
-    """Exit code, output, errors and CPU time (user and system, of the whole process)."""
+def run_child(command, wall_limit, prepare=None):
+    """Exit code (-N for signal N), output, errors and CPU time (user and system, of the whole process).
+
+    `prepare` runs in the child before the command: its limits.
+    """
     with tempfile.TemporaryFile() as errors:
         child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                 stderr=errors)
+                                 stderr=errors, preexec_fn=prepare)
         timer = threading.Timer(wall_limit, child.kill)
         timer.start()
         try:
@@ -56,6 +61,26 @@ def solve_json(command, wall_limit):
 
 def text(value):
     return "" if value is None else str(value)
+
+
+def verify(command, plan, cost):
+    """Replays a plan. Its cost has to be that of the answer."""
+    code, output, errors, _ = run_child(command + [plan], 600)
+    where = shlex.join(command)
+    if code != 0:
+        raise BenchError(f"WRONG PLAN, exit code {code}: {where}\n{output}{errors}")
+    found = re.search(r"sum of costs ([0-9.]+)", output)
+    if not found or Decimal(found[1]) != Decimal(cost):
+        raise BenchError(f"WRONG COST, {cost}, of a plan that is verified as: {where}\n{output}")
+
+
+def parse_program(argument):
+    """'NAME=PATH [OPTION...]' -> name, path, options"""
+    name, equals, command = argument.partition("=")
+    words = shlex.split(command)
+    if not name or not equals or not words:
+        raise argparse.ArgumentTypeError(f"'{argument}' is not NAME=PATH")
+    return name, words[0], words[1:]
 
 
 def read_rows(path, columns):
