@@ -75,34 +75,47 @@ class Lanes {
   }
 
   void add(const Path& path) {
-    for (std::size_t t = 0; t + 1 < path.size(); ++t)
-      passes_[path[t]].push_back({static_cast<Timestep>(t), path[t + 1]});
+    for (std::size_t t = 0; t + 1 < path.size(); ++t) {
+      auto& passes = passes_[path[t]];
+      const Pass pass{static_cast<Timestep>(t), path[t + 1]};
+      passes.insert(passes.begin() + static_cast<std::ptrdiff_t>(first_from(path[t], pass.time)),
+                    pass);
+    }
     rests_since_[path.back()] = static_cast<Timestep>(path.size() - 1);
   }
 
   void remove(const Path& path) {
     for (std::size_t t = 0; t + 1 < path.size(); ++t) {
       auto& passes = passes_[path[t]];
-      const auto mine = std::find_if(passes.begin(), passes.end(), [&](const Pass& pass) {
-        return pass.time == static_cast<Timestep>(t) && pass.next == path[t + 1];
-      });
-      *mine = passes.back();
-      passes.pop_back();
+      const auto first = first_from(path[t], static_cast<Timestep>(t));
+      passes.erase(std::find_if(passes.begin() + static_cast<std::ptrdiff_t>(first), passes.end(),
+                                [&](const Pass& pass) { return pass.next == path[t + 1]; }));
     }
     rests_since_[path.back()] = kForever;
   }
 
   [[nodiscard]] std::int64_t meetings_of_move(VertexId from, VertexId to, Timestep arrival) const {
     std::int64_t count = rests_since_[to] <= arrival ? 1 : 0;
-    for (const Pass& pass : passes_[to])
-      if (pass.time == arrival || (pass.time == arrival - 1 && pass.next == from)) ++count;
+    const auto& passes = passes_[to];
+    for (std::size_t k = first_from(to, arrival - 1); k < passes.size(); ++k) {
+      if (passes[k].time > arrival) break;
+      if (passes[k].time == arrival || passes[k].next == from) ++count;
+    }
     return count;
   }
 
   /// Those who come later are in the way of who rests there.
   [[nodiscard]] std::int64_t passes_after(VertexId goal, Timestep arrival) const {
-    return std::count_if(passes_[goal].begin(), passes_[goal].end(),
-                         [&](const Pass& pass) { return pass.time > arrival; });
+    return static_cast<std::int64_t>(passes_[goal].size() - first_from(goal, arrival + 1));
+  }
+
+  /// The first pass at that time or later.
+  [[nodiscard]] std::size_t first_from(VertexId v, Timestep time) const {
+    const auto& passes = passes_[v];
+    return static_cast<std::size_t>(
+        std::partition_point(passes.begin(), passes.end(),
+                             [&](const Pass& pass) { return pass.time < time; }) -
+        passes.begin());
   }
 
   /// Best first: fewest meetings, then least detour, then the label made last, which is nearest to
@@ -118,7 +131,8 @@ class Lanes {
     };
     ++search_;
     for (auto& bucket : buckets_) bucket.clear();
-    const std::int64_t enough = effort_ + kEffortPerTimestep * free + kLeastEffort;
+    const std::int64_t enough =
+        std::min(effort_ + kEffortPerTimestep * free + kLeastEffort, Guide::kMostEffort);
     push({start, start, 0, 0}, 0);
     for (std::size_t k = 0; k < buckets_.size(); ++k) {
       while (!buckets_[k].empty()) {
@@ -183,8 +197,8 @@ class Lanes {
   const Timestep margin_;
   Random random_;
   IdVector<AgentId, Path> paths_;
-  IdVector<VertexId, std::vector<Pass>> passes_;
-  IdVector<VertexId, Timestep> rests_since_;  // kForever: nobody's goal, or not yet.
+  IdVector<VertexId, std::vector<Pass>> passes_;  // In order of time.
+  IdVector<VertexId, Timestep> rests_since_;      // kForever: nobody's goal, or not yet.
   IdVector<VertexId, Reached> reached_;
   std::uint32_t search_ = 0;
   std::vector<std::vector<Label>> buckets_;

@@ -16,6 +16,9 @@ namespace {
 constexpr std::int64_t kEasy = 4, kLeastUnit = 20'000;
 /// Per cent above the cost of shortest paths: no other guide is tried for less.
 constexpr Cost kGoodPlan = 1;
+/// Where a guide may not take that much, the search begins without. Measured: 10,000 agents in a
+/// warehouse, a plan with a guide is 4 % cheaper and takes three times as long.
+constexpr std::int64_t kGuideEffortPerTimestep = 5;
 
 std::int64_t unit_of(const Instance& instance, const GoalDistances& distances) {
   std::int64_t farthest = 0;
@@ -46,6 +49,7 @@ PrimalSearch::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
     if (way == kUnreachable) state_ = State::exhausted;
     ideal_ += way;
   }
+  if (kGuideEffortPerTimestep * ideal_ > Guide::kMostEffort) turn_ = kNumGuides;
 }
 
 PrimalSearch::State PrimalSearch::Impl::advance(std::int64_t effort, LimitMonitor& limits) {
