@@ -148,8 +148,9 @@ def draw_gaps(rows, path):
                  if len(by_limit) > 1 and best_bound(by_limit)}
     if not instances:
         raise PlotError("no row has several limits and a bound")
-    names = list(dict.fromkeys(name for curves in instances.values() for name in curves))
-    names.sort(key=lambda name: name.endswith(", best bound"))
+    present = {name for curves in instances.values() for name in curves}
+    names = [name for name in own + rivals + [f"{name}, best bound" for name in own]
+             if name in present]
     if len(names) > len(STYLES):
         raise PlotError(f"more than {len(STYLES)} curves: choose programs with --program")
     styles = dict(zip(names, STYLES))
@@ -173,7 +174,7 @@ def draw_gaps(rows, path):
         drawing.text(left + PANEL_WIDTH / 2, upper + PANEL_HEIGHT + 34, "CPU time in s")
     lines = -(-len(instances) // columns)
     width = LEFT + min(columns, len(instances)) * COLUMN
-    drawing.text(20, top + (lines * ROW - 84) / 2, "gap: plan above bound", turn=True)
+    drawing.text(14, top + (lines * ROW - 84) / 2, "gap: plan above bound", turn=True)
     bottom = top + lines * ROW - 16
     height = bottom + legend(drawing, names, styles, width - LEFT, bottom, dashes, 230)
     drawing.text(LEFT, height + 4, "Solid: a program's plan above its own bound; a rival's, and dashed, "
