@@ -33,6 +33,7 @@ Tuning choose_tuning(const Features& features, const SolveOptions& options) {
   if (features.is_open) tuning.explicit_paths = {1, 16};
   sat::CoreGuidedOptions& cores = tuning.cores;
   cores.from_above = searches_from_above(options);
+  cores.raise_cores = true;
   if (features.is_open) {
     cores.descent_share = 3;
     cores.candidates_within = 3;

@@ -16,6 +16,8 @@ constexpr int kPassesWithoutGain = 2;
 /// Conflicts that make a core hard in later passes: one in so many of those of the first. What was
 /// learned makes all cores but the last ones easy.
 constexpr std::int64_t kLaterPassShare = 4;
+/// Of one core.
+constexpr Cost kMaxLift = 1024;
 
 }  // namespace
 
@@ -36,11 +38,19 @@ Outcome CoreExtraction::advance(Slice slice) {
       if (!end_pass()) return Outcome::stopped;
       continue;
     }
-    const std::vector<Lit> core = minimiser_.minimise(context_.engine.core(), conflicts_);
+    std::vector<Lit> core = minimiser_.minimise(context_.engine.core(), conflicts_);
+    const Cost lift = minimiser_.raise(*relaxation_, core, max_lift(), conflicts_);
     if (core.empty()) return Outcome::exhausted;
     ++statistics_.cores;
-    if (!relaxation_->relax(core)) return Outcome::stopped;
+    if (!relaxation_->relax(core, lift)) return Outcome::stopped;
   }
+}
+
+/// More than up to the incumbent is of no use, and without one there is an end as well.
+Cost CoreExtraction::max_lift() const {
+  if (!options_.raise_cores) return 1;
+  const auto best = context_.bounds.upper();
+  return best ? std::min(*best - relaxation_->bound(), kMaxLift) : kMaxLift;
 }
 
 Verdict CoreExtraction::solve(Slice slice) {

@@ -29,6 +29,7 @@ class CoreExtraction final : public Strategy {
   [[nodiscard]] bool in_passes() const noexcept { return pass_ < options_.passes; }
   /// Asks for a plan that violates nothing.
   [[nodiscard]] Verdict solve(Slice slice);
+  [[nodiscard]] Cost max_lift() const;
   [[nodiscard]] bool start_pass();
   [[nodiscard]] bool end_pass();
 

@@ -2,6 +2,7 @@
 #include "cost/core_minimiser.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace quadrille::sat {
 namespace {
@@ -31,6 +32,27 @@ std::vector<Lit> CoreMinimiser::minimise(std::vector<Lit> core, std::int64_t sea
     core = smaller;
   }
   return core;
+}
+
+Cost CoreMinimiser::raise(Relaxation& relaxation, std::vector<Lit>& core, Cost max_lift,
+                          std::int64_t searched) {
+  Cost lift = 1;
+  while (2 * lift <= max_lift && conflicts_ <= searched + kFreeConflicts) {
+    const auto raised = relaxation.raised(core, 2 * lift);
+    if (!raised || context_.limits.exhausted()) break;
+    std::vector<Lit> part;
+    std::copy_if(raised->begin(), raised->end(), std::back_inserter(part),
+                 [](Lit lit) { return lit.valid(); });
+    if (part.empty() || solve_part(part) != Verdict::unsat) break;
+    lift *= 2;
+    const std::vector<Lit> needed = context_.engine.core();
+    std::vector<Lit> smaller;
+    for (std::size_t at = 0; at < core.size(); ++at)
+      if (std::find(needed.begin(), needed.end(), (*raised)[at]) != needed.end())
+        smaller.push_back(core[at]);
+    core = smaller;
+  }
+  return lift;
 }
 
 Verdict CoreMinimiser::solve_part(const std::vector<Lit>& part) {

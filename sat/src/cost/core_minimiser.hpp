@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cost/relaxation.hpp"
 #include "quadrille/sat/cost_search.hpp"
 
 namespace quadrille::sat {
@@ -18,6 +19,11 @@ class CoreMinimiser {
   /// A part of `core` that cannot hold either. `searched`: conflicts of the search so far; those of
   /// the minimiser exceed them by little.
   [[nodiscard]] std::vector<Lit> minimise(std::vector<Lit> core, std::int64_t searched);
+  /// The largest number of units found, at most `max_lift` >= 1, that some soft of the core has to
+  /// be violated by: twice as many again and again, as long as they are refuted. Drops softs that
+  /// it does without.
+  [[nodiscard]] Cost raise(Relaxation& relaxation, std::vector<Lit>& core, Cost max_lift,
+                           std::int64_t searched);
 
  private:
   /// Unsat: `part` cannot hold. Passes the yield point.

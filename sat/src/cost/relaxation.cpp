@@ -7,20 +7,33 @@ namespace quadrille::sat {
 
 bool Relaxation::start() {
   for (const AgentId i : IdRange<AgentId>(problem_.num_agents())) {
-    if (!add_agent_soft(i, problem_.free_cost(i))) return false;
+    if (!add({nullptr, 0, i, problem_.free_cost(i)})) return false;
     bound_ += problem_.free_cost(i);
   }
   return true;
 }
 
-bool Relaxation::add_agent_soft(AgentId agent, Cost bound) {
-  if (!problem_.grow_to(agent, bound, limits_)) return false;
-  softs_.emplace(problem_.cost_above(agent, bound), Soft{nullptr, agent, bound});
+bool Relaxation::grow(const Soft& soft, Cost units) {
+  return soft.counter != nullptr || problem_.grow_to(soft.agent, soft.bound + units - 1, limits_);
+}
+
+Lit Relaxation::violated_by(const Soft& soft, Cost units) const {
+  const Cost least = soft.bound + units;
+  if (soft.counter == nullptr) return problem_.cost_above(soft.agent, least - 1);
+  if (soft.rank == 0) return soft.counter->at_least(1, static_cast<int>(least) + 1);
+  return soft.counter->at_least(static_cast<int>(least), soft.rank);
+}
+
+bool Relaxation::add(const Soft& soft) {
+  if (!grow(soft, 1)) return false;
+  if (const Lit lit = violated_by(soft, 1); lit.valid()) softs_.emplace(lit, soft);
   return true;
 }
 
-void Relaxation::add_counter_soft(Totalizer& counter, Cost bound) {
-  softs_.emplace(counter.at_least(static_cast<int>(bound) + 1), Soft{&counter, AgentId(), bound});
+const Relaxation::Soft& Relaxation::soft_of(Lit assumption) const {
+  const auto found = softs_.find(~assumption);
+  QUADRILLE_REQUIRE(found != softs_.end(), "cores consist of softs");
+  return found->second;
 }
 
 std::vector<Lit> Relaxation::assumptions() const {
@@ -29,43 +42,50 @@ std::vector<Lit> Relaxation::assumptions() const {
   return lits;
 }
 
-bool Relaxation::relax(std::span<const Lit> core) {
+std::optional<std::vector<Lit>> Relaxation::raised(std::span<const Lit> core, Cost lift) {
+  std::vector<Lit> lits;
+  for (const Lit assumption : core) {
+    const Soft& soft = soft_of(assumption);
+    if (!grow(soft, lift)) return std::nullopt;
+    const Lit lit = violated_by(soft, lift);
+    lits.push_back(lit.valid() ? ~lit : lit);
+  }
+  return lits;
+}
+
+bool Relaxation::relax(std::span<const Lit> core, Cost lift) {
   std::vector<Lit> violated;
-  for (const Lit assumption : core) violated.push_back(~assumption);
+  std::vector<Soft> softs;
+  for (const Lit assumption : core) {
+    softs.push_back(soft_of(assumption));
+    const Lit lit = violated_by(softs.back(), lift);
+    if (lit.valid()) violated.push_back(lit);
+    softs_.erase(~assumption);
+  }
   engine_.add_clause({LemmaKind::core, violated, {}, false});
-  ++bound_;
-  for (const Lit lit : violated) {
-    const auto found = softs_.find(lit);
-    QUADRILLE_REQUIRE(found != softs_.end(), "cores consist of softs");
-    const Soft soft = found->second;
-    softs_.erase(found);
-    if (soft.counter != nullptr) {
-      if (soft.bound + 1 < static_cast<Cost>(soft.counter->num_inputs()))
-        add_counter_soft(*soft.counter, soft.bound + 1);
-    } else if (!add_agent_soft(soft.agent, soft.bound + 1)) {
-      return false;
-    }
+  bound_ += lift;
+  for (Soft soft : softs) {
+    soft.bound += lift;
+    if (!add(soft)) return false;
   }
-  if (violated.size() > 1) {
-    // The inputs are literals: numbers of 0 or 1.
-    counters_.emplace_back(engine_, violated.size(), [violated](std::size_t input, int k) {
-      return k == 1 ? violated[input] : Lit();
-    });
-    add_counter_soft(counters_.back(), 1);
-  }
+  if (softs.size() == 1) return true;
+  const int height = static_cast<int>(lift), size = static_cast<int>(softs.size());
+  counters_.emplace_back(engine_, height, [this, softs = std::move(softs)](int level) {
+    std::vector<Lit> lits;
+    for (const Soft& soft : softs)
+      if (const Lit lit = violated_by(soft, level); lit.valid()) lits.push_back(lit);
+    return lits;
+  });
+  if (height == 1) return add({&counters_.back(), 0, AgentId(), 0});
+  for (int rank = 2; rank <= size; ++rank)
+    if (!add({&counters_.back(), rank, AgentId(), 0})) return false;
   return true;
 }
 
 Totalizer::Input Relaxation::excess() const {
   std::vector<Soft> items;
   for (const auto& [lit, soft] : softs_) items.push_back(soft);
-  return [&problem = problem_, items](std::size_t input, int k) {
-    const Soft& soft = items[input];
-    const Cost beyond = soft.bound + k;
-    if (soft.counter == nullptr) return problem.cost_above(soft.agent, beyond - 1);
-    if (beyond > static_cast<Cost>(soft.counter->num_inputs())) return Lit();
-    return soft.counter->at_least(static_cast<int>(beyond));
-  };
+  return [this, items](std::size_t input, int k) { return violated_by(items[input], k); };
 }
 
 void Relaxation::retire() {

@@ -3,17 +3,18 @@
 
 #include <list>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "cost/core_counter.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
 namespace quadrille::sat {
 
-/// The softs of OLL, literals that each cost one unit when true, and what comes after them: at
-/// first "the agent costs more than nothing hinders it to", for each agent. Every plan costs
-/// `bound()` plus what it violates.
+/// The softs of OLL, numbers that each cost one per unit beyond a bound: at first what each agent
+/// costs beyond its free cost. Every plan costs `bound()` plus what it violates.
 class Relaxation {
  public:
   /// All must outlive the relaxation. Adds nothing yet.
@@ -26,9 +27,14 @@ class Relaxation {
   [[nodiscard]] Cost bound() const noexcept { return bound_; }
   /// That no soft is violated: with it a plan costs `bound()`.
   [[nodiscard]] std::vector<Lit> assumptions() const;
-  /// Pays for a core, some assumptions that no plan meets together: watches for a second violation
-  /// among its softs, and for the next unit of each. False: a limit came before that was done.
-  [[nodiscard]] bool relax(std::span<const Lit> core);
+  /// That each soft of a core, some of `assumptions()`, is violated by less than `lift` units: what
+  /// has to be refuted before it is relaxed by so many. No literal for a soft that is not violated
+  /// by so many units in any plan. Nothing if a limit came before that was done.
+  [[nodiscard]] std::optional<std::vector<Lit>> raised(std::span<const Lit> core, Cost lift);
+  /// Pays for a core whose softs cannot all be violated by less than `lift` >= 1 units: the bound
+  /// rises by that. Watches for what the others of its softs come to up to there, and for what each
+  /// comes to beyond. False: a limit came before that was done.
+  [[nodiscard]] bool relax(std::span<const Lit> core, Cost lift = 1);
 
   [[nodiscard]] std::size_t num_softs() const noexcept { return softs_.size(); }
   /// What plans cost beyond the bound: the sum of these inputs, one per soft as it is now. Valid
@@ -39,21 +45,26 @@ class Relaxation {
   void retire();
 
  private:
-  /// Violated when the agent costs more than `bound`, or more than `bound` inputs of a counter are
-  /// true.
+  /// Violated by as many units as a number exceeds `bound`: what an agent costs, or one that a
+  /// counter keeps.
   struct Soft {
-    Totalizer* counter;  // null: of an agent
+    CoreCounter* counter;  // null: of an agent
+    int rank;              // of the counter's numbers; 0: all but the largest, as one number
     AgentId agent;
     Cost bound;
   };
-  [[nodiscard]] bool add_agent_soft(AgentId agent, Cost bound);
-  void add_counter_soft(Totalizer& counter, Cost bound);
+  [[nodiscard]] bool grow(const Soft& soft, Cost units);
+  /// That the soft is violated by so many units, at least 1. Invalid if it never is.
+  [[nodiscard]] Lit violated_by(const Soft& soft, Cost units) const;
+  /// Adds the soft if it can be violated. False: a limit was met.
+  [[nodiscard]] bool add(const Soft& soft);
+  [[nodiscard]] const Soft& soft_of(Lit assumption) const;
 
   Engine& engine_;
   CostProblem& problem_;
   LimitMonitor& limits_;
   std::map<Lit, Soft> softs_;
-  std::list<Totalizer> counters_;
+  std::list<CoreCounter> counters_;
   Cost bound_ = 0;
 };
 

@@ -57,9 +57,10 @@ Cost cheapest_by_enumeration(const std::vector<Rule>& rules) {
 /// The rules as clauses, and the plans that are their models.
 class RulesProblem final : public CostProblem, public Bounds {
  public:
-  RulesProblem(Engine& engine, const std::vector<Rule>& rules) : engine_(engine), above_(kAgents) {
+  RulesProblem(Engine& engine, const std::vector<Rule>& rules, int max_cost = kMaxCost)
+      : engine_(engine), max_cost_(static_cast<std::size_t>(max_cost)), above_(kAgents) {
     for (std::vector<Lit>& lits : above_)
-      while (lits.size() <= kMaxCost) add_literal(lits);
+      while (lits.size() <= max_cost_) add_literal(lits);
     for (const Rule& rule : rules) {
       std::vector<Lit> clause;
       for (const auto& [agent, cost] : rule.dear) clause.push_back(above(agent, cost));
@@ -83,7 +84,7 @@ class RulesProblem final : public CostProblem, public Bounds {
   bool accept_model() override {
     accepted_.assign(kAgents, 0);
     for (std::size_t i = 0; i < kAgents; ++i)
-      for (std::size_t c = 0; c < kMaxCost; ++c)
+      for (std::size_t c = 0; c < max_cost_; ++c)
         accepted_[i] += engine_.model_value(above_[i][c]) ? 1 : 0;
     return true;
   }
@@ -111,13 +112,14 @@ class RulesProblem final : public CostProblem, public Bounds {
   void add_literal(std::vector<Lit>& lits) {
     lits.push_back(engine_.new_lit());
     const std::vector<Lit> never{~lits.back()};
-    if (lits.size() > kMaxCost) engine_.add_clause({LemmaKind::order, never, {}, false});
+    if (lits.size() > max_cost_) engine_.add_clause({LemmaKind::order, never, {}, false});
     if (lits.size() < 2) return;
     const std::vector<Lit> order{~lits.back(), lits[lits.size() - 2]};
     engine_.add_clause({LemmaKind::order, order, {}, false});
   }
 
   Engine& engine_;
+  const std::size_t max_cost_;
   std::vector<std::vector<Lit>> above_;
   std::vector<Cost> accepted_, best_;
 };
@@ -139,11 +141,12 @@ class WatchedBounds final : public YieldPoint {
 struct Answer {
   Cost cost = 0, lower_bound = 0;
   int num_from_above = 0;
+  std::int64_t num_cores = 0;
 };
 
 /// Share 0: from below only. `has_plan`: the search starts with a dear one.
 Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t share, bool has_plan,
-                   std::int64_t head_start = 1) {
+                   std::int64_t head_start = 1, bool raise_cores = false) {
   EngineOptions engine_options;
   engine_options.keep_clauses = true;
   Engine engine(nullptr, engine_options);
@@ -157,13 +160,15 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t shar
   options.passes = passes;
   options.descent_share = std::max<std::int64_t>(1, share);
   options.head_start = head_start;
+  options.raise_cores = raise_cores;
   WatchedBounds watch(problem);
   const SearchEnd end =
       search_by_cores({engine, problem, problem, limits, watch}, options, statistics);
   const bool found = end == SearchEnd::found;
   EXPECT_TRUE(found || problem.are_closed()) << "the search ends with a proof";
   return {found ? problem.accepted() : problem.upper().value_or(-1), problem.lower(),
-          problem.num_taken - (found ? 1 : 0)};  // from below comes the last one
+          problem.num_taken - (found ? 1 : 0),  // from below comes the last one
+          statistics.cores};
 }
 
 TEST(CoreGuidedSearch, ALongHeadStartLeavesNothingToTheSearchFromAbove) {
@@ -197,6 +202,51 @@ TEST(CoreGuidedSearch, FindsTheLeastCostFromBelowAndFromAbove) {
   }
   EXPECT_GE(num_from_above, 30) << "plans come from above as well";
   EXPECT_GE(num_improved, 30) << "so do better ones than the first";
+}
+
+TEST(CoreGuidedSearch, PaysForSeveralUnitsAtOnce) {
+  Random random(2);
+  int num_raised = 0;
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE(round);
+    const std::vector<Rule> rules = random_rules(random);
+    const Cost least = cheapest_by_enumeration(rules);
+    for (const int passes : {1, 3})
+      for (const std::int64_t share : {0, 2})
+        for (const bool has_plan : {false, true}) {
+          const Answer answer = solve_rules(rules, passes, share, has_plan, 1, true);
+          EXPECT_EQ(answer.cost, least);
+          EXPECT_EQ(answer.lower_bound, least);
+          if (share == 0 && passes == 1 && answer.num_cores < least) ++num_raised;
+        }
+  }
+  EXPECT_GE(num_raised, 300) << "in half of the searches";
+}
+
+/// Units that some pairs of agents, and some agents, have to be violated by.
+TEST(CoreGuidedSearch, LongDelaysTakeFewCores) {
+  Engine engine(nullptr);
+  RulesProblem problem(engine, {}, 1000);
+  const auto add = [&](std::vector<std::pair<std::size_t, Cost>> least) {
+    std::vector<Lit> clause;
+    for (const auto& [agent, cost] : least)
+      clause.push_back(problem.cost_above(AgentId(agent), cost - 1));
+    engine.add_clause({LemmaKind::collision, clause, {}, false});
+  };
+  add({{0, 300}, {1, 170}});
+  add({{1, 60}, {2, 90}});
+  add({{2, 45}, {3, 70}, {4, 80}});
+  add({{5, 33}});
+  LimitMonitor limits{Limits{}};
+  Statistics statistics;
+  CoreGuidedOptions options;
+  options.raise_cores = true;
+  WatchedBounds watch(problem);
+  EXPECT_EQ(search_by_cores({engine, problem, problem, limits, watch}, options, statistics),
+            SearchEnd::found);
+  EXPECT_EQ(problem.accepted(), 170 + 45 + 33);
+  EXPECT_EQ(problem.lower(), 170 + 45 + 33);
+  EXPECT_LE(statistics.cores, 40) << "it takes 248 one by one";
 }
 
 using Agents = std::vector<std::size_t>;

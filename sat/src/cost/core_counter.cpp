@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "cost/core_counter.hpp"
+
+#include <array>
+
+namespace quadrille::sat {
+
+Totalizer& CoreCounter::counter(int level) {
+  while (counters_.size() < static_cast<std::size_t>(level)) {
+    const auto lits = level_(static_cast<int>(counters_.size()) + 1);
+    // The inputs are literals: numbers of 0 or 1.
+    counters_.emplace_back(engine_, lits.size(), [lits](std::size_t input, int k) {
+      return k == 1 ? lits[input] : Lit();
+    });
+  }
+  return counters_[static_cast<std::size_t>(level) - 1];
+}
+
+Lit CoreCounter::at_least(int level, int count) {
+  if (level > height_) return {};
+  int& reached = reached_[count];
+  for (; reached < level; ++reached) {
+    const Lit lit = counter(reached + 1).at_least(count);
+    if (!lit.valid()) return {};
+    if (reached == 0) continue;
+    const std::array order{~lit, counter(reached).at_least(count)};
+    engine_.add_clause({LemmaKind::counting, order, {}, false});
+  }
+  return counter(level).at_least(count);
+}
+
+void CoreCounter::retire() {
+  for (auto counter = counters_.rbegin(); counter != counters_.rend(); ++counter) counter->retire();
+}
+
+}  // namespace quadrille::sat
