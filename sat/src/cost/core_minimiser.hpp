@@ -20,17 +20,18 @@ class CoreMinimiser {
   /// the minimiser exceed them by little.
   [[nodiscard]] std::vector<Lit> minimise(std::vector<Lit> core, std::int64_t searched);
   /// The largest number of units found, at most `max_lift` >= 1, that some soft of the core has to
-  /// be violated by: twice as many again and again, as long as they are refuted. Drops softs that
-  /// it does without.
+  /// be violated by: twice as many again and again, as long as less is refuted, then by halves.
+  /// Drops softs that it does without. `searched`: as above.
   [[nodiscard]] Cost raise(Relaxation& relaxation, std::vector<Lit>& core, Cost max_lift,
                            std::int64_t searched);
 
  private:
-  /// Unsat: `part` cannot hold. Passes the yield point.
-  [[nodiscard]] Verdict solve_part(const std::vector<Lit>& part);
+  /// Unsat: `part` cannot hold. Counts the conflicts. Passes the yield point.
+  [[nodiscard]] Verdict solve_part(const std::vector<Lit>& part, std::int64_t& conflicts);
 
   const CostSearchContext context_;
-  std::int64_t conflicts_ = 0;
+  std::int64_t conflicts_ = 0;        // to make cores smaller
+  std::int64_t raise_conflicts_ = 0;  // to raise them
 };
 
 }  // namespace quadrille::sat

@@ -246,7 +246,7 @@ TEST(CoreGuidedSearch, LongDelaysTakeFewCores) {
             SearchEnd::found);
   EXPECT_EQ(problem.accepted(), 170 + 45 + 33);
   EXPECT_EQ(problem.lower(), 170 + 45 + 33);
-  EXPECT_LE(statistics.cores, 40) << "it takes 248 one by one";
+  EXPECT_LE(statistics.cores, 10) << "it takes 248 one by one";
 }
 
 using Agents = std::vector<std::size_t>;
