@@ -17,7 +17,7 @@ class CoreMinimiser {
   explicit CoreMinimiser(const CostSearchContext& context) : context_(context) {}
 
   /// A part of `core` that cannot hold either. `searched`: conflicts of the search so far; those of
-  /// the minimiser exceed them by little.
+  /// this exceed them by little, and its effort exceeds by little what the engine did elsewhere.
   [[nodiscard]] std::vector<Lit> minimise(std::vector<Lit> core, std::int64_t searched);
   /// The largest number of units found, at most `max_lift` >= 1, that some soft of the core has to
   /// be violated by: twice as many again and again, as long as less is refuted, then by halves.
@@ -26,12 +26,17 @@ class CoreMinimiser {
                            std::int64_t searched);
 
  private:
-  /// Unsat: `part` cannot hold. Counts the conflicts. Passes the yield point.
-  [[nodiscard]] Verdict solve_part(const std::vector<Lit>& part, std::int64_t& conflicts);
+  /// What the engine has done for one purpose.
+  struct Spent {
+    std::int64_t conflicts = 0, effort = 0;
+  };
+  /// Whether `spent` is within its budget, and no limit is met. `other`: for the other purpose.
+  [[nodiscard]] bool may_spend(const Spent& spent, const Spent& other, std::int64_t searched) const;
+  /// Unsat: `part` cannot hold. Adds to `spent`. Passes the yield point.
+  [[nodiscard]] Verdict solve_part(const std::vector<Lit>& part, Spent& spent);
 
   const CostSearchContext context_;
-  std::int64_t conflicts_ = 0;        // to make cores smaller
-  std::int64_t raise_conflicts_ = 0;  // to raise them
+  Spent minimising_, raising_;
 };
 
 }  // namespace quadrille::sat

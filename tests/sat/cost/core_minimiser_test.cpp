@@ -81,6 +81,48 @@ class CoreMinimiserTest : public testing::Test {
   std::vector<Lit> assumptions;
 };
 
+/// Takes part in the search, and says that it takes so many steps whenever it is asked.
+class SlowTheory final : public Theory {
+ public:
+  explicit SlowTheory(std::int64_t steps) : steps_(steps) {}
+  void on_assign(std::span<const Lit>) override {}
+  void on_retract(std::size_t) override {}
+  void check(Effort, TheoryContext&) override { effort_ += steps_; }
+  Lemma explain(Lit, std::vector<Lit>&) override { return {}; }
+  std::int64_t effort() const noexcept override { return effort_; }
+
+ private:
+  const std::int64_t steps_;
+  std::int64_t effort_ = 0;
+};
+
+/// Tries to make a core smaller of which all but one literal can be dropped, one after the other.
+int tries_with(std::int64_t steps_of_theory) {
+  SlowTheory theory(steps_of_theory);
+  Engine engine(&theory);
+  NoProblem problem;
+  NoBounds bounds;
+  Nobody nobody;
+  LimitMonitor limits{Limits{}};
+  std::vector<Lit> lits;
+  for (int k = 0; k < 40; ++k) lits.push_back(engine.new_lit());
+  // Refuted with any two, but no single one.
+  for (std::size_t a = 0; a < lits.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      engine.add_clause({LemmaKind::collision, std::vector<Lit>{~lits[a], ~lits[b]}, {}, false});
+  CoreMinimiser minimiser({engine, problem, bounds, limits, nobody});
+  for (int round = 0; round < 40; ++round)
+    EXPECT_GE(minimiser.minimise({lits[0], lits[1]}, 1'000'000).size(), 2u);
+  return problem.num_solves;
+}
+
+TEST(CoreMinimiserBudget, WhatTheTheoryTakesCounts) {
+  EXPECT_EQ(tries_with(0), 80);
+  const int few = tries_with(1'000'000);
+  EXPECT_GE(few, 1) << "some steps are free";
+  EXPECT_LE(few, 10);
+}
+
 using Set = std::vector<std::size_t>;
 
 TEST_F(CoreMinimiserTest, DropsWhatIsNotNeeded) {
