@@ -14,7 +14,7 @@ constexpr SolveBudget kTryBudget{60, 1000};
 /// raise them.
 constexpr std::int64_t kFreeConflicts = 200;
 /// Likewise, in steps of the engine. Where paths are long and have much time, a try without any
-/// conflict can take a second. Measured, against conflicts alone: maze-32-32-4 with 35 agents 3.3
+/// conflict can take a second. Measured, against conflicts alone: maze-32-32-4 with 35 agents 3.7
 /// instead of 7.5 s, and bounds after 10 s of crowded mazes and rooms are higher.
 constexpr std::int64_t kFreeEffort = 2'000'000;
 
@@ -55,10 +55,12 @@ Cost CoreMinimiser::raise(Relaxation& relaxation, std::vector<Lit>& core, Cost m
     std::vector<Lit> part;
     std::copy_if(raised->begin(), raised->end(), std::back_inserter(part),
                  [](Lit lit) { return lit.valid(); });
+    const Spent before = raising_;
     if (part.empty() || solve_part(part, raising_) != Verdict::unsat) {
       refused = next;
       continue;
     }
+    raising_ = before;  // it was worth it
     lift = next;
     const std::vector<Lit> needed = context_.engine.core();
     std::vector<Lit> smaller;

@@ -21,7 +21,8 @@ class CoreMinimiser {
   [[nodiscard]] std::vector<Lit> minimise(std::vector<Lit> core, std::int64_t searched);
   /// The largest number of units found, at most `max_lift` >= 1, that some soft of the core has to
   /// be violated by: twice as many again and again, as long as less is refuted, then by halves.
-  /// Drops softs that it does without. `searched`: as above.
+  /// Drops softs that it does without. `searched`: as above, but what was spent on refutations
+  /// counts as search.
   [[nodiscard]] Cost raise(Relaxation& relaxation, std::vector<Lit>& core, Cost max_lift,
                            std::int64_t searched);
 
