@@ -94,9 +94,10 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   add_integer(app, "--threads", arguments.threads, 1, kMaxThreads,
               "Searches side by side: for the bound, for plans, with other systems; default 1")
       ->group(group);
-  app.add_flag("--race", options.race,
-               "With --threads: do not wait for each other, take the proof that comes first in time;\n"
-               "the plan may differ from run to run then")
+  app.add_flag(
+         "--race", options.race,
+         "With --threads: do not wait for each other, take the proof that comes first in time;\n"
+         "the plan may differ from run to run then")
       ->group(group);
   add_integer(app, "--seed", arguments.seed, 0, kMaxSeed, "Seed of all random choices; default 0")
       ->group(group);

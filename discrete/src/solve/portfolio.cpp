@@ -89,9 +89,9 @@ bool is_proof(const SolveOutcome& outcome) {
 
 SolveOutcome combine(std::vector<SolveOutcome> outcomes, std::optional<std::size_t> winner,
                      const SolveOptions& options) {
-  if (winner) return std::move(outcomes[*winner]);
   for (SolveOutcome& outcome : outcomes)
     if (outcome.internal_error) return std::move(outcome);
+  if (winner) return std::move(outcomes[*winner]);
   std::size_t best = 0;
   Cost bound = 0;
   for (std::size_t w = 0; w < outcomes.size(); ++w) {

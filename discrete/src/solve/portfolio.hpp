@@ -47,10 +47,10 @@ class Companion {
 /// Whether nothing more is to be done: not so after an internal error, which proves nothing.
 [[nodiscard]] bool is_proof(const SolveOutcome& outcome);
 
-/// The answer of several searches of one instance, not empty; `winner` has a proof. Without a proof
-/// an internal error of any of them is the answer, because it has to be seen; otherwise that is the
-/// cheapest plan with the largest bound, which may be as close together as `options` ask for, and
-/// the statistics of the first.
+/// The answer of several searches of one instance, not empty; `winner` has a proof. An internal
+/// error of any of them is the answer, because it has to be seen, and because a proof may rest on
+/// what the others told. Otherwise that is the proof, or the cheapest plan with the largest bound,
+/// which may be as close together as `options` ask for, and the statistics of the first.
 [[nodiscard]] SolveOutcome combine(std::vector<SolveOutcome> outcomes,
                                    std::optional<std::size_t> winner, const SolveOptions& options);
 

@@ -2,6 +2,7 @@
 #include "solve/rounds.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace quadrille::discrete {
@@ -9,11 +10,11 @@ namespace quadrille::discrete {
 std::optional<News> Rounds::arrive(std::size_t worker, std::int64_t effort,
                                    const std::function<News()>& tell) {
   Worker& me = workers_[worker];
-  if (effort < me.next_round_at) return std::nullopt;
+  const std::int64_t round = round_of(effort);
+  if (round == me.round) return std::nullopt;  // Nobody else changes it.
   News news = tell();
   std::unique_lock lock(mutex_);
-  me.round = effort / length_;
-  me.next_round_at = (me.round + 1) * length_;
+  me.round = round;
   me.told.push_back({me.round, std::move(news)});
   forget();
   decide();
@@ -25,6 +26,13 @@ std::optional<News> Rounds::arrive(std::size_t worker, std::int64_t effort,
     changed_.wait(
         lock, [&] { return over_ || std::all_of(workers_.begin(), workers_.end(), has_arrived); });
   return heard_by(worker);
+}
+
+/// Rounds end at length / 32, length / 16, ..., length, 2 length, 3 length, ...
+std::int64_t Rounds::round_of(std::int64_t effort) const {
+  constexpr std::int64_t kDoublings = 5;
+  if (effort >= length_) return kDoublings + effort / length_;
+  return std::bit_width(static_cast<std::uint64_t>((effort << kDoublings) / length_));
 }
 
 News Rounds::heard_by(std::size_t listener) const {

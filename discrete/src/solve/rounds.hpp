@@ -32,12 +32,11 @@ struct News {
 /// it hears what each of the others told at its first arrival in round r or later.
 class Rounds {
  public:
-  /// A round takes `length` steps. With `race` nobody waits, and what is heard is what is known at
-  /// the time. Requires length >= 1.
+  /// A round takes `length` steps; at first a thirty-second of it and twice as many again and
+  /// again, because easy instances are over soon. With `race` nobody waits, and what is heard is
+  /// what is known at the time. Requires length >= 1.
   Rounds(std::size_t num_workers, std::int64_t length, bool race)
-      : length_(length), race_(race), workers_(num_workers) {
-    for (Worker& worker : workers_) worker.next_round_at = length;
-  }
+      : length_(length), race_(race), workers_(num_workers) {}
 
   /// A worker has done `effort` steps in all. Within a round this returns nullopt at once; at the
   /// end of one it publishes `tell()`, waits for the others and returns what they told, merged.
@@ -61,12 +60,12 @@ class Rounds {
   };
   struct Worker {
     std::int64_t round = 0;
-    std::int64_t next_round_at = 0;  // the worker's own
     bool has_ended = false, has_proof = false;
     std::deque<Told> told;  // What somebody may still have to hear.
     News last;
   };
 
+  [[nodiscard]] std::int64_t round_of(std::int64_t effort) const;
   void decide();
   void forget();
   [[nodiscard]] News heard_by(std::size_t listener) const;

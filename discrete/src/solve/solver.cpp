@@ -21,9 +21,6 @@
 namespace quadrille::discrete {
 namespace {
 
-/// Steps for plans that take as long as one of the search, for rounds that take about as long.
-constexpr std::int64_t kStepsForPlans = 4;
-
 /// One solve, with what all systems have in common: bounds from both sides.
 class Search final : private sat::YieldPoint {
  public:
@@ -100,7 +97,7 @@ class Search final : private sat::YieldPoint {
     std::int64_t effort = 0;
     while (!limits_.exhausted_now() && !others_ended_) {
       effort += plans_->work([this] { return draft_ ? *std::exchange(draft_, nullptr) : Plan(); });
-      exchange(effort / kStepsForPlans);
+      exchange(effort);
       incumbent_.raise(heard_lower_);
     }
   }

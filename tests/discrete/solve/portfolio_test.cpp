@@ -52,11 +52,16 @@ TEST(Portfolio, AnInternalErrorIsNoProof) {
   EXPECT_TRUE(is_proof(close));
 }
 
-TEST(Portfolio, AProofBeatsTheInternalErrorOfAnother) {
+TEST(Portfolio, AnInternalErrorIsSeenEvenBesideAProof) {
   const SolveOutcome answer = combine(list(broken(), optimal(7)), 1, {});
+  EXPECT_TRUE(answer.internal_error);
+  EXPECT_EQ(answer.status, Status::unknown);
+}
+
+TEST(Portfolio, TheWinnerIsTheAnswer) {
+  const SolveOutcome answer = combine(list(feasible(7, 5), optimal(7)), 1, {});
   EXPECT_EQ(answer.status, Status::optimal);
   EXPECT_EQ(answer.cost, 7);
-  EXPECT_FALSE(answer.internal_error);
 }
 
 TEST(Portfolio, WithoutAProofAnInternalErrorIsSeen) {

@@ -71,14 +71,22 @@ TEST(Rounds, WhatIsHeardDependsOnEffortsAndNotOnSpeeds) {
 }
 
 TEST(Rounds, TheFirstNewsOfTheSameRoundOrLaterAreHeard) {
-  std::vector<Worker> workers{{{kRound / 2, kRound, 3 * kRound, 3 * kRound + 1, 4 * kRound}, {}},
+  std::vector<Worker> workers{{{kRound, 3 * kRound, 3 * kRound + 1, 4 * kRound}, {}},
                               {{kRound + 7, 2 * kRound, 7 * kRound}, {}}};
   Rounds rounds(2, kRound, false);
   run(rounds, workers, 3);
-  const std::vector<Cost> first{-1, kRound + 7, 7 * kRound, -1, 7 * kRound},
+  const std::vector<Cost> first{kRound + 7, 7 * kRound, -1, 7 * kRound},
       second{kRound, 3 * kRound, 0};
   EXPECT_EQ(workers[0].heard, first);
   EXPECT_EQ(workers[1].heard, second);
+}
+
+TEST(Rounds, TheFirstOnesAreShort) {
+  Rounds rounds(1, 320, false);
+  std::vector<std::int64_t> ends;
+  for (std::int64_t effort = 0; effort < 1000; ++effort)
+    if (rounds.arrive(0, effort, [] { return News(); })) ends.push_back(effort);
+  EXPECT_EQ(ends, (std::vector<std::int64_t>{10, 20, 40, 80, 160, 320, 640, 960}));
 }
 
 TEST(Rounds, NewsAreMerged) {

@@ -117,8 +117,8 @@ struct SolveOptions {
   std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
   /// More than one: that many searches side by side. The first raises the lower bound, the second
-  /// makes plans (with first_plan), further ones search with other systems. They exchange bounds and
-  /// plans; the first proof is the answer. 1 .. 64.
+  /// makes plans (with first_plan), further ones search with other systems. They exchange bounds
+  /// and plans; the first proof is the answer. 1 .. 64.
   std::size_t threads = 1;
   /// With several threads, exchange at once and take the proof that comes first in time. Otherwise
   /// both go by steps, so that the answer is always the same.
