@@ -14,7 +14,7 @@ constexpr std::int64_t kLeastSlice = 20'000;
 /// Steps of the search, some two seconds: what it solves sooner needs no better plans.
 constexpr std::int64_t kPatience = 1'600'000;
 /// Per cent. With a smaller one the first draft is repaired in the time that plans have anyway.
-constexpr double kHopefulGap = 4;
+constexpr double kHopefulGap = 1;
 
 }  // namespace
 
