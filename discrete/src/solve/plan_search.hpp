@@ -90,7 +90,7 @@ class PlanSearch {
   /// search had at last, see Run::draft.
   void advance(std::int64_t search_effort, const std::function<Plan()>& draft);
   /// Instead of both, where a search in another thread has all the time that it needs: looks for
-  /// plans for a while. `draft` as above. Returns the steps that it took.
+  /// plans for a while. `draft` as above. Returns the steps of a search that it counts for.
   std::int64_t work(const std::function<Plan()>& draft);
 
  private:
