@@ -29,8 +29,9 @@ Lit CoreCounter::at_least(int level, int count) {
   return counter(level).at_least(count);
 }
 
+/// The lower levels first: they follow from the higher ones.
 void CoreCounter::retire() {
-  for (auto counter = counters_.rbegin(); counter != counters_.rend(); ++counter) counter->retire();
+  for (Totalizer& counter : counters_) counter.retire();
 }
 
 }  // namespace quadrille::sat
