@@ -19,7 +19,7 @@ constexpr std::int64_t kFirstStepsOfSearch = 2;
 /// Steps of the search, some two seconds: what it solves sooner needs no better plans.
 constexpr std::int64_t kPatience = 1'600'000;
 /// Per cent. With a smaller one the first draft is repaired in the time that plans have anyway.
-constexpr double kHopefulGap = 1;
+constexpr double kHopefulGap = 0.2;
 
 }  // namespace
 
