@@ -23,7 +23,7 @@ class Relaxation {
 
   /// To be called first. False: a limit came before all softs were made.
   [[nodiscard]] bool start();
-  /// A lower bound of all plans: the agents' free costs and one for each core.
+  /// A lower bound of all plans: the agents' free costs and what was paid for the cores.
   [[nodiscard]] Cost bound() const noexcept { return bound_; }
   /// That no soft is violated: with it a plan costs `bound()`.
   [[nodiscard]] std::vector<Lit> assumptions() const;
