@@ -51,8 +51,8 @@ class WorkerCompanion final : public Companion {
   Role role_;
 };
 
-Role role_of(const SolveOptions& options, std::size_t worker) {
-  if (!options.first_plan || worker > 1) return Role::both;
+Role role_of(std::size_t worker, bool has_planner) {
+  if (!has_planner || worker > 1) return Role::both;
   return worker == 0 ? Role::bound : Role::plans;
 }
 
@@ -63,7 +63,7 @@ SolveOptions options_of(const SolveOptions& options, const Tuner& tuner, std::si
   SolveOptions other = options;
   other.on_progress = {};
   other.on_plan = {};
-  if (role_of(options, worker) == Role::plans) return other;
+  if (role_of(worker, options.first_plan) == Role::plans) return other;
   other.first_plan = false;
   other.cost_search = CostSearch::core_guided;
   other.mdd.growth = MddGrowth::on_demand;
@@ -129,8 +129,9 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
   Rounds& rounds = shared.rounds;
   std::vector<SolveOutcome> outcomes(options.threads);
   std::vector<std::exception_ptr> failures(options.threads);
+  bool has_planner = options.first_plan;
   const auto work = [&](std::size_t worker) {
-    const Role role = role_of(options, worker);
+    const Role role = role_of(worker, has_planner);
     SolveOutcome& outcome = outcomes[worker];
     try {
       WorkerCompanion companion(shared, worker, role);
@@ -154,6 +155,7 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
         threads.emplace_back(work, worker);
       } catch (const std::exception&) {  // no more threads, or no more memory for one
         rounds.end(worker, false, {});
+        if (worker == 1) has_planner = false;  // The first one looks for plans itself.
       }
     }
     work(0);
