@@ -10,7 +10,7 @@ bool SafeIntervalSearch::find(const AgentDistances& distances, const ObstacleMap
   const Query query{distances, obstacles, max_cost, first_hits};
   if (max_cost < distances.free_cost() || obstacles.earliest_rest() > max_cost) return false;
   start_search();
-  add(query, distances.start(), intervals_of(query, distances.start()).begin, 0, kNone);
+  add(query, distances.start(), intervals_of(query, distances.start()).begin, 0, kNoLabel);
   for (std::size_t slack = 0; slack < open_.size(); ++slack) {
     while (!open_[slack].empty()) {
       const LabelIndex label = open_[slack].back();
@@ -18,7 +18,7 @@ bool SafeIntervalSearch::find(const AgentDistances& distances, const ObstacleMap
       const auto [vertex, interval, time, parent] = labels_[label];
       if (intervals_[interval].arrival < time) continue;
       if (vertex == distances.goal() && intervals_[interval].end == kForever) {
-        path = path_to(label);
+        path = path_to(labels_, label);
         return true;
       }
       ++effort_;
@@ -114,18 +114,6 @@ void SafeIntervalSearch::reach(const Query& query, LabelIndex from, VertexId to)
     while (arrival <= latest && is_blocked(arrival - 1)) ++arrival;
     if (arrival <= latest) add(query, to, k, arrival, from);
   }
-}
-
-Path SafeIntervalSearch::path_to(LabelIndex last) const {
-  Path path(static_cast<std::size_t>(labels_[last].time) + 1);
-  std::size_t end = path.size();  // What is behind is filled.
-  for (LabelIndex at = last; at != kNone; at = labels_[at].parent) {
-    const auto begin = static_cast<std::size_t>(labels_[at].time);
-    std::fill(path.begin() + static_cast<std::ptrdiff_t>(begin),
-              path.begin() + static_cast<std::ptrdiff_t>(end), labels_[at].vertex);
-    end = begin;
-  }
-  return path;
 }
 
 }  // namespace quadrille::discrete

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/trace.hpp"
 #include "paths/agent_distances.hpp"
 #include "paths/obstacle_map.hpp"
 #include "quadrille/core/limits.hpp"
@@ -34,7 +35,6 @@ class SafeIntervalSearch {
 
  private:
   using LabelIndex = std::uint32_t;
-  static constexpr LabelIndex kNone = UINT32_MAX;
   /// From `begin` to `end`, both included.
   struct Interval {
     Timestep begin, end;
@@ -66,7 +66,6 @@ class SafeIntervalSearch {
   void expand(const Query& query, LabelIndex from);
   void reach(const Query& query, LabelIndex from, VertexId to);
   static void hit(const Query& query, std::uint32_t slot, VertexId v, Timestep t);
-  [[nodiscard]] Path path_to(LabelIndex last) const;
 
   LimitMonitor* limits_;
   std::int64_t effort_ = 0;

@@ -26,7 +26,7 @@ std::optional<Path> PathPlanner::find(AgentId agent, const Reservations& reserva
     const LabelIndex label = bucket.back();
     bucket.pop_back();
     if (labels_[label].outdated) continue;
-    if (is_goal(labels_[label])) return path_to(label);
+    if (is_goal(labels_[label])) return path_to(labels_, label);
     if (effort_ >= enough || ((++effort_ & 63) == 0 && limits.exhausted())) return std::nullopt;
     expand(label);
   }
@@ -50,7 +50,7 @@ bool PathPlanner::begin(AgentId agent, const Reservations& reservations, Timeste
   earliest_ = std::max(row_[start], passing.empty() ? 0 : passing.back().end + 1);
   if (earliest_ > latest_) return false;
   const auto stays = reservations.stays(start);
-  add(start, 0, 0, stays.empty() ? kForever : stays.front().begin - 1, kNone, row_[start]);
+  add(start, 0, 0, stays.empty() ? kForever : stays.front().begin - 1, kNoLabel, row_[start]);
   return true;
 }
 
@@ -71,7 +71,7 @@ void PathPlanner::reach(LabelIndex from, VertexId to) {
   if (first > last) return;
   const auto stays = reservations_->stays(to);
   std::size_t gap = 0;
-  if (label.parent != kNone && labels_[label.parent].vertex == to &&
+  if (label.parent != kNoLabel && labels_[label.parent].vertex == to &&
       labels_[label.parent].gap_end >= first) {
     // Where it comes from, it was earlier; only the gaps after that one are left.
     if (labels_[label.parent].gap_end >= last) return;
@@ -97,8 +97,8 @@ void PathPlanner::reach(LabelIndex from, VertexId to) {
 void PathPlanner::add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end,
                       LabelIndex parent, Timestep distance) {
   Head& head = heads_[v];
-  if (head.search != search_) head = {search_, kNone};
-  for (LabelIndex other = head.first; other != kNone; other = labels_[other].next_here) {
+  if (head.search != search_) head = {search_, kNoLabel};
+  for (LabelIndex other = head.first; other != kNoLabel; other = labels_[other].next_here) {
     Label& label = labels_[other];
     if (label.gap != gap || label.outdated) continue;
     if (label.time <= time) return;
@@ -115,18 +115,6 @@ void PathPlanner::add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap
     if (buckets_.size() < num_buckets_) buckets_.resize(num_buckets_);
   }
   buckets_[at].push_back(index);
-}
-
-Path PathPlanner::path_to(LabelIndex last) const {
-  Path path(static_cast<std::size_t>(labels_[last].time) + 1);
-  std::size_t end = path.size();  // What is behind is filled.
-  for (LabelIndex at = last; at != kNone; at = labels_[at].parent) {
-    const auto begin = static_cast<std::size_t>(labels_[at].time);
-    std::fill(path.begin() + static_cast<std::ptrdiff_t>(begin),
-              path.begin() + static_cast<std::ptrdiff_t>(end), labels_[at].vertex);
-    end = begin;
-  }
-  return path;
 }
 
 }  // namespace quadrille::discrete

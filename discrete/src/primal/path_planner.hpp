@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/trace.hpp"
 #include "primal/reservations.hpp"
 #include "primal/tie_breaker.hpp"
 #include "quadrille/core/limits.hpp"
@@ -32,7 +33,6 @@ class PathPlanner {
 
  private:
   using LabelIndex = std::uint32_t;
-  static constexpr std::uint32_t kNone = UINT32_MAX;
   struct Label {
     VertexId vertex;
     std::uint32_t gap;  // Before this stay of the vertex.
@@ -44,7 +44,7 @@ class PathPlanner {
   };
   struct Head {
     std::uint32_t search = 0;
-    LabelIndex first = kNone;
+    LabelIndex first = kNoLabel;
   };
 
   bool begin(AgentId agent, const Reservations& reservations, Timestep latest);
@@ -55,7 +55,6 @@ class PathPlanner {
   [[nodiscard]] bool is_goal(const Label& label) const {
     return label.vertex == goal_ && label.gap_end == kForever;
   }
-  [[nodiscard]] Path path_to(LabelIndex last) const;
 
   const Instance& instance_;
   const GoalDistances& distances_;

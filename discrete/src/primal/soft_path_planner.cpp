@@ -22,7 +22,9 @@ std::optional<SoftPathPlanner::Result> SoftPathPlanner::find(AgentId agent,
   begin(agent, reservations, latest, most);
   while (const auto label = next()) {
     if (labels_[*label].piece == kAtRest)
-      return Result{path_to(*label), labels_[*label].num_meetings};
+      // The first rest is kept of those with as many meetings: the label before came from
+      // elsewhere.
+      return Result{path_to(labels_, labels_[*label].parent), labels_[*label].num_meetings};
     if (effort_ >= enough || ((++effort_ & 63) == 0 && limits.exhausted())) return std::nullopt;
     expand(*label);
   }
@@ -47,7 +49,7 @@ void SoftPathPlanner::begin(AgentId agent, const SoftReservations& reservations,
   level_ = num_levels_ = 0;
   earliest_ = row_[start];
   const auto pieces = reservations.pieces(start);
-  add({start, 0, 0, SoftReservations::end_of(pieces, 0), pieces.front().present, kNone, kNone,
+  add({start, 0, 0, SoftReservations::end_of(pieces, 0), pieces.front().present, kNoLabel, kNoLabel,
        false},
       earliest_);
 }
@@ -111,7 +113,7 @@ void SoftPathPlanner::reach(LabelIndex from, VertexId to) {
     if (arrival == pieces[k].begin && pieces[k].ends > 0 && label.piece_end == arrival - 1)
       met += reservations_->swaps(label.vertex, to, arrival);
     add({to, static_cast<std::uint32_t>(k), arrival, SoftReservations::end_of(pieces, k),
-         label.num_meetings + met, from, kNone, false},
+         label.num_meetings + met, from, kNoLabel, false},
         distance);
   }
 }
@@ -131,8 +133,8 @@ void SoftPathPlanner::rest(LabelIndex from) {
 void SoftPathPlanner::add(const Label& label, Timestep distance) {
   if (label.num_meetings > most_ || distance > latest_ || label.time > latest_ - distance) return;
   Head& head = heads_[label.vertex];
-  if (head.search != search_) head = {search_, kNone};
-  for (LabelIndex other = head.first; other != kNone; other = labels_[other].next_here) {
+  if (head.search != search_) head = {search_, kNoLabel};
+  for (LabelIndex other = head.first; other != kNoLabel; other = labels_[other].next_here) {
     Label& known = labels_[other];
     if (known.piece != label.piece || known.is_outdated) continue;
     if (known.num_meetings <= label.num_meetings && known.time <= label.time) return;
@@ -155,21 +157,6 @@ void SoftPathPlanner::add(const Label& label, Timestep distance) {
     if (level.buckets.size() < level.end) level.buckets.resize(level.end);
   }
   level.buckets[at].push_back(index);
-}
-
-Path SoftPathPlanner::path_to(LabelIndex last) const {
-  // The time at rest begins with the last label before it that came from another vertex.
-  Path path;
-  LabelIndex at = labels_[last].parent;
-  path.resize(static_cast<std::size_t>(labels_[at].time) + 1);
-  std::size_t end = path.size();  // What is behind is filled.
-  for (; at != kNone; at = labels_[at].parent) {
-    const auto begin = static_cast<std::size_t>(labels_[at].time);
-    std::fill(path.begin() + static_cast<std::ptrdiff_t>(begin),
-              path.begin() + static_cast<std::ptrdiff_t>(end), labels_[at].vertex);
-    end = begin;
-  }
-  return path;
 }
 
 }  // namespace quadrille::discrete

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/trace.hpp"
 #include "primal/soft_reservations.hpp"
 #include "primal/tie_breaker.hpp"
 #include "quadrille/core/limits.hpp"
@@ -39,7 +40,6 @@ class SoftPathPlanner {
 
  private:
   using LabelIndex = std::uint32_t;
-  static constexpr std::uint32_t kNone = UINT32_MAX;
   static constexpr std::uint32_t kAtRest = UINT32_MAX;  // A piece: in the goal from now on.
   struct Label {
     VertexId vertex;
@@ -53,7 +53,7 @@ class SoftPathPlanner {
   };
   struct Head {
     std::uint32_t search = 0;
-    LabelIndex first = kNone;
+    LabelIndex first = kNoLabel;
   };
   /// Labels with the same number of meetings, by estimated arrival.
   struct Level {
@@ -69,7 +69,6 @@ class SoftPathPlanner {
   void reach(LabelIndex from, VertexId to);
   void rest(LabelIndex from);
   void add(const Label& label, Timestep distance);
-  [[nodiscard]] Path path_to(LabelIndex last) const;
 
   const Instance& instance_;
   const GoalDistances& distances_;
