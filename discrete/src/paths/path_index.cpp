@@ -12,7 +12,7 @@ using Kind = Encounter::Kind;
 PathIndex::PathIndex(const Instance& instance)
     : instance_(instance),
       paths_(instance.num_agents()),
-      present_(instance.graph().num_vertices()),
+      stays_(instance.graph().num_vertices()),
       resident_(instance.graph().num_vertices(), -1),
       is_changed_(instance.num_agents(), 0) {
   for (const AgentId i : instance.agents())
@@ -23,27 +23,39 @@ void PathIndex::replace(AgentId agent, const Path& path) {
   QUADRILLE_REQUIRE(!path.empty() && path.back() == instance_.tasks()[agent].goal,
                     "a path ends at the agent's goal");
   Path& own = paths_[agent];
-  for (std::size_t t = 0; t < own.size(); ++t) {
-    auto& crowd = present_[own[t]];
-    const auto it = std::find_if(crowd.begin(), crowd.end(), [&](const Presence& p) {
-      return p.agent == agent && p.timestep == static_cast<Timestep>(t);
+  for (std::size_t t = 0; t < own.size();) {
+    const Stay old = stay_at(agent, own, t);
+    auto& crowd = stays_[own[t]];
+    const auto it = std::find_if(crowd.begin(), crowd.end(), [&](const Stay& stay) {
+      return stay.agent == agent && stay.begin == old.begin;
     });
     *it = crowd.back();
     crowd.pop_back();
+    t = static_cast<std::size_t>(old.end) + 1;
   }
   own = path;
-  for (std::size_t t = 0; t < own.size(); ++t)
-    present_[own[t]].push_back({static_cast<Timestep>(t), agent});
+  for (std::size_t t = 0; t < own.size();) {
+    const Stay stay = stay_at(agent, own, t);
+    stays_[own[t]].push_back(stay);
+    t = static_cast<std::size_t>(stay.end) + 1;
+  }
   if (is_changed_[agent] == 0) {
     is_changed_[agent] = 1;
     changed_.push_back(agent);
   }
 }
 
+PathIndex::Stay PathIndex::stay_at(AgentId agent, const Path& path, std::size_t t) {
+  std::size_t end = t;
+  while (end + 1 < path.size() && path[end + 1] == path[t]) ++end;
+  return {static_cast<Timestep>(t), static_cast<Timestep>(end), agent};
+}
+
 int PathIndex::collisions_of_rest(AgentId agent, Timestep arrival) const {
   int count = 0;
-  for (const Presence& p : present_[instance_.tasks()[agent].goal])
-    if (p.agent != agent && p.timestep > arrival) ++count;
+  for (const Stay& stay : stays_[instance_.tasks()[agent].goal])
+    if (stay.agent != agent && stay.end > arrival)
+      count += stay.end - std::max(stay.begin - 1, arrival);
   return count;
 }
 
@@ -71,25 +83,26 @@ void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
       if (resident != agent && rests_since(resident) <= t) host = resident;
     }
     if (host) out.push_back({Kind::rest, *host, agent, v, v, t});
-    for (const Presence& p : present_[v])
-      if (p.timestep == t && p.agent != agent && p.agent != host)
-        out.push_back({t == end ? Kind::rest : Kind::vertex, agent, p.agent, v, v, t});
+    for (const Stay& stay : stays_[v])
+      if (stay.contains(t) && stay.agent != agent && stay.agent != host)
+        out.push_back({t == end ? Kind::rest : Kind::vertex, agent, stay.agent, v, v, t});
     if (t == end) break;
     const VertexId w = path[static_cast<std::size_t>(t) + 1];
     if (w == v) continue;
-    for (const Presence& p : present_[w])
-      if (p.timestep == t && p.agent != agent && cost(p.agent) > t &&
-          paths_[p.agent][static_cast<std::size_t>(t) + 1] == v)
-        out.push_back({Kind::swap, agent, p.agent, v, w, t});
+    for (const Stay& stay : stays_[w])
+      if (stay.end == t && stay.agent != agent && cost(stay.agent) > t &&
+          paths_[stay.agent][static_cast<std::size_t>(t) + 1] == v)
+        out.push_back({Kind::swap, agent, stay.agent, v, w, t});
   }
   if (!path.empty()) collect_rest(agent, out);
 }
 
 void PathIndex::collect_rest(AgentId agent, std::vector<Encounter>& out) const {
   const VertexId goal = instance_.tasks()[agent].goal;
-  for (const Presence& p : present_[goal])
-    if (p.agent != agent && p.timestep > cost(agent))
-      out.push_back({Kind::rest, agent, p.agent, goal, goal, p.timestep});
+  for (const Stay& stay : stays_[goal])
+    if (stay.agent != agent)
+      for (Timestep t = std::max(stay.begin, cost(agent) + 1); t <= stay.end; ++t)
+        out.push_back({Kind::rest, agent, stay.agent, goal, goal, t});
 }
 
 const std::vector<Encounter>& PathIndex::collisions() {

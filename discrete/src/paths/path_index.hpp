@@ -24,7 +24,7 @@ struct Encounter {
 };
 
 /// One current path per agent, indexed by place. Replacing a path costs time in the path's length
-/// (and in the crowd at its vertices), and so does counting its collisions.
+/// (and in the stays at its vertices), and so does counting its collisions.
 class PathIndex {
  public:
   /// `instance` outlives the index. All paths are empty at first; an agent without a path is
@@ -48,12 +48,12 @@ class PathIndex {
     if (resident >= 0 && AgentId(static_cast<std::size_t>(resident)) != agent &&
         rests_since(AgentId(static_cast<std::size_t>(resident))) < t)
       ++count;
-    for (const Presence& p : present_[to]) {
-      if (p.agent == agent) continue;
-      if (p.timestep == t) {
+    for (const Stay& stay : stays_[to]) {
+      if (!stay.is_near(t) || stay.agent == agent) continue;
+      if (stay.end >= t) {
         ++count;
-      } else if (p.timestep == t - 1 && from != to) {
-        const Path& other = paths_[p.agent];
+      } else if (from != to) {
+        const Path& other = paths_[stay.agent];
         if (static_cast<Timestep>(other.size()) > t && other[static_cast<std::size_t>(t)] == from)
           ++count;
       }
@@ -71,19 +71,31 @@ class PathIndex {
   [[nodiscard]] const std::vector<Encounter>& collisions();
 
  private:
-  struct Presence {
-    Timestep timestep;
+  /// From `begin` to `end`, both included; without the rest at the goal.
+  struct Stay {
+    Timestep begin, end;
     AgentId agent;
+    // One comparison each, which the processor can foresee because it fails nearly always: with one
+    // for each end, searches take 1.12 times as long, all in all.
+    [[nodiscard]] bool contains(Timestep t) const noexcept {
+      return static_cast<std::uint32_t>(t - begin) <= static_cast<std::uint32_t>(end - begin);
+    }
+    /// Contains `t` or the timestep before.
+    [[nodiscard]] bool is_near(Timestep t) const noexcept {
+      return static_cast<std::uint32_t>(t - begin) <= static_cast<std::uint32_t>(end - begin) + 1;
+    }
   };
   [[nodiscard]] Timestep rests_since(AgentId agent) const {
     return paths_[agent].empty() ? kForever : cost(agent);
   }
+  /// The stay of `path` that begins at `t`.
+  static Stay stay_at(AgentId agent, const Path& path, std::size_t t);
   void collect(AgentId agent, std::vector<Encounter>& out) const;
   void collect_rest(AgentId agent, std::vector<Encounter>& out) const;
 
   const Instance& instance_;
   IdVector<AgentId, Path> paths_;
-  IdVector<VertexId, std::vector<Presence>> present_;
+  IdVector<VertexId, std::vector<Stay>> stays_;
   IdVector<VertexId, std::int32_t> resident_;  // whose goal it is, -1: nobody's
   std::vector<Encounter> collisions_;
   std::vector<AgentId> changed_;  // paths replaced since collisions_ was right
