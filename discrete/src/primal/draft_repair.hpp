@@ -29,11 +29,12 @@ class DraftRepair {
 
   [[nodiscard]] bool is_at_work() const noexcept { return is_at_work_; }
   /// Goes on with the draft. True when it has become a plan; what was good about it is to be
-  /// `report`ed then. A draft that resists for too long is dropped. Requires one at work.
+  /// `report`ed then. A draft whose meetings have not halved for too long is dropped. Requires one
+  /// at work.
   bool advance(std::int64_t effort, LimitMonitor& limits);
   /// Requires that `advance` returned true at last.
   [[nodiscard]] const Plan& plan() const noexcept { return repair_.plan(); }
-  /// How long a draft is tried: 1 at first, doubled whenever a draft is dropped, halved when one
+  /// How long a halving may take: 1 at first, doubled whenever a draft is dropped, halved when one
   /// becomes a plan.
   [[nodiscard]] std::int64_t patience() const noexcept { return patience_; }
   /// Elementary steps so far.
@@ -44,11 +45,15 @@ class DraftRepair {
  private:
   static constexpr std::int64_t kLongestPause = 7;
 
+  void begin_halving();
+
   PlanRepair repair_;
   bool is_at_work_ = false;
   std::int64_t pause_ = 0, num_to_skip_ = 0;  // Drafts to let pass.
   std::int64_t patience_ = 1;                 // Grows when drafts are dropped.
-  std::int64_t dropped_at_ = 0;               // Effort.
+  std::int64_t effort_per_halving_ = 0;
+  std::int64_t half_ = 0;        // As many meetings at most are wanted next,
+  std::int64_t dropped_at_ = 0;  // before so much effort is spent.
 };
 
 }  // namespace quadrille::discrete

@@ -3,15 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "discrete/primal/primal_support.hpp"
 #include "quadrille/discrete/verify.hpp"
 
 namespace quadrille::discrete::primal_test {
 namespace {
 
-/// Two agents that have to pass each other, and how they would go alone.
+/// Agents that have to pass each other, and how they would go alone.
 struct Meeting {
-  explicit Meeting(const std::string& text) : instance(instance_of(text)) {
+  explicit Meeting(const std::string& text) : Meeting(instance_of(text)) {}
+  explicit Meeting(Instance crowd) : instance(std::move(crowd)) {
     for (const AgentId agent : instance.agents()) {
       const auto [start, goal] = instance.tasks()[agent];
       Path path{start};
@@ -72,6 +75,19 @@ TEST(DraftRepair, DropsWhatResists) {
   EXPECT_GT(num_slices[0], 20);
   EXPECT_GT(num_slices[1], num_slices[0] * 3 / 2);  // More patient.
   EXPECT_LT(num_slices[1], 2'000);
+}
+
+TEST(DraftRepair, GoesOnWhileMeetingsHalve) {
+  const Meeting crowd(primal_test::crowd(20, 200, 3));
+  std::int64_t length = 0;
+  for (const Path& path : crowd.draft.paths) length += static_cast<std::int64_t>(path.size());
+  DraftRepair repair(crowd.instance, distances_of(crowd.instance), 0);
+  LimitMonitor limits{Limits{}};
+  repair.begin(crowd.draft);
+  while (!repair.advance(1000, limits)) ASSERT_TRUE(repair.is_at_work());
+  EXPECT_EQ(repair.patience(), 1);
+  // More than what two halvings may take.
+  EXPECT_GT(repair.effort(), 2 * (20 * length + 20'000));
 }
 
 }  // namespace
