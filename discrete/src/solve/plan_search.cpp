@@ -45,10 +45,6 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
   Incumbent& incumbent = context_.incumbent;
   effort_ = 0;
-  if (is_at_first_draft()) {
-    improve_draft(*slice.effort);
-    return sat::Outcome::working;
-  }
   if (!improver_)
     improver_.emplace(context_.instance, context_.distances, context_.objective, incumbent.plan(),
                       context_.seed);
