@@ -39,16 +39,18 @@ std::int64_t luby(std::uint32_t k) {
 }
 
 PrimalSearch::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-                         std::uint32_t seed)
+                         std::uint32_t seed, Part part)
     : instance_(instance),
       distances_(std::move(distances)),
       seed_(seed),
+      part_(part),
       unit_(unit_of(instance, *distances_)) {
   for (const AgentId i : instance_.agents()) {
     const Timestep way = (*distances_)(i, instance_.tasks()[i].start);
     if (way == kUnreachable) state_ = State::exhausted;
     ideal_ += way;
   }
+  if (part_ == Part::rest) turn_ = 1;
   if (kGuideEffortPerTimestep * ideal_ > Guide::kMostEffort) turn_ = kNumGuides;
 }
 
@@ -116,6 +118,7 @@ void PrimalSearch::Impl::end_turn(const Lacam& search) {
 }
 
 bool PrimalSearch::Impl::is_over() const noexcept {
+  if (part_ == Part::first_guide && turn_ >= 1) return true;
   if (state_ == State::searching) return false;
   return !plan_ || turn_ >= kNumGuides || 100 * (cost_ - ideal_) <= kGoodPlan * ideal_;
 }
@@ -126,8 +129,8 @@ const Plan& PrimalSearch::Impl::plan() const {
 }
 
 PrimalSearch::PrimalSearch(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-                           std::uint32_t seed)
-    : impl_(std::make_unique<Impl>(instance, std::move(distances), seed)) {}
+                           std::uint32_t seed, Part part)
+    : impl_(std::make_unique<Impl>(instance, std::move(distances), seed, part)) {}
 PrimalSearch::~PrimalSearch() = default;
 PrimalSearch::PrimalSearch(PrimalSearch&&) noexcept = default;
 PrimalSearch& PrimalSearch::operator=(PrimalSearch&&) noexcept = default;
@@ -137,6 +140,7 @@ PrimalSearch::State PrimalSearch::advance(std::int64_t effort, LimitMonitor& lim
 }
 PrimalSearch::State PrimalSearch::state() const noexcept { return impl_->state(); }
 bool PrimalSearch::is_over() const noexcept { return impl_->is_over(); }
+bool PrimalSearch::is_at_guides() const noexcept { return impl_->is_at_guides(); }
 std::int64_t PrimalSearch::effort() const noexcept { return impl_->effort(); }
 std::size_t PrimalSearch::num_configurations() const noexcept {
   return impl_->num_configurations();

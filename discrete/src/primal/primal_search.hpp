@@ -25,14 +25,15 @@ namespace quadrille::discrete {
 /// ever keeps all complete; of the others one at a time is in memory.
 class PrimalSearch::Impl {
  public:
-  Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-       std::uint32_t seed);
+  Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances, std::uint32_t seed,
+       Part part);
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   State advance(std::int64_t effort, LimitMonitor& limits);
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] bool is_over() const noexcept;
+  [[nodiscard]] bool is_at_guides() const noexcept { return !is_over() && turn_ < kNumGuides; }
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
   [[nodiscard]] std::size_t num_configurations() const noexcept { return num_configurations_; }
   [[nodiscard]] const Plan& plan() const;
@@ -50,6 +51,7 @@ class PrimalSearch::Impl {
   const Instance instance_;
   const std::shared_ptr<const GoalDistances> distances_;
   const std::uint32_t seed_;
+  const Part part_;
   const std::int64_t unit_;  // The effort of most turns.
   Cost ideal_ = 0;           // Of a plan in which nobody is in the way of others.
   State state_ = State::searching;

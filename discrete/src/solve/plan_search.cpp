@@ -125,6 +125,11 @@ void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>
                       gap_percent(*seen_upper_, incumbent.lower()));
 }
 
+void PlanSearch::begin() {
+  while (first_plan_.is_at_guides() && !context_.limits.exhausted_now())
+    static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
+}
+
 std::int64_t PlanSearch::work(const std::function<Plan()>& draft) {
   const std::int64_t before = first_plan_.effort();
   if (!first_plan_.is_over() && (!context_.incumbent.upper() || before < kFirstEffort)) {

@@ -21,6 +21,7 @@ struct PlanSearchContext {
   std::shared_ptr<const GoalDistances> distances;
   Objective objective = Objective::sum_of_costs;
   std::uint32_t seed = 0;
+  PrimalSearch::Part part = PrimalSearch::Part::all;  ///< Of the search for a first plan.
   Incumbent& incumbent;
   LimitMonitor& limits;
 };
@@ -29,12 +30,15 @@ struct PlanSearchContext {
 class FirstPlan final : public sat::Strategy {
  public:
   explicit FirstPlan(const PlanSearchContext& context)
-      : context_(context), search_(context.instance, context.distances, context.seed) {}
+      : context_(context),
+        search_(context.instance, context.distances, context.seed, context.part) {}
 
   /// Requires a slice with effort.
   [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
   /// No plan comes any more, or no cheaper one.
   [[nodiscard]] bool is_over() const noexcept { return search_.is_over(); }
+  /// The searches that all begins with are not done.
+  [[nodiscard]] bool is_at_guides() const noexcept { return search_.is_at_guides(); }
   /// Of all slices; a slice may take more than it is given, because guides are not cut.
   [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
 
@@ -91,8 +95,11 @@ class PlanSearch {
   /// To be called often with the steps of the search so far. `draft` tells the paths that the
   /// search had at last, see Run::draft.
   void advance(std::int64_t search_effort, const std::function<Plan()>& draft);
-  /// Instead of both, where a search in another thread has all the time that it needs: looks for
-  /// plans for a while. `draft` as above. Returns the steps of a search that it counts for.
+  /// Instead of both, where a search in another thread has all the time that it needs. First the
+  /// guided searches, to the end.
+  void begin();
+  /// Then looks for plans for a while. `draft` as above. Returns the steps of a search that it
+  /// counts for.
   std::int64_t work(const std::function<Plan()>& draft);
 
  private:

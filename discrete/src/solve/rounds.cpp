@@ -31,9 +31,9 @@ std::optional<News> Rounds::arrive(std::size_t worker, std::int64_t effort,
 /// Rounds end at length / 32, length / 16, ..., length, 2 length, 3 length, ...
 std::int64_t Rounds::round_of(std::int64_t effort) const {
   constexpr std::int64_t kDoublings = 5;
-  if (effort >= length_) return kDoublings + effort / length_;
+  if (effort >= length_) return 1 + kDoublings + effort / length_;
   const auto part = static_cast<std::uint64_t>((effort << kDoublings) / length_);
-  return static_cast<std::int64_t>(std::bit_width(part));
+  return 1 + static_cast<std::int64_t>(std::bit_width(part));
 }
 
 News Rounds::heard_by(std::size_t listener) const {

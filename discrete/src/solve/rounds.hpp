@@ -32,9 +32,10 @@ struct News {
 /// it hears what each of the others told at its first arrival in round r or later.
 class Rounds {
  public:
-  /// A round takes `length` steps; at first a thirty-second of it and twice as many again and
-  /// again, because easy instances are over soon. With `race` nobody waits, and what is heard is
-  /// what is known at the time. Requires length >= 1.
+  /// The first round ends when a worker arrives at all. Then one takes `length` steps; at first a
+  /// thirty-second of it and twice as many again and again, because easy instances are over soon.
+  /// With `race` nobody waits, and what is heard is what is known at the time. Requires length
+  /// >= 1.
   Rounds(std::size_t num_workers, std::int64_t length, bool race)
       : length_(length), race_(race), workers_(num_workers) {}
 

@@ -41,13 +41,20 @@ class Search final : private sat::YieldPoint {
     incumbent_.raise(free_bound(distances.get()));
     outcome_.lower_bound = lower();
     if (!distances) return;
-    if (options_.first_plan && role_ != Role::bound) {
+    if (options_.first_plan) {
+      using Part = PrimalSearch::Part;
+      const Part part = role_ == Role::both    ? Part::all
+                        : role_ == Role::bound ? Part::first_guide
+                                               : Part::rest;
       plans_.emplace(PlanSearchContext{instance_, distances, options_.objective, options_.seed,
-                                       incumbent_, limits_});
-      if (role_ == Role::both) {
+                                       part, incumbent_, limits_});
+      if (role_ == Role::both)
         while (plans_->start()) yield();
-        yield();
-      }
+      else
+        plans_->begin();
+      if (role_ == Role::bound) plans_.reset();
+      exchange(0);
+      if (role_ != Role::plans) yield();
     }
     try {
       if (role_ == Role::plans)
@@ -121,7 +128,8 @@ class Search final : private sat::YieldPoint {
       news.plan = told_plan_;
       news.cost = told_cost_ = *incumbent_.upper();
     }
-    if (role_ == Role::bound) news.draft = std::make_shared<const Plan>(run_->draft());
+    if (role_ == Role::bound && run_ != nullptr)
+      news.draft = std::make_shared<const Plan>(run_->draft());
     return news;
   }
 

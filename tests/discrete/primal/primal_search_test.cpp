@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -96,6 +97,39 @@ TEST(PrimalSearch, GoesOnToACheaperPlan) {
   }
   EXPECT_GE(num_cheaper, 5);
   EXPECT_LE(num_cheaper, 35);  // Both guides are of use.
+}
+
+TEST(PrimalSearch, IsSharedByTwo) {
+  using Part = PrimalSearch::Part;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Instance instance = crowd(12, 60, seed);
+    LimitMonitor limits{Limits{}};
+    const auto found = [&](Part part) {
+      PrimalSearch search(instance, distances_of(instance), 0, part);
+      while (!search.is_over()) search.advance(100, limits);
+      EXPECT_FALSE(search.is_at_guides());
+      EXPECT_EQ(search.state(), State::found);
+      return search.plan().cost(Objective::sum_of_costs);
+    };
+    const Cost first = found(Part::first_guide), rest = found(Part::rest);
+    ASSERT_LE(std::min(first, rest), found(Part::all));
+  }
+}
+
+TEST(PrimalSearch, OneOfTwoFindsAPlanIfAndOnlyIfThereIsOne) {
+  support::Random random(11);
+  for (std::size_t k = 0; k < scaled(300); ++k) {
+    const Instance instance = random_instance(random);
+    const State whole = searched(instance).state();
+    LimitMonitor limits{Limits{}};
+    PrimalSearch first(instance, distances_of(instance), 0, PrimalSearch::Part::first_guide);
+    while (!first.is_over()) first.advance(10, limits);
+    PrimalSearch rest(instance, distances_of(instance), 0, PrimalSearch::Part::rest);
+    ASSERT_EQ(rest.advance(kNoEnd, limits), whole) << instance_text(instance);
+    if (first.state() != State::searching) {
+      ASSERT_EQ(first.state(), whole) << instance_text(instance);
+    }
+  }
 }
 
 }  // namespace

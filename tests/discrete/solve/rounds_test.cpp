@@ -86,7 +86,7 @@ TEST(Rounds, TheFirstOnesAreShort) {
   std::vector<std::int64_t> ends;
   for (std::int64_t effort = 0; effort < 1000; ++effort)
     if (rounds.arrive(0, effort, [] { return News(); })) ends.push_back(effort);
-  EXPECT_EQ(ends, (std::vector<std::int64_t>{10, 20, 40, 80, 160, 320, 640, 960}));
+  EXPECT_EQ(ends, (std::vector<std::int64_t>{0, 10, 20, 40, 80, 160, 320, 640, 960}));
 }
 
 TEST(Rounds, NewsAreMerged) {

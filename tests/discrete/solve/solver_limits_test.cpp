@@ -304,6 +304,43 @@ Limits random_limits(Random& random) {
   return limits;
 }
 
+// From the first look at the distances on, through guides, first plans, drafts and cores.
+TEST(SolverLimits, ThousandAgentsAreInterruptedAtRandomMoments) {
+  Random random(12);
+  const Instance instance = random_grid(random, {100, 100, 20, 1000, 1000});
+  Cost free_costs = 0;
+  for (const AgentId i : instance.agents())
+    free_costs +=
+        distances_from(instance.graph(), instance.tasks()[i].goal)[instance.tasks()[i].start];
+  int num_with_plan = 0;
+  for (std::size_t round = 0; round < scaled(8); ++round) {
+    TunedOptions options;
+    options.threads = 1 + round % 2;
+    std::atomic<bool> interrupt = false;
+    options.limits.interrupt = &interrupt;
+    const double delay = static_cast<double>(random.below(2'500)) / 1000;
+    SCOPED_TRACE(delay);
+    std::atomic<double> set_at = 0;
+    std::thread killer([&] {
+      std::this_thread::sleep_for(std::chrono::duration<double>(delay));
+      set_at = cpu_seconds();
+      interrupt = true;
+    });
+    const SolveOutcome outcome = solve(instance, options).value();
+    const double returned = cpu_seconds();
+    killer.join();
+    EXPECT_EQ(find_inconsistency(instance, options, outcome), "");
+    EXPECT_EQ(outcome.stop, StopReason::interrupt);
+    EXPECT_LT(returned - set_at, kSoon);
+    EXPECT_GT(outcome.lower_bound, 0);
+    if (!outcome.plan) continue;
+    ++num_with_plan;
+    EXPECT_TRUE(verify(instance, *outcome.plan).valid());
+    EXPECT_GE(outcome.lower_bound, free_costs);
+  }
+  EXPECT_GT(num_with_plan, 0);
+}
+
 // Whatever ends the search: a bound above the optimum, a plan that is none, or a false claim of
 // infeasibility would show here.
 TEST(SolverLimits, NeverClaimsWhatIsNotTrue) {

@@ -36,9 +36,13 @@ class PrimalSearch {
     exhausted,  ///< Every reachable configuration was visited: there is no plan.
   };
 
+  /// Two threads may share the work: one takes the first of the two guided searches that all
+  /// begins with, the other one all the rest.
+  enum class Part { all, first_guide, rest };
+
   /// `distances` are those of `instance`.
   PrimalSearch(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-               std::uint32_t seed);
+               std::uint32_t seed, Part part = Part::all);
   ~PrimalSearch();
   PrimalSearch(PrimalSearch&&) noexcept;
   PrimalSearch& operator=(PrimalSearch&&) noexcept;
@@ -47,6 +51,7 @@ class PrimalSearch {
   State advance(std::int64_t effort, LimitMonitor& limits);
   [[nodiscard]] State state() const noexcept;
   [[nodiscard]] bool is_over() const noexcept;         ///< `advance` does nothing any more.
+  [[nodiscard]] bool is_at_guides() const noexcept;    ///< The guided searches are not done.
   [[nodiscard]] std::int64_t effort() const noexcept;  ///< Spent so far.
   /// In the end, without a plan: the configurations that can be reached, all of which were visited;
   /// 0 before, and where some goal cannot be reached.
