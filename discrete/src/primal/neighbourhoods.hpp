@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "primal/gathering.hpp"
 #include "primal/reservations.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
@@ -32,9 +33,7 @@ class Neighbourhoods {
 
  private:
   void walk(AgentId agent, std::size_t size);
-  void gather_around(VertexId centre, std::size_t size);
   void fill_up(std::size_t size);
-  void take(AgentId agent);
   [[nodiscard]] VertexId random_vertex_of(AgentId agent);
 
   const Instance& instance_;
@@ -42,10 +41,7 @@ class Neighbourhoods {
   const IdVector<AgentId, Path>& paths_;
   const Reservations& reservations_;
   Random& random_;
-  std::vector<AgentId> chosen_;
-  std::vector<char> is_chosen_;  // By agent.
-  std::vector<VertexId> queue_;
-  IdVector<VertexId, char> is_queued_;
+  Gathering chosen_;
 };
 
 }  // namespace quadrille::discrete

@@ -36,8 +36,7 @@ PlanRepair::PlanRepair(const Instance& instance, std::shared_ptr<const GoalDista
       planner_(instance_, *distances_, random_),
       meetings_(instance.num_agents(), 0),
       place_(instance.num_agents(), 0),
-      is_chosen_(instance.num_agents(), 0),
-      is_queued_(instance.graph().num_vertices(), 0) {}
+      gathering_(instance) {}
 
 std::optional<Plan> PlanRepair::repair(const Plan& draft, std::int64_t effort,
                                        LimitMonitor& limits) {
@@ -116,49 +115,24 @@ void PlanRepair::put_back(std::size_t num_new) {
 /// An agent that meets others, those it meets, those these meet, and so on; and when that is not
 /// enough, those who pass the vertices near its path.
 void PlanRepair::choose(std::size_t size) {
-  chosen_.clear();
   const AgentId seed = colliding_[static_cast<std::size_t>(random_.below(colliding_.size()))];
-  take(seed);
-  for (std::size_t head = 0; head < chosen_.size() && chosen_.size() < size; ++head) {
+  gathering_.take(seed);
+  for (std::size_t head = 0; head < gathering_.size() && gathering_.size() < size; ++head) {
     met_.clear();
-    reservations_.for_each_meeting(chosen_[head], plan_.paths[chosen_[head]],
+    reservations_.for_each_meeting(gathering_[head], plan_.paths[gathering_[head]],
                                    [this](AgentId other) { met_.push_back(other); });
     random_.shuffle_front(met_, met_.size());
     for (const AgentId other : met_)
-      if (chosen_.size() < size) take(other);
+      if (gathering_.size() < size) gathering_.take(other);
   }
-  if (chosen_.size() < size) {
+  if (gathering_.size() < size) {
     const Path& path = plan_.paths[seed];
-    gather_around(path[static_cast<std::size_t>(random_.below(path.size()))], size);
+    const VertexId centre = path[static_cast<std::size_t>(random_.below(path.size()))];
+    const std::size_t steps = gathering_.take_around(centre, size, reservations_, random_);
+    effort_ += static_cast<std::int64_t>(steps) / 4;
   }
+  chosen_ = gathering_.release();
   random_.shuffle_front(chosen_, chosen_.size());
-  for (const AgentId agent : chosen_) is_chosen_[agent] = 0;
-}
-
-void PlanRepair::gather_around(VertexId centre, std::size_t size) {
-  queue_.assign(1, centre);
-  is_queued_[centre] = 1;
-  for (std::size_t head = 0; head < queue_.size() && chosen_.size() < size; ++head) {
-    const VertexId v = queue_[head];
-    const auto stays = reservations_.stays(v);
-    const std::size_t count = stays.size();
-    const std::size_t shift = count == 0 ? 0 : static_cast<std::size_t>(random_.below(count));
-    for (std::size_t k = 0; k < count && chosen_.size() < size; ++k)
-      take(stays[(k + shift) % count].agent);
-    for (const VertexId w : instance_.graph().neighbours(v)) {
-      if (is_queued_[w] != 0) continue;
-      is_queued_[w] = 1;
-      queue_.push_back(w);
-    }
-  }
-  effort_ += static_cast<std::int64_t>(queue_.size()) / 4;
-  for (const VertexId v : queue_) is_queued_[v] = 0;
-}
-
-void PlanRepair::take(AgentId agent) {
-  if (is_chosen_[agent] != 0) return;
-  is_chosen_[agent] = 1;
-  chosen_.push_back(agent);
 }
 
 void PlanRepair::reserve(AgentId agent) {

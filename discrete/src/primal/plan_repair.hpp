@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "primal/gathering.hpp"
 #include "primal/soft_path_planner.hpp"
 #include "primal/soft_reservations.hpp"
 #include "quadrille/core/random.hpp"
@@ -46,8 +47,6 @@ class PlanRepair {
   void step(LimitMonitor& limits);
   [[nodiscard]] std::int64_t allowed(const Path& old_path) const;
   void choose(std::size_t size);
-  void gather_around(VertexId centre, std::size_t size);
-  void take(AgentId agent);
   void put_back(std::size_t num_new);
   void reserve(AgentId agent);
   void release(AgentId agent);
@@ -63,10 +62,8 @@ class PlanRepair {
   std::int64_t num_meetings_ = 0;             // Of all, each counted once.
   std::vector<AgentId> colliding_;            // Those with meetings.
   IdVector<AgentId, std::size_t> place_;      // In `colliding_`.
+  Gathering gathering_;
   std::vector<AgentId> chosen_, met_;
-  IdVector<AgentId, char> is_chosen_;
-  std::vector<VertexId> queue_;
-  IdVector<VertexId, char> is_queued_;
   std::vector<Path> old_paths_;    // Of those chosen.
   std::int64_t num_failures_ = 0;  // Neighbourhoods that did not help; forgotten by and by.
   std::int64_t effort_ = 0;
