@@ -130,7 +130,9 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
 void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t index, Ticks bound) {
   const Node node = nodes_[index];
   const ClassId c = instance_.class_of(task.agent);
-  for (const EdgeId e : instance_.roadmap().out_edges(node.vertex)) {
+  const auto edges = instance_.roadmap().out_edges(node.vertex);
+  num_edges_ += static_cast<std::int64_t>(edges.size());
+  for (const EdgeId e : edges) {
     const VertexId w = instance_.roadmap().edge(e).to;
     const Ticks duration = instance_.duration(c, e), rest = task.distances[w];
     if (rest >= kForever || node.arrive + duration + rest >= bound) continue;

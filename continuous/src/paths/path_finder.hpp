@@ -45,6 +45,8 @@ class PathFinder {
   [[nodiscard]] std::int64_t num_runs() const noexcept { return num_runs_; }
   /// Of states, in all runs.
   [[nodiscard]] std::int64_t num_visits() const noexcept { return num_visits_; }
+  /// Elementary steps, in all runs: visits, and edges looked at.
+  [[nodiscard]] std::int64_t effort() const noexcept { return num_visits_ + num_edges_; }
 
  private:
   struct Node {
@@ -80,7 +82,7 @@ class PathFinder {
   std::vector<std::uint32_t> first_stamp_;
   std::size_t num_states_ = 0;
   std::uint32_t run_ = 0;
-  std::int64_t num_runs_ = 0, num_visits_ = 0;
+  std::int64_t num_runs_ = 0, num_visits_ = 0, num_edges_ = 0;
 };
 
 }  // namespace quadrille::continuous

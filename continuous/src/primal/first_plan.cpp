@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "primal/plan_improver.hpp"
+#include "paths/bans_around.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/core/random.hpp"
 
@@ -13,14 +13,13 @@ namespace quadrille::continuous {
 namespace {
 
 constexpr int kMaxOrders = 60;
-/// Orders tried after a plan is known.
-constexpr int kMaxImprovements = 2;
 
 class OneByOne {
  public:
   explicit OneByOne(Scene& scene)
       : scene_(scene),
         finder_(scene.instance(), &scene.limits()),
+        bans_around_(scene),
         bans_(scene.instance().roadmap()) {}
 
   /// The agent that found no path, if one did not. Throws LimitReached.
@@ -51,16 +50,20 @@ class OneByOne {
  private:
   void keep_clear(AgentId i, AgentId other, const std::vector<Step>& steps) {
     const Instance& instance = scene_.instance();
-    bans_.add(bans_around(scene_, instance.class_of(i), instance.class_of(other), steps));
+    list_.clear();
+    bans_around_.add(instance.class_of(i), instance.class_of(other), steps, list_);
+    bans_.add(list_);
   }
 
   Scene& scene_;
   PathFinder finder_;
+  BansAround bans_around_;
   BanTable bans_;
+  std::vector<Ban> list_;
   std::vector<Path> paths_;
 };
 
-void try_orders(Scene& scene, Objective objective, std::optional<Plan>& best) {
+std::optional<Plan> try_orders(Scene& scene) {
   const Instance& instance = scene.instance();
   std::vector<AgentId> order;
   for (const AgentId i : instance.agent_ids()) order.push_back(i);
@@ -71,10 +74,7 @@ void try_orders(Scene& scene, Objective objective, std::optional<Plan>& best) {
   const auto someone = [&]() -> AgentId& {
     return order[static_cast<std::size_t>(random.below(order.size()))];
   };
-  int improvements = 0;
-  for (int round = 0; round < kMaxOrders && improvements <= kMaxImprovements; ++round) {
-    if (scene.limits().exhausted_now()) break;
-    if (best) ++improvements;
+  for (int round = 0; round < kMaxOrders && !scene.limits().exhausted_now(); ++round) {
     if (const auto failed = planner.try_order(order)) {
       // Who found no path goes first; now and then another agent goes before it.
       const auto at = order.begin() + static_cast<std::ptrdiff_t>(*failed);
@@ -83,23 +83,22 @@ void try_orders(Scene& scene, Objective objective, std::optional<Plan>& best) {
       continue;
     }
     Plan plan = planner.plan();
-    const bool is_better = !best || cost(plan, objective) < cost(*best, objective);
-    if (is_better && verify(instance, plan).valid()) best = std::move(plan);
+    if (verify(instance, plan).valid()) return plan;
     AgentId& first = someone();
     std::swap(first, someone());
   }
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<Plan> find_first_plan(Scene& scene, Objective objective) {
+std::optional<Plan> find_first_plan(Scene& scene) {
   if (scene.instance().num_agents() == 0) return Plan{};
-  std::optional<Plan> best;
   try {
-    try_orders(scene, objective, best);
-  } catch (const LimitReached&) {  // the best plan so far will do
+    return try_orders(scene);
+  } catch (const LimitReached&) {
+    return std::nullopt;
   }
-  return best;
 }
 
 }  // namespace quadrille::continuous

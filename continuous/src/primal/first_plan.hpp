@@ -9,8 +9,8 @@
 namespace quadrille::continuous {
 
 /// Looks for some plan, fast: one agent after the other takes a cheapest path around those before
-/// it, in several orders. The best plan found; nullopt says nothing about the instance. Stops early
-/// when the limits of the scene are met.
-[[nodiscard]] std::optional<Plan> find_first_plan(Scene& scene, Objective objective);
+/// it, in several orders. The first plan found; nullopt says nothing about the instance. Stops
+/// early when the limits of the scene are met.
+[[nodiscard]] std::optional<Plan> find_first_plan(Scene& scene);
 
 }  // namespace quadrille::continuous

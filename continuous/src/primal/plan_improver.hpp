@@ -4,26 +4,36 @@
 #include <cstdint>
 #include <vector>
 
+#include "paths/bans_around.hpp"
 #include "paths/steps.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/random.hpp"
 
 namespace quadrille::continuous {
 
-/// Bans that keep agents of class `a` clear of what an agent of class `b` does.
-[[nodiscard]] std::vector<Ban> bans_around(Scene& scene, ClassId a, ClassId b,
-                                           const std::vector<Step>& steps);
-
 /// Makes a plan cheaper by large neighbourhood search (Li et al. 2021, IJCAI): some agents give up
 /// their paths and take cheapest ones around all others, one after the other. For the sum of costs.
 /// Proves nothing. Deterministic.
 class PlanImprover {
  public:
-  explicit PlanImprover(Scene& scene);
+  /// `plan` is a valid plan of the scene's instance.
+  PlanImprover(Scene& scene, Plan plan);
 
-  /// Improves `plan`, which is valid, for about so much effort, in visits of the path search. Stops
-  /// early when the limits of the scene are met.
-  void improve(Plan& plan, std::int64_t effort);
+  /// Goes on for about so much effort. True if the plan is cheaper now. Stops early when the limits
+  /// of the scene are met.
+  bool improve(std::int64_t effort);
+  /// Likewise, until it has been without gain for twice as long as all before took, and some more.
+  bool improve_while_it_pays();
+  /// Goes on from another plan, a cheaper one that was found elsewhere for instance.
+  void restart_from(Plan plan);
+
+  [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
+  [[nodiscard]] Cost cost() const noexcept { return cost_; }
+  /// Elementary steps so far, some ten nanoseconds each: edges looked at, bans made, steps
+  /// compared.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_ + finder_.effort(); }
+  /// Every agent takes a cheapest path, or there are too many classes: nothing can be gained.
+  [[nodiscard]] bool is_done() const;
 
  private:
   struct AgentState {
@@ -32,7 +42,9 @@ class PlanImprover {
     std::vector<std::vector<Ban>> bans;  // around it, by class of the others
     std::size_t slot = 0;                // in all tables
   };
-  void start(const Plan& plan);
+  template <class Condition>
+  bool improve_while(const Condition& goes_on);
+  void load_paths();
   /// Fills the tables with the bans around all current paths.
   void load();
   /// Steps and bans of its path.
@@ -45,18 +57,25 @@ class PlanImprover {
   [[nodiscard]] std::vector<AgentId> choose();
   [[nodiscard]] AgentId choose_delayed();
   /// They get new paths, if these cost less, or as much in sum.
-  void replan(const std::vector<AgentId>& chosen);
+  /// True if they cost less.
+  bool replan(const std::vector<AgentId>& chosen);
   [[nodiscard]] std::size_t draw(std::size_t count) {
     return static_cast<std::size_t>(random_.below(count));
   }
 
   Scene& scene_;
+  Plan plan_;
+  Cost cost_;
   PathFinder finder_;
-  std::vector<BanTable> tables_;  // by class
-  BanTable nothing_;
+  BansAround bans_around_;
+  std::vector<BanTable> tables_;                     // by class
+  IdVector<AgentId, std::vector<Step>> free_steps_;  // Of cheapest paths of agents that are alone.
   std::size_t num_slots_ = 0;
+  bool is_loaded_ = false;  // The paths are those of the plan.
   IdVector<AgentId, AgentState> agents_;
   Random random_{1};
+  std::int64_t last_gain_ = 0;  // Effort.
+  std::int64_t effort_ = 0;     // Without that of the finder.
 };
 
 }  // namespace quadrille::continuous

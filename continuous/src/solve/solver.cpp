@@ -166,7 +166,7 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     if (learn(routes.lower_bound, std::move(routes.plan))) return;
   }
   if (!some_plan || is_joint_first)
-    keep_cheaper(some_plan, find_first_plan(scene, options.objective), options.objective);
+    keep_cheaper(some_plan, find_first_plan(scene), options.objective);
   if (!some_plan && !is_joint_first) {
     Feasibility feasibility = check_feasibility(scene);
     if (is_blocked(feasibility.blocked)) return;

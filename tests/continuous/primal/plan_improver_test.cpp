@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "continuous/routes/order_search.hpp"
 #include "continuous/support/random_instance.hpp"
@@ -27,10 +30,10 @@ TEST(PlanImprover, StaysAboveTheOptimum) {
     if (oracle.some_plans.empty()) continue;
     LimitMonitor limits({});
     Scene scene(instance, limits);
-    PlanImprover improver(scene);
-    Plan plan = oracle.some_plans.back();
-    const Cost before = cost(plan, Objective::sum_of_costs);
-    improver.improve(plan, kEffort);
+    const Cost before = cost(oracle.some_plans.back(), Objective::sum_of_costs);
+    PlanImprover improver(scene, oracle.some_plans.back());
+    improver.improve(kEffort);
+    const Plan& plan = improver.plan();
     const Cost after = cost(plan, Objective::sum_of_costs);
     ASSERT_TRUE(verify(instance, plan).valid());
     ASSERT_LE(after, before);
@@ -48,6 +51,85 @@ TEST(PlanImprover, StaysAboveTheOptimum) {
   EXPECT_GE(2 * optimal, count);
   RecordProperty("cheaper", cheaper);
   RecordProperty("optimal", optimal);
+}
+
+/// Random ones for which the oracle finds several plans.
+std::vector<Instance> instances_with_plans(std::size_t count) {
+  std::vector<Instance> instances;
+  for (std::uint32_t seed = 0; instances.size() < count; ++seed) {
+    RandomOptions random;
+    random.num_agents = 3;
+    random.num_vertices = 6 + seed % 3;
+    Instance instance = random_instance(seed, random);
+    if (search_orders(instance, Objective::sum_of_costs, 3).some_plans.size() > 1)
+      instances.push_back(std::move(instance));
+  }
+  return instances;
+}
+
+TEST(PlanImprover, GoesOnFromAnyPlan) {
+  for (const Instance& instance : instances_with_plans(20)) {
+    SCOPED_TRACE(describe(instance));
+    const auto plans = search_orders(instance, Objective::sum_of_costs, 3).some_plans;
+    LimitMonitor limits({});
+    Scene scene(instance, limits);
+    PlanImprover improver(scene, plans.front());
+    for (const Plan& plan : plans) {
+      improver.restart_from(plan);
+      ASSERT_EQ(improver.plan(), plan);
+      const std::int64_t before = improver.effort();
+      const bool is_better = improver.improve(500);
+      ASSERT_EQ(is_better, improver.cost() < cost(plan, Objective::sum_of_costs));
+      ASSERT_EQ(improver.cost(), cost(improver.plan(), Objective::sum_of_costs));
+      ASSERT_TRUE(verify(instance, improver.plan()).valid());
+      if (!improver.is_done()) {
+        ASSERT_GE(improver.effort(), before + 500);
+      }
+    }
+  }
+}
+
+TEST(PlanImprover, StopsWhenItPaysNoMore) {
+  for (const Instance& instance : instances_with_plans(5)) {
+    SCOPED_TRACE(describe(instance));
+    const Plan plan = search_orders(instance, Objective::sum_of_costs, 3).some_plans.back();
+    std::vector<Plan> results;
+    for (int run = 0; run < 2; ++run) {
+      LimitMonitor limits({});
+      Scene scene(instance, limits);
+      PlanImprover improver(scene, plan);
+      const bool is_better = improver.improve_while_it_pays();
+      EXPECT_EQ(is_better, improver.cost() < cost(plan, Objective::sum_of_costs));
+      EXPECT_LT(improver.effort(), 20'000'000);
+      EXPECT_FALSE(improver.improve(100'000)) << "much was tried in vain";
+      results.push_back(improver.plan());
+    }
+    EXPECT_EQ(results[0], results[1]);
+  }
+}
+
+TEST(PlanImprover, KeepsAValidPlanWhereverItIsCut) {
+  const Instance instance = instances_with_plans(1).front();
+  const Plan plan = search_orders(instance, Objective::sum_of_costs, 3).some_plans.back();
+  int num_cut = 0;
+  for (std::int64_t looks = 1; looks < 200; looks += 3) {
+    Limits limit;
+    limit.looks = looks;
+    LimitMonitor limits(limit);
+    std::optional<Scene> scene;
+    try {
+      scene.emplace(instance, limits);
+    } catch (const LimitReached&) {
+      continue;
+    }
+    if (!scene->is_complete()) continue;
+    PlanImprover improver(*scene, plan);
+    static_cast<void>(improver.improve_while_it_pays());
+    ASSERT_TRUE(verify(instance, improver.plan()).valid());
+    ASSERT_LE(improver.cost(), cost(plan, Objective::sum_of_costs));
+    ++num_cut;
+  }
+  EXPECT_GE(num_cut, 40);
 }
 
 }  // namespace
