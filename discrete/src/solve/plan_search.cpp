@@ -16,6 +16,10 @@ constexpr std::int64_t kLeastSlice = 20'000;
 /// warehouse-20-40-10-2-1 to a gap of 2 % 5.7, 5.6, 7.6 and 7.6 s; den520d to 2 % 2.3, 1.6, 1.4
 /// and 1.8 s.
 constexpr std::int64_t kFirstStepsOfSearch = 2;
+/// Steps for the first draft for each that the incumbent gets beside it. Measured with 1, 4 and no
+/// steps for the incumbent: random-32-32-20 with 400 agents costs 19,765, 19,703 and 21,342 after
+/// two seconds; den520d with 1,000 needs 4.5, 4.1 and 3.7 s to a gap of 1 %.
+constexpr std::int64_t kFirstDraftShare = 4;
 /// Steps of the search, some two seconds: what it solves sooner needs no better plans.
 constexpr std::int64_t kPatience = 1'600'000;
 /// Per cent. With a smaller one the first draft is repaired in the time that plans have anyway.
@@ -50,7 +54,9 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
                       context_.seed);
   else if (*incumbent.upper() < improver_->cost())
     improver_->restart_from(incumbent.plan());
-  if (improve(*improver_, *slice.effort)) incumbent.offer(improver_->plan());
+  const std::int64_t effort =
+      is_at_first_draft() ? *slice.effort / kFirstDraftShare : *slice.effort;
+  if (improve(*improver_, effort)) incumbent.offer(improver_->plan());
   // The more drafts have resisted, the more of the time the incumbent gets.
   const bool is_turn =
       repair_.patience() == 1 || repair_.patience() * repair_.effort() <= improver_->effort();

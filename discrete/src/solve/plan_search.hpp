@@ -62,9 +62,8 @@ class PlanImprovement final : public sat::Strategy {
   /// The first draft is being repaired: what comes of it is a better incumbent than long
   /// improvement of a first plan makes, as a rule. Measured: 1,000 agents on
   /// warehouse-20-40-10-2-1, first plan 288,507; improved for 10 s 208,543; the draft repaired
-  /// after 6 s 168,735. It is not all that is done: on crowded maps most are dropped in the end
-  /// (random-32-32-20 with 400 agents after 2 s: 25,381 without, 20,196 with improvement beside
-  /// it).
+  /// after 6 s 168,735. It is not all that is done, because on crowded maps it is dropped in the
+  /// end.
   [[nodiscard]] bool is_at_first_draft() const noexcept {
     return num_drafts_ == 1 && repair_.is_at_work();
   }
