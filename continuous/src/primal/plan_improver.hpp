@@ -29,7 +29,7 @@ class PlanImprover {
 
   [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
   [[nodiscard]] Cost cost() const noexcept { return cost_; }
-  /// Elementary steps so far, some ten nanoseconds each: edges looked at, bans made, steps
+  /// Elementary steps so far, 25 to 60 ns each: edges looked at, bans made, steps
   /// compared.
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_ + finder_.effort(); }
   /// Every agent takes a cheapest path, or there are too many classes: nothing can be gained.
