@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "discrete/primal/primal_support.hpp"
+#include "primal/lacam.hpp"
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "support/environment.hpp"
@@ -77,8 +78,10 @@ TEST(PlanImprover, PaysForASmallerMakespanWithTheSumOfCosts) {
 TEST(PlanImprover, ImprovesCrowdsByMuch) {
   for (const auto objective : {Objective::sum_of_costs, Objective::makespan}) {
     const Instance instance = crowd(20, 150, 5);
-    const Plan first = searched(instance).plan();
     LimitMonitor limits{Limits{}};
+    Lacam search(instance, distances_of(instance), 0, nullptr);  // Without a guide plans are dear.
+    static_cast<void>(search.advance(kNoEnd, limits));
+    const Plan first = search.plan();
     PlanImprover improver(instance, distances_of(instance), objective, first, 0);
     EXPECT_TRUE(improver.improve(400'000, limits));
     ASSERT_TRUE(verify(instance, improver.plan()).valid());
@@ -87,7 +90,7 @@ TEST(PlanImprover, ImprovesCrowdsByMuch) {
       continue;
     }
     const Cost ideal = sum_of_distances(instance);
-    EXPECT_LT(improver.cost() - ideal, (first.cost(objective) - ideal) / 2);
+    EXPECT_LT(improver.cost() - ideal, (first.cost(objective) - ideal) / 4);
   }
 }
 

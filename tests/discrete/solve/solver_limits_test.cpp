@@ -172,7 +172,7 @@ TEST(SolverLimits, BelongToTheSolve) {
   host.join();
   EXPECT_EQ(by_cpu.stop, StopReason::cpu_time) << to_string(by_cpu.stop);
   EXPECT_GE(by_cpu.statistics.cpu_s, 1);
-  EXPECT_LT(by_cpu.statistics.cpu_s, 2);
+  EXPECT_LT(by_cpu.statistics.cpu_s, 1.3);
   EXPECT_EQ(by_memory.stop, StopReason::memory) << to_string(by_memory.stop);
   EXPECT_LT(by_memory.statistics.cpu_s, 20);
 }
@@ -196,8 +196,11 @@ TEST(SolverLimits, LongLinesTakeTimeAndMemoryInTheirLength) {
   const Instance instance = long_line(kLength);
   TunedOptions options;
   options.objective = Objective::makespan;
-  // 100 are enough, but sanitizers keep what was freed; such a table has 3,600 at a byte a cell.
-  options.limits.memory_mib = 400;
+#ifdef __SANITIZE_ADDRESS__
+  options.limits.memory_mib = 400;  // It keeps what was freed.
+#else
+  options.limits.memory_mib = 100;
+#endif
   malloc_trim(0);
   const SolveOutcome outcome = run(instance, options).outcome;
   EXPECT_EQ(outcome.status, Status::optimal) << to_string(outcome.stop);
@@ -259,7 +262,7 @@ TEST(SolverLimits, PortfoliosCountAllTheirThreads) {
   EXPECT_EQ(outcome.stop, StopReason::cpu_time) << to_string(outcome.stop);
   EXPECT_GE(outcome.statistics.cpu_s, 0.6);
   EXPECT_LT(outcome.statistics.cpu_s, 1.2);
-  EXPECT_NEAR(outcome.statistics.cpu_s, seconds, 0.4);
+  EXPECT_NEAR(outcome.statistics.cpu_s, seconds, 0.2);
 }
 
 TEST(SolverLimits, InterruptBeforeTheSearch) {
@@ -269,29 +272,39 @@ TEST(SolverLimits, InterruptBeforeTheSearch) {
   expect_stopped_by(StopReason::interrupt, limits);
 }
 
+struct Interrupted {
+  SolveOutcome outcome;
+  double late_s = 0;  // CPU time from the interrupt to the answer.
+};
+
+Interrupted solve_interrupted(const Instance& instance, TunedOptions options, double delay_s) {
+  std::atomic<bool> interrupt = false;
+  options.limits.interrupt = &interrupt;
+  std::atomic<double> set_at = 0;
+  std::thread killer([&] {
+    std::this_thread::sleep_for(std::chrono::duration<double>(delay_s));
+    set_at = cpu_seconds();
+    interrupt = true;
+  });
+  SolveOutcome outcome = solve(instance, options).value();
+  const double returned = cpu_seconds();
+  killer.join();
+  EXPECT_EQ(find_inconsistency(instance, options, outcome), "");
+  EXPECT_EQ(outcome.stop, StopReason::interrupt);
+  return {std::move(outcome), returned - set_at};
+}
+
 TEST(SolverLimits, InterruptAtRandomMoments) {
   const Instance instance = hard_instance();
   Random random(3);
   const auto systems = systems_for_both_objectives();
   for (std::size_t round = 0; round < scaled(2 * systems.size()); ++round) {
-    TunedOptions options = systems[round % systems.size()];
+    const TunedOptions& options = systems[round % systems.size()];
     SCOPED_TRACE(options_text(options));
-    std::atomic<bool> interrupt = false;
-    options.limits.interrupt = &interrupt;
     const double delay = static_cast<double>(random.below(400)) / 1000;
-    std::atomic<double> set_at = 0;
-    std::thread killer([&] {
-      std::this_thread::sleep_for(std::chrono::duration<double>(delay));
-      set_at = cpu_seconds();
-      interrupt = true;
-    });
-    const SolveOutcome outcome = solve(instance, options).value();
-    const double returned = cpu_seconds();
-    killer.join();
-    EXPECT_EQ(find_inconsistency(instance, options, outcome), "");
+    const auto [outcome, late_s] = solve_interrupted(instance, options, delay);
     EXPECT_FALSE(is_proof(outcome.status)) << to_string(outcome.status);
-    EXPECT_EQ(outcome.stop, StopReason::interrupt);
-    EXPECT_LT(returned - set_at, kSoon);
+    EXPECT_LT(late_s, kSoon);
   }
 }
 
@@ -317,22 +330,10 @@ TEST(SolverLimits, ThousandAgentsAreInterruptedAtRandomMoments) {
   for (std::size_t round = 0; round < scaled(8); ++round) {
     TunedOptions options;
     options.threads = 1 + round % 2;
-    std::atomic<bool> interrupt = false;
-    options.limits.interrupt = &interrupt;
     const double delay = static_cast<double>(random.below(2'500)) / 1000;
     SCOPED_TRACE(delay);
-    std::atomic<double> set_at = 0;
-    std::thread killer([&] {
-      std::this_thread::sleep_for(std::chrono::duration<double>(delay));
-      set_at = cpu_seconds();
-      interrupt = true;
-    });
-    const SolveOutcome outcome = solve(instance, options).value();
-    const double returned = cpu_seconds();
-    killer.join();
-    EXPECT_EQ(find_inconsistency(instance, options, outcome), "");
-    EXPECT_EQ(outcome.stop, StopReason::interrupt);
-    EXPECT_LT(returned - set_at, kSoon);
+    const auto [outcome, late_s] = solve_interrupted(instance, options, delay);
+    EXPECT_LT(late_s, kSoon);
     EXPECT_GT(outcome.lower_bound, 0);
     if (!outcome.plan) continue;
     ++num_with_plan;
