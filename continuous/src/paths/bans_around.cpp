@@ -22,8 +22,7 @@ void BansAround::add(ClassId a, ClassId b, const std::vector<Step>& steps, std::
 }
 
 const std::vector<Ban>& BansAround::of_move(ClassId a, ClassId b, EdgeId e) {
-  auto& known = moves_[key(a, b, e.value())];
-  if (known != nullptr) return *known;
+  if (const auto at = moves_.find(key(a, b, e.value())); at != moves_.end()) return at->second;
   Contacts& contacts = scene_.contacts();
   const auto& near = contacts.near_edge(b, e, a);
   std::vector<Ban> bans;
@@ -32,19 +31,16 @@ const std::vector<Ban>& BansAround::of_move(ClassId a, ClassId b, EdgeId e) {
       bans.push_back(Ban::start(f, starts_against(*offsets, 0)));
   for (const VertexId v : near.vertices)
     if (const auto& window = contacts.window(b, e, a, v)) bans.push_back(Ban::stay(v, *window));
-  known = std::make_unique<const std::vector<Ban>>(std::move(bans));
-  return *known;
+  return moves_.emplace(key(a, b, e.value()), std::move(bans)).first->second;
 }
 
 const std::vector<Ban>& BansAround::of_stay(ClassId a, ClassId b, VertexId v) {
-  auto& known = stays_[key(a, b, v.value())];
-  if (known != nullptr) return *known;
+  if (const auto at = stays_.find(key(a, b, v.value())); at != stays_.end()) return at->second;
   Contacts& contacts = scene_.contacts();
   std::vector<Ban> bans;
   for (const EdgeId e : contacts.near_vertex(b, v, a).edges)
     if (const auto& window = contacts.window(a, e, b, v)) bans.push_back(Ban::start(e, *window));
-  known = std::make_unique<const std::vector<Ban>>(std::move(bans));
-  return *known;
+  return stays_.emplace(key(a, b, v.value()), std::move(bans)).first->second;
 }
 
 std::uint64_t BansAround::key(ClassId a, ClassId b, std::uint32_t place) const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -22,9 +21,10 @@ class BansAround {
   void add(ClassId a, ClassId b, const std::vector<Step>& steps, std::vector<Ban>& bans);
 
  private:
-  /// The bans of a move that starts at 0; the contacts of a stay that has no times.
-  using Known = std::unordered_map<std::uint64_t, std::unique_ptr<const std::vector<Ban>>>;
+  using Known = std::unordered_map<std::uint64_t, std::vector<Ban>>;
+  /// Of a move that starts at 0.
   [[nodiscard]] const std::vector<Ban>& of_move(ClassId a, ClassId b, EdgeId e);
+  /// With the contact of each move instead of its starts, which depend on when the stay is.
   [[nodiscard]] const std::vector<Ban>& of_stay(ClassId a, ClassId b, VertexId v);
   [[nodiscard]] std::uint64_t key(ClassId a, ClassId b, std::uint32_t place) const;
 

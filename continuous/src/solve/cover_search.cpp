@@ -113,7 +113,9 @@ class CoverSearch {
   }
 
   CostReport run() {
-    improve_at_first();
+    raise_bound(cover_.total());
+    if (is_closed()) return report_;
+    improve_at_first();  // Does nothing if the listener has stopped the limits.
     while (true) {
       raise_bound(cover_.total());
       if (is_closed() || limits_.exhausted_now()) return report_;
