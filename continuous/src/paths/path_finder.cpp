@@ -2,7 +2,6 @@
 #include "paths/path_finder.hpp"
 
 #include <algorithm>
-#include <queue>
 
 namespace quadrille::continuous {
 namespace {
@@ -21,28 +20,6 @@ const std::vector<TickInterval> kNothingForbidden;
 const std::vector<BanTable::SafeStay> kAlwaysSafe{{0, kForever}};
 
 }  // namespace
-
-GoalDistances::GoalDistances(const Instance& instance, AgentId agent)
-    : ticks_(instance.roadmap().num_vertices(), kForever) {
-  const ClassId c = instance.class_of(agent);
-  using Entry = std::pair<Ticks, VertexId>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const VertexId goal = instance.agent(agent).goal;
-  ticks_[goal.index()] = 0;
-  queue.emplace(Ticks{0}, goal);
-  while (!queue.empty()) {
-    const auto [ticks, v] = queue.top();
-    queue.pop();
-    if (ticks > ticks_[v.index()]) continue;
-    for (const EdgeId e : instance.roadmap().in_edges(v)) {
-      const VertexId u = instance.roadmap().edge(e).from;
-      const Ticks via = ticks + instance.duration(c, e);
-      if (via >= ticks_[u.index()]) continue;
-      ticks_[u.index()] = via;
-      queue.emplace(via, u);
-    }
-  }
-}
 
 // Of equal estimates the one that is nearer to its end comes first.
 bool PathFinder::is_later(const Entry& a, const Entry& b) {
@@ -86,7 +63,11 @@ std::size_t PathFinder::state(BanTable& bans, VertexId v, std::uint32_t stay) {
 void PathFinder::visit(const Node& node, Ticks estimate) {
   if (++num_visits_ % 64 == 0 && limits_ != nullptr) limits_->check();
   nodes_.push_back(node);
-  heap_.push_back({estimate, node.arrive, static_cast<std::uint32_t>(nodes_.size() - 1)});
+  push(estimate, static_cast<std::uint32_t>(nodes_.size() - 1));
+}
+
+void PathFinder::push(Ticks estimate, std::uint32_t node) {
+  heap_.push_back({estimate, nodes_[node].arrive, node});
   std::push_heap(heap_.begin(), heap_.end(), is_later);
 }
 
@@ -113,7 +94,7 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
   visit({agent.start, 0, 0, stays.front().until, kNoParent, {}}, task.distances[agent.start]);
   while (!heap_.empty()) {
     std::pop_heap(heap_.begin(), heap_.end(), is_later);
-    const std::uint32_t index = heap_.back().node;
+    const auto [estimate, arrive, index] = heap_.back();
     heap_.pop_back();
     const Node node = nodes_[index];
     if (best_[state(bans, node.vertex, node.stay)] < node.arrive) continue;
@@ -121,21 +102,24 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
       if (path != nullptr) trace(index, *path);
       return node.arrive;
     }
-    if (relevant != nullptr) mark(task, bans, node, bound, *relevant);
-    expand(task, bans, index, bound);
+    const bool is_first = estimate == arrive + task.distances[node.vertex];
+    if (relevant != nullptr && is_first) mark(task, bans, node, bound, *relevant);
+    expand(task, bans, index, estimate, bound);
   }
   return std::nullopt;
 }
 
-void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t index, Ticks bound) {
+void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t index, Ticks estimate,
+                        Ticks bound) {
   const Node node = nodes_[index];
-  const ClassId c = instance_.class_of(task.agent);
-  const auto edges = instance_.roadmap().out_edges(node.vertex);
-  num_edges_ += static_cast<std::int64_t>(edges.size());
-  for (const EdgeId e : edges) {
-    const VertexId w = instance_.roadmap().edge(e).to;
-    const Ticks duration = instance_.duration(c, e), rest = task.distances[w];
-    if (rest >= kForever || node.arrive + duration + rest >= bound) continue;
+  const Ticks least = node.arrive + task.distances[node.vertex];
+  const auto detours = task.detours.from(node.vertex);
+  std::uint32_t at = node.num_expanded;
+  for (; at < detours.size() && least + detours[at].extra <= estimate; ++at) {
+    const auto& [e, w, duration, extra] = detours[at];
+    if (least + extra >= bound) return;
+    ++num_edges_;
+    const Ticks rest = task.distances[w];
     const std::uint32_t start_place = bans.starts_of(e), stay_place = bans.stays_of(w);
     const auto& forbidden =
         start_place == BanTable::kFree ? kNothingForbidden : bans.forbidden_starts(start_place);
@@ -156,6 +140,9 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
       visit({w, k, arrive, stay->until, index, {e, start}}, arrive + rest);
     }
   }
+  if (at == detours.size() || least + detours[at].extra >= bound) return;
+  nodes_[index].num_expanded = at;
+  push(least + detours[at].extra, index);
 }
 
 // A slot is irrelevant if nowhere on the way from a visited state it keeps a departure or arrival
@@ -174,11 +161,10 @@ void PathFinder::mark(const PathTask& task, const BanTable& bans, const Node& no
   if (node.leave_by < kForever && (is_goal || node.leave_by + task.distances[node.vertex] < bound))
     mark_entries(bans.stays_of(node.vertex), node.leave_by,
                  is_goal ? kForever : bound - task.distances[node.vertex]);
-  const ClassId c = instance_.class_of(task.agent);
-  for (const EdgeId e : instance_.roadmap().out_edges(node.vertex)) {
-    const VertexId w = instance_.roadmap().edge(e).to;
-    const Ticks duration = instance_.duration(c, e), rest = task.distances[w];
-    if (rest >= kForever || node.arrive + duration + rest >= bound) continue;
+  const Ticks least = node.arrive + task.distances[node.vertex];
+  for (const auto& [e, w, duration, extra] : task.detours.from(node.vertex)) {
+    if (least + extra >= bound) break;
+    const Ticks rest = task.distances[w];
     const Ticks last_start = std::min(node.leave_by, bound - rest - duration - 1);
     mark_entries(bans.starts_of(e), node.arrive, last_start);
     mark_entries(bans.stays_of(w), node.arrive + duration, last_start + duration);

@@ -6,30 +6,23 @@
 #include <vector>
 
 #include "paths/bans.hpp"
+#include "paths/goal_distances.hpp"
 #include "quadrille/core/limits.hpp"
 
 namespace quadrille::continuous {
-
-/// How far each vertex is from the goal of one agent.
-class GoalDistances {
- public:
-  GoalDistances(const Instance& instance, AgentId agent);
-  /// Ticks; kForever if the goal cannot be reached.
-  [[nodiscard]] Ticks operator[](VertexId v) const { return ticks_[v.index()]; }
-
- private:
-  std::vector<Ticks> ticks_;
-};
 
 /// Whose path is looked for.
 struct PathTask {
   AgentId agent;
   const GoalDistances& distances;
+  Detours& detours;
 };
 
 /// Safe-interval path planning (Phillips and Likhachev 2011, ICRA) with forbidden starts: cheapest
 /// paths that obey a table of bans. Among all visits to a vertex within one safe stay only the
-/// earliest matters, because an agent may wait until the stay ends.
+/// earliest matters, because an agent may wait until the stay ends. A node that is expanded takes
+/// the moves whose detours its estimate allows, and waits for its turn with the next one (partial
+/// expansion, Yoshizumi et al. 2000, AAAI): on roadmaps of high degree few are ever taken.
 class PathFinder {
  public:
   /// Searches throw LimitReached when `limits` are met; null: there are none.
@@ -55,7 +48,8 @@ class PathFinder {
     Ticks arrive;
     Ticks leave_by;
     std::uint32_t parent;
-    Move move;  // that led here
+    Move move;                       // that led here
+    std::uint32_t num_expanded = 0;  // of the detours from here
   };
   struct Entry {
     Ticks estimate, arrive;
@@ -64,7 +58,10 @@ class PathFinder {
   static bool is_later(const Entry& a, const Entry& b);
 
   void begin(const PathTask& task);
-  void expand(const PathTask& task, BanTable& bans, std::uint32_t node, Ticks bound);
+  /// Takes the moves with which the way is no longer than `estimate`.
+  void expand(const PathTask& task, BanTable& bans, std::uint32_t node, Ticks estimate,
+              Ticks bound);
+  void push(Ticks estimate, std::uint32_t node);
   void visit(const Node& node, Ticks estimate);
   [[nodiscard]] std::size_t state(BanTable& bans, VertexId v, std::uint32_t stay);
   void mark(const PathTask& task, const BanTable& bans, const Node& node, Ticks bound,

@@ -21,7 +21,7 @@ class Scene {
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] LimitMonitor& limits() noexcept { return limits_; }
   [[nodiscard]] Contacts& contacts() noexcept { return contacts_; }
-  [[nodiscard]] PathTask task(AgentId i) const { return {i, distances_[i.index()]}; }
+  [[nodiscard]] PathTask task(AgentId i) { return {i, distances_[i.index()], detours_[i.index()]}; }
   /// Cost of the cheapest path of an agent that is alone.
   [[nodiscard]] Cost free_cost(AgentId i) const {
     return as_cost(distances_[i.index()][instance_.agent(i).start]);
@@ -31,6 +31,7 @@ class Scene {
   const Instance& instance_;
   LimitMonitor& limits_;
   std::vector<GoalDistances> distances_;
+  std::vector<Detours> detours_;
   Contacts contacts_;
 };
 
