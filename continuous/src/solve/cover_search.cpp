@@ -6,7 +6,7 @@
 
 #include "cover/level_cover.hpp"
 #include "primal/plan_improver.hpp"
-#include "quadrille/core/contract.hpp"
+#include "solve/core_shrinker.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -15,10 +15,7 @@ using End = sat::SearchEnd;
 using sat::Verdict;
 using Core = LevelCore;
 
-/// Conflicts and decisions of a test whether a part of a core is one. Measured: 200 decisions leave
-/// `dense` (28 agents) open, 1500 leave `empty16` open and take twice the time on `sparse` and
-/// `room64`.
-constexpr sat::SolveBudget kTryBudget{200, 700};
+/// Conflicts of a question whether known clauses refute something.
 constexpr sat::SolveBudget kNextBudget{1000, {}};
 /// Covers by greed between two exact ones.
 constexpr int kMaxQuickRounds = 50;
@@ -30,73 +27,6 @@ std::vector<Level> above(const IdVector<AgentId, Cost>& caps) {
   for (const AgentId i : IdRange<AgentId>(caps.size())) levels.push_back({i, caps[i] + 1});
   return levels;
 }
-
-/// Makes cores stronger by short searches: smaller, and with higher levels.
-class CoreShrinker {
- public:
-  CoreShrinker(CostProblem& problem, LimitMonitor& limits) : problem_(problem), limits_(limits) {}
-
-  /// The result holds for plans in which nobody costs more than its ceiling. Empty: there is none.
-  [[nodiscard]] Core shrink(Core core, const IdVector<AgentId, Cost>& ceilings) {
-    ceilings_ = &ceilings;
-    drop(core);
-    for (std::size_t at = 0; at < core.size(); ++at) raise(core, at);
-    return core;
-  }
-
- private:
-  [[nodiscard]] bool is_core(const Core& core) {
-    return !limits_.exhausted() &&
-           problem_.solve({core, *ceilings_, {}, kTryBudget, Question::Search::quick}, limits_) ==
-               Verdict::unsat;
-  }
-
-  void drop(Core& core) {
-    for (std::size_t at = 0; at < core.size();) {
-      Core part = core;
-      part.erase(part.begin() + static_cast<std::ptrdiff_t>(at));
-      if (!is_core(part)) {
-        ++at;
-        continue;
-      }
-      const Core smaller = problem_.core();
-      at = static_cast<std::size_t>(std::count_if(
-          core.begin(), core.begin() + static_cast<std::ptrdiff_t>(at), [&](const auto& level) {
-            return std::find(smaller.begin(), smaller.end(), level) != smaller.end();
-          }));
-      core = smaller;
-    }
-  }
-
-  /// To the highest known threshold with which this is a core still, by steps that grow and then
-  /// shrink again.
-  void raise(Core& core, std::size_t at) {
-    std::vector<Cost> higher;
-    // Beyond the ceiling all levels say the same.
-    const Cost highest = (*ceilings_)[core[at].agent] + 1;
-    for (auto next = problem_.next_threshold(core[at].agent, core[at].cost);
-         next && *next <= highest; next = problem_.next_threshold(core[at].agent, *next))
-      higher.push_back(*next);
-    std::size_t good = 0, bad = higher.size() + 1, step = 1;  // counted from 1 into `higher`
-    while (good + 1 < bad) {
-      step = std::min(step, bad - good - 1);
-      Core test = core;
-      test[at].cost = higher[good + step - 1];
-      if (is_core(test)) {
-        good += step;
-        step *= 2;
-      } else {
-        bad = good + step;
-        step = std::max<std::size_t>(step / 2, 1);
-      }
-    }
-    if (good > 0) core[at].cost = higher[good - 1];
-  }
-
-  CostProblem& problem_;
-  LimitMonitor& limits_;
-  const IdVector<AgentId, Cost>* ceilings_ = nullptr;
-};
 
 class CoverSearch {
  public:

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "solve/cost_problem.hpp"
+
+namespace quadrille::continuous {
+
+/// Makes cores stronger by short searches: smaller, and with higher levels.
+class CoreShrinker {
+ public:
+  /// Both arguments outlive the shrinker.
+  CoreShrinker(CostProblem& problem, LimitMonitor& limits) : problem_(problem), limits_(limits) {}
+
+  /// The result holds for plans in which nobody costs more than its ceiling, and hits no costs that
+  /// `core` does not hit. Empty: there is no such plan. When the limits are met, what has been
+  /// reached.
+  [[nodiscard]] LevelCore shrink(LevelCore core, const IdVector<AgentId, Cost>& ceilings);
+
+ private:
+  /// The known thresholds to which a level may be raised, and which of them have been tried.
+  struct Ladder {
+    Cost lowest = 0;           // where the level began
+    std::vector<Cost> higher;  // increasing
+    // Of `higher`, counted from 1: with the first `good` it is a core, with number `bad` it is not.
+    std::size_t good = 0, bad = 1, step = 1;
+    [[nodiscard]] bool is_done() const { return good + 1 >= bad; }
+  };
+
+  [[nodiscard]] bool is_core(const LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
+  void drop(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
+  void raise(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
+  [[nodiscard]] Ladder ladder(const Level& level, Cost ceiling) const;
+
+  CostProblem& problem_;
+  LimitMonitor& limits_;
+};
+
+}  // namespace quadrille::continuous
