@@ -29,10 +29,11 @@ class CoreShrinker {
     [[nodiscard]] bool is_done() const { return good + 1 >= bad; }
   };
 
-  [[nodiscard]] bool is_core(const LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
-  void drop(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
+  [[nodiscard]] bool is_core(const LevelCore& core, const IdVector<AgentId, Cost>& ceilings,
+                             const sat::SolveBudget& budget);
   void raise(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
   [[nodiscard]] Ladder ladder(const Level& level, Cost ceiling) const;
+  void drop(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
 
   CostProblem& problem_;
   LimitMonitor& limits_;
