@@ -49,6 +49,20 @@ if sys.argv[1] == "solve":
 sys.stdout.write(out)
 sys.exit(run.returncode)
 """
+# Quadrille, but it goes on for two seconds, or says that it took a lot of memory.
+GREEDY = """#!/usr/bin/env python3
+import json, subprocess, sys, time
+run = subprocess.run([{program!r}] + sys.argv[1:], capture_output=True, text=True)
+out = run.stdout
+if sys.argv[1] == "solve":
+    result = json.loads(out)
+    result["statistics"]["peak_rss_mib"] += {mib}
+    out = json.dumps(result)
+    while time.process_time() < {seconds}:
+        pass
+sys.stdout.write(out)
+sys.exit(run.returncode)
+"""
 HEAD = ("program,rival,measure,family,scenario,agents,cpu_limit,status,stop_reason,cost,lower_bound,"
         "cpu_s,version,options\n")
 # Two limits; the rival is dearer, has none, and once as good.
@@ -196,6 +210,15 @@ class GapsTest(unittest.TestCase):
         done = self.gaps("--verifier", QUADRILLE, program=f"q={liar}")
         self.assertEqual(done.returncode, 1)
         self.assertIn("WRONG COST", done.stderr)
+
+    def test_quadrille_keeps_its_limits(self):
+        for mib, seconds, code in ((0, 0, 0), (200, 0, 1), (0, 1.7, 1)):
+            greedy = self.executable(
+                "greedy", GREEDY.format(program=QUADRILLE, mib=mib, seconds=seconds))
+            done = self.gaps("--limits", "0.5", "--memory-limit", "100", "--verifier", QUADRILLE,
+                             program=f"q{mib}-{seconds}={greedy}")
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(" MiB: " if mib else "of CPU time: " if seconds else "", done.stderr)
 
     def test_scenarios_that_are_not_there_are_left_out(self):
         done = self.gaps("--scenarios", "1,2,3")
