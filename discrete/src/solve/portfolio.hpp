@@ -6,12 +6,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/solver.hpp"
-#include "solve/rounds.hpp"
+#include "solve/news.hpp"
 #include "solve/tuning.hpp"
 
 namespace quadrille::discrete {
@@ -43,16 +42,6 @@ class Companion {
 /// One search in the calling thread. `companion` may be null.
 [[nodiscard]] SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options,
                                        const Tuner& tuner, Companion* companion);
-
-/// Whether nothing more is to be done: not so after an internal error, which proves nothing.
-[[nodiscard]] bool is_proof(const SolveOutcome& outcome);
-
-/// The answer of several searches of one instance, not empty; `winner` has a proof. An internal
-/// error of any of them is the answer, because it has to be seen, and because a proof may rest on
-/// what the others told. Otherwise that is the proof, or the cheapest plan with the largest bound,
-/// which may be as close together as `options` ask for, and the statistics of the first.
-[[nodiscard]] SolveOutcome combine(std::vector<SolveOutcome> outcomes,
-                                   std::optional<std::size_t> winner, const SolveOptions& options);
 
 /// Several searches in threads of their own. The first one raises the lower bound with `options`,
 /// the second one looks for plans and makes them cheaper, further ones search with other systems

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "solve/portfolio.hpp"
+#include "quadrille/core/portfolio.hpp"
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "quadrille/discrete/solver.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -53,25 +56,26 @@ TEST(Portfolio, AnInternalErrorIsNoProof) {
 }
 
 TEST(Portfolio, AnInternalErrorIsSeenEvenBesideAProof) {
-  const SolveOutcome answer = combine(list(broken(), optimal(7)), 1, {});
+  const SolveOutcome answer = combine(list(broken(), optimal(7)), 1, std::nullopt);
   EXPECT_TRUE(answer.internal_error);
   EXPECT_EQ(answer.status, Status::unknown);
 }
 
 TEST(Portfolio, TheWinnerIsTheAnswer) {
-  const SolveOutcome answer = combine(list(feasible(7, 5), optimal(7)), 1, {});
+  const SolveOutcome answer = combine(list(feasible(7, 5), optimal(7)), 1, std::nullopt);
   EXPECT_EQ(answer.status, Status::optimal);
   EXPECT_EQ(answer.cost, 7);
 }
 
 TEST(Portfolio, WithoutAProofAnInternalErrorIsSeen) {
-  const SolveOutcome answer = combine(list(feasible(9, 5), broken()), std::nullopt, {});
+  const SolveOutcome answer = combine(list(feasible(9, 5), broken()), std::nullopt, std::nullopt);
   EXPECT_TRUE(answer.internal_error);
   EXPECT_EQ(answer.status, Status::unknown);
 }
 
 TEST(Portfolio, BoundsAreMerged) {
-  const SolveOutcome answer = combine(list(feasible(9, 5), only_bound(8)), std::nullopt, {});
+  const SolveOutcome answer =
+      combine(list(feasible(9, 5), only_bound(8)), std::nullopt, std::nullopt);
   EXPECT_EQ(answer.status, Status::feasible);
   EXPECT_EQ(answer.cost, 9);
   EXPECT_EQ(answer.lower_bound, 8);
@@ -79,29 +83,29 @@ TEST(Portfolio, BoundsAreMerged) {
 }
 
 TEST(Portfolio, MergedBoundsThatMeetAreAProofWithoutStop) {
-  const SolveOutcome answer = combine(list(feasible(9, 5), only_bound(9)), std::nullopt, {});
+  const SolveOutcome answer =
+      combine(list(feasible(9, 5), only_bound(9)), std::nullopt, std::nullopt);
   EXPECT_EQ(answer.status, Status::optimal);
   EXPECT_EQ(answer.stop, StopReason::none);
   EXPECT_EQ(answer.explanation, "");
 }
 
 TEST(Portfolio, MergedBoundsAreTestedAgainstTheGap) {
-  SolveOptions options;
-  options.gap_percent = 25;
-  EXPECT_EQ(combine(list(feasible(10, 5), only_bound(8)), std::nullopt, options).stop,
-            StopReason::gap);
-  EXPECT_EQ(combine(list(feasible(10, 5), only_bound(7)), std::nullopt, options).stop,
+  EXPECT_EQ(combine(list(feasible(10, 5), only_bound(8)), std::nullopt, 25).stop, StopReason::gap);
+  EXPECT_EQ(combine(list(feasible(10, 5), only_bound(7)), std::nullopt, 25).stop,
             StopReason::wall_time);
 }
 
 TEST(Portfolio, TheCheapestPlanIsTaken) {
-  const SolveOutcome answer = combine(list(feasible(10, 5), feasible(9, 4)), std::nullopt, {});
+  const SolveOutcome answer =
+      combine(list(feasible(10, 5), feasible(9, 4)), std::nullopt, std::nullopt);
   EXPECT_EQ(answer.cost, 9);
   EXPECT_EQ(answer.lower_bound, 5);
 }
 
 TEST(Portfolio, BoundsThatCrossAreAnInternalError) {
-  const SolveOutcome answer = combine(list(feasible(10, 5), only_bound(11)), std::nullopt, {});
+  const SolveOutcome answer =
+      combine(list(feasible(10, 5), only_bound(11)), std::nullopt, std::nullopt);
   EXPECT_TRUE(answer.internal_error);
   EXPECT_EQ(answer.status, Status::unknown);
   EXPECT_FALSE(answer.cost);

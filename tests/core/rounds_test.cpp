@@ -1,21 +1,36 @@
 // SPDX-License-Identifier: MIT
-#include "solve/rounds.hpp"
+#include "quadrille/core/rounds.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "support/generators.hpp"
+#include "quadrille/core/ids.hpp"
+#include "quadrille/core/random.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille {
 namespace {
 
 constexpr std::int64_t kRound = 1000;
+
+/// The largest bound and the cheapest plan, if there is one.
+struct News {
+  Cost lower = 0;
+  std::optional<Cost> cost;
+  bool others_ended = false;
+
+  void hear(const News& other) {
+    lower = std::max(lower, other.lower);
+    if (other.cost && (!cost || *other.cost < *cost)) cost = other.cost;
+  }
+};
 
 News bound_of(Cost lower) {
   News news;
@@ -25,7 +40,6 @@ News bound_of(Cost lower) {
 
 News plan_of(Cost cost) {
   News news;
-  news.plan = std::make_shared<const Plan>();
   news.cost = cost;
   return news;
 }
@@ -37,11 +51,11 @@ struct Worker {
 };
 
 /// Each in a thread of its own, at random speeds.
-void run(Rounds& rounds, std::vector<Worker>& workers, std::uint64_t seed) {
+void run(Rounds<News>& rounds, std::vector<Worker>& workers, std::uint64_t seed) {
   std::vector<std::jthread> threads;
   for (std::size_t w = 0; w < workers.size(); ++w)
     threads.emplace_back([&rounds, &workers, w, seed] {
-      support::Random random(seed * 100 + w);
+      Random random(seed * 100 + w);
       for (const std::int64_t effort : workers[w].efforts) {
         std::this_thread::sleep_for(std::chrono::microseconds(random.below(300)));
         const auto news = rounds.arrive(w, effort, [&] { return bound_of(effort); });
@@ -52,7 +66,7 @@ void run(Rounds& rounds, std::vector<Worker>& workers, std::uint64_t seed) {
 }
 
 TEST(Rounds, WhatIsHeardDependsOnEffortsAndNotOnSpeeds) {
-  support::Random random(1);
+  Random random(1);
   for (int round = 0; round < 30; ++round) {
     std::vector<Worker> drawn(2 + random.below(2));
     for (Worker& worker : drawn) {
@@ -63,7 +77,7 @@ TEST(Rounds, WhatIsHeardDependsOnEffortsAndNotOnSpeeds) {
     }
     std::vector<std::vector<Worker>> runs(3, drawn);
     for (std::size_t k = 0; k < runs.size(); ++k) {
-      Rounds rounds(drawn.size(), kRound, false);
+      Rounds<News> rounds(drawn.size(), kRound, false);
       run(rounds, runs[k], k);
       for (std::size_t w = 0; w < drawn.size(); ++w) ASSERT_EQ(runs[k][w].heard, runs[0][w].heard);
     }
@@ -73,7 +87,7 @@ TEST(Rounds, WhatIsHeardDependsOnEffortsAndNotOnSpeeds) {
 TEST(Rounds, TheFirstNewsOfTheSameRoundOrLaterAreHeard) {
   std::vector<Worker> workers{{{kRound, 3 * kRound, 3 * kRound + 1, 4 * kRound}, {}},
                               {{kRound + 7, 2 * kRound, 7 * kRound}, {}}};
-  Rounds rounds(2, kRound, false);
+  Rounds<News> rounds(2, kRound, false);
   run(rounds, workers, 3);
   const std::vector<Cost> first{kRound + 7, 7 * kRound, -1, 7 * kRound},
       second{kRound, 3 * kRound, 0};
@@ -82,7 +96,7 @@ TEST(Rounds, TheFirstNewsOfTheSameRoundOrLaterAreHeard) {
 }
 
 TEST(Rounds, TheFirstOnesAreShort) {
-  Rounds rounds(1, 320, false);
+  Rounds<News> rounds(1, 320, false);
   std::vector<std::int64_t> ends;
   for (std::int64_t effort = 0; effort < 1000; ++effort)
     if (rounds.arrive(0, effort, [] { return News(); })) ends.push_back(effort);
@@ -90,7 +104,7 @@ TEST(Rounds, TheFirstOnesAreShort) {
 }
 
 TEST(Rounds, NewsAreMerged) {
-  Rounds rounds(4, kRound, true);
+  Rounds<News> rounds(4, kRound, true);
   const auto tell = [&](std::size_t worker, News news) {
     return rounds.arrive(worker, kRound, [&] { return std::move(news); });
   };
@@ -98,20 +112,17 @@ TEST(Rounds, NewsAreMerged) {
   static_cast<void>(tell(2, plan_of(9)));
   News both = plan_of(8);
   both.lower = 3;
-  both.draft = std::make_shared<const Plan>();
   static_cast<void>(tell(3, both));
   const auto heard = tell(0, bound_of(100));
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->lower, 5);
   EXPECT_EQ(heard->cost, 8);
-  EXPECT_EQ(heard->plan, both.plan);
-  EXPECT_EQ(heard->draft, both.draft);
   EXPECT_FALSE(heard->others_ended);
 }
 
 TEST(Rounds, TheProofOfTheEarliestRoundWins) {
   for (const bool race : {false, true}) {
-    Rounds rounds(2, kRound, race);
+    Rounds<News> rounds(2, kRound, race);
     {
       const std::jthread slow([&] {
         static_cast<void>(rounds.arrive(0, kRound, [] { return News(); }));
@@ -127,7 +138,7 @@ TEST(Rounds, TheProofOfTheEarliestRoundWins) {
 }
 
 TEST(Rounds, WhoIsLeftAloneIsTold) {
-  Rounds rounds(2, kRound, false);
+  Rounds<News> rounds(2, kRound, false);
   rounds.end(1, false, bound_of(6));
   const auto heard = rounds.arrive(0, kRound, [] { return News(); });
   ASSERT_TRUE(heard);
@@ -137,7 +148,7 @@ TEST(Rounds, WhoIsLeftAloneIsTold) {
 }
 
 TEST(Rounds, CancelWakesWhoWaits) {
-  Rounds rounds(2, kRound, false);
+  Rounds<News> rounds(2, kRound, false);
   const std::jthread other([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     rounds.cancel();
@@ -148,4 +159,4 @@ TEST(Rounds, CancelWakesWhoWaits) {
 }
 
 }  // namespace
-}  // namespace quadrille::discrete
+}  // namespace quadrille

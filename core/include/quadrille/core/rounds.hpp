@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "quadrille/core/export.hpp"
+
+QUADRILLE_API_BEGIN
+
+namespace quadrille {
+
+/// Searches in threads of their own that go through rounds of equal effort together, exchange what
+/// they know at the end of each, and agree on whose proof is the answer. What a search hears
+/// depends on the efforts of all, but not on how fast their threads run: at the end of its round r
+/// it hears what each of the others told at its first arrival in round r or later.
+///
+/// `News` is what they tell. `news.hear(other)` merges what another one told into it; its field
+/// `others_ended` becomes true for whom nobody else is at work.
+template <class News>
+class Rounds {
+ public:
+  /// The first round ends when a worker arrives at all. Then one takes `length` steps; at first a
+  /// thirty-second of it and twice as many again and again, because easy instances are over soon.
+  /// With `race` nobody waits, and what is heard is what is known at the time. Requires length
+  /// >= 1.
+  Rounds(std::size_t num_workers, std::int64_t length, bool race)
+      : length_(length), race_(race), workers_(num_workers) {}
+
+  [[nodiscard]] std::size_t num_workers() const noexcept { return workers_.size(); }
+
+  /// A worker has done `effort` steps in all. Within a round this returns nullopt at once; at the
+  /// end of one it publishes `tell()`, waits for the others and returns what they told, merged.
+  [[nodiscard]] std::optional<News> arrive(std::size_t worker, std::int64_t effort,
+                                           const std::function<News()>& tell) {
+    Worker& me = workers_[worker];
+    const std::int64_t round = round_of(effort);
+    if (round == me.round) return std::nullopt;  // Nobody else changes it.
+    News news = tell();
+    std::unique_lock lock(mutex_);
+    me.round = round;
+    me.told.push_back({me.round, std::move(news)});
+    forget();
+    decide();
+    changed_.notify_all();
+    const auto has_arrived = [&](const Worker& other) {
+      return other.has_ended || other.round >= me.round;
+    };
+    if (!race_)
+      changed_.wait(lock, [&] {
+        return over_ || std::all_of(workers_.begin(), workers_.end(), has_arrived);
+      });
+    return heard_by(worker);
+  }
+  /// A worker does nothing more. With `has_proof` its answer ends all others.
+  void end(std::size_t worker, bool has_proof, News last) {
+    const std::lock_guard lock(mutex_);
+    Worker& me = workers_[worker];
+    me.has_ended = true;
+    me.has_proof = has_proof;
+    me.last = std::move(last);
+    decide();
+    changed_.notify_all();
+  }
+  /// Ends all searches, without an answer.
+  void cancel() {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+    changed_.notify_all();
+  }
+
+  /// Set when nobody's answer is needed any more.
+  [[nodiscard]] const std::atomic<bool>& over() const noexcept { return over_; }
+  /// Whose answer counts, once all have ended. The proof of the earliest round, among these that
+  /// of the first worker.
+  [[nodiscard]] std::optional<std::size_t> winner() const noexcept { return winner_; }
+
+ private:
+  struct Told {
+    std::int64_t round;
+    News news;
+  };
+  struct Worker {
+    std::int64_t round = 0;
+    bool has_ended = false, has_proof = false;
+    std::deque<Told> told;  // What somebody may still have to hear.
+    News last;
+  };
+
+  /// Rounds end at length / 32, length / 16, ..., length, 2 length, 3 length, ...
+  [[nodiscard]] std::int64_t round_of(std::int64_t effort) const {
+    constexpr std::int64_t kDoublings = 5;
+    if (effort >= length_) return 1 + kDoublings + effort / length_;
+    const auto part = static_cast<std::uint64_t>((effort << kDoublings) / length_);
+    return 1 + static_cast<std::int64_t>(std::bit_width(part));
+  }
+
+  /// A proof wins as soon as nobody can come before it any more.
+  void decide() {
+    if (winner_) return;
+    const auto place = [&](std::size_t w) { return std::make_pair(workers_[w].round, w); };
+    std::optional<std::size_t> best;
+    for (std::size_t w = 0; w < workers_.size(); ++w)
+      if (workers_[w].has_proof && (!best || place(w) < place(*best))) best = w;
+    if (!best) return;
+    for (std::size_t w = 0; w < workers_.size() && !race_; ++w)
+      if (!workers_[w].has_ended && place(w) < place(*best)) return;
+    winner_ = best;
+    over_ = true;
+  }
+
+  /// A worker hears what is told in its round or later; with `race` it hears the last of it.
+  void forget() {
+    std::int64_t round = INT64_MAX;
+    for (const Worker& w : workers_)
+      if (!w.has_ended) round = std::min(round, w.round);
+    for (Worker& w : workers_)
+      while (w.told.size() > 1 && (race_ || w.told.front().round < round)) w.told.pop_front();
+  }
+
+  [[nodiscard]] News heard_by(std::size_t listener) const {
+    News heard;
+    heard.others_ended = true;
+    const std::int64_t round = workers_[listener].round;
+    for (std::size_t w = 0; w < workers_.size(); ++w) {
+      if (w == listener) continue;
+      const Worker& other = workers_[w];
+      const News* news = &other.last;
+      if (race_) {
+        if (!other.has_ended && !other.told.empty()) news = &other.told.back().news;
+        if (!other.has_ended) heard.others_ended = false;
+      } else {
+        const auto told = std::find_if(other.told.begin(), other.told.end(),
+                                       [&](const Told& t) { return t.round >= round; });
+        if (told != other.told.end()) news = &told->news;
+        // Who has come as far as this one may or may not have ended by now.
+        if (!other.has_ended || other.round >= round) heard.others_ended = false;
+      }
+      heard.hear(*news);
+    }
+    return heard;
+  }
+
+  const std::int64_t length_;
+  const bool race_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Worker> workers_;
+  std::optional<std::size_t> winner_;
+  std::atomic<bool> over_ = false;
+};
+
+}  // namespace quadrille
+
+QUADRILLE_API_END
