@@ -17,7 +17,6 @@ namespace {
 using discrete::CostSearch;
 using discrete::System;
 
-constexpr std::int64_t kMaxThreads = 64;
 constexpr std::int64_t kMaxSeed = 2'000'000'000;
 
 constexpr const char* kFooter =
@@ -91,8 +90,8 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   app.add_flag("!--no-first-plan", options.first_plan,
                "Do not look for a plan of any cost before and beside the proof")
       ->group(group);
-  add_integer(app, "--threads", arguments.threads, 1, kMaxThreads,
-              "Searches side by side: for the bound, for plans, with other systems; default 1")
+  add_integer(app, "--threads", arguments.threads, 1, static_cast<std::int64_t>(kMaxThreads),
+              "Searches side by side: for the bound, for plans, further ones for either; default 1")
       ->group(group);
   app.add_flag(
          "--race", options.race,

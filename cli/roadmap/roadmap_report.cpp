@@ -52,6 +52,8 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
   json["gap"] = or_null(options.gap_percent);
+  json["threads"] = options.threads;
+  json["race"] = options.race;
   json["seed"] = options.seed;
   add_limits(json, options.limits);
   json["audit"] = options.debug.audit;

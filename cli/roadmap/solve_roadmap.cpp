@@ -24,11 +24,13 @@ using continuous::SolveOutcome;
 /// What is wrong with the combination of options; empty if nothing is.
 std::string check(const CLI::App& app, const SolveArguments& arguments) {
   for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
-                             "--backtracking", "--no-first-plan", "--threads", "--race"})
+                             "--backtracking", "--no-first-plan"})
     if (app.count(option) > 0) return std::string(option) + " does not apply to roadmaps";
   std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
   if (wrong.empty()) wrong = arguments.plan_format.why_not_continuous("--plan-format");
   if (wrong.empty()) wrong = check_solve_outputs(arguments);
+  if (wrong.empty() && arguments.options.race && arguments.threads.value_or(1) == 1)
+    wrong = "--race needs --threads";
   return wrong;
 }
 
@@ -44,6 +46,8 @@ std::optional<SolveOptions> options_of(const SolveArguments& arguments) {
   options.gap_percent = arguments.options.gap_percent;
   if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
+  if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
+  options.race = arguments.options.race;
   options.debug.audit = arguments.options.debug.audit;
   return options;
 }

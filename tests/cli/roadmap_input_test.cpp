@@ -60,9 +60,7 @@ TEST_F(RoadmapInputTest, OptionsThatMeanNothingForRoadmapsAreRefused) {
                                              {"--mdd-growth", "full"},
                                              {"--forbid-first"},
                                              {"--backtracking", "jump"},
-                                             {"--no-first-plan"},
-                                             {"--threads", "2"},
-                                             {"--race"}})
+                                             {"--no-first-plan"}})
     for (const auto& command : {discs("solve", option), xml("solve", option)}) {
       SCOPED_TRACE(testing::PrintToString(command));
       const Finished finished = run(command);

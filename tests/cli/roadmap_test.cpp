@@ -92,6 +92,22 @@ TEST_F(RoadmapTest, BothSystemsAndObjectivesWork) {
     }
 }
 
+TEST_F(RoadmapTest, ThreadsFindTheSameCost) {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, std::vector<std::string>{"--race"}}) {
+    std::vector<std::string> options{"--threads", "2", "--json", path("r.json")};
+    options.insert(options.end(), more.begin(), more.end());
+    ASSERT_EQ(run(discs("solve", options)).code, 0);
+    const json result = json::parse(read("r.json"));
+    EXPECT_EQ(result["cost"], 5.015);
+    EXPECT_EQ(result["options"]["threads"], 2);
+    EXPECT_EQ(result["options"]["race"], !more.empty());
+  }
+  const Finished refused = run(discs("solve", {"--race"}));
+  EXPECT_EQ(refused.code, 64);
+  EXPECT_THAT(refused.err, HasSubstr("--race needs --threads"));
+}
+
 TEST_F(RoadmapTest, VerifyAcceptsWhatSolveWritesInEachFormat) {
   for (const std::string name : {"p.json", "p.xml", "r.json"}) {
     SCOPED_TRACE(name);

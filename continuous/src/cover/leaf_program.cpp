@@ -73,6 +73,7 @@ bool LeafProgram::solve_loaded(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs) 
   if (!collect()) return false;
   make_program();
   const PackingSolution solution = solve_packing(program_);
+  effort_ += solution.effort;
   leaf.bound = std::max(leaf.bound, base + certified_bound(solution.primal));
   costs = low_;
   round(solution.dual, leaf, costs);

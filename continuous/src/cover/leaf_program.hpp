@@ -61,6 +61,8 @@ class LeafProgram {
   /// Whether the last solution was integral: then `costs` hit all cores, and none of the leaf that
   /// do are cheaper, as far as floating point can tell.
   [[nodiscard]] bool is_integral() const noexcept { return is_integral_; }
+  /// Elementary steps of all linear programs so far.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 
  private:
   static constexpr std::uint32_t kNoRow = 0xffffffffU;
@@ -82,6 +84,7 @@ class LeafProgram {
   std::vector<Level> rows_;            // of the program
   Packing program_;
   bool is_integral_ = false;
+  std::int64_t effort_ = 0;
   // Scratch:
   std::vector<Cost> units_, used_;
   std::vector<double> part_;

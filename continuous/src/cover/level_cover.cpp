@@ -149,8 +149,7 @@ bool LevelCover::relax(Group& group, CoverLeaf& leaf) {
   return true;
 }
 
-IdVector<AgentId, Cost> LevelCover::quick_costs() const {
-  IdVector<AgentId, Cost> costs = costs_;
+IdVector<AgentId, Cost> LevelCover::completed(IdVector<AgentId, Cost> costs) const {
   std::vector<const LevelCore*> cores;
   for (const LevelCore& core : cores_) cores.push_back(&core);
   CoreTable(cores).complete(free_costs_, costs);

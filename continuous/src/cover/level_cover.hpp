@@ -32,9 +32,14 @@ class LevelCover {
   /// Their sum: no costs that hit all cores of that call have a smaller one.
   [[nodiscard]] Cost total() const noexcept { return total_; }
   /// Costs that hit all cores, found fast; their sum need not be least.
-  [[nodiscard]] IdVector<AgentId, Cost> quick_costs() const;
+  [[nodiscard]] IdVector<AgentId, Cost> quick_costs() const { return completed(costs_); }
+  /// `costs`, raised and lowered until they hit all cores and none can be lowered alone. Requires
+  /// costs of at least the free costs.
+  [[nodiscard]] IdVector<AgentId, Cost> completed(IdVector<AgentId, Cost> costs) const;
 
   [[nodiscard]] std::int64_t num_programs() const noexcept { return num_programs_; }
+  /// Elementary steps of all linear programs so far.
+  [[nodiscard]] std::int64_t effort() const noexcept { return program_.effort(); }
 
  private:
   struct Group {

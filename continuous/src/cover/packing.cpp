@@ -51,7 +51,8 @@ class Tableau {
   }
 
   [[nodiscard]] PackingSolution solution() const {
-    PackingSolution result{std::vector<double>(columns_, 0), std::vector<double>(rows_, 0)};
+    PackingSolution result{std::vector<double>(columns_, 0), std::vector<double>(rows_, 0),
+                           effort_};
     for (std::size_t r = 0; r < rows_; ++r)
       if (basic_[r] < columns_) result.primal[basic_[r]] = scale_ * at(r, columns_);
     for (std::size_t c = 0; c < columns_; ++c)
@@ -96,6 +97,7 @@ class Tableau {
       if (r == leaving || factor == 0) continue;
       for (const std::size_t c : nonzero_) row[c] -= factor * pivot_row[c];
       row[entering] = -factor * inverse;
+      effort_ += static_cast<std::int64_t>(nonzero_.size());
     }
     std::swap(basic_[leaving], other_[entering]);
   }
@@ -105,6 +107,7 @@ class Tableau {
   std::vector<std::size_t> basic_, other_;  // variables; from columns_ on slacks
   std::vector<std::size_t> nonzero_;
   double scale_ = 1;
+  std::int64_t effort_ = 0;
 };
 
 }  // namespace

@@ -30,6 +30,7 @@ struct Packing {
 struct PackingSolution {
   std::vector<double> primal;  ///< u, by column.
   std::vector<double> dual;    ///< Price of each row; in each column they are 1 or more together.
+  std::int64_t effort = 0;     ///< Cells of the tableau that were changed.
 };
 
 /// The simplex method on a dense tableau: rows times columns per pivot. It ends after many more

@@ -45,25 +45,17 @@ void PlanImprover::restart_from(Plan plan) {
   is_loaded_ = false;
 }
 
-bool PlanImprover::improve(std::int64_t effort) {
-  const std::int64_t enough = this->effort() + effort;
-  return improve_while([&] { return this->effort() < enough; });
+bool PlanImprover::pays() const {
+  return !is_done() && effort() < kLeastPatience + kPatience * last_gain_;
 }
 
-bool PlanImprover::improve_while_it_pays() {
-  const std::int64_t begin = effort();
-  return improve_while(
-      [&] { return effort() - begin < kLeastPatience + kPatience * (last_gain_ - begin); });
-}
-
-template <class Condition>
-bool PlanImprover::improve_while(const Condition& goes_on) {
+bool PlanImprover::improve(std::int64_t more_effort) {
+  const std::int64_t enough = effort() + more_effort;
   if (is_done()) return false;
   const Instance& instance = scene_.instance();
   try {
     if (!is_loaded_) load_paths();
-    last_gain_ = effort();
-    while (goes_on() && !scene_.limits().exhausted()) {
+    while (effort() < enough && !scene_.limits().exhausted()) {
       if (num_slots_ > kMaxSlotsPerAgent * agents_.size()) load();
       if (replan(choose())) last_gain_ = effort();
     }
@@ -98,6 +90,7 @@ void PlanImprover::load_paths() {
   }
   load();
   is_loaded_ = true;
+  last_gain_ = effort();
 }
 
 void PlanImprover::list_bans(AgentId i, AgentState& agent) {

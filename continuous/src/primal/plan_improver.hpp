@@ -22,8 +22,8 @@ class PlanImprover {
   /// Goes on for about so much effort. True if the plan is cheaper now. Stops early when the limits
   /// of the scene are met.
   bool improve(std::int64_t effort);
-  /// Likewise, until it has been without gain for twice as long as all before took, and some more.
-  bool improve_while_it_pays();
+  /// It has not been without gain for as long as all before took, and some more.
+  [[nodiscard]] bool pays() const;
   /// Goes on from another plan, a cheaper one that was found elsewhere for instance.
   void restart_from(Plan plan);
 
@@ -42,8 +42,6 @@ class PlanImprover {
     std::vector<std::vector<Ban>> bans;  // around it, by class of the others
     std::size_t slot = 0;                // in all tables
   };
-  template <class Condition>
-  bool improve_while(const Condition& goes_on);
   void load_paths();
   /// Fills the tables with the bans around all current paths.
   void load();

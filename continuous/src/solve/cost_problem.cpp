@@ -13,8 +13,8 @@ using sat::Verdict;
 
 namespace {
 
-/// Elementary steps, up to a second: each slice begins with a restart of the solver.
-constexpr std::int64_t kSlice = 800'000;
+/// Elementary steps, a fifth of a second: each slice begins with a restart of the solver.
+constexpr std::int64_t kSlice = 4'000'000;
 
 }  // namespace
 
@@ -125,9 +125,7 @@ std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const 
 
 void CostProblem::add_core(const std::vector<Level>& core,
                            const IdVector<AgentId, Cost>& ceilings) {
-  std::vector<Lit> clause;
-  for (const Level& level : core)
-    clause.push_back(model_.above(level.agent, level.cost - 1, writer_));
+  const std::vector<Lit> clause = clause_of(core);
   if (auditor_ != nullptr) {
     std::vector<Lit> given;
     for (const AgentId i : model_.instance().agent_ids())
@@ -137,6 +135,17 @@ void CostProblem::add_core(const std::vector<Level>& core,
   }
   if (clause.empty()) return;
   engine_.add_clause({sat::LemmaKind::core, clause, {}, false});
+}
+
+void CostProblem::take_core(const std::vector<Level>& core) {
+  engine_.add_clause({sat::LemmaKind::core, clause_of(core), {}, false});
+}
+
+std::vector<Lit> CostProblem::clause_of(const std::vector<Level>& core) {
+  std::vector<Lit> clause;
+  for (const Level& level : core)
+    clause.push_back(model_.above(level.agent, level.cost - 1, writer_));
+  return clause;
 }
 
 }  // namespace quadrille::continuous

@@ -72,6 +72,10 @@ class CostProblem {
   /// incumbent, because it is in those that keep to the ceilings. An empty core is audited only.
   void add_core(const std::vector<Level>& core, const IdVector<AgentId, Cost>& ceilings);
 
+  /// A core that another search of the same instance has found: it holds in every plan that is
+  /// cheaper than an incumbent which is known here, too. It is not audited.
+  void take_core(const std::vector<Level>& core);
+
   [[nodiscard]] Model& model() noexcept { return model_; }
 
  private:
@@ -84,6 +88,7 @@ class CostProblem {
   [[nodiscard]] sat::Verdict solve_in_slices(const std::vector<sat::Lit>& assumptions,
                                              LimitMonitor& limits, const sat::SolveBudget& budget);
   [[nodiscard]] bool accept_model();
+  [[nodiscard]] std::vector<sat::Lit> clause_of(const std::vector<Level>& core);
 
   Model& model_;
   sat::Engine& engine_;

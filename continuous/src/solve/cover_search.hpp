@@ -1,41 +1,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
-#include <optional>
-
 #include "quadrille/core/statistics.hpp"
+#include "solve/companion.hpp"
 #include "solve/cost_problem.hpp"
+#include "solve/cost_report.hpp"
 
 namespace quadrille::continuous {
 
-/// What a search for the least cost found.
-struct CostReport {
-  sat::SearchEnd end = sat::SearchEnd::stopped;
-  Cost lower_bound = 0;      ///< Proven.
-  std::optional<Plan> plan;  ///< The cheapest one found; of cost `lower_bound` if `end` is found.
+/// What a search for the least sum of costs works with. References outlive it.
+struct SumSearchContext {
+  CostProblem& problem;
+  const CostReport& known;  ///< A bound, and a plan of any cost if there is one.
+  /// Plans that cost no more than this satisfy every clause that is made, even if a cheaper one is
+  /// known.
+  Cost spared = 0;
+  Role role = Role::all;
+  std::uint32_t seed = 0;
+  LimitMonitor& limits;
+  Statistics& statistics;  ///< Adds to `cores`.
+  Correspondent& correspondent;
 };
-
-/// Hears of the bound and the plan, while the search goes on, each time that one may be better. It
-/// may stop the limits.
-using ReportListener = std::function<void(const CostReport&)>;
 
 /// Finds a plan of least sum of costs by implicit hitting sets (Davies and Bacchus 2011, CP): the
 /// cheapest costs that hit all known cores are the agents' caps; either there is a plan within
 /// them, or there is a new core. The known plan is improved first; where cores are many, turns take
-/// place that improve it again and try bounds on the sum of all costs. Integer costs may be as
-/// large as they like. Ends by itself if the clauses allow no plan at all, which need not happen
-/// where none exists. `some_plan`: one of any cost, if known. Plans that cost no more than `spared`
-/// satisfy every clause that is made, even if a cheaper one is known. Deterministic as long as no
-/// limit is met. Adds to `statistics.cores`.
-[[nodiscard]] CostReport search_by_covers(CostProblem& problem, std::optional<Plan> some_plan,
-                                          Cost spared, LimitMonitor& limits, Statistics& statistics,
-                                          const ReportListener& on_report);
-
-/// Finds a plan of least makespan from below: all agents are capped by the bound under test, and a
-/// core moves it on to the next cost that one of its agents can have.
-[[nodiscard]] CostReport search_makespan(CostProblem& problem, std::optional<Plan> some_plan,
-                                         LimitMonitor& limits, Statistics& statistics,
-                                         const ReportListener& on_report);
+/// place that improve it again and try bounds on the sum of all costs. Beside others it begins as
+/// its role says. Integer costs may be as large as they like. Ends
+/// by itself if the clauses allow no plan at all, which need not happen where none exists.
+/// Deterministic as long as no limit is met, and as the correspondent is.
+[[nodiscard]] CostReport search_by_covers(const SumSearchContext& context);
 
 }  // namespace quadrille::continuous

@@ -14,13 +14,9 @@
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/core/plan_claim.hpp"
 #include "routes/route_search.hpp"
-#include "solve/cost_problem.hpp"
-#include "solve/cover_search.hpp"
+#include "solve/cost_run.hpp"
+#include "solve/portfolio.hpp"
 #include "solve/small_instances.hpp"
-#include "theory/known_plan_auditor.hpp"
-#include "theory/lemma_auditor.hpp"
-#include "theory/model.hpp"
-#include "theory/theory.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -30,6 +26,8 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return Error{ErrorCode::out_of_range, "the seed is larger than 2000000000", {}};
   if (options.gap_percent && !(*options.gap_percent >= 0))
     return Error{ErrorCode::out_of_range, "the gap is not a number of at least 0", {}};
+  if (options.threads < 1 || options.threads > kMaxThreads)
+    return Error{ErrorCode::out_of_range, "the number of threads is not from 1 to 64", {}};
   if (!(options.progress_interval_s >= 0))
     return Error{
         ErrorCode::out_of_range, "the progress interval is not a number of at least 0", {}};
@@ -53,76 +51,6 @@ void keep_cheaper(std::optional<Plan>& best, std::optional<Plan> plan, Objective
   if (plan && (!best || cost(*plan, objective) < cost(*best, objective))) best = std::move(plan);
 }
 
-/// Those that the options ask for.
-class Auditors final : public sat::ClauseObserver {
- public:
-  Auditors(const Model& model, const SolveOptions& options) {
-    if (options.debug.known_plan) of_plan_.emplace(model, *options.debug.known_plan);
-    if (!options.debug.audit) return;
-    of_lemmas_.emplace(model);
-    of_cores_.emplace();
-  }
-  [[nodiscard]] bool is_needed() const { return of_plan_ || of_lemmas_; }
-  void on_lemma(const sat::Lemma& lemma) override {
-    if (of_plan_) of_plan_->on_lemma(lemma);
-    if (of_lemmas_) of_lemmas_->on_lemma(lemma);
-    if (of_cores_) of_cores_->on_lemma(lemma);
-  }
-  void on_learned(std::span<const sat::Lit> clause) override {
-    if (of_plan_) of_plan_->on_learned(clause);
-  }
-  void on_core(std::span<const sat::Lit> clause) override {
-    if (of_cores_) of_cores_->on_core(clause);
-  }
-  /// Null if cores are not audited.
-  [[nodiscard]] sat::CoreAuditor* of_cores() { return of_cores_ ? &*of_cores_ : nullptr; }
-  /// The first of each kind.
-  [[nodiscard]] std::optional<std::string> complaint() const {
-    if (of_lemmas_ && of_lemmas_->complaint()) return of_lemmas_->complaint();
-    if (of_cores_ && of_cores_->complaint()) return of_cores_->complaint();
-    return of_plan_ ? of_plan_->complaint() : std::nullopt;
-  }
-
- private:
-  std::optional<KnownPlanAuditor> of_plan_;
-  std::optional<LemmaAuditor> of_lemmas_;
-  std::optional<sat::CoreAuditor> of_cores_;
-};
-
-/// Tells of the progress and of better plans in the pauses of the search, as often as the options
-/// say.
-class ProgressReport final : public sat::YieldPoint {
- public:
-  ProgressReport(const SolveOptions& options, const LimitMonitor& limits,
-                 const SolveOutcome& outcome)
-      : options_(options),
-        limits_(limits),
-        outcome_(outcome),
-        next_s_(limits.elapsed_wall() + options.progress_interval_s) {}
-  void set_incumbent(Cost cost) { incumbent_ = cost; }
-  [[nodiscard]] std::optional<Cost> incumbent() const { return incumbent_; }
-
-  void yield() override {
-    const double now = limits_.elapsed_wall();
-    if (options_.on_progress && now >= next_s_) {
-      options_.on_progress({outcome_.lower_bound, incumbent_, now, limits_.conflicts()});
-      next_s_ = now + options_.progress_interval_s;
-    }
-    if (options_.on_plan && incumbent_ && incumbent_ != reported_cost_ && now >= next_plan_s_) {
-      options_.on_plan(*outcome_.plan);
-      reported_cost_ = incumbent_;
-      next_plan_s_ = now + options_.plan_interval_s;
-    }
-  }
-
- private:
-  const SolveOptions& options_;
-  const LimitMonitor& limits_;
-  const SolveOutcome& outcome_;
-  std::optional<Cost> incumbent_, reported_cost_;
-  double next_s_, next_plan_s_ = 0;
-};
-
 /// What the agents cost when each is alone. Requires that all can reach their goals then.
 Cost free_bound(const Scene& scene, Objective objective) {
   Cost bound = 0;
@@ -133,10 +61,9 @@ Cost free_bound(const Scene& scene, Objective objective) {
 }
 
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-               SolveOutcome& outcome) {
+               const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome) {
   Scene scene(instance, limits);
   if (!scene.is_complete()) return;
-  Model model(scene);
   const auto is_blocked = [&](const std::vector<AgentId>& blocked) {
     if (blocked.empty()) return false;
     outcome.status = Status::infeasible;
@@ -173,49 +100,9 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     some_plan = std::move(feasibility.plan);
   }
   outcome.plan = some_plan;  // the answer if a limit is met
-  ContinuousTheory theory(model);
-  Auditors auditors(model, options);
-  const bool in_search = options.system == System::dpll;
-  sat::EngineOptions engine_options;
-  engine_options.seed = options.seed;
-  engine_options.observer = auditors.is_needed() ? &auditors : nullptr;
-  sat::Engine engine(in_search ? &theory : nullptr, engine_options);
-  ProgressReport progress(options, limits, outcome);
-  CostProblem problem(model, engine, theory, in_search, &progress, auditors.of_cores());
-
-  const auto on_report = [&](const CostReport& report) {
-    outcome.lower_bound = std::max(floor, report.lower_bound);
-    if (!report.plan) return;
-    const Cost cost_of_plan = cost(*report.plan, options.objective);
-    if (progress.incumbent() != cost_of_plan) outcome.plan = report.plan;  // if a limit is met
-    progress.set_incumbent(cost_of_plan);
-    const Cost bound = outcome.lower_bound;
-    if (bound < cost_of_plan && is_within_gap(options.gap_percent, cost_of_plan, bound))
-      limits.stop(StopReason::gap);
-    progress.yield();
-  };
-  const auto report =
-      options.objective == Objective::sum_of_costs
-          ? search_by_covers(
-                problem, std::move(some_plan),
-                options.debug.known_plan ? cost(*options.debug.known_plan, options.objective) : 0,
-                limits, outcome.statistics, on_report)
-          : search_makespan(problem, std::move(some_plan), limits, outcome.statistics, on_report);
-  outcome.lower_bound = std::max(floor, report.lower_bound);
-  outcome.plan.reset();
-  engine.add_statistics(outcome.statistics);
-  outcome.statistics.checks = theory.num_checks();
-  if (const auto complaint = auditors.complaint()) {
-    outcome.internal_error = Error{ErrorCode::internal, *complaint, {}};
-  } else if (report.end == sat::SearchEnd::exhausted) {
-    outcome.status = Status::infeasible;
-    outcome.explanation = "every combination of paths collides";
-  } else if (report.plan) {
-    outcome.plan = report.plan;
-    const bool is_proved = report.end == sat::SearchEnd::found ||
-                           cost(*report.plan, options.objective) == outcome.lower_bound;
-    outcome.status = is_proved ? Status::optimal : Status::feasible;
-  }
+  const CostReport known{sat::SearchEnd::stopped, floor, std::move(some_plan)};
+  outcome = options.threads > 1 ? search_side_by_side(scene, options, known, limits, account)
+                                : search_alone(scene, options, known, limits, nullptr);
 }
 
 /// What is claimed must not contradict the known plan.
@@ -236,19 +123,12 @@ void check_plan(const Instance& instance, const SolveOptions& options, SolveOutc
   hold_to_replay(verify(instance, *outcome.plan), options.objective, outcome);
 }
 
-/// The answer of a search that was cut short.
-void keep_best(const SolveOptions& options, SolveOutcome& outcome) {
-  outcome.status = outcome.plan ? Status::feasible : Status::unknown;
-  if (outcome.plan && cost(*outcome.plan, options.objective) == outcome.lower_bound)
-    outcome.status = Status::optimal;
-}
-
 /// Fills in what was found and proved, and checks its plan. Throws what callbacks throw.
 void answer(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-            SolveOutcome& outcome) {
+            const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome) {
   try {
     try {
-      find_plan(instance, options, limits, outcome);
+      find_plan(instance, options, limits, account, outcome);
     } catch (const LimitReached&) {
       keep_best(options, outcome);
     } catch (const std::bad_alloc&) {
@@ -288,8 +168,9 @@ std::optional<System> parse_system(std::string_view text) noexcept {
 Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {
   if (auto error = check_options(instance, options)) return *std::move(error);
   SolveOutcome outcome;
-  LimitMonitor limits(options.limits);
-  answer(instance, options, limits, outcome);
+  const auto account = std::make_shared<ResourceAccount>();
+  LimitMonitor limits(options.limits, account);
+  answer(instance, options, limits, account, outcome);
   if (options.debug.known_plan && !outcome.internal_error) check_known_plan(options, outcome);
   if (outcome.internal_error) {
     outcome.status = Status::unknown;

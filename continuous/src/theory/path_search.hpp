@@ -24,7 +24,7 @@ class PathSearch {
   [[nodiscard]] Cheapest find(AgentId agent, std::span<const ObstacleId> obstacles, Cost bound);
 
   /// States that all searches have visited.
-  [[nodiscard]] std::int64_t effort() const noexcept { return finder_.num_visits(); }
+  [[nodiscard]] std::int64_t effort() const noexcept { return finder_.effort(); }
 
  private:
   friend Cheapest;

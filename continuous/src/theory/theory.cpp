@@ -35,6 +35,7 @@ ContinuousTheory::ContinuousTheory(Model& model)
 
 void ContinuousTheory::on_assign(std::span<const Lit> newly_true) {
   trail_.notice(model_.obstacles());
+  num_assigned_ += static_cast<std::int64_t>(newly_true.size());
   for (const Lit lit : newly_true) {
     trail_.push(lit);
     const auto meaning = model_.variable(lit);

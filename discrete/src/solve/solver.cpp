@@ -248,7 +248,7 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   }
   if (options.gap_percent && !(*options.gap_percent >= 0))
     return refuse(ErrorCode::out_of_range, "the gap is not a number of at least 0");
-  if (options.threads < 1 || options.threads > 64)
+  if (options.threads < 1 || options.threads > kMaxThreads)
     return refuse(ErrorCode::out_of_range, "the number of threads is not from 1 to 64");
   if (!(options.progress_interval_s >= 0))
     return refuse(ErrorCode::out_of_range, "the progress interval is not a number of at least 0");

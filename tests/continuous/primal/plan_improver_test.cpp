@@ -98,7 +98,8 @@ TEST(PlanImprover, StopsWhenItPaysNoMore) {
       LimitMonitor limits({});
       Scene scene(instance, limits);
       PlanImprover improver(scene, plan);
-      const bool is_better = improver.improve_while_it_pays();
+      bool is_better = false;
+      while (improver.pays()) is_better |= improver.improve(100'000);
       EXPECT_EQ(is_better, improver.cost() < cost(plan, Objective::sum_of_costs));
       EXPECT_LT(improver.effort(), 20'000'000);
       EXPECT_FALSE(improver.improve(100'000)) << "much was tried in vain";
@@ -124,7 +125,7 @@ TEST(PlanImprover, KeepsAValidPlanWhereverItIsCut) {
     }
     if (!scene->is_complete()) continue;
     PlanImprover improver(*scene, plan);
-    static_cast<void>(improver.improve_while_it_pays());
+    while (improver.pays() && !limits.exhausted()) static_cast<void>(improver.improve(100'000));
     ASSERT_TRUE(verify(instance, improver.plan()).valid());
     ASSERT_LE(improver.cost(), cost(plan, Objective::sum_of_costs));
     ++num_cut;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -56,6 +57,13 @@ struct SolveOptions {
   /// quadrille/core/outcome.hpp. Not negative.
   std::optional<double> gap_percent;
   std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
+  /// Searches side by side, 1 .. kMaxThreads, each in a thread of its own: the first one raises the
+  /// lower bound, the second one makes plans cheaper and then helps it, as further ones do. They
+  /// begin where route_work and joint_work have not sufficed.
+  std::size_t threads = 1;
+  /// With threads: do not wait for each other, and take the proof that comes first in time. The
+  /// plan, not its cost, may differ from run to run then.
+  bool race = false;
   /// Of dpll: effort, in comparisons of times, for looking at all routes of at most kMaxRouteAgents
   /// agents before the search; about 10^8 take a second. 0: none.
   std::int64_t route_work = 50'000'000;

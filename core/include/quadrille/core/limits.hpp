@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,6 +25,9 @@ namespace quadrille {
 [[nodiscard]] double peak_rss_mib() noexcept;
 /// Resident set of this process now, in MiB; 0 where the system does not tell.
 [[nodiscard]] double current_rss_mib() noexcept;
+
+/// Of one search, at most.
+inline constexpr std::size_t kMaxThreads = 64;
 
 /// What a search may use. An absent limit does not bind. All belong to the search, not to the
 /// process: what its host or another search uses does not count. See ResourceMeter.

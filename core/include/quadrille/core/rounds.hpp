@@ -23,7 +23,7 @@ namespace quadrille {
 /// Searches in threads of their own that go through rounds of equal effort together, exchange what
 /// they know at the end of each, and agree on whose proof is the answer. What a search hears
 /// depends on the efforts of all, but not on how fast their threads run: at the end of its round r
-/// it hears what each of the others told at its first arrival in round r or later.
+/// it hears what each of the others told at its first arrival in round r - lag or later.
 ///
 /// `News` is what they tell. `news.hear(other)` merges what another one told into it; its field
 /// `others_ended` becomes true for whom nobody else is at work.
@@ -32,10 +32,10 @@ class Rounds {
  public:
   /// The first round ends when a worker arrives at all. Then one takes `length` steps; at first a
   /// thirty-second of it and twice as many again and again, because easy instances are over soon.
-  /// With `race` nobody waits, and what is heard is what is known at the time. Requires length
-  /// >= 1.
-  Rounds(std::size_t num_workers, std::int64_t length, bool race)
-      : length_(length), race_(race), workers_(num_workers) {}
+  /// With `race` nobody waits, and what is heard is what is known at the time. With a `lag` workers
+  /// wait less for each other, and news are older. Requires length >= 1, lag >= 0.
+  Rounds(std::size_t num_workers, std::int64_t length, bool race, std::int64_t lag = 0)
+      : length_(length), race_(race), lag_(lag), workers_(num_workers) {}
 
   [[nodiscard]] std::size_t num_workers() const noexcept { return workers_.size(); }
 
@@ -54,7 +54,7 @@ class Rounds {
     decide();
     changed_.notify_all();
     const auto has_arrived = [&](const Worker& other) {
-      return other.has_ended || other.round >= me.round;
+      return other.has_ended || other.round >= me.round - lag_;
     };
     if (!race_)
       changed_.wait(lock, [&] {
@@ -119,19 +119,21 @@ class Rounds {
     over_ = true;
   }
 
-  /// A worker hears what is told in its round or later; with `race` it hears the last of it.
+  /// A worker hears what is told `lag` rounds before its own or later; with `race` it hears the
+  /// last of it.
   void forget() {
     std::int64_t round = INT64_MAX;
     for (const Worker& w : workers_)
       if (!w.has_ended) round = std::min(round, w.round);
     for (Worker& w : workers_)
-      while (w.told.size() > 1 && (race_ || w.told.front().round < round)) w.told.pop_front();
+      while (w.told.size() > 1 && (race_ || w.told.front().round < round - lag_))
+        w.told.pop_front();
   }
 
   [[nodiscard]] News heard_by(std::size_t listener) const {
     News heard;
     heard.others_ended = true;
-    const std::int64_t round = workers_[listener].round;
+    const std::int64_t round = workers_[listener].round - lag_;
     for (std::size_t w = 0; w < workers_.size(); ++w) {
       if (w == listener) continue;
       const Worker& other = workers_[w];
@@ -143,7 +145,7 @@ class Rounds {
         const auto told = std::find_if(other.told.begin(), other.told.end(),
                                        [&](const Told& t) { return t.round >= round; });
         if (told != other.told.end()) news = &told->news;
-        // Who has come as far as this one may or may not have ended by now.
+        // Who has come as far as that may or may not have ended by now.
         if (!other.has_ended || other.round >= round) heard.others_ended = false;
       }
       heard.hear(*news);
@@ -153,6 +155,7 @@ class Rounds {
 
   const std::int64_t length_;
   const bool race_;
+  const std::int64_t lag_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Worker> workers_;
