@@ -65,6 +65,7 @@ const std::vector<KindOption>& kind_options() {
       {"--radius", {Kind::roadmap}},
       {"--speed", {Kind::roadmap}},
       {"--mixed", {Kind::roadmap}},
+      {"--reach", {Kind::roadmap}},
       {"--resolution", {Kind::roadmap}},
       {"--instance-output", {Kind::roadmap}},
       {"--map-output", {Kind::empty, Kind::random, Kind::maze, Kind::room, Kind::warehouse}},

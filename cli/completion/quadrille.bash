@@ -51,7 +51,7 @@ _quadrille() {
     generate)
       options="--kind --map --map-output --scen-output --agents --any-goal --seed --width --height
         --obstacles --corridor-width --room-size --doors --shelf-columns --shelf-rows --shelf-length
-        --shelf-width --aisle-width --side-width --vertices --radius --speed --mixed --resolution
+        --shelf-width --aisle-width --side-width --vertices --radius --speed --reach --mixed --resolution
         --instance-output"
       ;;
     convert) options="$instance --to --from --output" ;;

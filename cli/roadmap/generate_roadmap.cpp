@@ -37,6 +37,10 @@ Result<continuous::Instance> make(const GenerateRoadmapOptions& options, std::in
   wanted.width = *unit_width;
   wanted.height = *unit_height;
   wanted.mixed = options.mixed;
+  if (options.reach) {
+    wanted.reach = continuous::quantise_coordinate(*options.reach, wanted.resolution);
+    if (!wanted.reach) return refuse("--reach is too large for the resolution");
+  }
   wanted.num_vertices = static_cast<std::size_t>(options.vertices.value_or(100));
   wanted.num_agents = static_cast<std::size_t>(agents);
   return random_instance(wanted, seed);
@@ -53,6 +57,10 @@ void add_generate_roadmap_options(CLI::App& app, GenerateRoadmapOptions& options
   add_positive(app, "--radius", options.radius, "Radius of the agents; default sqrt(2)/4")
       ->group(group);
   add_positive(app, "--speed", options.speed, "Speed of the agents; default 1")->group(group);
+  add_positive(app, "--reach", options.reach,
+               "Edges between all vertices that are no further apart; by default few, without\n"
+               "crossings")
+      ->group(group);
   app.add_flag("--mixed", options.mixed, "Draw radii and speeds from half of these up")
       ->group(group);
   add_positive(app, "--resolution", options.resolution,

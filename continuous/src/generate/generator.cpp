@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,10 +33,50 @@ std::optional<Error> check(const RandomInstanceOptions& options) {
   if (options.radius < 1 || options.radius > geometry::kMaxLength / 4)
     return out_of_range("the radius is 1 .. " + std::to_string((geometry::kMaxLength / 4).count()) +
                         " length units");
+  if (options.reach && (*options.reach < 1 || *options.reach > geometry::kMaxLength))
+    return out_of_range("the reach is 1 .. " + std::to_string(geometry::kMaxLength.count()) +
+                        " length units");
   if (options.speed < 1 || options.speed > kMaxSpeed)
     return out_of_range("the speed is not supported");
   return std::nullopt;
 }
+
+/// Points by the squares of a grid that they are in: to find those that are near.
+class Squares {
+ public:
+  /// For points of the area, and distances of about `distance`.
+  Squares(Length width, Length height, Length distance)
+      : side_(std::max(
+            {distance.count(), width.count() / kMaxPerSide + 1, height.count() / kMaxPerSide + 1})),
+        columns_(width.count() / side_ + 1),
+        rows_(height.count() / side_ + 1),
+        points_(static_cast<std::size_t>(columns_ * rows_)) {}
+
+  void add(const Point& point, std::size_t index) {
+    points_[place(column(point), row(point))].push_back(index);
+  }
+  /// Calls `visit` with all that are no further than `distance` from the point, and others.
+  template <class Visit>
+  void near(const Point& point, Length distance, const Visit& visit) const {
+    const std::int64_t reach = distance.count() / side_ + 1;
+    const std::int64_t last_column = std::min(column(point) + reach, columns_ - 1);
+    const std::int64_t last_row = std::min(row(point) + reach, rows_ - 1);
+    for (std::int64_t r = std::max<std::int64_t>(row(point) - reach, 0); r <= last_row; ++r)
+      for (std::int64_t c = std::max<std::int64_t>(column(point) - reach, 0); c <= last_column; ++c)
+        for (const std::size_t index : points_[place(c, r)]) visit(index);
+  }
+
+ private:
+  static constexpr std::int64_t kMaxPerSide = 300;
+  [[nodiscard]] std::int64_t column(const Point& point) const { return point.x.count() / side_; }
+  [[nodiscard]] std::int64_t row(const Point& point) const { return point.y.count() / side_; }
+  [[nodiscard]] std::size_t place(std::int64_t column, std::int64_t row) const {
+    return static_cast<std::size_t>(row * columns_ + column);
+  }
+
+  const std::int64_t side_, columns_, rows_;
+  std::vector<std::vector<std::size_t>> points_;
+};
 
 /// Random points that are 2 sqrt(2) radius apart, fewer than wanted if they do not fit.
 std::vector<Point> draw_vertices(const RandomInstanceOptions& options, Random& random) {
@@ -45,15 +86,20 @@ std::vector<Point> draw_vertices(const RandomInstanceOptions& options, Random& r
         static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(side.count()) + 1)));
   };
   std::vector<Point> vertices;
+  const Length spacing = 3 * options.radius;  // or less
+  Squares squares(options.width, options.height, spacing);
   while (vertices.size() < options.num_vertices) {
     bool fits = false;
     for (int dart = 0; dart < kMaxDarts && !fits; ++dart) {
       const Length x = coordinate(options.width);
       const Point point{x, coordinate(options.height)};
-      fits = std::none_of(vertices.begin(), vertices.end(), [&](const Point& other) {
-        return squared_distance(point, other) < spacing2;
+      fits = true;
+      squares.near(point, spacing, [&](std::size_t other) {
+        if (squared_distance(point, vertices[other]) < spacing2) fits = false;
       });
-      if (fits) vertices.push_back(point);
+      if (!fits) continue;
+      squares.add(point, vertices.size());
+      vertices.push_back(point);
     }
     if (!fits) break;
   }
@@ -79,6 +125,27 @@ std::vector<Edge> gabriel_edges(const std::vector<Point>& vertices) {
           [&](std::size_t w) { return dot(vertices[u], vertices[v], vertices[w]) <= 0; });
       if (!is_separated) neighbours.push_back(v);
     }
+    std::sort(neighbours.begin(), neighbours.end());
+    for (const std::size_t v : neighbours)
+      edges.push_back({VertexId(u), VertexId(v), std::nullopt});
+  }
+  return edges;
+}
+
+/// In both directions between all that are no further apart; nullopt if they are too many.
+std::optional<std::vector<Edge>> edges_within(Length reach, const RandomInstanceOptions& options,
+                                              const std::vector<Point>& vertices) {
+  Squares squares(options.width, options.height, reach);
+  for (std::size_t v = 0; v < vertices.size(); ++v) squares.add(vertices[v], v);
+  const Area reach2 = square(reach);
+  std::vector<Edge> edges;
+  std::vector<std::size_t> neighbours;
+  for (std::size_t u = 0; u < vertices.size(); ++u) {
+    neighbours.clear();
+    squares.near(vertices[u], reach, [&](std::size_t v) {
+      if (v != u && squared_distance(vertices[u], vertices[v]) <= reach2) neighbours.push_back(v);
+    });
+    if (edges.size() + neighbours.size() > kMaxRandomEdges) return std::nullopt;
     std::sort(neighbours.begin(), neighbours.end());
     for (const std::size_t v : neighbours)
       edges.push_back({VertexId(u), VertexId(v), std::nullopt});
@@ -119,8 +186,12 @@ Result<Instance> random_instance(const RandomInstanceOptions& options, std::uint
     return out_of_range(std::to_string(options.num_vertices) +
                         " vertices do not fit into the area at that radius; " +
                         std::to_string(vertices.size()) + " did");
-  std::vector<Edge> edges = gabriel_edges(vertices);
-  auto roadmap = Roadmap::make(std::move(vertices), std::move(edges));
+  std::optional<std::vector<Edge>> edges =
+      options.reach ? edges_within(*options.reach, options, vertices) : gabriel_edges(vertices);
+  if (!edges)
+    return out_of_range("more than " + std::to_string(kMaxRandomEdges) +
+                        " edges are within that reach");
+  auto roadmap = Roadmap::make(std::move(vertices), *std::move(edges));
   if (!roadmap) return roadmap.error();
   return Instance::make(std::make_shared<const Roadmap>(std::move(roadmap).value()),
                         draw_agents(options, random), options.resolution);

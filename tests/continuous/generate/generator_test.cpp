@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace quadrille::continuous {
 namespace {
@@ -63,6 +66,29 @@ TEST(RandomRoadmap, KeepsItsPromises) {
   }
 }
 
+TEST(RandomRoadmap, HasAllEdgesWithinTheReach) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomInstanceOptions options;
+    options.num_vertices = 60;
+    options.num_agents = 0;  // Not all vertices can be reached with a small reach.
+    options.width = 12'000'000;
+    options.height = 17'000'000;
+    options.reach = Length(500'000 + 1'500'000 * static_cast<std::int64_t>(seed));
+    const Instance instance = random_instance(options, seed).value();
+    const auto& positions = instance.roadmap().positions();
+    std::vector<Edge> expected;
+    for (std::size_t u = 0; u < positions.size(); ++u)
+      for (std::size_t v = 0; v < positions.size(); ++v)
+        if (u != v && std::hypot(number(positions[u].x - positions[v].x),
+                                 number(positions[u].y - positions[v].y)) <= number(*options.reach))
+          expected.push_back({VertexId(u), VertexId(v), std::nullopt});
+    EXPECT_EQ(instance.roadmap().edges(), expected);
+    options.reach.reset();
+    EXPECT_EQ(random_instance(options, seed).value().roadmap().positions(), positions);
+  }
+}
+
 TEST(RandomRoadmap, TheSeedDecides) {
   const auto make = [](std::uint64_t seed) { return random_instance({}, seed).value(); };
   EXPECT_EQ(make(3).roadmap().positions(), make(3).roadmap().positions());
@@ -85,6 +111,13 @@ TEST(RandomRoadmap, RefusesWhatCannotBe) {
   EXPECT_TRUE(refused([](auto& o) { o.radius = 0; }));
   EXPECT_TRUE(refused([](auto& o) { o.radius = geometry::kMaxLength; }));
   EXPECT_TRUE(refused([](auto& o) { o.radius = 4'000'000; }));  // they do not fit
+  EXPECT_TRUE(refused([](auto& o) { o.reach = Length(0); }));
+  EXPECT_TRUE(refused([](auto& o) { o.reach = geometry::kMaxLength + 1; }));
+  EXPECT_TRUE(refused([](auto& o) {
+    o.num_vertices = 3000;
+    o.width = o.height = 100'000'000;
+    o.reach = geometry::kMaxLength;
+  }));
   EXPECT_TRUE(refused([](auto& o) { o.speed = 0; }));
   EXPECT_TRUE(refused([](auto& o) { o.resolution = 0; }));
 }

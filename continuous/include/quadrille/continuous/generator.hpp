@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/export.hpp"
@@ -12,8 +13,8 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
-/// Most vertices that random_instance makes.
-inline constexpr std::size_t kMaxRandomVertices = 10'000;
+/// Most vertices and edges that random_instance makes.
+inline constexpr std::size_t kMaxRandomVertices = 20'000, kMaxRandomEdges = 5'000'000;
 
 /// Lengths are in length units.
 struct RandomInstanceOptions {
@@ -23,7 +24,10 @@ struct RandomInstanceOptions {
   Length height = 32'000'000;      ///< The same.
   Length radius = 353'553;         ///< Of the largest agents; 1 .. kMaxLength / 4.
   Speed speed = kUnitSpeed;        ///< Of the fastest agents.
-  bool mixed = false;              ///< Radii and speeds from half of these up, at random.
+  /// Edges between all vertices that are no further apart, 1 .. kMaxLength; absent: those of the
+  /// Gabriel graph.
+  std::optional<Length> reach;
+  bool mixed = false;  ///< Radii and speeds from half of these up, at random.
   double resolution = kDefaultResolution;
 };
 
@@ -32,9 +36,12 @@ struct RandomInstanceOptions {
 /// vertex lies in the disc that has the segment between them as diameter, or on its boundary. So
 /// the roadmap is connected, no two edges cross, and no edge comes nearer than 2 radius to a vertex
 /// that is not its end: an agent at rest is in the way of nobody but those who pass its vertex.
-/// Starts are distinct, and so are goals; a start may be its own goal or another agent's. The same
-/// options and seed give the same instance on every platform. Errors: out_of_range for options
-/// outside the ranges above, and for vertices that do not fit into the area. O(vertices^2 * log).
+/// With a `reach` nothing of that holds: the roadmap is as dense as that makes it, and may fall
+/// apart. Starts are distinct, and so are goals; a start may be its own goal or another agent's.
+/// The same options and seed give the same instance on every platform. Errors: out_of_range for
+/// options outside the ranges above, for vertices that do not fit into the area, and for more than
+/// kMaxRandomEdges; no_plan if a goal cannot be reached, which needs a small reach. O(vertices^2 *
+/// log); with a reach O(edges * log).
 [[nodiscard]] Result<Instance> random_instance(const RandomInstanceOptions& options,
                                                std::uint64_t seed);
 
