@@ -34,7 +34,6 @@ Contacts::Contacts(const Instance& instance, LimitMonitor& limits)
                         {},
                         {}});
     }
-  volumes_.resize(instance.num_classes());
 }
 
 const Contacts::Offsets& Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
@@ -58,19 +57,27 @@ bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
       instance_.roadmap().position(v), instance_.roadmap().position(w));
 }
 
-const geometry::SweptVolumes& Contacts::volumes(ClassId c) {
-  auto& known = volumes_[c.index()];
-  if (known == nullptr) {
-    std::vector<geometry::Motion> motions;
-    const Roadmap& roadmap = instance_.roadmap();
-    motions.reserve(roadmap.num_edges() + roadmap.num_vertices());
-    for (std::size_t e = 0; e < roadmap.num_edges(); ++e)
-      motions.push_back(instance_.motion(c, EdgeId(e)));
-    for (const Point& position : roadmap.positions())
-      motions.push_back(geometry::rest(position, 1));
-    known = std::make_unique<geometry::SweptVolumes>(disc(instance_, c), std::move(motions));
+// One tree is enough for all classes: what meets the widest body is looked at again. Edges between
+// the same two vertices sweep the same volume, in whatever direction and time.
+void Contacts::make_volumes() {
+  const Roadmap& roadmap = instance_.roadmap();
+  const ClassId c = widest(instance_);
+  const auto ends = [&](EdgeId e) {
+    const Edge& edge = roadmap.edge(e);
+    return std::minmax(edge.from, edge.to);
+  };
+  for (const EdgeId e : IdRange<EdgeId>(roadmap.num_edges())) segment_edges_.push_back(e);
+  std::sort(segment_edges_.begin(), segment_edges_.end(),
+            [&](EdgeId e, EdgeId f) { return std::pair(ends(e), e) < std::pair(ends(f), f); });
+  std::vector<geometry::Motion> motions;
+  for (std::size_t k = 0; k < segment_edges_.size(); ++k) {
+    if (k > 0 && ends(segment_edges_[k]) == ends(segment_edges_[k - 1])) continue;
+    segment_begins_.push_back(k);
+    motions.push_back(instance_.motion(c, segment_edges_[k]));
   }
-  return *known;
+  segment_begins_.push_back(segment_edges_.size());
+  for (const Point& position : roadmap.positions()) motions.push_back(geometry::rest(position, 1));
+  volumes_.emplace(disc(instance_, c), std::move(motions));
 }
 
 const Contacts::Neighbours& Contacts::near(
@@ -82,17 +89,21 @@ const Contacts::Neighbours& Contacts::near(
     auto made = std::make_unique<Neighbours>();
     const Roadmap& roadmap = instance_.roadmap();
     const geometry::BodyPair& bodies = pair(a, b).bodies;
-    // One tree is enough for all classes: what meets the widest body is looked at again.
-    for (const std::size_t index : volumes(widest(instance_)).near(disc(instance_, a), motion)) {
-      if (index < roadmap.num_edges()) {
-        const EdgeId e(index);
-        if (bodies.can_meet(motion, instance_.motion(b, e))) made->edges.push_back(e);
+    if (!volumes_) make_volumes();
+    const std::size_t num_segments = segment_begins_.size() - 1;
+    for (const std::size_t index : volumes_->near(disc(instance_, a), motion)) {
+      if (index < num_segments) {
+        const std::size_t begin = segment_begins_[index];
+        if (bodies.can_meet(motion, instance_.motion(b, segment_edges_[begin])))
+          for (std::size_t k = begin; k < segment_begins_[index + 1]; ++k)
+            made->edges.push_back(segment_edges_[k]);
       } else {
-        const VertexId v(index - roadmap.num_edges());
+        const VertexId v(index - num_segments);
         if (bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))
           made->vertices.push_back(v);
       }
     }
+    std::sort(made->edges.begin(), made->edges.end());
     entry = std::move(made);
   }
   return *entry;

@@ -81,7 +81,7 @@ class Contacts {
   [[nodiscard]] Pair& pair(ClassId a, ClassId b) {
     return pairs_[a.index() * instance_.num_classes() + b.index()];
   }
-  [[nodiscard]] const geometry::SweptVolumes& volumes(ClassId c);
+  void make_volumes();
   [[nodiscard]] const Neighbours& near(
       std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>>& known, std::uint32_t key,
       ClassId a, const geometry::Motion& motion, ClassId b);
@@ -89,7 +89,10 @@ class Contacts {
   const Instance& instance_;
   LimitMonitor& limits_;
   std::vector<Pair> pairs_;
-  std::vector<std::unique_ptr<geometry::SweptVolumes>> volumes_;  // by class: edges, then vertices
+  std::optional<geometry::SweptVolumes> volumes_;  // of segments, then of vertices
+  // The edges between the same two vertices, one segment after the other.
+  std::vector<EdgeId> segment_edges_;
+  std::vector<std::size_t> segment_begins_;
 };
 
 }  // namespace quadrille::continuous
