@@ -65,7 +65,8 @@ void run(Rounds<News>& rounds, std::vector<Worker>& workers, std::uint64_t seed)
     });
 }
 
-TEST(Rounds, WhatIsHeardDependsOnEffortsAndNotOnSpeeds) {
+/// Random efforts at random speeds: what is heard is the same.
+void expect_that_speeds_do_not_matter(std::int64_t lag) {
   Random random(1);
   for (int round = 0; round < 30; ++round) {
     std::vector<Worker> drawn(2 + random.below(2));
@@ -77,11 +78,15 @@ TEST(Rounds, WhatIsHeardDependsOnEffortsAndNotOnSpeeds) {
     }
     std::vector<std::vector<Worker>> runs(3, drawn);
     for (std::size_t k = 0; k < runs.size(); ++k) {
-      Rounds<News> rounds(drawn.size(), kRound, false);
+      Rounds<News> rounds(drawn.size(), kRound, false, lag);
       run(rounds, runs[k], k);
       for (std::size_t w = 0; w < drawn.size(); ++w) ASSERT_EQ(runs[k][w].heard, runs[0][w].heard);
     }
   }
+}
+
+TEST(Rounds, WhatIsHeardDependsOnEffortsAndNotOnSpeeds) {
+  for (const std::int64_t lag : {0, 1, 4}) expect_that_speeds_do_not_matter(lag);
 }
 
 TEST(Rounds, TheFirstNewsOfTheSameRoundOrLaterAreHeard) {
@@ -93,6 +98,23 @@ TEST(Rounds, TheFirstNewsOfTheSameRoundOrLaterAreHeard) {
       second{kRound, 3 * kRound, 0};
   EXPECT_EQ(workers[0].heard, first);
   EXPECT_EQ(workers[1].heard, second);
+}
+
+TEST(Rounds, WithALagNewsAreOlderAndNobodyWaitsAsLong) {
+  constexpr std::int64_t kLag = 2;
+  const Cost lag = kLag * kRound;
+  Rounds<News> rounds(2, kRound, false, kLag);
+  const auto arrive = [&](std::size_t worker, std::int64_t effort) {
+    const auto news = rounds.arrive(worker, effort, [&] { return bound_of(effort); });
+    return news ? news->lower : -1;
+  };
+  {
+    const std::jthread slow([&] { static_cast<void>(arrive(1, kRound)); });
+    static_cast<void>(arrive(0, kRound));
+  }
+  EXPECT_EQ(arrive(0, 1 + lag + kRound - 1), kRound);
+  EXPECT_EQ(arrive(1, 2 * kRound), kRound);
+  EXPECT_EQ(arrive(1, 5 * kRound), 3 * kRound);
 }
 
 TEST(Rounds, TheFirstOnesAreShort) {

@@ -23,7 +23,8 @@ namespace quadrille {
 /// Searches in threads of their own that go through rounds of equal effort together, exchange what
 /// they know at the end of each, and agree on whose proof is the answer. What a search hears
 /// depends on the efforts of all, but not on how fast their threads run: at the end of its round r
-/// it hears what each of the others told at its first arrival in round r - lag or later.
+/// it hears what each of the others told at its first arrival in round r - lag or later (in round r
+/// of the first, short ones).
 ///
 /// `News` is what they tell. `news.hear(other)` merges what another one told into it; its field
 /// `others_ended` becomes true for whom nobody else is at work.
@@ -54,7 +55,7 @@ class Rounds {
     decide();
     changed_.notify_all();
     const auto has_arrived = [&](const Worker& other) {
-      return other.has_ended || other.round >= me.round - lag_;
+      return other.has_ended || other.round >= heard_from(me.round);
     };
     if (!race_)
       changed_.wait(lock, [&] {
@@ -86,6 +87,7 @@ class Rounds {
   [[nodiscard]] std::optional<std::size_t> winner() const noexcept { return winner_; }
 
  private:
+  static constexpr std::int64_t kDoublings = 5;
   struct Told {
     std::int64_t round;
     News news;
@@ -99,10 +101,14 @@ class Rounds {
 
   /// Rounds end at length / 32, length / 16, ..., length, 2 length, 3 length, ...
   [[nodiscard]] std::int64_t round_of(std::int64_t effort) const {
-    constexpr std::int64_t kDoublings = 5;
     if (effort >= length_) return 1 + kDoublings + effort / length_;
     const auto part = static_cast<std::uint64_t>((effort << kDoublings) / length_);
     return 1 + static_cast<std::int64_t>(std::bit_width(part));
+  }
+
+  /// The round whose news are heard at the end of a round.
+  [[nodiscard]] std::int64_t heard_from(std::int64_t round) const {
+    return std::max(round - lag_, std::min(round, 2 + kDoublings));
   }
 
   /// A proof wins as soon as nobody can come before it any more.
@@ -126,14 +132,14 @@ class Rounds {
     for (const Worker& w : workers_)
       if (!w.has_ended) round = std::min(round, w.round);
     for (Worker& w : workers_)
-      while (w.told.size() > 1 && (race_ || w.told.front().round < round - lag_))
+      while (w.told.size() > 1 && (race_ || w.told.front().round < heard_from(round)))
         w.told.pop_front();
   }
 
   [[nodiscard]] News heard_by(std::size_t listener) const {
     News heard;
     heard.others_ended = true;
-    const std::int64_t round = workers_[listener].round - lag_;
+    const std::int64_t round = heard_from(workers_[listener].round);
     for (std::size_t w = 0; w < workers_.size(); ++w) {
       if (w == listener) continue;
       const Worker& other = workers_[w];
