@@ -77,12 +77,12 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
       outcome_.explanation = "every combination of paths collides";
     } else {
       // What was found last need not have been reported.
-      if (report.plan && (!plan_ || cost_of(*report.plan) < plan_cost_)) {
-        outcome_.plan = report.plan;
-      } else {
-        outcome_.plan = best();
-      }
+      const bool is_last = report.plan && (!plan_ || cost_of(*report.plan) < plan_cost_);
+      outcome_.plan = is_last ? report.plan : best();
       keep_best(options_, outcome_);
+      if (report.end == sat::SearchEnd::found && outcome_.status != Status::optimal)
+        outcome_.internal_error =
+            Error{ErrorCode::internal, "the plan found does not cost the proven bound", {}};
     }
   }
 
