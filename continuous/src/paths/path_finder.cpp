@@ -124,9 +124,10 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
     const auto& forbidden =
         start_place == BanTable::kFree ? kNothingForbidden : bans.forbidden_starts(start_place);
     const auto& stays = stay_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(stay_place);
-    auto stay = std::partition_point(stays.begin(), stays.end(), [&](const BanTable::SafeStay& s) {
-      return s.until < node.arrive + duration;
-    });
+    const Ticks earliest = node.arrive + duration;
+    auto stay = std::partition_point(
+        stays.begin(), stays.end(),
+        [earliest](const BanTable::SafeStay& s) { return s.until < earliest; });
     for (; stay != stays.end(); ++stay) {
       const Ticks start = allowed_start(forbidden, std::max(node.arrive, stay->from - duration));
       const Ticks arrive = start + duration;
