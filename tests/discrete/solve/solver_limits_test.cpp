@@ -327,10 +327,15 @@ TEST(SolverLimits, ThousandAgentsAreInterruptedAtRandomMoments) {
     free_costs +=
         distances_from(instance.graph(), instance.tasks()[i].goal)[instance.tasks()[i].start];
   int num_with_plan = 0;
-  for (std::size_t round = 0; round < scaled(8); ++round) {
+  // Later and later if the machine is too busy for a plan.
+  const auto is_enough = [&](std::size_t round) {
+    return round >= scaled(8) && (num_with_plan > 0 || round >= 10 * scaled(8));
+  };
+  for (std::size_t round = 0; !is_enough(round); ++round) {
     TunedOptions options;
     options.threads = 1 + round % 2;
-    const double delay = static_cast<double>(random.below(2'500)) / 1000;
+    const double delay = static_cast<double>(random.below(2'500)) / 1000 *
+                         static_cast<double>(1 + round / scaled(8));
     SCOPED_TRACE(delay);
     const auto [outcome, late_s] = solve_interrupted(instance, options, delay);
     EXPECT_LT(late_s, kSoon);
