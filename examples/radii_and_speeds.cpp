@@ -22,8 +22,8 @@ std::shared_ptr<const Roadmap> make_roadmap() {
 
 void try_out(const char* title, Length radius, Speed leader_speed) {
   const auto instance =
-      Instance::make(make_roadmap(), {{VertexId(1), VertexId(4), radius, leader_speed},
-                                      {VertexId(0), VertexId(6), 100, 2 * kUnitSpeed}});
+      Instance::make(make_roadmap(), {{VertexId(1), VertexId(4), Disc{radius}, leader_speed},
+                                      {VertexId(0), VertexId(6), Disc{100}, 2 * kUnitSpeed}});
   std::cout << title << ": ";
   if (!instance) {  // overlapping starts, goals out of reach, ...
     std::cout << instance.error().message << "\n";

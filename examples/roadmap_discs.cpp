@@ -28,9 +28,10 @@ Result<Instance> make_instance() {
       Roadmap::make({metres(0, 0), metres(1, 0), metres(2, 0), metres(1, 0.8)}, std::move(edges));
   if (!roadmap) return roadmap.error();
   const Length radius = *quantise_radius(0.3, kResolution);
-  return Instance::make(std::make_shared<const Roadmap>(std::move(roadmap).value()),
-                        {{west, east, radius, kUnitSpeed}, {east, west, radius, kUnitSpeed}},
-                        kResolution);
+  return Instance::make(
+      std::make_shared<const Roadmap>(std::move(roadmap).value()),
+      {{west, east, Disc{radius}, kUnitSpeed}, {east, west, Disc{radius}, kUnitSpeed}},
+      kResolution);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ std::string describe_agents(const Instance& instance) {
   }
   const double resolution = instance.resolution();
   return fmt::format(
-      "classes    {} of agents with equal radius and speed\n"
+      "classes    {} of agents with equal body and speed\n"
       "distances  sum {}, largest {} (lower bounds of sum of costs, makespan)\n",
       instance.num_classes(), in_input_units(sum, resolution), in_input_units(largest, resolution));
 }

@@ -94,6 +94,23 @@ std::string range(double least, double most) {
   return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
 }
 
+/// There are agents.
+std::string describe_bodies(const Instance& instance) {
+  continuous::Length small = geometry::kMaxLength, large = 0;
+  std::size_t polygons = 0;
+  for (const continuous::Agent& agent : instance.agents()) {
+    const continuous::Length reach = geometry::enclosing_radius(agent.body);
+    small = std::min(small, reach);
+    large = std::max(large, reach);
+    if (std::holds_alternative<continuous::ConvexPolygon>(agent.body)) ++polygons;
+  }
+  const std::string radii = range(continuous::in_input_units(small, instance.resolution()),
+                                  continuous::in_input_units(large, instance.resolution()));
+  if (polygons == 0) return fmt::format("radius {}", radii);
+  return fmt::format("{} polygon{}, all in discs of radius {}", polygons, polygons == 1 ? "" : "s",
+                     radii);
+}
+
 }  // namespace
 
 void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
@@ -217,15 +234,10 @@ std::string describe_input(const RoadmapInput& input) {
     text += fmt::format("agents     {} from {}", instance.num_agents(), input.task_source);
     if (input.rows != instance.num_agents()) text += fmt::format(" (of {})", input.rows);
     if (instance.num_agents() > 0) {
-      const auto [small, large] =
-          std::minmax_element(instance.agents().begin(), instance.agents().end(),
-                              [](const auto& a, const auto& b) { return a.radius < b.radius; });
       const auto [slow, fast] =
           std::minmax_element(instance.agents().begin(), instance.agents().end(),
                               [](const auto& a, const auto& b) { return a.speed < b.speed; });
-      text += fmt::format(", radius {}, speed {}",
-                          range(continuous::in_input_units(small->radius, resolution),
-                                continuous::in_input_units(large->radius, resolution)),
+      text += fmt::format(", {}, speed {}", describe_bodies(instance),
                           range(continuous::speed_in_input_units(slow->speed),
                                 continuous::speed_in_input_units(fast->speed)));
     }

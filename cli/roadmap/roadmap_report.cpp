@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string_view>
+#include <string>
+#include <variant>
 
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -20,10 +21,30 @@ using continuous::Instance;
 using continuous::SolveOutcome;
 using continuous::VerifyReport;
 
-/// In two lines.
-constexpr std::string_view kClaim[] = {
-    "exact in ticks and length units: coordinates and durations rounded to the nearest,",
-    "radii down; departures at whole ticks; touching allowed"};
+/// What an answer says exactly, in two lines.
+std::string claim(const Instance* instance, const char* separator) {
+  const bool has_polygons =
+      instance != nullptr &&
+      std::any_of(instance->agents().begin(), instance->agents().end(), [](const auto& agent) {
+        return std::holds_alternative<continuous::ConvexPolygon>(agent.body);
+      });
+  return fmt::format(
+      "exact in ticks and length units: coordinates and durations rounded to the nearest,{}"
+      "radii down{}; departures at whole ticks; touching allowed",
+      separator, has_polygons ? ", corners of polygons towards zero" : "");
+}
+
+Json body_json(const continuous::Body& body, double resolution) {
+  Json json;
+  if (const auto* disc = std::get_if<continuous::Disc>(&body)) {
+    json["radius"] = in_input_units(disc->radius, resolution);
+    return json;
+  }
+  for (const auto& corner : std::get<continuous::ConvexPolygon>(body).vertices())
+    json["polygon"].push_back(
+        {in_input_units(corner.x, resolution), in_input_units(corner.y, resolution)});
+  return json;
+}
 
 std::optional<continuous::Clearance> least_clearance(const VerifyReport& check) {
   const auto least = std::min_element(check.clearances.begin(), check.clearances.end(),
@@ -76,16 +97,16 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   json.add("lower_bound_ticks", has_bound ? Json(outcome.lower_bound) : Json(nullptr));
   json.add_gap(outcome);
   json.add("resolution", instance != nullptr ? Json(resolution) : Json(nullptr));
-  json.add("claim", fmt::format("{} {}", kClaim[0], kClaim[1]));
+  json.add("claim", claim(instance, " "));
   json.add_end_of_search(outcome);
   json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
-  Json radii;  // null
+  Json bodies;  // null
   if (instance != nullptr) {
-    radii = Json::array();
+    bodies = Json::array();
     for (const continuous::Agent& agent : instance->agents())
-      radii.push_back(in_input_units(agent.radius, resolution));
+      bodies.push_back(body_json(agent.body, resolution));
   }
-  json.add("radii", radii);
+  json.add("bodies", bodies);
   const auto clearance = least_clearance(check);
   json.add("least_clearance",
            outcome.plan && clearance ? Json(rounded(clearance->gap, resolution)) : Json(nullptr));
@@ -118,7 +139,7 @@ std::string describe_outcome(const Instance& instance, Objective objective,
   });
   if (outcome.plan) text += describe_check(instance, check);
   if (outcome.plan || outcome.status == Status::infeasible)
-    text += fmt::format("claim      {}\n           {}\n", kClaim[0], kClaim[1]);
+    text += fmt::format("claim      {}\n", claim(&instance, "\n           "));
   return text;
 }
 

@@ -2,6 +2,8 @@
 #include "quadrille/geometry/body.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "planar.hpp"
@@ -52,6 +54,19 @@ Result<ConvexPolygon> ConvexPolygon::make(std::vector<Point> vertices) {
   if (half_turns != 2) return invalid("not convex");
   if (orientation < 0) std::reverse(vertices.begin() + 1, vertices.end());
   return ConvexPolygon(std::move(vertices));
+}
+
+Length enclosing_radius(const Body& body) {
+  if (const auto* disc = std::get_if<Disc>(&body)) return disc->radius;
+  Wide square = 0;
+  for (const Point& corner : std::get<ConvexPolygon>(body).vertices())
+    square = std::max(square, Wide{corner.x.count()} * corner.x.count() +
+                                  Wide{corner.y.count()} * corner.y.count());
+  // At most 2^81: the root of the rounded number is off by less than a unit.
+  auto radius = static_cast<std::int64_t>(std::sqrt(static_cast<long double>(square)));
+  while (Wide{radius} * radius < square) ++radius;
+  while (radius > 0 && Wide{radius - 1} * (radius - 1) >= square) --radius;
+  return Length(radius);
 }
 
 }  // namespace quadrille::geometry

@@ -36,7 +36,7 @@ class RoadmapInputTest : public RoadmapCliTest {
     const auto json = nlohmann::json::parse(run(arguments).out);
     EXPECT_EQ(json.at("status"), "infeasible");
     EXPECT_THAT(std::string(json.at("explanation")), HasSubstr(reason));
-    for (const char* key : {"plan", "cost", "lower_bound", "agents", "radii", "resolution"})
+    for (const char* key : {"plan", "cost", "lower_bound", "agents", "bodies", "resolution"})
       EXPECT_TRUE(json.at(key).is_null()) << key;
   }
   /// The roadmap of map.xml with another task.

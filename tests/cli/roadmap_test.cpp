@@ -49,7 +49,7 @@ TEST_F(RoadmapTest, JsonHasAllThatIsDocumented) {
                           "explanation",
                           "internal_error",
                           "agents",
-                          "radii",
+                          "bodies",
                           "least_clearance",
                           "statistics",
                           "gap_percent",
@@ -64,7 +64,7 @@ TEST_F(RoadmapTest, JsonHasAllThatIsDocumented) {
   EXPECT_EQ(result["cost_ticks"], 5015);
   EXPECT_EQ(result["lower_bound_ticks"], 5015);
   EXPECT_EQ(result["resolution"], 0.001);
-  EXPECT_EQ(result["radii"], json({0.3, 0.25}));
+  EXPECT_EQ(result["bodies"], json::array({{{"radius", 0.3}}, {{"radius", 0.25}}}));
   EXPECT_EQ(result["seed"], 9);
   EXPECT_EQ(result["options"]["time_limit"], 30);
   EXPECT_EQ(result["options"]["instance"], path("discs.json"));

@@ -37,5 +37,19 @@ TEST(ConvexPolygon, RefusesWhatIsNone) {
   EXPECT_TRUE(ConvexPolygon::make(many).has_value());
 }
 
+TEST(EnclosingRadius, IsTheFarthestCornerRoundedUp) {
+  const auto of = [](std::vector<Point> corners) {
+    return enclosing_radius(ConvexPolygon::make(std::move(corners)).value());
+  };
+  EXPECT_EQ(enclosing_radius(Disc{7}), Length{7});
+  EXPECT_EQ(of({{3, 4}, {-1, 0}, {0, -1}}), Length{5});
+  EXPECT_EQ(of({{3, 5}, {-1, 0}, {0, -1}}), Length{6});  // 5.83
+  EXPECT_EQ(of({{1, 1}, {-1, 0}, {0, -1}}), Length{2});  // 1.41
+  const Length far = kMaxLength;
+  EXPECT_EQ(of({{far, 0}, {0, far}, {0, 0}}), far);
+  EXPECT_EQ(of({{far, 1}, {0, far}, {0, 0}}), Length(far + 1));
+  EXPECT_EQ(of({{far, far}, {0, 1}, {0, 0}}), Length(1'554'944'255'988));  // sqrt(2) 2^40, up
+}
+
 }  // namespace
 }  // namespace quadrille::geometry

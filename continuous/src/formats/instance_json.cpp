@@ -5,7 +5,9 @@
 #include <istream>
 #include <memory>
 #include <ostream>
+#include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "formats/json_numbers.hpp"
@@ -80,9 +82,13 @@ class InstanceReader {
   }
 
   bool read_coordinate(Node node, Length& length) {
+    return read_length(node, quantise_coordinate, length);
+  }
+
+  bool read_length(Node node, std::optional<Length> (*quantise)(double, double), Length& length) {
     double value = 0;
     if (!check_.number(node, value)) return false;
-    const auto units = quantise_coordinate(value, resolution_);
+    const auto units = quantise(value, resolution_);
     if (!units)
       return check_.fail(node, ErrorCode::out_of_range,
                          "the coordinate is too large for the resolution");
@@ -130,20 +136,52 @@ class InstanceReader {
   bool read_agents(Node agents) {
     if (!check_.array(agents, "agents")) return false;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, goal, radius, speed;
+      std::optional<Node> start, goal, radius, polygon, speed;
       Agent agent;
       if (!check_.members(a, {{"start", &start},
                               {"goal", &goal},
-                              {"radius", &radius},
+                              {"radius", &radius, false},
+                              {"polygon", &polygon, false},
                               {"speed", &speed, false}}) ||
           !read_vertex_number(*start, agent.start) || !read_vertex_number(*goal, agent.goal) ||
-          !read_radius(*radius, agent.radius) || (speed && !read_speed(*speed, agent.speed)))
+          !read_body(a, radius, polygon, agent.body) || (speed && !read_speed(*speed, agent.speed)))
         return false;
       agents_.push_back(agent);
       places_.push_back({document_.file(), document_.line(a)});
     }
     return true;
   }
+
+  bool read_body(Node agent, std::optional<Node> radius, std::optional<Node> polygon, Body& body) {
+    if (radius && polygon)
+      return check_.fail(*polygon, "an agent has a radius or a polygon, not both");
+    if (polygon) return read_polygon(*polygon, body);
+    if (!radius) return check_.fail(agent, "one of the keys 'radius' and 'polygon' is missing");
+    Disc disc;
+    if (!read_radius(*radius, disc.radius)) return false;
+    body = disc;
+    return true;
+  }
+
+  bool read_polygon(Node node, Body& body) {
+    if (!check_.array(node, "corners")) return false;
+    std::vector<Point> corners;
+    for (Node c = document_.first(node); c < document_.next(node); c = document_.next(c)) {
+      if (!check_.array(c, "coordinates", 2)) return false;
+      const Node x = document_.first(c);
+      Point corner;
+      if (!read_corner(x, corner.x) || !read_corner(document_.next(x), corner.y)) return false;
+      corners.push_back(corner);
+    }
+    auto polygon = ConvexPolygon::make(std::move(corners));
+    if (!polygon)
+      return check_.fail(node, polygon.error().code,
+                         polygon.error().message + ", in whole length units");
+    body = std::move(polygon).value();
+    return true;
+  }
+
+  bool read_corner(Node node, Length& length) { return read_length(node, quantise_corner, length); }
 
   bool read_radius(Node node, Length& radius) {
     double value = 0;
@@ -173,6 +211,21 @@ class InstanceReader {
   std::vector<Agent> agents_;
   std::vector<SourcePlace> places_;
 };
+
+/// The member of an agent that says what it looks like.
+std::string body_json(const Body& body, double resolution) {
+  if (const auto* disc = std::get_if<Disc>(&body))
+    return "\"radius\": " + json_number(radius_in_input_units(disc->radius, resolution));
+  std::string text = "\"polygon\": [";
+  const char* separator = "";
+  for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) {
+    text += std::string(separator) + "[" +
+            json_number(corner_in_input_units(corner.x, resolution)) + ", " +
+            json_number(corner_in_input_units(corner.y, resolution)) + "]";
+    separator = ", ";
+  }
+  return text + "]";
+}
 
 }  // namespace
 
@@ -226,8 +279,7 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   separator = "\n";
   for (const Agent& agent : instance.agents()) {
     out << separator << "    {\"start\": " << agent.start.index()
-        << ", \"goal\": " << agent.goal.index()
-        << ", \"radius\": " << json_number(radius_in_input_units(agent.radius, resolution))
+        << ", \"goal\": " << agent.goal.index() << ", " << body_json(agent.body, resolution)
         << ", \"speed\": " << json_number(speed_in_input_units(agent.speed)) << "}";
     separator = ",\n";
   }

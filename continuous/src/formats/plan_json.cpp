@@ -27,7 +27,7 @@ class JsonPlanReader {
                        {"cost_ticks", &ticks, false},
                        {"lower_bound_ticks", &bound_ticks, false},
                        {"claim", &unread[0], false},
-                       {"radii", &unread[1], false},
+                       {"bodies", &unread[1], false},
                        {"least_clearance", &unread[2], false}},
                       file_.stated) ||
         !read_resolution(*resolution) || !read_costs(ticks, bound_ticks) || !header_.plan(paths) ||

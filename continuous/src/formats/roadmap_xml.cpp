@@ -268,7 +268,7 @@ Result<std::vector<Agent>> make_agents(const TaskXml& task, std::size_t num_agen
                    std::string("the ") + (start ? "goal" : "start") + " of agent " +
                        std::to_string(i) + " is no vertex of the map",
                    {task.file, row.line}};
-    agents.push_back({*start, *goal, radius, speed});
+    agents.push_back({*start, *goal, Disc{radius}, speed});
   }
   return agents;
 }

@@ -153,6 +153,34 @@ std::optional<std::vector<Edge>> edges_within(Length reach, const RandomInstance
   return edges;
 }
 
+/// A convex polygon with four to eight corners on the circle, one or two in each quadrant; a disc
+/// if the circle is too small for the grid of whole units. In integers, hence the same everywhere:
+/// for t in [0, 1), (1 - t^2, 2 t) / (1 + t^2) is a point of the circle's first quadrant.
+Body draw_polygon(Length radius, Random& random) {
+  constexpr std::int64_t kSteps = 1000;
+  const auto corner = [&](std::int64_t t) {
+    const std::int64_t whole = kSteps * kSteps + t * t;
+    const auto part = [&](std::int64_t share) {
+      return Length(static_cast<std::int64_t>(Area{radius.count()} * share / whole));
+    };
+    return Point{part(kSteps * kSteps - t * t), part(2 * kSteps * t)};
+  };
+  std::vector<Point> corners;
+  for (int quadrant = 0; quadrant < 4; ++quadrant) {
+    std::vector<std::int64_t> places{static_cast<std::int64_t>(random.below(kSteps / 3))};
+    if (random.below(2) == 1)
+      places.push_back(kSteps / 2 + static_cast<std::int64_t>(random.below(kSteps / 3)));
+    for (const std::int64_t t : places) {
+      Point p = corner(t);
+      for (int turn = 0; turn < quadrant; ++turn) p = {-p.y, p.x};
+      corners.push_back(p);
+    }
+  }
+  auto polygon = ConvexPolygon::make(std::move(corners));
+  if (polygon) return std::move(polygon).value();
+  return Disc{radius};
+}
+
 std::vector<Agent> draw_agents(const RandomInstanceOptions& options, Random& random) {
   std::vector<std::size_t> starts(options.num_vertices), goals(options.num_vertices);
   std::iota(starts.begin(), starts.end(), std::size_t{0});
@@ -166,10 +194,11 @@ std::vector<Agent> draw_agents(const RandomInstanceOptions& options, Random& ran
   };
   std::vector<Agent> agents;
   for (std::size_t i = 0; i < options.num_agents; ++i) {
-    Agent agent{VertexId(starts[i]), VertexId(goals[i]), options.radius, options.speed};
+    Agent agent{VertexId(starts[i]), VertexId(goals[i]), Disc{options.radius}, options.speed};
     if (options.mixed) {
-      agent.radius = Length(upper_half(options.radius.count()));
+      const Length radius(upper_half(options.radius.count()));
       agent.speed = Speed(upper_half(options.speed.count()));
+      agent.body = random.below(2) == 0 ? Body(Disc{radius}) : draw_polygon(radius, random);
     }
     agents.push_back(agent);
   }

@@ -7,9 +7,12 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "model/areas.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -26,9 +29,10 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
     if (v.index() >= roadmap.num_vertices())
       return invalid(name(index) + " names vertex " + std::to_string(v.index()) +
                      ", but there are " + std::to_string(roadmap.num_vertices()) + " vertices");
-  if (agent.radius < 1 || agent.radius > geometry::kMaxLength)
+  const Length reach = geometry::enclosing_radius(agent.body);
+  if (reach < 1 || reach > geometry::kMaxLength)
     return Error{ErrorCode::out_of_range,
-                 name(index) + " has a radius of " + std::to_string(agent.radius.count()) +
+                 name(index) + " has a radius of " + std::to_string(reach.count()) +
                      " length units, not 1 .. " + std::to_string(geometry::kMaxLength.count()),
                  {}};
   if (agent.speed < 1 || agent.speed > kMaxSpeed)
@@ -41,23 +45,22 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
 
 /// An agent that overlaps an earlier one when each is at its start (goal).
 std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                 std::size_t j, VertexId Agent::*place, const std::string& what) {
-  for (std::size_t i = 0; i < j; ++i)
-    if (squared_distance(roadmap.position(agents[i].*place), roadmap.position(agents[j].*place)) <
-        square(agents[i].radius + agents[j].radius))
+                                 VertexId Agent::*place, const std::string& what, std::size_t& at) {
+  std::vector<Length> reaches;
+  for (const Agent& agent : agents) reaches.push_back(geometry::enclosing_radius(agent.body));
+  for (std::size_t j = 0; j < agents.size(); ++j) {
+    const Point& q = roadmap.position(agents[j].*place);
+    for (std::size_t i = 0; i < j; ++i) {
+      const Point& p = roadmap.position(agents[i].*place);
+      if (squared_distance(p, q) >= square(reaches[i] + reaches[j]) ||
+          !geometry::bodies_overlap(agents[i].body, p, agents[j].body, q))
+        continue;
+      at = j;
       return no_plan("the " + what + " of agents " + std::to_string(i) + " and " +
                      std::to_string(j) + " overlap");
+    }
+  }
   return std::nullopt;
-}
-
-std::optional<Error> check_start_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                       std::size_t j) {
-  return check_apart(roadmap, agents, j, &Agent::start, "starts");
-}
-
-std::optional<Error> check_goal_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                      std::size_t j) {
-  return check_apart(roadmap, agents, j, &Agent::goal, "goals");
 }
 
 bool can_reach(const Roadmap& roadmap, VertexId start, VertexId goal) {
@@ -77,13 +80,35 @@ bool can_reach(const Roadmap& roadmap, VertexId start, VertexId goal) {
   return seen[goal.index()];
 }
 
-std::optional<Error> check_reachable(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                     std::size_t i) {
-  const Agent& agent = agents[i];
+std::optional<Error> check_reachable(const Roadmap& roadmap, const Agent& agent,
+                                     std::size_t index) {
   if (can_reach(roadmap, agent.start, agent.goal)) return std::nullopt;
-  return no_plan(name(i) + " cannot reach its goal: there is no way from vertex " +
+  return no_plan(name(index) + " cannot reach its goal: there is no way from vertex " +
                  std::to_string(agent.start.index()) + " to vertex " +
                  std::to_string(agent.goal.index()));
+}
+
+/// What is wrong with the agents; then `at` is the one to blame.
+std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                               std::size_t& at) {
+  for (at = 0; at < agents.size(); ++at)
+    if (auto error = check(roadmap, agents, at)) return error;
+  if (auto error = check_apart(roadmap, agents, &Agent::start, "starts", at)) return error;
+  if (auto error = check_apart(roadmap, agents, &Agent::goal, "goals", at)) return error;
+  for (at = 0; at < agents.size(); ++at)
+    if (auto error = check_reachable(roadmap, agents[at], at)) return error;
+  return std::nullopt;
+}
+
+/// Equal for equal bodies; radii and corners, in order.
+std::vector<Length> numbers_of(const Body& body) {
+  if (const auto* disc = std::get_if<Disc>(&body)) return {disc->radius};
+  std::vector<Length> numbers;
+  for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) {
+    numbers.push_back(corner.x);
+    numbers.push_back(corner.y);
+  }
+  return numbers;
 }
 
 /// `agent`: somebody of this speed.
@@ -116,16 +141,15 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
   QUADRILLE_REQUIRE(places.empty() || places.size() == agents.size(), "one place per agent");
   if (!(std::isfinite(resolution) && resolution > 0))
     return Error{ErrorCode::out_of_range, "the resolution has to be positive and finite", {}};
-  for (const auto& step : {check, check_start_apart, check_goal_apart, check_reachable})
-    for (std::size_t i = 0; i < agents.size(); ++i)
-      if (auto error = step(*roadmap, agents, i)) {
-        if (!places.empty()) error->where = places[i];
-        return *error;
-      }
+  std::size_t at = 0;
+  if (auto error = check_all(*roadmap, agents, at)) {
+    if (!places.empty()) error->where = places[at];
+    return *error;
+  }
 
   Instance instance;
   std::map<Speed, std::size_t> speeds;
-  std::map<std::pair<Length, Speed>, ClassId> classes;
+  std::map<std::pair<std::vector<Length>, Speed>, ClassId> classes;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const Agent& agent = agents[i];
     const auto [speed, is_new] = speeds.try_emplace(agent.speed, instance.durations_.size());
@@ -138,9 +162,11 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
       }
       instance.durations_.push_back(std::move(durations).value());
     }
-    const auto key = std::make_pair(agent.radius, agent.speed);
+    const auto key = std::make_pair(numbers_of(agent.body), agent.speed);
     const auto [known, is_new_class] = classes.try_emplace(key, instance.classes_.next_id());
-    if (is_new_class) instance.classes_.push_back({agent.radius, agent.speed, speed->second});
+    if (is_new_class)
+      instance.classes_.push_back(
+          {agent.body, geometry::enclosing_radius(agent.body), agent.speed, speed->second});
     instance.class_of_.push_back(known->second);
   }
   instance.roadmap_ = std::move(roadmap);

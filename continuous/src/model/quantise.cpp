@@ -39,6 +39,12 @@ std::optional<Length> quantise_radius(double value, double resolution) {
   return Length(static_cast<std::int64_t>(std::floor(*units)));
 }
 
+std::optional<Length> quantise_corner(double value, double resolution) {
+  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength.count()));
+  if (!units) return std::nullopt;
+  return Length(static_cast<std::int64_t>(std::trunc(*units)));
+}
+
 std::optional<Ticks> quantise_duration(double value, double resolution) {
   const auto units =
       in_units(value, resolution, static_cast<double>(geometry::kMaxDuration.count()));
@@ -80,6 +86,13 @@ double radius_in_input_units(Length radius, double resolution) {
   for (int step = 0; step < 8 && quantise_radius(value, resolution) != radius; ++step)
     value = std::nextafter(value, std::numeric_limits<double>::infinity());
   return value;
+}
+
+double corner_in_input_units(Length coordinate, double resolution) {
+  if (coordinate == 0) return 0;
+  const Length size = coordinate < 0 ? -coordinate : coordinate;
+  const double value = radius_in_input_units(size, resolution);
+  return coordinate < 0 ? -value : value;
 }
 
 double speed_in_input_units(Speed speed) {

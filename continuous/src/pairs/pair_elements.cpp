@@ -41,7 +41,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
   const auto& distances = scene_.task(party.agent).distances;
   const ClassId other_class = instance.class_of(other.agent);
   const VertexId other_goal = instance.agent(other.agent).goal;
-  const Length reach_of_bodies = instance.radius(side.c) + instance.radius(other_class);
+  const Length reach_of_bodies = instance.reach(side.c) + instance.reach(other_class);
   using Entry = std::pair<Ticks, VertexId>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto reach = [&](VertexId v, Ticks ticks) {

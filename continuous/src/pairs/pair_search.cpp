@@ -74,7 +74,7 @@ PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start
                                     const Element& next, Ticks first_s, Side& y, const Element& b,
                                     Ticks first_t) {
   const Instance& instance = scene_.instance();
-  const Length reach = instance.radius(x.c) + instance.radius(y.c);
+  const Length reach = instance.reach(x.c) + instance.reach(y.c);
   const auto raise_for_start = [&](Ticks tick) {
     return std::max(raise_for_end(next, tick), raise_to_wait(y, b, first_t, tick));
   };

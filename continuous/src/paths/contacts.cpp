@@ -7,14 +7,11 @@
 namespace quadrille::continuous {
 namespace {
 
-geometry::Disc disc(const Instance& instance, ClassId c) {
-  return geometry::Disc{instance.radius(c)};
-}
-
-ClassId widest(const Instance& instance) {
-  ClassId widest(0);
+/// A disc that contains every body.
+Disc widest(const Instance& instance) {
+  Disc widest;
   for (const ClassId c : IdRange<ClassId>(instance.num_classes()))
-    if (instance.radius(c) > instance.radius(widest)) widest = c;
+    widest.radius = std::max(widest.radius, instance.reach(c));
   return widest;
 }
 
@@ -27,7 +24,7 @@ Contacts::Contacts(const Instance& instance, LimitMonitor& limits)
   for (const ClassId a : classes)
     for (const ClassId b : classes) {
       limits_.check();
-      pairs_.push_back({geometry::BodyPair(disc(instance, a), disc(instance, b)),
+      pairs_.push_back({geometry::BodyPair(instance.body(a), instance.body(b)),
                         PairTable<Offsets>(num_edges, std::max<std::size_t>(num_edges, 1)),
                         PairTable<Window>(
                             num_edges, std::max<std::size_t>(instance.roadmap().num_vertices(), 1)),
@@ -57,11 +54,10 @@ bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
       instance_.roadmap().position(v), instance_.roadmap().position(w));
 }
 
-// One tree is enough for all classes: what meets the widest body is looked at again. Edges between
+// One tree is enough for all classes: what meets the widest disc is looked at again. Edges between
 // the same two vertices sweep the same volume, in whatever direction and time.
 void Contacts::make_volumes() {
   const Roadmap& roadmap = instance_.roadmap();
-  const ClassId c = widest(instance_);
   const auto ends = [&](EdgeId e) {
     const Edge& edge = roadmap.edge(e);
     return std::minmax(edge.from, edge.to);
@@ -73,11 +69,11 @@ void Contacts::make_volumes() {
   for (std::size_t k = 0; k < segment_edges_.size(); ++k) {
     if (k > 0 && ends(segment_edges_[k]) == ends(segment_edges_[k - 1])) continue;
     segment_begins_.push_back(k);
-    motions.push_back(instance_.motion(c, segment_edges_[k]));
+    motions.push_back(instance_.motion(ClassId(0), segment_edges_[k]));
   }
   segment_begins_.push_back(segment_edges_.size());
   for (const Point& position : roadmap.positions()) motions.push_back(geometry::rest(position, 1));
-  volumes_.emplace(disc(instance_, c), std::move(motions));
+  volumes_.emplace(widest(instance_), std::move(motions));
 }
 
 const Contacts::Neighbours& Contacts::near(
@@ -91,7 +87,7 @@ const Contacts::Neighbours& Contacts::near(
     const geometry::BodyPair& bodies = pair(a, b).bodies;
     if (!volumes_) make_volumes();
     const std::size_t num_segments = segment_begins_.size() - 1;
-    for (const std::size_t index : volumes_->near(disc(instance_, a), motion)) {
+    for (const std::size_t index : volumes_->near(instance_.body(a), motion)) {
       if (index < num_segments) {
         const std::size_t begin = segment_begins_[index];
         if (bodies.can_meet(motion, instance_.motion(b, segment_edges_[begin])))

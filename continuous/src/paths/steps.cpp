@@ -26,7 +26,7 @@ bool are_far(const Instance& instance, const Step& a, const Step& b, Length reac
 }
 
 bool collide(Scene& scene, ClassId a, const Step& p, ClassId b, const Step& q) {
-  if (are_far(scene.instance(), p, q, scene.instance().radius(a) + scene.instance().radius(b)))
+  if (are_far(scene.instance(), p, q, scene.instance().reach(a) + scene.instance().reach(b)))
     return false;
   if (p.is_move && q.is_move) {
     const auto& offsets = scene.contacts().offsets(a, p.edge, b, q.edge);

@@ -232,8 +232,7 @@ bool LemmaAuditor::collides(AgentId i, EdgeId e, Ticks start, AgentId j, VertexI
 
 geometry::BodyPair LemmaAuditor::bodies(AgentId i, AgentId j) const {
   const Instance& instance = model_.instance();
-  return {geometry::Disc{instance.radius(instance.class_of(i))},
-          geometry::Disc{instance.radius(instance.class_of(j))}};
+  return {instance.body(instance.class_of(i)), instance.body(instance.class_of(j))};
 }
 
 std::string LemmaAuditor::audit_pair(const sat::Lemma& lemma) {

@@ -7,8 +7,7 @@ namespace quadrille::continuous {
 namespace {
 
 geometry::BodyPair bodies_of(const Instance& instance, AgentId i, AgentId j) {
-  return {geometry::Disc{instance.radius(instance.class_of(i))},
-          geometry::Disc{instance.radius(instance.class_of(j))}};
+  return {instance.body(instance.class_of(i)), instance.body(instance.class_of(j))};
 }
 
 }  // namespace

@@ -4,15 +4,15 @@
 #include "quadrille/continuous/verify.hpp"
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "verify/footprints.hpp"
+
 namespace quadrille::continuous {
 namespace {
 
-using Integer = boost::multiprecision::cpp_int;
 using Kind = Violation::Kind;
 
 /// A stretch of a path along which the agent goes straight, or stands (from == to).
@@ -117,55 +117,34 @@ std::vector<Piece> pieces(const Roadmap& roadmap, const Path& path, Ticks horizo
   return result;
 }
 
-/// The distance of two pieces from `begin` to `end`, in floating point.
-struct Nearest {
-  long double distance;
-  long double tick;
-};
-
-Nearest nearest(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
+/// Where b is as seen from a, at `begin` and at `end`, in floating point.
+RealStep real_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) {
     return static_cast<long double>((p.from.*axis).count()) +
            static_cast<long double>((p.to.*axis - p.from.*axis).count()) *
                static_cast<long double>((tick - p.begin).count()) /
                static_cast<long double>((p.end - p.begin).count());
   };
-  const auto gap = [&](Ticks tick, Length Point::*axis) {
-    return at(a, tick, axis) - at(b, tick, axis);
+  const auto apart = [&](Ticks tick) {
+    return RealPoint{at(b, tick, &Point::x) - at(a, tick, &Point::x),
+                     at(b, tick, &Point::y) - at(a, tick, &Point::y)};
   };
-  const long double x0 = gap(begin, &Point::x), y0 = gap(begin, &Point::y);
-  const long double dx = gap(end, &Point::x) - x0, dy = gap(end, &Point::y) - y0;
-  const long double length2 = dx * dx + dy * dy;
-  long double share = length2 > 0 ? -(x0 * dx + y0 * dy) / length2 : 0;
-  share = std::clamp(share, 0.0L, 1.0L);
-  return {std::hypot(x0 + share * dx, y0 + share * dy),
-          static_cast<long double>(begin.count()) +
-              share * static_cast<long double>((end - begin).count())};
+  return {apart(begin), apart(end)};
 }
 
-/// Whether the centres come nearer than `reach` from `begin` to `end`. Exact: the difference of the
-/// positions, multiplied by both durations, is an integer vector that moves along a segment.
-bool come_nearer(const Piece& a, const Piece& b, Ticks begin, Ticks end, Length reach) {
+/// The same, exactly: multiplied by both durations, positions are integers.
+ExactStep exact_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
+  const Integer duration_a = (a.end - a.begin).count(), duration_b = (b.end - b.begin).count();
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) -> Integer {
     return Integer((p.from.*axis).count()) * (p.end - p.begin).count() +
            Integer((p.to.*axis - p.from.*axis).count()) * (tick - p.begin).count();
   };
-  const auto gap = [&](Ticks tick, Length Point::*axis) -> Integer {
-    return at(a, tick, axis) * (b.end - b.begin).count() -
-           at(b, tick, axis) * (a.end - a.begin).count();
+  const auto apart = [&](Ticks tick, Length Point::*axis) -> Integer {
+    return at(b, tick, axis) * duration_a - at(a, tick, axis) * duration_b;
   };
-  const Integer x0 = gap(begin, &Point::x), y0 = gap(begin, &Point::y);
-  const Integer x1 = gap(end, &Point::x), y1 = gap(end, &Point::y);
-  const Integer scaled =
-      Integer(reach.count()) * (a.end - a.begin).count() * (b.end - b.begin).count();
-  const Integer reach2 = scaled * scaled;
-  if (x0 * x0 + y0 * y0 < reach2 || x1 * x1 + y1 * y1 < reach2) return true;
-  const Integer dx = x1 - x0, dy = y1 - y0;
-  // The foot of the perpendicular from the origin is inside the segment only if both ends look away
-  // from each other; its distance is |cross| / length.
-  if (x0 * dx + y0 * dy >= 0 || x1 * dx + y1 * dy <= 0) return false;
-  const Integer cross = x0 * y1 - y0 * x1;
-  return cross * cross < reach2 * (dx * dx + dy * dy);
+  return {{apart(begin, &Point::x), apart(begin, &Point::y)},
+          {apart(end, &Point::x), apart(end, &Point::y)},
+          duration_a * duration_b};
 }
 
 std::string describe(const Piece& piece) {
@@ -178,27 +157,28 @@ std::string describe(const Piece& piece) {
 struct Collision {
   Piece a, b;
   Ticks begin, end;
-  Nearest nearest;
+  Clearance nearest;
 };
 
-std::string describe(AgentId i, AgentId j, const Collision& c, Length reach) {
-  const auto number = [](long double value) {
+std::string describe(AgentId i, AgentId j, const Collision& c) {
+  const auto number = [](double value) {
     return std::to_string(static_cast<std::int64_t>(std::llround(value)));
   };
-  const long double overlap = static_cast<long double>(reach.count()) - c.nearest.distance;
+  const double overlap = -c.nearest.gap;
   return "agents " + std::to_string(i.index()) + " and " + std::to_string(j.index()) +
          " collide between ticks " + std::to_string(c.begin.count()) + " and " +
          std::to_string(c.end.count()) + ", while agent " + std::to_string(i.index()) + " " +
          describe(c.a) + " and agent " + std::to_string(j.index()) + " " + describe(c.b) +
          ": nearest at about tick " + number(c.nearest.tick) + ", " +
-         (overlap < 1.5L ? "one length unit or less"
-                         : "about " + number(overlap) + " length units") +
+         (overlap < 1.5 ? "one length unit or less"
+                        : "about " + number(overlap) + " length units") +
          " too close";
 }
 
 class PairCheck {
  public:
-  PairCheck(Length reach, Clearance& clearance) : reach_(reach), clearance_(clearance) {
+  PairCheck(const Body& a, const Body& b, Clearance& clearance)
+      : pair_(a, b), clearance_(clearance) {
     clearance.gap = std::numeric_limits<double>::infinity();
   }
 
@@ -207,8 +187,8 @@ class PairCheck {
     std::optional<Collision> collision;
     for (std::size_t k = 0, l = 0; k < a.size() && l < b.size();) {
       const Ticks begin = std::max(a[k].begin, b[l].begin), end = std::min(a[k].end, b[l].end);
-      if (look(a[k], b[l], begin, end) && !collision)
-        collision = Collision{a[k], b[l], begin, end, nearest(a[k], b[l], begin, end)};
+      const auto found = look(a[k], b[l], begin, end);
+      if (found && !collision) collision = Collision{a[k], b[l], begin, end, *found};
       if (a[k].end < b[l].end)
         ++k;
       else if (b[l].end < a[k].end)
@@ -220,19 +200,24 @@ class PairCheck {
   }
 
  private:
-  bool look(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
-    const Nearest near = nearest(a, b, begin, end);
-    const auto reach = static_cast<long double>(reach_.count());
-    if (static_cast<double>(near.distance - reach) < clearance_.gap) {
-      clearance_.gap = static_cast<double>(near.distance - reach);
-      clearance_.tick = static_cast<double>(near.tick);
-    }
+  /// How near they come, if they collide.
+  std::optional<Clearance> look(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
+    const RealStep step = real_step(a, b, begin, end);
+    const long double least = pair_.least_gap(step);
+    if (least >= 1 && static_cast<double>(least) >= clearance_.gap) return std::nullopt;
+    const FootprintPair::Nearest near = pair_.nearest(step);
+    Clearance here = clearance_;
+    here.gap = static_cast<double>(near.gap);
+    here.tick = static_cast<double>(static_cast<long double>(begin.count()) +
+                                    near.share * static_cast<long double>((end - begin).count()));
+    if (here.gap < clearance_.gap) clearance_ = here;
     // Coordinates are below 2^42 and the rounding error of `nearest`, even where long double is
     // double, below 2^-6: those that are a whole unit apart need no exact look.
-    return near.distance < reach + 1 && come_nearer(a, b, begin, end, reach_);
+    if (near.gap >= 1 || !pair_.interiors_meet(exact_step(a, b, begin, end))) return std::nullopt;
+    return here;
   }
 
-  const Length reach_;
+  const FootprintPair pair_;
   Clearance& clearance_;
 };
 
@@ -249,11 +234,11 @@ void check_pairs(const Instance& instance, const Plan& plan, const IdVector<Agen
     for (const AgentId j : instance.agent_ids()) {
       if (!(i < j && sound[i] && sound[j])) continue;
       Clearance clearance{i, j};
-      const Length reach = instance.agent(i).radius + instance.agent(j).radius;
-      const auto found = PairCheck(reach, clearance).check(trips[i], trips[j]);
+      const auto found = PairCheck(instance.agent(i).body, instance.agent(j).body, clearance)
+                             .check(trips[i], trips[j]);
       report.clearances.push_back(clearance);
       if (found)
-        collisions.push_back({Kind::collision, i, j, found->begin, describe(i, j, *found, reach)});
+        collisions.push_back({Kind::collision, i, j, found->begin, describe(i, j, *found)});
     }
   }
   std::stable_sort(collisions.begin(), collisions.end(),

@@ -21,7 +21,7 @@ void expect(std::vector<Point> points, const Roads& roads, const Roads& one_way,
     std::vector<Point> scaled = points;
     for (Point& p : scaled) p = {scale * p.x, scale * p.y};
     std::vector<Agent> scaled_agents = agents;
-    for (Agent& a : scaled_agents) a.radius *= scale;
+    for (Agent& a : scaled_agents) std::get<Disc>(a.body).radius *= scale;
     const auto instance = Instance::make(roadmap(scaled, roads, one_way), scaled_agents).value();
     LimitMonitor limits({});
     Scene scene(instance, limits);

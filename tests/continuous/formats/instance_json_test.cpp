@@ -28,8 +28,9 @@ TEST(RoadmapJson, ReadsTheExample) {
   EXPECT_EQ(instance.roadmap().edge(EdgeId(4)), (Edge{VertexId(1), VertexId(3), std::nullopt}));
   EXPECT_EQ(instance.roadmap().edge(EdgeId(5)), (Edge{VertexId(3), VertexId(1), Ticks{1500}}));
   ASSERT_EQ(instance.num_agents(), 2u);
-  EXPECT_EQ(instance.agent(AgentId(0)), (Agent{VertexId(0), VertexId(2), 300, kUnitSpeed}));
-  EXPECT_EQ(instance.agent(AgentId(1)), (Agent{VertexId(2), VertexId(0), 250, 2 * kUnitSpeed}));
+  EXPECT_EQ(instance.agent(AgentId(0)), (Agent{VertexId(0), VertexId(2), Disc{300}, kUnitSpeed}));
+  EXPECT_EQ(instance.agent(AgentId(1)),
+            (Agent{VertexId(2), VertexId(0), Disc{250}, 2 * kUnitSpeed}));
 }
 
 TEST(RoadmapJson, IsToldFromOtherInstances) {
@@ -80,7 +81,20 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithLineAndReason) {
       {"\"speed\": 2", "\"speed\": null", "f:11: /agents/1/speed: expected a number"},
       {"0.25", "0", "f:11: /agents/1/radius: the radius is less than one length unit"},
       {"0.25", "0.0009", "f:11: /agents/1/radius: the radius is less than one length unit"},
-      {", \"radius\": 0.25", "", "f:11: /agents/1: the key 'radius' is missing"},
+      {", \"radius\": 0.25", "",
+       "f:11: /agents/1: one of the keys 'radius' and 'polygon' is missing"},
+      {"\"radius\": 0.25", "\"radius\": 0.25, \"polygon\": []",
+       "f:11: /agents/1/polygon: an agent has a radius or a polygon, not both"},
+      {"\"radius\": 0.25", "\"polygon\": 1", "f:11: /agents/1/polygon: expected a list"},
+      {"\"radius\": 0.25", "\"polygon\": [[0, 0], [1, 0]]", "f:11: /agents/1/polygon: polygon: "},
+      {"\"radius\": 0.25", "\"polygon\": [[0, 0], [1, 0], [2]]",
+       "f:11: /agents/1/polygon/2: expected 2 coordinates, found 1"},
+      {"\"radius\": 0.25", "\"polygon\": [[0, 0], [1, 0], [2, \"x\"]]",
+       "f:11: /agents/1/polygon/2/1: expected a number"},
+      {"\"radius\": 0.25", "\"polygon\": [[0, 0], [1e300, 0], [0, 1]]",
+       "f:11: /agents/1/polygon/1/0: the coordinate is too large"},
+      {"\"radius\": 0.25", "\"polygon\": [[0, 0], [1, 0], [2, 0.0009]]",
+       "f:11: /agents/1/polygon: polygon: three consecutive corners are on a line"},
       {"\"start\": 2", "\"start\": 9", "f:11: /agents/1/start: there is no vertex 9 among 4"},
       {"\"start\": 2", "\"start\": 0", "f:11: the starts of agents 0 and 1 overlap"},
       {"\"goal\": 0", "\"goal\": 2", "f:11: the goals of agents 0 and 1 overlap"},

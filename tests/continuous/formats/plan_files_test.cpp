@@ -235,7 +235,7 @@ TEST(TimedPlanFiles, LogsOnGridsNameCells) {
   const GridRoadmap grid = GridRoadmap::make(cells, 3, 1000, 1e-6).value();
   const VertexId start = *grid.vertex({0, 1}), goal = *grid.vertex({1, 1});
   const Instance instance =
-      Instance::make(grid.roadmap(), {{start, goal, 1000, kUnitSpeed}}).value();
+      Instance::make(grid.roadmap(), {{start, goal, Disc{1000}, kUnitSpeed}}).value();
   Plan plan;
   plan.paths.push_back({{start, 0, 7}, {goal, 1'000'007, 1'000'007}});
   std::stringstream file;

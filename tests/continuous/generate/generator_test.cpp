@@ -28,6 +28,7 @@ double turn(const Point& a, const Point& b, const Point& c) {
 }
 
 TEST(RandomRoadmap, KeepsItsPromises) {
+  int polygons = 0, discs = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE(seed);
     RandomInstanceOptions options;
@@ -58,12 +59,24 @@ TEST(RandomRoadmap, KeepsItsPromises) {
       }
     }
     for (const Agent& agent : instance.agents()) {
-      EXPECT_LE(agent.radius, options.radius);
-      EXPECT_GE(2 * agent.radius, options.mixed ? options.radius : 2 * options.radius);
+      const Length radius = geometry::enclosing_radius(agent.body);
+      EXPECT_LE(radius, options.radius);
+      // The corners of polygons are rounded.
+      EXPECT_GE(2 * radius + 4, options.mixed ? options.radius : 2 * options.radius);
+      if (const auto* polygon = std::get_if<ConvexPolygon>(&agent.body)) {
+        EXPECT_TRUE(options.mixed);
+        EXPECT_GE(polygon->vertices().size(), 4u);
+        EXPECT_LE(polygon->vertices().size(), 8u);
+        ++polygons;
+      } else {
+        ++discs;
+      }
       EXPECT_LE(agent.speed, kUnitSpeed);
       EXPECT_GE(2 * agent.speed, kUnitSpeed);
     }
   }
+  EXPECT_GT(polygons, 5);
+  EXPECT_GT(discs, 5 + polygons);
 }
 
 TEST(RandomRoadmap, HasAllEdgesWithinTheReach) {

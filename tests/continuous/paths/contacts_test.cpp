@@ -67,11 +67,11 @@ TEST(Contacts, AreThoseOfTheMotions) {
         Case c{instance, contacts, meetings, ClassId(a), ClassId(b)};
         for (const EdgeId e : IdRange<EdgeId>(instance.roadmap().num_edges()))
           compare_with_edge(c, e, count);
-        const Length reach = instance.radius(c.a) + instance.radius(c.b);
         for (const VertexId v : IdRange<VertexId>(instance.roadmap().num_vertices()))
           for (const VertexId w : IdRange<VertexId>(instance.roadmap().num_vertices())) {
             const Point p = instance.roadmap().position(v), q = instance.roadmap().position(w);
-            const bool is_overlap = meet({p, p, 0, 1}, {q, q, 0, 1}, reach);
+            const bool is_overlap =
+                meet({p, p, 0, 1}, instance.body(c.a), {q, q, 0, 1}, instance.body(c.b));
             EXPECT_EQ(contacts.overlap(c.a, v, c.b, w), is_overlap);
             if (is_overlap) {
               EXPECT_TRUE(has(contacts.near_vertex(c.a, v, c.b).vertices, w));

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <variant>
+
+#include "geometry/oracle.hpp"
 
 namespace quadrille::continuous::test {
 namespace {
@@ -66,9 +69,14 @@ Ticks last_true(Ticks yes, Ticks no, const Predicate& is_so) {
   return yes;
 }
 
-}  // namespace
+/// The sum of the radii of two discs.
+std::optional<Length> reach_of(const Body& a, const Body& b) {
+  const auto *disc_a = std::get_if<Disc>(&a), *disc_b = std::get_if<Disc>(&b);
+  if (disc_a == nullptr || disc_b == nullptr) return std::nullopt;
+  return disc_a->radius + disc_b->radius;
+}
 
-bool meet(const Element& a, const Element& b, Length reach) {
+bool discs_meet(const Element& a, const Element& b, Length reach) {
   const Nearest n = nearest(a, b);
   const Wide scaled_reach = n.scale * reach.count();
   return n.square && less(*n.square, {scaled_reach * scaled_reach});
@@ -76,14 +84,14 @@ bool meet(const Element& a, const Element& b, Length reach) {
 
 // Positions are linear in time, so the distance is a convex function of two moments, and what is
 // least at each difference between these is one of the difference: it falls and then rises.
-std::optional<Run> meeting_starts(const Element& a, const Element& b, Length reach) {
+std::optional<Run> disc_starts(const Element& a, const Element& b, Length reach) {
   const auto apart = [](Length a0, Length a1, Length b0, Length b1, Length by) {
     return std::max(a0, a1) + by <= std::min(b0, b1) || std::max(b0, b1) + by <= std::min(a0, a1);
   };
   if (apart(a.from.x, a.to.x, b.from.x, b.to.x, reach) ||
       apart(a.from.y, a.to.y, b.from.y, b.to.y, reach))
     return std::nullopt;
-  const auto meets = [&](Ticks d) { return meet(a, moved(b, d), reach); };
+  const auto meets = [&](Ticks d) { return discs_meet(a, moved(b, d), reach); };
   // These are the differences at which they share a moment.
   Ticks low = a.begin - b.end, high = a.end - b.begin;
   while (low < high && !meets(low + (high - low) / 2)) {
@@ -101,13 +109,39 @@ std::optional<Run> meeting_starts(const Element& a, const Element& b, Length rea
              last_true(low, a.end - b.begin + 1, meets)};
 }
 
-std::optional<Clearance> clearance(const Element& move, Point place, Length reach) {
+}  // namespace
+
+bool meet(const Element& a, const Body& body_a, const Element& b, const Body& body_b) {
+  if (const auto reach = reach_of(body_a, body_b)) return discs_meet(a, b, *reach);
+  const auto motion = [](const Element& e) {
+    return geometry::Motion{e.from, e.to, e.end - e.begin};
+  };
+  return geometry::oracle::Oracle<Wide>(body_a, motion(a), body_b, motion(b))
+      .collide(b.begin - a.begin);
+}
+
+// For polygons all differences are tried: the elements have to be short.
+std::optional<Run> meeting_starts(const Element& a, const Body& body_a, const Element& b,
+                                  const Body& body_b) {
+  if (const auto reach = reach_of(body_a, body_b)) return disc_starts(a, b, *reach);
+  std::optional<Run> run;
+  for (Ticks d = a.begin - b.end; d <= a.end - b.begin; d += 1) {
+    if (!meet(a, body_a, moved(b, d), body_b)) continue;
+    if (!run) run = Run{d, d};
+    run->last = d;
+  }
+  return run;
+}
+
+std::optional<Clearance> clearance(const Element& move, const Body& mover, Point place,
+                                   const Body& resident) {
   const Ticks before = move.begin - 1, after = move.end + 1;
-  if (!meet(move, {place, place, before, after}, reach)) return std::nullopt;
-  const auto meets_until = [&](Ticks t) { return meet(move, {place, place, before, t}, reach); };
-  const auto meets_from = [&](Ticks t) { return meet(move, {place, place, t, after}, reach); };
-  const Ticks leave = last_true(after, before, meets_until) - 1;
-  const Ticks arrive = last_true(before, after, meets_from) + 1;
+  const auto meets = [&](Ticks from, Ticks until) {
+    return meet(move, mover, {place, place, from, until}, resident);
+  };
+  if (!meets(before, after)) return std::nullopt;
+  const Ticks leave = last_true(after, before, [&](Ticks t) { return meets(before, t); }) - 1;
+  const Ticks arrive = last_true(before, after, [&](Ticks t) { return meets(t, after); }) + 1;
   return Clearance{move.begin - leave, arrive - move.begin};
 }
 
@@ -123,7 +157,9 @@ const std::optional<Run>& Meetings::moves(ClassId a, EdgeId e, ClassId b, EdgeId
   Known<Run>& known =
       moves_[((a.index() * instance_.num_classes() + b.index()) * edges + e.index()) * edges +
              f.index()];
-  if (!known.is_known) known = {true, meeting_starts(element(a, e), element(b, f), reach(a, b))};
+  if (!known.is_known)
+    known = {true,
+             meeting_starts(element(a, e), instance_.body(a), element(b, f), instance_.body(b))};
   return known.value;
 }
 
@@ -134,7 +170,8 @@ const std::optional<Clearance>& Meetings::stay(ClassId a, EdgeId e, ClassId b, V
       stays_[((a.index() * instance_.num_classes() + b.index()) * edges + e.index()) * vertices +
              v.index()];
   if (!known.is_known)
-    known = {true, clearance(element(a, e), instance_.roadmap().position(v), reach(a, b))};
+    known = {true, clearance(element(a, e), instance_.body(a), instance_.roadmap().position(v),
+                             instance_.body(b))};
   return known.value;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// When discs meet, for the oracle: one predicate over given moments, in exact arithmetic of its
+// When bodies meet, for the oracle: one predicate over given moments, in exact arithmetic of its
 // own. Everything else is found by trying moments.
 #pragma once
 
@@ -11,14 +11,14 @@
 
 namespace quadrille::continuous::test {
 
-/// What a disc does for a while, both ends included: a move, or a stay if the places are the same.
+/// What a body does for a while, both ends included: a move, or a stay if the places are the same.
 struct Element {
   Point from, to;
   Ticks begin = 0, end = 0;
 };
 
-/// Whether discs whose radii sum up to `reach` overlap at some moment that the elements share.
-[[nodiscard]] bool meet(const Element& a, const Element& b, Length reach);
+/// Whether the bodies overlap at some moment that the elements share.
+[[nodiscard]] bool meet(const Element& a, const Body& body_a, const Element& b, const Body& body_b);
 
 /// Whole ticks from the first to the last.
 struct Run {
@@ -26,7 +26,8 @@ struct Run {
 };
 
 /// By how much `b` can be put off if the moves are to meet; b may also begin earlier.
-[[nodiscard]] std::optional<Run> meeting_starts(const Element& a, const Element& b, Length reach);
+[[nodiscard]] std::optional<Run> meeting_starts(const Element& a, const Body& body_a,
+                                                const Element& b, const Body& body_b);
 
 /// What keeps a move clear of a stay: either of these.
 struct Clearance {
@@ -34,7 +35,8 @@ struct Clearance {
   Ticks before_arrival = 0;  ///< The stay begins so long after the begin of the move, at least.
 };
 /// Nothing if the move passes the place at a distance.
-[[nodiscard]] std::optional<Clearance> clearance(const Element& move, Point place, Length reach);
+[[nodiscard]] std::optional<Clearance> clearance(const Element& move, const Body& mover,
+                                                 Point place, const Body& resident);
 
 /// The answers for an instance, each computed when it is first asked for.
 class Meetings {
@@ -50,9 +52,6 @@ class Meetings {
     std::optional<T> value;
   };
   [[nodiscard]] Element element(ClassId c, EdgeId e) const;
-  [[nodiscard]] Length reach(ClassId a, ClassId b) const {
-    return instance_.radius(a) + instance_.radius(b);
-  }
 
   const Instance& instance_;
   std::vector<Known<Run>> moves_;

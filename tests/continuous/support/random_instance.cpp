@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "continuous/support/random_instance.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+#include <variant>
 
 namespace quadrille::continuous::test {
 namespace {
@@ -29,6 +32,33 @@ Result<Roadmap> draw_roadmap(Draw& draw, const RandomOptions& options) {
   return Roadmap::make(std::move(points), std::move(edges));
 }
 
+/// Three to six corners; the agent's position may be outside.
+Body draw_polygon(Draw& draw, Length max_radius) {
+  while (true) {
+    std::vector<Point> corners;
+    for (std::int64_t k = draw.number(3, 6); k > 0; --k)
+      corners.push_back(
+          {draw.length(-max_radius, max_radius), draw.length(-max_radius, max_radius)});
+    // Around their middle, so that many are convex.
+    const auto turn = [](const Point& p) {
+      return std::atan2(static_cast<double>(p.y.count()), static_cast<double>(p.x.count()));
+    };
+    std::sort(corners.begin(), corners.end(),
+              [&](const Point& p, const Point& q) { return turn(p) < turn(q); });
+    auto polygon = ConvexPolygon::make(std::move(corners));
+    if (polygon) return std::move(polygon).value();
+  }
+}
+
+std::string describe(const Body& body) {
+  if (const auto* disc = std::get_if<Disc>(&body))
+    return "r" + std::to_string(disc->radius.count());
+  std::string text = "p";
+  for (const Point& corner : std::get<ConvexPolygon>(body).vertices())
+    text += "(" + std::to_string(corner.x.count()) + "," + std::to_string(corner.y.count()) + ")";
+  return text;
+}
+
 }  // namespace
 
 Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
@@ -44,13 +74,15 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
         return VertexId(static_cast<std::size_t>(
             draw.number(0, static_cast<std::int64_t>(shared->num_vertices()) - 1)));
       };
-      Agent agent{vertex(), vertex(), draw.length(1, options.max_radius),
-                  draw.chance(70) ? kUnitSpeed : kUnitSpeed * draw.number(1, 6) / 3};
-      if (are_equal && i > 0) {
-        agent.radius = agents[0].radius;
-        agent.speed = agents[0].speed;
-      }
-      agents.push_back(agent);
+      const VertexId start = vertex(), goal = vertex();
+      Body body = draw.chance(options.polygon_percent)
+                      ? draw_polygon(draw, options.max_radius)
+                      : Body(Disc{draw.length(1, options.max_radius)});
+      const Speed speed = draw.chance(70) ? kUnitSpeed : kUnitSpeed * draw.number(1, 6) / 3;
+      if (are_equal && i > 0)
+        agents.push_back({start, goal, agents[0].body, agents[0].speed});
+      else
+        agents.push_back({start, goal, std::move(body), speed});
     }
     auto instance = Instance::make(shared, std::move(agents));
     if (instance) return std::move(instance).value();
@@ -76,8 +108,8 @@ std::string describe(const Instance& instance) {
   }
   text += "; agents";
   for (const Agent& a : instance.agents())
-    text += " " + std::to_string(a.start.index()) + "->" + std::to_string(a.goal.index()) + " r" +
-            std::to_string(a.radius.count()) + " v" + std::to_string(a.speed.count());
+    text += " " + std::to_string(a.start.index()) + "->" + std::to_string(a.goal.index()) + " " +
+            describe(a.body) + " v" + std::to_string(a.speed.count());
   return text;
 }
 

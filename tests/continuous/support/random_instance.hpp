@@ -31,9 +31,10 @@ struct RandomOptions {
   std::size_t num_vertices = 6;
   std::size_t num_agents = 3;
   Length size = 40;          ///< Coordinates are below.
-  Length max_radius = 9;     ///< Drawn from 1 on.
+  Length max_radius = 9;     ///< Drawn from 1 on; of polygons the largest coordinate.
   int edge_percent = 45;     ///< Of the pairs of vertices.
   int one_way_percent = 10;  ///< Of the edges.
+  int polygon_percent = 20;  ///< Of the agents.
   bool equal_agents = false;
 };
 

@@ -28,7 +28,7 @@ using Roads = std::vector<std::pair<std::size_t, std::size_t>>;
 
 [[nodiscard]] inline Agent agent(std::size_t start, std::size_t goal, Length radius,
                                  Speed speed = kUnitSpeed) {
-  return {VertexId(start), VertexId(goal), radius, speed};
+  return {VertexId(start), VertexId(goal), Disc{radius}, speed};
 }
 
 }  // namespace quadrille::continuous::test

@@ -61,7 +61,7 @@ class Judge {
     }
     const Point p = instance_.roadmap().position(VertexId(ban.place));
     const Point q = instance_.roadmap().position(goal);
-    return meet({p, p, 0, 1}, {q, q, 0, 1}, instance_.radius(c) + instance_.radius(d)) &&
+    return meet({p, p, 0, 1}, instance_.body(c), {q, q, 0, 1}, instance_.body(d)) &&
            ban.when.begin + 1 > tick;
   }
 

@@ -59,8 +59,20 @@ Result<Instance> changed(const Instance& instance, auto move, auto change_agent)
                         std::move(agents));
 }
 
+/// The body with its corners moved; a disc stays as it is.
+Body moved_body(const Body& body, auto move) {
+  if (std::holds_alternative<Disc>(body)) return body;
+  std::vector<Point> corners;
+  for (const Point& p : std::get<ConvexPolygon>(body).vertices()) corners.push_back(move(p));
+  return ConvexPolygon::make(std::move(corners)).value();
+}
+
+Body scaled_body(const Body& body, std::int64_t factor) {
+  if (const auto* disc = std::get_if<Disc>(&body)) return Disc{factor * disc->radius};
+  return moved_body(body, [&](Point p) { return Point{factor * p.x, factor * p.y}; });
+}
+
 constexpr auto kStay = [](Point p) { return p; };
-constexpr auto kKeep = [](Agent&, AgentId) {};
 
 bool valid(const Instance& instance, const Plan& plan) { return verify(instance, plan).valid(); }
 
@@ -128,17 +140,24 @@ TEST(VerifyMetamorphic, PathsOfOtherAgentsAreRejected) {
 
 TEST(VerifyMetamorphic, MovingMirroringAndTurningTheRoadmapChangesNothing) {
   for (const Case& c : cases()) {
-    const auto same = [&](auto move) {
-      const Instance moved = changed(c.instance, move, kKeep).value();
+    const auto same = [&](auto turn, Point by) {
+      const auto move = [&](Point p) {
+        p = turn(p);
+        return Point{p.x + by.x, p.y + by.y};
+      };
+      const auto turn_body = [&](Agent& agent, AgentId) {
+        agent.body = moved_body(agent.body, turn);
+      };
+      const Instance moved = changed(c.instance, move, turn_body).value();
       const auto before = verify(c.instance, c.plan), after = verify(moved, c.plan);
       EXPECT_TRUE(after.valid());
       for (std::size_t k = 0; k < before.clearances.size(); ++k)
         EXPECT_NEAR(before.clearances[k].gap, after.clearances[k].gap, 1e-9);
     };
-    same([](Point p) { return Point{p.x + 123'456'789, p.y - 987'654'321}; });
-    same([](Point p) { return Point{-p.x, p.y}; });
-    same([](Point p) { return Point{p.y, p.x}; });
-    same([](Point p) { return Point{-p.y, p.x}; });
+    same([](Point p) { return p; }, {123'456'789, -987'654'321});
+    same([](Point p) { return Point{-p.x, p.y}; }, {});
+    same([](Point p) { return Point{p.y, p.x}; }, {});
+    same([](Point p) { return Point{-p.y, p.x}; }, {});
   }
 }
 
@@ -147,14 +166,15 @@ TEST(VerifyMetamorphic, TheReportedClearanceIsTheRoomThereIs) {
   for (const Case& c : cases()) {
     const auto report = verify(c.instance, c.plan);
     for (const Clearance& clearance : report.clearances) {
+      if (!std::holds_alternative<Disc>(c.instance.agent(clearance.agent).body)) continue;
       const auto room = Length(static_cast<std::int64_t>(std::floor(clearance.gap)));
       // The one agent grows; what others have to say about that does not matter.
       const auto grown = [&](Length by) {
         return changed(c.instance, kStay, [&](Agent& agent, AgentId i) {
           if (i == clearance.agent)
-            agent.radius += by;
+            std::get<Disc>(agent.body).radius += by;
           else if (i != clearance.other)
-            agent.radius = 1;
+            agent.body = Disc{1};
         });
       };
       const auto collide = [&](const Instance& instance) {
@@ -192,7 +212,7 @@ TEST(VerifyMetamorphic, ScalingSpaceAndTimeScalesTheClearance) {
       edges[e].duration = kFactor * c.instance.duration(ClassId(0), EdgeId(e));
     std::vector<Agent> agents;
     for (Agent agent : c.instance.agents()) {
-      agent.radius *= kFactor;
+      agent.body = scaled_body(agent.body, kFactor);
       agents.push_back(agent);
     }
     const Instance scaled =
@@ -254,8 +274,7 @@ TEST(VerifyMetamorphic, DelayedPlansCollideIfAndOnlyIfTheGeometrySaysSo) {
       for (const AgentId i : c.instance.agent_ids())
         for (const AgentId j : c.instance.agent_ids()) {
           if (!(i < j)) continue;
-          const geometry::BodyPair pair(geometry::Disc{c.instance.agent(i).radius},
-                                        geometry::Disc{c.instance.agent(j).radius});
+          const geometry::BodyPair pair(c.instance.agent(i).body, c.instance.agent(j).body);
           for (const auto& [a, start_a] : motions(c.instance.roadmap(), plan.paths[i], end))
             for (const auto& [b, start_b] : motions(c.instance.roadmap(), plan.paths[j], end))
               collide = collide || pair.collide(a, b, start_b - start_a);

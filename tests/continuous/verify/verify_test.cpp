@@ -18,8 +18,8 @@ Instance crossing(Length radius_a, Length radius_b) {
       {{-100, 0}, {100, 0}, {0, -100}, {0, 100}},
       {{VertexId(0), VertexId(1), std::nullopt}, {VertexId(2), VertexId(3), std::nullopt}});
   return Instance::make(std::make_shared<const Roadmap>(std::move(roadmap).value()),
-                        {{VertexId(0), VertexId(1), radius_a, kUnitSpeed},
-                         {VertexId(2), VertexId(3), radius_b, kUnitSpeed}})
+                        {{VertexId(0), VertexId(1), Disc{radius_a}, kUnitSpeed},
+                         {VertexId(2), VertexId(3), Disc{radius_b}, kUnitSpeed}})
       .value();
 }
 
@@ -58,8 +58,9 @@ TEST(ContinuousVerify, TouchingIsAllowedAndOneUnitLessIsNot) {
                                 {VertexId(2), VertexId(3), std::nullopt}});
   const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
   for (const Length radius : {Length{500}, Length{501}}) {
-    const auto instance = Instance::make(shared, {{VertexId(0), VertexId(2), 500, kUnitSpeed},
-                                                  {VertexId(1), VertexId(3), radius, kUnitSpeed}});
+    const auto instance =
+        Instance::make(shared, {{VertexId(0), VertexId(2), Disc{500}, kUnitSpeed},
+                                {VertexId(1), VertexId(3), Disc{radius}, kUnitSpeed}});
     if (radius == 501) {  // the starts overlap already
       EXPECT_FALSE(instance);
       continue;
@@ -85,9 +86,10 @@ TEST(ContinuousVerify, PassingInTouchIsAllowedInTheMiddleOfAMoveToo) {
                                {{VertexId(0), VertexId(1), std::nullopt}});
   const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
   for (const Length radius : {Length{300}, Length{301}}) {
-    const auto instance = Instance::make(shared, {{VertexId(0), VertexId(1), radius, kUnitSpeed},
-                                                  {VertexId(2), VertexId(2), 300, kUnitSpeed}})
-                              .value();
+    const auto instance =
+        Instance::make(shared, {{VertexId(0), VertexId(1), Disc{radius}, kUnitSpeed},
+                                {VertexId(2), VertexId(2), Disc{300}, kUnitSpeed}})
+            .value();
     Plan plan;
     plan.paths.push_back({{VertexId(0), 0, 0}, {VertexId(1), 10000, 10000}});
     plan.paths.push_back({{VertexId(2), 0, 0}});
@@ -121,8 +123,8 @@ TEST(ContinuousVerify, GoalStaysLastForEver) {
                                 {VertexId(1), VertexId(2), std::nullopt},
                                 {VertexId(3), VertexId(1), std::nullopt}});
   const auto instance = Instance::make(std::make_shared<const Roadmap>(std::move(roadmap).value()),
-                                       {{VertexId(0), VertexId(2), 10, kUnitSpeed},
-                                        {VertexId(3), VertexId(1), 10, kUnitSpeed}})
+                                       {{VertexId(0), VertexId(2), Disc{10}, kUnitSpeed},
+                                        {VertexId(3), VertexId(1), Disc{10}, kUnitSpeed}})
                             .value();
   Plan plan;
   plan.paths.push_back(

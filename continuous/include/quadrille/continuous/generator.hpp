@@ -27,7 +27,7 @@ struct RandomInstanceOptions {
   /// Edges between all vertices that are no further apart, 1 .. kMaxLength; absent: those of the
   /// Gabriel graph.
   std::optional<Length> reach;
-  bool mixed = false;  ///< Radii and speeds from half of these up, at random.
+  bool mixed = false;  ///< Radii and speeds from half of these up; half of the agents are polygons.
   double resolution = kDefaultResolution;
 };
 
@@ -37,7 +37,8 @@ struct RandomInstanceOptions {
 /// the roadmap is connected, no two edges cross, and no edge comes nearer than 2 radius to a vertex
 /// that is not its end: an agent at rest is in the way of nobody but those who pass its vertex.
 /// With a `reach` nothing of that holds: the roadmap is as dense as that makes it, and may fall
-/// apart. Starts are distinct, and so are goals; a start may be its own goal or another agent's.
+/// apart. Polygons of mixed fleets have four to eight corners on a circle of the radius drawn.
+/// Starts are distinct, and so are goals; a start may be its own goal or another agent's.
 /// The same options and seed give the same instance on every platform. Errors: out_of_range for
 /// options outside the ranges above, for vertices that do not fit into the area, and for more than
 /// kMaxRandomEdges; no_plan if a goal cannot be reached, which needs a small reach. O(vertices^2 *

@@ -7,6 +7,7 @@
 
 #include "quadrille/continuous/roadmap.hpp"
 #include "quadrille/core/export.hpp"
+#include "quadrille/geometry/body.hpp"
 #include "quadrille/geometry/motion.hpp"
 
 QUADRILLE_API_BEGIN
@@ -18,30 +19,37 @@ using Speed = Quantity<struct SpeedUnit>;
 inline constexpr Speed kUnitSpeed = 1'000'000;
 inline constexpr Speed kMaxSpeed{1'000'000'000'000};
 
-/// A disc with a task.
+using geometry::Body;
+using geometry::ConvexPolygon;
+using geometry::Disc;
+
+/// A body with a task.
 struct Agent {
   VertexId start;
   VertexId goal;
-  Length radius = 1;
+  /// A disc, or a convex polygon, which keeps its orientation on all moves: a robot that turns is
+  /// the disc around all its orientations.
+  Body body = Disc{};
   Speed speed = kUnitSpeed;
   friend bool operator==(const Agent&, const Agent&) = default;
 };
 
-/// Agents of the same radius and speed are alike.
+/// Agents of the same body and speed are alike.
 using ClassId = StrongId<struct ClassTag>;
 
 /// How a number of the input becomes integers: `resolution` is the size of a length unit and of a
 /// tick in the input's units of length and time.
 inline constexpr double kDefaultResolution = 1e-6;
 
-/// A MAPF_R instance: a roadmap and one disc with a task per agent, all in whole ticks and length
+/// A MAPF_R instance: a roadmap and one body with a task per agent, all in whole ticks and length
 /// units. Agents wait at vertices only, a whole number of ticks, move along edges at constant
-/// speed, and stay at their goal for ever. Two agents collide when the interiors of their discs
+/// speed, and stay at their goal for ever. Two agents collide when the interiors of their bodies
 /// meet; touching is allowed. Immutable; cheap to copy (the roadmap is shared).
 class Instance {
  public:
   /// Durations that the roadmap does not give are length / speed, rounded to the nearest tick.
-  /// Errors: out_of_range for a radius outside [1, geometry::kMaxLength], a speed outside
+  /// Errors: out_of_range for a radius outside [1, geometry::kMaxLength], a polygon with a corner
+  /// further than that from the agent's position, a speed outside
   /// [1, kMaxSpeed], a duration outside [1, geometry::kMaxDuration], a resolution that is not
   /// positive and finite; invalid_instance for vertices that do not exist; no_plan for overlapping
   /// starts, overlapping goals (interiors) and goals that cannot be reached. Agents are named by
@@ -63,7 +71,9 @@ class Instance {
 
   [[nodiscard]] std::size_t num_classes() const noexcept { return classes_.size(); }
   [[nodiscard]] ClassId class_of(AgentId i) const { return class_of_[i]; }
-  [[nodiscard]] Length radius(ClassId c) const { return classes_[c].radius; }
+  [[nodiscard]] const Body& body(ClassId c) const { return classes_[c].body; }
+  /// geometry::enclosing_radius(body(c)).
+  [[nodiscard]] Length reach(ClassId c) const { return classes_[c].reach; }
   [[nodiscard]] Ticks duration(ClassId c, EdgeId e) const {
     return durations_[classes_[c].durations][e.index()];
   }
@@ -74,7 +84,8 @@ class Instance {
 
  private:
   struct Class {
-    Length radius = 1;
+    Body body;
+    Length reach = 1;
     Speed speed = kUnitSpeed;
     std::size_t durations = 0;  // into durations_, one per speed
   };

@@ -19,6 +19,8 @@ namespace quadrille::continuous {
 [[nodiscard]] std::optional<Length> quantise_coordinate(double value, double resolution);
 /// A radius, rounded down: less than one length unit is lost. nullopt if nothing is left.
 [[nodiscard]] std::optional<Length> quantise_radius(double value, double resolution);
+/// A coordinate of a corner of a body, towards zero: less than one length unit is lost.
+[[nodiscard]] std::optional<Length> quantise_corner(double value, double resolution);
 /// A duration, to the nearest tick. nullopt if that is none.
 [[nodiscard]] std::optional<Ticks> quantise_duration(double value, double resolution);
 /// A speed, to the nearest Speed; the resolution cancels out. nullopt if that is 0.
@@ -39,6 +41,7 @@ namespace quadrille::continuous {
 /// A coordinate.
 [[nodiscard]] double in_input_units(Length length, double resolution);
 [[nodiscard]] double radius_in_input_units(Length radius, double resolution);
+[[nodiscard]] double corner_in_input_units(Length coordinate, double resolution);
 [[nodiscard]] double speed_in_input_units(Speed speed);
 /// Whether `value`, in the input's units, is `units` up to half a unit.
 [[nodiscard]] bool is_about(double value, std::int64_t units, double resolution);

@@ -51,6 +51,11 @@ class ConvexPolygon {
 /// The shape of an agent. Its boundary does not count: bodies collide when their *interiors* meet.
 using Body = std::variant<Disc, ConvexPolygon>;
 
+/// The radius of the smallest disc around the agent's position that contains the body, rounded up
+/// to a whole length unit: of a disc its radius. At most sqrt(2) kMaxLength, rounded up. Linear in
+/// the number of corners.
+[[nodiscard]] Length enclosing_radius(const Body& body);
+
 }  // namespace quadrille::geometry
 
 QUADRILLE_API_END

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "verify/footprints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+namespace quadrille::continuous {
+namespace {
+
+const Disc* disc_of(const Body& body) { return std::get_if<Disc>(&body); }
+
+const std::vector<Point>& corners_of(const Body& body) {
+  return std::get<ConvexPolygon>(body).vertices();
+}
+
+RealPoint operator-(RealPoint p, RealPoint q) { return {p.x - q.x, p.y - q.y}; }
+long double dot(RealPoint p, RealPoint q) { return p.x * q.x + p.y * q.y; }
+long double cross(RealPoint p, RealPoint q) { return p.x * q.y - p.y * q.x; }
+long double length(RealPoint p) { return std::hypot(p.x, p.y); }
+RealPoint between(const RealStep& step, long double share) {
+  return {step.from.x + share * (step.to.x - step.from.x),
+          step.from.y + share * (step.to.y - step.from.y)};
+}
+
+/// Where on the segment the point is nearest: a share of it in [0, 1].
+long double nearest_share(RealPoint p, RealPoint from, RealPoint to) {
+  const RealPoint along = to - from;
+  const long double square = dot(along, along);
+  return square > 0 ? std::clamp(dot(p - from, along) / square, 0.0L, 1.0L) : 0;
+}
+
+std::vector<RealPoint> real_corners(const Body& body, int sign) {
+  std::vector<RealPoint> corners;
+  for (const Point& corner : corners_of(body))
+    corners.push_back({sign * static_cast<long double>(corner.x.count()),
+                       sign * static_cast<long double>(corner.y.count())});
+  return corners;
+}
+
+/// All sums of a point of one convex polygon and one of the other, both counter-clockwise: their
+/// sides sorted by direction, from the lowest (then leftmost) corners on.
+std::vector<RealPoint> sum_of(std::vector<RealPoint> p, std::vector<RealPoint> q) {
+  const auto is_lower = [](RealPoint a, RealPoint b) {
+    return a.y < b.y || (a.y == b.y && a.x < b.x);
+  };
+  for (auto* polygon : {&p, &q})
+    std::rotate(polygon->begin(), std::min_element(polygon->begin(), polygon->end(), is_lower),
+                polygon->end());
+  const auto side = [](const std::vector<RealPoint>& polygon, std::size_t k) {
+    return polygon[(k + 1) % polygon.size()] - polygon[k];
+  };
+  std::vector<RealPoint> sum;
+  for (std::size_t k = 0, l = 0; k < p.size() || l < q.size();) {
+    const RealPoint &a = p[k % p.size()], &b = q[l % q.size()];
+    sum.push_back({a.x + b.x, a.y + b.y});
+    const long double turn = k == p.size() ? -1 : l == q.size() ? 1 : cross(side(p, k), side(q, l));
+    if (turn >= 0) ++k;
+    if (turn <= 0) ++l;
+  }
+  return sum;
+}
+
+long double farthest(const std::vector<RealPoint>& points) {
+  long double most = 0;
+  for (const RealPoint p : points) most = std::max(most, length(p));
+  return most;
+}
+
+// --- exact ---
+
+ExactPoint operator-(const ExactPoint& p, const ExactPoint& q) { return {p.x - q.x, p.y - q.y}; }
+Integer dot(const ExactPoint& p, const ExactPoint& q) { return p.x * q.x + p.y * q.y; }
+Integer cross(const ExactPoint& p, const ExactPoint& q) { return p.x * q.y - p.y * q.x; }
+
+std::vector<ExactPoint> scaled_corners(const Body& body, const Integer& scale) {
+  std::vector<ExactPoint> corners;
+  for (const Point& corner : corners_of(body))
+    corners.push_back({scale * corner.x.count(), scale * corner.y.count()});
+  return corners;
+}
+
+/// Whether the point is nearer to the segment than the root of `square`.
+bool is_nearer(const ExactPoint& p, const ExactPoint& from, const ExactPoint& to,
+               const Integer& square) {
+  const ExactPoint along = to - from, at = p - from;
+  const Integer ahead = dot(at, along), size = dot(along, along);
+  if (ahead <= 0) return dot(at, at) < square;
+  if (ahead >= size) {
+    const ExactPoint beyond = p - to;
+    return dot(beyond, beyond) < square;
+  }
+  // Inside its stretch the distance is |cross| / length.
+  const Integer area = cross(along, at);
+  return area * area < square * size;
+}
+
+/// Whether each segment has points on both sides of the other.
+bool cut_each_other(const ExactPoint& p, const ExactPoint& q, const ExactPoint& r,
+                    const ExactPoint& s) {
+  const auto are_apart = [](const Integer& u, const Integer& v) {
+    return (u > 0 && v < 0) || (u < 0 && v > 0);
+  };
+  return are_apart(cross(q - p, r - p), cross(q - p, s - p)) &&
+         are_apart(cross(s - r, p - r), cross(s - r, q - r));
+}
+
+/// A disc that moves past a polygon that rests. Outside of the polygon the least distance between
+/// the disc's way and a side is taken at an end of one of them, unless they cut each other.
+bool disc_meets(const ExactPoint& from, const ExactPoint& to, const Integer& radius,
+                const std::vector<ExactPoint>& corners) {
+  const Integer square = radius * radius;
+  bool is_inside = true;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const ExactPoint &p = corners[k], &q = corners[(k + 1) % corners.size()];
+    if (cross(q - p, from - p) <= 0) is_inside = false;
+    if (is_nearer(from, p, q, square) || is_nearer(to, p, q, square) ||
+        is_nearer(p, from, to, square) || cut_each_other(from, to, p, q))
+      return true;
+  }
+  return is_inside;
+}
+
+/// The moments of a step at which a linear function is below zero, cut out of those before: shares
+/// of the step, as fractions with positive denominators.
+class Moments {
+ public:
+  /// The function goes from `first` to `last`. False if no moment is left.
+  bool keep_negative(const Integer& first, const Integer& last) {
+    if (first >= 0 && last >= 0) return false;
+    // It is zero at first / (first - last).
+    if (first >= 0 && is_less(begin_, {first, first - last})) begin_ = {first, first - last};
+    if (last >= 0 && is_less({-first, last - first}, end_)) end_ = {-first, last - first};
+    return is_less(begin_, end_);
+  }
+
+ private:
+  struct Share {
+    Integer over, under;
+  };
+  static bool is_less(const Share& a, const Share& b) {
+    return a.over * b.under < b.over * a.under;
+  }
+  Share begin_{0, 1}, end_{1, 1};
+};
+
+/// The greatest value of a corner in a direction.
+Integer extent(const std::vector<ExactPoint>& corners, const ExactPoint& direction) {
+  Integer most = dot(corners.front(), direction);
+  for (const ExactPoint& corner : corners) most = std::max(most, dot(corner, direction));
+  return most;
+}
+
+/// Separating axes over time: convex polygons are apart if and only if some side of one of them has
+/// the other one beyond it, and how far beyond is linear in time. The interiors meet at the moments
+/// at which no side does that. Moments that fulfil strict inequalities form an open interval within
+/// the step; if it has no inner moment, it is empty, because the inequalities are continuous.
+bool polygons_meet(const ExactStep& step, const std::vector<ExactPoint>& a,
+                   const std::vector<ExactPoint>& b) {
+  Moments moments;
+  const auto cut = [&](const std::vector<ExactPoint>& sides, const std::vector<ExactPoint>& other,
+                       int sign) {
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      const ExactPoint side = sides[(k + 1) % sides.size()] - sides[k];
+      const ExactPoint outwards{side.y, -side.x};
+      // The other polygon is beyond the side by `apart` plus its move in that direction.
+      const ExactPoint inwards{-side.y, side.x};
+      const Integer apart = -extent(other, inwards) - dot(sides[k], outwards);
+      if (!moments.keep_negative(apart + sign * dot(step.from, outwards),
+                                 apart + sign * dot(step.to, outwards)))
+        return false;
+    }
+    return true;
+  };
+  return cut(a, b, 1) && cut(b, a, -1);
+}
+
+}  // namespace
+
+FootprintPair::FootprintPair(const Body& a, const Body& b) : a_(a), b_(b) {
+  std::vector<RealPoint> core_a{{0, 0}}, core_b{{0, 0}};
+  for (const auto& [body, core, sign] : {std::tuple(&a, &core_a, 1), std::tuple(&b, &core_b, -1)}) {
+    if (const auto* disc = disc_of(*body))
+      radius_ += static_cast<long double>(disc->radius.count());
+    else
+      *core = real_corners(*body, sign);
+  }
+  far_ = radius_ + farthest(core_a) + farthest(core_b);
+  core_ = sum_of(std::move(core_a), std::move(core_b));
+}
+
+long double FootprintPair::distance(RealPoint p) const {
+  long double outside = -std::numeric_limits<long double>::infinity();
+  long double nearest = std::numeric_limits<long double>::infinity();
+  for (std::size_t k = 0; k < core_.size(); ++k) {
+    const RealPoint from = core_[k], to = core_[(k + 1) % core_.size()];
+    const RealPoint along = to - from;
+    const long double size = length(along);
+    if (size > 0) outside = std::max(outside, cross(p - from, along) / size);
+    nearest = std::min(nearest, length(p - between({from, to}, nearest_share(p, from, to))));
+  }
+  return core_.size() > 1 && outside < 0 ? outside : nearest;
+}
+
+// The distance from a convex set, negative inside, is a convex function, and positions are linear
+// in time.
+FootprintPair::Nearest FootprintPair::nearest(const RealStep& step) const {
+  if (core_.size() == 1) {
+    const long double share = nearest_share({0, 0}, step.from, step.to);
+    return {length(between(step, share)) - radius_, share};
+  }
+  constexpr int kSteps = 110;  // (2/3)^110 < 2^-64
+  long double low = 0, high = 1;
+  for (int k = 0; k < kSteps; ++k) {
+    const long double third = (high - low) / 3;
+    if (distance(between(step, low + third)) <= distance(between(step, high - third)))
+      high -= third;
+    else
+      low += third;
+  }
+  Nearest best{distance(between(step, low)) - radius_, low};
+  for (const long double share : {0.0L, 1.0L}) {
+    const long double gap = distance(between(step, share)) - radius_;
+    if (gap < best.gap) best = {gap, share};
+  }
+  return best;
+}
+
+long double FootprintPair::least_gap(const RealStep& step) const {
+  const long double share = nearest_share({0, 0}, step.from, step.to);
+  return length(between(step, share)) - far_;
+}
+
+bool FootprintPair::interiors_meet(const ExactStep& step) const {
+  const auto *a = disc_of(a_), *b = disc_of(b_);
+  if (a != nullptr && b != nullptr) {
+    const Integer reach = step.scale * (a->radius + b->radius).count();
+    return is_nearer({0, 0}, step.from, step.to, reach * reach);
+  }
+  // Seen from b, a moves the other way.
+  if (a != nullptr)
+    return disc_meets({-step.from.x, -step.from.y}, {-step.to.x, -step.to.y},
+                      step.scale * a->radius.count(), scaled_corners(b_, step.scale));
+  if (b != nullptr)
+    return disc_meets(step.from, step.to, step.scale * b->radius.count(),
+                      scaled_corners(a_, step.scale));
+  return polygons_meet(step, scaled_corners(a_, step.scale), scaled_corners(b_, step.scale));
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <vector>
+
+#include "quadrille/continuous/instance.hpp"
+
+// Two bodies, one of which moves straight as seen from the other: how near they come, and whether
+// their interiors meet. On purpose this uses nothing of geometry/ but the shapes themselves: an
+// independent opinion.
+namespace quadrille::continuous {
+
+using Integer = boost::multiprecision::cpp_int;
+
+struct RealPoint {
+  long double x, y;
+};
+/// From where to where b's position moves as seen from a's, in length units.
+struct RealStep {
+  RealPoint from, to;
+};
+
+struct ExactPoint {
+  Integer x, y;
+};
+/// The same, multiplied by `scale`, which is positive.
+struct ExactStep {
+  ExactPoint from, to;
+  Integer scale;
+};
+
+class FootprintPair {
+ public:
+  /// Both bodies outlive this. Linear in the number of corners.
+  FootprintPair(const Body& a, const Body& b);
+
+  /// The least gap along the step, in length units, and when: a share of the step in [0, 1].
+  struct Nearest {
+    long double gap, share;
+  };
+  /// Negative when the bodies overlap: by as much one of them has to be moved to touch the other.
+  /// For two discs in constant time; else linear in the number of corners, times the steps of a
+  /// search.
+  [[nodiscard]] Nearest nearest(const RealStep& step) const;
+  /// At most nearest(step).gap, at once.
+  [[nodiscard]] long double least_gap(const RealStep& step) const;
+
+  /// Whether the interiors meet at some moment of the step. Exact.
+  [[nodiscard]] bool interiors_meet(const ExactStep& step) const;
+
+ private:
+  /// How far b's position is from `core_`: negative inside.
+  [[nodiscard]] long double distance(RealPoint p) const;
+
+  const Body &a_, &b_;
+  long double far_ = 0;  // beyond this distance of the positions the bodies do not meet
+  // The bodies touch where b's position is `radius_` from the convex polygon `core_`, which is a's
+  // polygon and the mirror image of b's, added up; a single point for two discs.
+  long double radius_ = 0;
+  std::vector<RealPoint> core_;
+};
+
+}  // namespace quadrille::continuous

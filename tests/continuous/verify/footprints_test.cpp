@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "verify/footprints.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "continuous/support/random_instance.hpp"
+#include "geometry/oracle.hpp"
+#include "quadrille/geometry/body_pair.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+/// A motion of b past a, which rests, during `kTicks` ticks.
+struct Case {
+  Body a, b;
+  Point from, to;
+};
+constexpr Ticks kTicks{7};
+
+Case draw_case(std::uint32_t seed) {
+  Draw draw(seed);
+  RandomOptions options;
+  options.num_agents = 2;
+  options.polygon_percent = 70;
+  const Instance instance = random_instance(seed, options);
+  const auto place = [&] { return Point{draw.length(-20, 20), draw.length(-20, 20)}; };
+  const Point from = place();
+  return {instance.agent(AgentId(0)).body, instance.agent(AgentId(1)).body, from,
+          draw.chance(15) ? from : place()};
+}
+
+ExactStep exact(const Case& c, std::int64_t scale) {
+  const auto at = [&](const Point& p) {
+    return ExactPoint{Integer(scale * p.x.count()), Integer(scale * p.y.count())};
+  };
+  return {at(c.from), at(c.to), Integer(scale)};
+}
+
+RealStep real(const Case& c) {
+  const auto at = [](const Point& p) {
+    return RealPoint{static_cast<long double>(p.x.count()), static_cast<long double>(p.y.count())};
+  };
+  return {at(c.from), at(c.to)};
+}
+
+TEST(Footprints, MeetWhenGeometryAndTheOracleSaySo) {
+  int meeting = 0, apart = 0, touching = 0;
+  for (std::uint32_t seed = 0; seed < support::scaled(20'000); ++seed) {
+    const Case c = draw_case(seed);
+    SCOPED_TRACE(seed);
+    const FootprintPair pair(c.a, c.b);
+    const geometry::Motion rest{{0, 0}, {0, 0}, kTicks}, motion{c.from, c.to, kTicks};
+    const bool meet = pair.interiors_meet(exact(c, 1));
+    using Oracle = geometry::oracle::Oracle<geometry::oracle::SmallInteger>;
+    ASSERT_EQ(meet, Oracle(c.a, rest, c.b, motion).collide(0));
+    ASSERT_EQ(meet, geometry::BodyPair(c.a, c.b).collide(rest, motion, 0));
+    ASSERT_EQ(meet, pair.interiors_meet(exact(c, 12'345)));
+    // The gap in floating point, which polygons of geometry/ do not have when they overlap.
+    const auto near = pair.nearest(real(c));
+    ASSERT_GE(near.share, 0);
+    ASSERT_LE(near.share, 1);
+    ASSERT_LE(pair.least_gap(real(c)), near.gap + 1e-12L);
+    const auto gap = geometry::BodyPair(c.a, c.b).gap(rest, motion, 0).value();
+    if (meet) {
+      ASSERT_LT(near.gap, 0);
+    } else {
+      ASSERT_GE(near.gap, -1e-12L);
+      ASSERT_NEAR(static_cast<double>(near.gap), gap.at_most, 1e-9);
+    }
+    ++(meet ? meeting : std::abs(near.gap) < 1e-9L ? touching : apart);
+  }
+  EXPECT_GT(meeting, 100);
+  EXPECT_GT(apart, 100);
+  EXPECT_GT(touching, 5);
+}
+
+/// The depth of an overlap is what a body has to be moved by.
+TEST(Footprints, OverlapIsThePushThatSeparates) {
+  const Body square = ConvexPolygon::make({{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}).value();
+  const Body disc = Disc{3};
+  const auto gap = [](const Body& a, const Body& b, long double x, long double y) {
+    return static_cast<double>(FootprintPair(a, b).nearest({{x, y}, {x, y}}).gap);
+  };
+  EXPECT_NEAR(gap(square, square, 8, 1), -2, 1e-12);
+  EXPECT_NEAR(gap(square, square, 10, 1), 0, 1e-12);
+  EXPECT_NEAR(gap(square, square, 13, 14), 5, 1e-12);
+  EXPECT_NEAR(gap(square, disc, 7, 2), -1, 1e-12);
+  EXPECT_NEAR(gap(disc, square, -7, 2), -1, 1e-12);
+  EXPECT_NEAR(gap(square, disc, 8, 9), 2, 1e-12);
+  EXPECT_NEAR(gap(disc, disc, 3, 4), -1, 1e-12);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test
