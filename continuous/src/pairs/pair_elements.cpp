@@ -163,7 +163,7 @@ bool PairSearch::breaks_ban(const Side& side, const Element& from, const Element
   });
 }
 
-bool PairSearch::is_banned(const BanTable& bans, EdgeId e) const {
+bool PairSearch::is_banned(BanTable& bans, EdgeId e) const {
   const Edge& edge = scene_.instance().roadmap().edge(e);
   return bans.starts_of(e) != BanTable::kFree || bans.stays_of(edge.from) != BanTable::kFree ||
          bans.stays_of(edge.to) != BanTable::kFree;

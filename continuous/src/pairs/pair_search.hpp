@@ -127,7 +127,7 @@ class PairSearch {
   void make_elements(Side& side);
   /// Starts of `e` that obey the bans, as far as these depend on the one move.
   void list_allowed(const Side& side, const TimedEdge& e);
-  [[nodiscard]] bool is_banned(const BanTable& bans, EdgeId e) const;
+  [[nodiscard]] bool is_banned(BanTable& bans, EdgeId e) const;
   /// Whether the stay between the two moves breaks a ban.
   [[nodiscard]] static bool breaks_ban(const Side& side, const Element& from, const Element& to);
   [[nodiscard]] const Next& next_of(Side& side, VertexId v);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "quadrille/core/contract.hpp"
+
 namespace quadrille::continuous {
 
 void PathUses::assign(const Instance& instance, AgentId agent, const TimedPath& path) {
@@ -57,22 +59,52 @@ void BanTable::clear() {
   num_used_ = 0;
   enabled_.clear();
   ++version_;
+  source_ = nullptr;
+}
+
+void BanTable::ask(BanSource& source) {
+  clear();
+  enabled_.push_back(1);
+  source_ = &source;
+  asked_.resize(index_.size(), 0);
+  if (++session_ == 0) {  // all numbers have been used
+    std::fill(asked_.begin(), asked_.end(), 0);
+    session_ = 1;
+  }
+}
+
+void BanTable::ask_for(std::size_t resource) {
+  if (asked_[resource] == session_) return;
+  asked_[resource] = session_;
+  answer_.clear();
+  if (resource < num_edges_)
+    source_->list_starts(EdgeId(resource), answer_);
+  else
+    source_->list_stays(VertexId(resource - num_edges_), answer_);
+  if (answer_.empty()) return;
+  Place& place = place_of(resource);
+  for (const TickInterval& when : answer_) place.entries.push_back({when, 0});
+}
+
+BanTable::Place& BanTable::place_of(std::size_t resource) {
+  if (index_[resource] == kFree) {
+    index_[resource] = static_cast<std::uint32_t>(num_used_);
+    if (places_.size() == num_used_) places_.emplace_back();
+    places_[num_used_++].resource = resource;
+  }
+  Place& place = places_[index_[resource]];
+  place.is_sorted = false;
+  return place;
 }
 
 void BanTable::add(std::span<const Ban> bans) {
+  QUADRILLE_REQUIRE(source_ == nullptr, "bans are added to a table that asks for them");
   const auto slot = static_cast<std::uint32_t>(enabled_.size());
   enabled_.push_back(1);
   ++version_;
   for (const Ban& ban : bans) {
     const std::size_t resource = ban.kind == Ban::Kind::start ? ban.place : num_edges_ + ban.place;
-    if (index_[resource] == kFree) {
-      index_[resource] = static_cast<std::uint32_t>(num_used_);
-      if (places_.size() == num_used_) places_.emplace_back();
-      places_[num_used_++].resource = resource;
-    }
-    Place& place = places_[index_[resource]];
-    place.entries.push_back({ban.when, slot});
-    place.is_sorted = false;
+    place_of(resource).entries.push_back({ban.when, slot});
   }
 }
 

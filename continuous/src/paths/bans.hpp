@@ -58,6 +58,16 @@ class PathUses {
   std::bitset<kBits> edges_, vertices_;
 };
 
+/// Who knows the bans of one agent and is asked for them place by place.
+class BanSource {
+ public:
+  virtual ~BanSource() = default;
+  /// Appends all ticks at which the agent may not begin to move along the edge.
+  virtual void list_starts(EdgeId e, std::vector<TickInterval>& bans) = 0;
+  /// Appends all stretches during which the agent may not be at the vertex.
+  virtual void list_stays(VertexId v, std::vector<TickInterval>& bans) = 0;
+};
+
 /// The bans of one agent at work, by place. Each ban belongs to a *slot*, and slots can be switched
 /// off and on. Costs nothing in the size of the roadmap but memory for one table.
 class BanTable {
@@ -65,6 +75,10 @@ class BanTable {
   explicit BanTable(const Roadmap& roadmap);
 
   void clear();
+  /// Clears the table. From now on, until it is cleared, it has the bans that `source` names, which
+  /// is asked for those of a place when they are first looked for; they are one slot, and none can
+  /// be added.
+  void ask(BanSource& source);
   /// Adds the bans as the next slot, switched on.
   void add(std::span<const Ban> bans);
   [[nodiscard]] std::size_t num_slots() const noexcept { return enabled_.size(); }
@@ -78,8 +92,14 @@ class BanTable {
   };
   /// Index of a place with bans, or kFree. Switched-off slots count.
   static constexpr std::uint32_t kFree = 0xffffffffu;
-  [[nodiscard]] std::uint32_t starts_of(EdgeId e) const { return index_[e.index()]; }
-  [[nodiscard]] std::uint32_t stays_of(VertexId v) const { return index_[num_edges_ + v.index()]; }
+  [[nodiscard]] std::uint32_t starts_of(EdgeId e) {
+    if (source_ != nullptr) ask_for(e.index());
+    return index_[e.index()];
+  }
+  [[nodiscard]] std::uint32_t stays_of(VertexId v) {
+    if (source_ != nullptr) ask_for(num_edges_ + v.index());
+    return index_[num_edges_ + v.index()];
+  }
 
   /// Forbidden starts, united, increasing. Valid until the table changes.
   [[nodiscard]] const std::vector<TickInterval>& forbidden_starts(std::uint32_t place);
@@ -107,6 +127,8 @@ class BanTable {
     bool is_sorted = false;
   };
   [[nodiscard]] bool refresh(Place& place);
+  [[nodiscard]] Place& place_of(std::size_t resource);
+  void ask_for(std::size_t resource);
 
   std::size_t num_edges_;
   std::vector<std::uint32_t> index_;  // by edge, then by vertex: into places_, or kFree
@@ -114,6 +136,11 @@ class BanTable {
   std::size_t num_used_ = 0;
   std::vector<char> enabled_;
   std::uint64_t version_ = 1;
+
+  BanSource* source_ = nullptr;
+  std::vector<std::uint32_t> asked_;  // by resource: in which session it was asked for
+  std::uint32_t session_ = 0;
+  std::vector<TickInterval> answer_;
 };
 
 }  // namespace quadrille::continuous

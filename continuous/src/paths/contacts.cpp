@@ -24,16 +24,16 @@ Contacts::Contacts(const Instance& instance, LimitMonitor& limits)
   for (const ClassId a : classes)
     for (const ClassId b : classes) {
       limits_.check();
-      pairs_.push_back({geometry::BodyPair(instance.body(a), instance.body(b)),
-                        PairTable<Offsets>(num_edges, std::max<std::size_t>(num_edges, 1)),
-                        PairTable<Window>(
-                            num_edges, std::max<std::size_t>(instance.roadmap().num_vertices(), 1)),
-                        {},
-                        {}});
+      pairs_.push_back(
+          {geometry::BodyPair(instance.body(a), instance.body(b)),
+           IntervalTable(num_edges, std::max<std::size_t>(num_edges, 1)),
+           IntervalTable(num_edges, std::max<std::size_t>(instance.roadmap().num_vertices(), 1)),
+           {},
+           {}});
     }
 }
 
-const Contacts::Offsets& Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
+Contacts::Offsets Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
   Pair& p = pair(a, b);
   return p.offsets.get(e.index(), f.index(), [&] {
     limits_.check();
@@ -41,7 +41,7 @@ const Contacts::Offsets& Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeI
   });
 }
 
-const Contacts::Window& Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
+Contacts::Window Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
   Pair& p = pair(a, b);
   return p.windows.get(e.index(), v.index(), [&] {
     limits_.check();

@@ -149,7 +149,7 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
 // A slot is irrelevant if nowhere on the way from a visited state it keeps a departure or arrival
 // from happening that could still lead to the goal before `bound`: without all irrelevant slots the
 // search would visit the same states.
-void PathFinder::mark(const PathTask& task, const BanTable& bans, const Node& node, Ticks bound,
+void PathFinder::mark(const PathTask& task, BanTable& bans, const Node& node, Ticks bound,
                       std::vector<char>& relevant) const {
   const auto mark_entries = [&](std::uint32_t place, Ticks from, Ticks to) {
     if (place == BanTable::kFree) return;

@@ -64,7 +64,7 @@ class PathFinder {
   void push(Ticks estimate, std::uint32_t node);
   void visit(const Node& node, Ticks estimate);
   [[nodiscard]] std::size_t state(BanTable& bans, VertexId v, std::uint32_t stay);
-  void mark(const PathTask& task, const BanTable& bans, const Node& node, Ticks bound,
+  void mark(const PathTask& task, BanTable& bans, const Node& node, Ticks bound,
             std::vector<char>& relevant) const;
   void trace(std::uint32_t node, TimedPath& path) const;
 

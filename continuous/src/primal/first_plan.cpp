@@ -2,10 +2,11 @@
 #include "primal/first_plan.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include "paths/bans_around.hpp"
+#include "paths/traffic.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/core/random.hpp"
 
@@ -17,27 +18,22 @@ constexpr int kMaxOrders = 60;
 class OneByOne {
  public:
   explicit OneByOne(Scene& scene)
-      : scene_(scene),
-        finder_(scene.instance(), &scene.limits()),
-        bans_around_(scene),
-        bans_(scene.instance().roadmap()) {}
+      : scene_(scene), finder_(scene.instance(), &scene.limits()), traffic_(Traffic::make(scene)) {}
 
   /// The agent that found no path, if one did not. Throws LimitReached.
   std::optional<std::size_t> try_order(const std::vector<AgentId>& order) {
-    std::vector<std::vector<Step>> steps;
+    const Instance& instance = scene_.instance();
+    std::vector<Step> steps;
+    traffic_->clear();
     paths_.assign(order.size(), {});
     for (std::size_t k = 0; k < order.size(); ++k) {
       const AgentId i = order[k];
-      bans_.clear();
-      for (std::size_t before = 0; before < k; ++before) {
-        scene_.limits().check();
-        keep_clear(i, order[before], steps[before]);
-      }
+      const ClassId c = instance.class_of(i);
       TimedPath path;
-      if (!finder_.find(scene_.task(i), bans_, kForever, &path)) return k;
-      steps.emplace_back();
-      list_steps(scene_.instance(), i, path, steps.back());
-      paths_[i.index()] = with_stops(scene_.instance(), i, path);
+      if (!finder_.find(scene_.task(i), traffic_->bans(c), kForever, &path)) return k;
+      list_steps(instance, i, path, steps);
+      static_cast<void>(traffic_->put(c, steps));
+      paths_[i.index()] = with_stops(instance, i, path);
     }
     return std::nullopt;
   }
@@ -48,18 +44,9 @@ class OneByOne {
   }
 
  private:
-  void keep_clear(AgentId i, AgentId other, const std::vector<Step>& steps) {
-    const Instance& instance = scene_.instance();
-    list_.clear();
-    bans_around_.add(instance.class_of(i), instance.class_of(other), steps, list_);
-    bans_.add(list_);
-  }
-
   Scene& scene_;
   PathFinder finder_;
-  BansAround bans_around_;
-  BanTable bans_;
-  std::vector<Ban> list_;
+  std::unique_ptr<Traffic> traffic_;
   std::vector<Path> paths_;
 };
 

@@ -12,10 +12,6 @@ namespace {
 /// Agents in one neighbourhood, at most. Measured: where the first plan costs 4 to 24 % too much, a
 /// second of improvement comes within 0.01 to 0.9 % of the optimum.
 constexpr std::size_t kMaxChosen = 8;
-/// Bans of paths that were given up stay in the tables for a while.
-constexpr std::size_t kMaxSlotsPerAgent = 2;
-/// A table per class.
-constexpr std::size_t kMaxClasses = 4;
 /// Steps without gain after which it pays no more: some to begin with, and so many for each step up
 /// to the last gain. Measured: 4,000,000 instead of 2,000,000 changes little.
 constexpr std::int64_t kLeastPatience = 2'000'000, kPatience = 2;
@@ -27,13 +23,13 @@ PlanImprover::PlanImprover(Scene& scene, Plan plan)
       plan_(std::move(plan)),
       cost_(continuous::cost(plan_, Objective::sum_of_costs)),
       finder_(scene.instance(), &scene.limits()),
-      bans_around_(scene),
+      traffic_(Traffic::make(scene)),
       free_steps_(scene.instance().num_agents()),
       agents_(scene.instance().num_agents()) {}
 
 bool PlanImprover::is_done() const {
   const Instance& instance = scene_.instance();
-  if (instance.num_classes() > kMaxClasses || instance.num_agents() < 2) return true;
+  if (instance.num_agents() < 2) return true;
   Cost free_costs = 0;
   for (const AgentId i : instance.agent_ids()) free_costs += scene_.free_cost(i);
   return cost_ <= free_costs;
@@ -55,10 +51,8 @@ bool PlanImprover::improve(std::int64_t more_effort) {
   const Instance& instance = scene_.instance();
   try {
     if (!is_loaded_) load_paths();
-    while (effort() < enough && !scene_.limits().exhausted()) {
-      if (num_slots_ > kMaxSlotsPerAgent * agents_.size()) load();
+    while (effort() < enough && !scene_.limits().exhausted())
       if (replan(choose())) last_gain_ = effort();
-    }
   } catch (const LimitReached&) {  // the paths are those before the last neighbourhood
     if (!is_loaded_) return false;
   }
@@ -76,49 +70,30 @@ bool PlanImprover::improve(std::int64_t more_effort) {
   return true;
 }
 
-/// Those of the plan. Agents that have theirs already keep what is known of it.
+/// Those of the plan. Agents that have theirs already stay in the traffic.
 void PlanImprover::load_paths() {
   const Instance& instance = scene_.instance();
-  while (tables_.size() < instance.num_classes()) tables_.emplace_back(instance.roadmap());
   for (const AgentId i : instance.agent_ids()) {
     TimedPath path = without_stops(instance, i, plan_.paths[i]);
-    if (!agents_[i].bans.empty() && path == agents_[i].path) continue;
-    AgentState state;
-    state.path = std::move(path);
-    list_bans(i, state);
-    agents_[i] = std::move(state);
+    AgentState& agent = agents_[i];
+    if (agent.is_under_way && path == agent.path) continue;
+    take_out(agent);
+    agent.path = std::move(path);
+    put(i, agent);
   }
-  load();
   is_loaded_ = true;
   last_gain_ = effort();
 }
 
-void PlanImprover::list_bans(AgentId i, AgentState& agent) {
+void PlanImprover::put(AgentId i, AgentState& agent) {
   list_steps(scene_.instance(), i, agent.path, agent.steps);
-  agent.bans.clear();
-  for (std::size_t c = 0; c < tables_.size(); ++c) {
-    agent.bans.emplace_back();
-    bans_around_.add(ClassId(c), scene_.instance().class_of(i), agent.steps, agent.bans.back());
-    effort_ += static_cast<std::int64_t>(agent.bans.back().size());
-  }
+  agent.place = traffic_->put(scene_.instance().class_of(i), agent.steps);
+  agent.is_under_way = true;
 }
 
-void PlanImprover::load() {
-  for (BanTable& table : tables_) table.clear();
-  num_slots_ = 0;
-  for (AgentState& agent : agents_) add_slot(agent);
-}
-
-void PlanImprover::add_slot(AgentState& agent) {
-  for (std::size_t c = 0; c < tables_.size(); ++c) {
-    tables_[c].add(agent.bans[c]);
-    effort_ += static_cast<std::int64_t>(agent.bans[c].size());
-  }
-  agent.slot = num_slots_++;
-}
-
-void PlanImprover::enable(std::size_t slot, bool on) {
-  for (BanTable& table : tables_) table.enable(slot, on);
+void PlanImprover::take_out(AgentState& agent) {
+  if (agent.is_under_way) traffic_->take_out(agent.place);
+  agent.is_under_way = false;
 }
 
 AgentId PlanImprover::choose_delayed() {
@@ -164,28 +139,36 @@ bool PlanImprover::replan(const std::vector<AgentId>& chosen) {
   Cost left = 0;  // what may be spent above the free costs
   for (const AgentId i : chosen) {
     left += delay(i);
-    enable(agents_[i].slot, false);
+    traffic_->show(agents_[i].place, false);
   }
   std::vector<AgentState> fresh;
-  for (const AgentId i : chosen) {
-    AgentState state;
-    const Ticks bound = as_ticks(scene_.free_cost(i) + left + 1);
-    if (!finder_.find(scene_.task(i), tables_[instance.class_of(i).index()], bound, &state.path))
-      break;
-    left -= as_cost(state.path.arrival) - scene_.free_cost(i);
-    list_bans(i, state);
-    add_slot(state);
-    fresh.push_back(std::move(state));
+  try {
+    for (const AgentId i : chosen) {
+      AgentState state;
+      const Ticks bound = as_ticks(scene_.free_cost(i) + left + 1);
+      BanTable& bans = traffic_->bans(instance.class_of(i));
+      if (!finder_.find(scene_.task(i), bans, bound, &state.path)) break;
+      left -= as_cost(state.path.arrival) - scene_.free_cost(i);
+      put(i, state);
+      fresh.push_back(std::move(state));
+    }
+  } catch (const LimitReached&) {
+    for (const AgentId i : chosen) traffic_->show(agents_[i].place, true);
+    for (AgentState& state : fresh) take_out(state);
+    throw;
   }
   const bool is_done = fresh.size() == chosen.size();
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    if (is_done)
-      agents_[chosen[k]] = std::move(fresh[k]);
-    else
-      enable(agents_[chosen[k]].slot, true);
+    AgentState& agent = agents_[chosen[k]];
+    if (is_done) {
+      take_out(agent);
+      agent = std::move(fresh[k]);
+    } else {
+      traffic_->show(agent.place, true);
+    }
   }
   if (!is_done)
-    for (const AgentState& state : fresh) enable(state.slot, false);
+    for (AgentState& state : fresh) take_out(state);
   return is_done && left > 0;
 }
 

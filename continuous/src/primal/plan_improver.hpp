@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "paths/bans_around.hpp"
 #include "paths/steps.hpp"
+#include "paths/traffic.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/random.hpp"
 
@@ -31,24 +32,23 @@ class PlanImprover {
   [[nodiscard]] Cost cost() const noexcept { return cost_; }
   /// Elementary steps so far, 25 to 60 ns each: edges looked at, bans made, steps
   /// compared.
-  [[nodiscard]] std::int64_t effort() const noexcept { return effort_ + finder_.effort(); }
-  /// Every agent takes a cheapest path, or there are too many classes: nothing can be gained.
+  [[nodiscard]] std::int64_t effort() const noexcept {
+    return effort_ + traffic_->effort() + finder_.effort();
+  }
+  /// Every agent takes a cheapest path: nothing can be gained.
   [[nodiscard]] bool is_done() const;
 
  private:
   struct AgentState {
     TimedPath path;
     std::vector<Step> steps;
-    std::vector<std::vector<Ban>> bans;  // around it, by class of the others
-    std::size_t slot = 0;                // in all tables
+    Traffic::Handle place = 0;  // in the traffic
+    bool is_under_way = false;  // it has one
   };
   void load_paths();
-  /// Fills the tables with the bans around all current paths.
-  void load();
-  /// Steps and bans of its path.
-  void list_bans(AgentId i, AgentState& agent);
-  void add_slot(AgentState& agent);
-  void enable(std::size_t slot, bool on);
+  /// Steps of its path, and the path into the traffic.
+  void put(AgentId i, AgentState& agent);
+  void take_out(AgentState& agent);
   [[nodiscard]] Cost delay(AgentId i) const {
     return as_cost(agents_[i].path.arrival) - scene_.free_cost(i);
   }
@@ -65,11 +65,9 @@ class PlanImprover {
   Plan plan_;
   Cost cost_;
   PathFinder finder_;
-  BansAround bans_around_;
-  std::vector<BanTable> tables_;                     // by class
+  std::unique_ptr<Traffic> traffic_;
   IdVector<AgentId, std::vector<Step>> free_steps_;  // Of cheapest paths of agents that are alone.
-  std::size_t num_slots_ = 0;
-  bool is_loaded_ = false;  // The paths are those of the plan.
+  bool is_loaded_ = false;                           // The paths are those of the plan.
   IdVector<AgentId, AgentState> agents_;
   Random random_{1};
   std::int64_t last_gain_ = 0;  // Effort.

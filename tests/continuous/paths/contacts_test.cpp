@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "continuous/support/meeting.hpp"
 #include "continuous/support/random_bans.hpp"
@@ -82,6 +84,40 @@ TEST(Contacts, AreThoseOfTheMotions) {
   EXPECT_GT(count.moves, 0);
   EXPECT_GT(count.stays, 0);
   EXPECT_GT(count.apart, 0);
+}
+
+TEST(IntervalTable, ComputesEachKeyOnce) {
+  for (const std::size_t columns : {std::size_t{50}, std::size_t{1'000'000}}) {  // plain, hashed
+    IntervalTable table(200, columns);
+    Draw draw(7);
+    std::map<std::pair<std::size_t, std::size_t>, IntervalTable::Value> known;
+    for (int k = 0; k < 20'000; ++k) {
+      const auto row = static_cast<std::size_t>(draw.number(0, 199));
+      const auto column = static_cast<std::size_t>(draw.number(0, 49)) * (columns / 50);
+      IntervalTable::Value value;
+      if (draw.chance(50)) value = {draw.ticks(-50, 50), Ticks{51}};
+      const auto [at, is_new] = known.try_emplace({row, column}, value);
+      bool is_computed = false;
+      const auto found = table.get(row, column, [&] {
+        is_computed = true;
+        return value;
+      });
+      ASSERT_EQ(found, at->second);
+      ASSERT_EQ(is_computed, is_new);
+    }
+    EXPECT_GT(known.size(), 5'000u);
+  }
+}
+
+TEST(IntervalTable, KeepsNothingWhenTheComputationThrows) {
+  for (const std::size_t columns : {std::size_t{50}, std::size_t{1'000'000}}) {
+    IntervalTable table(200, columns);
+    const auto stop = []() -> IntervalTable::Value { throw LimitReached{}; };
+    EXPECT_THROW(static_cast<void>(table.get(3, 4, stop)), LimitReached);
+    const geometry::TickInterval interval{1, 2};
+    EXPECT_EQ(table.get(3, 4, [&] { return IntervalTable::Value{interval}; }), interval);
+    EXPECT_EQ(table.get(3, 4, stop), interval);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "paths/traffic.hpp"
+
+namespace quadrille::continuous {
+
+/// The steps of all paths by the squares of a grid that their bodies may touch. Bans of a place are
+/// made of the steps near it when a search comes there.
+class SpatialTraffic final : public Traffic, private BanSource {
+ public:
+  explicit SpatialTraffic(Scene& scene);
+
+  [[nodiscard]] Handle put(ClassId c, const std::vector<Step>& steps) override;
+  void show(Handle path, bool on) override;
+  void take_out(Handle path) override;
+  void clear() override;
+  [[nodiscard]] BanTable& bans(ClassId c) override;
+
+ private:
+  struct Box {
+    Point low, high;
+  };
+  struct Squares {
+    std::int64_t left, right, bottom, top;  // all included
+  };
+  /// A step of a path, and where its body may be.
+  struct Passage {
+    Step step;
+    Box box;
+    Handle path = 0;
+    std::uint32_t seen = 0;  // in which query
+  };
+  struct Entry {
+    ClassId c;
+    std::vector<std::uint32_t> passages;
+    bool is_shown = false;
+  };
+
+  void list_starts(EdgeId e, std::vector<TickInterval>& bans) override;
+  void list_stays(VertexId v, std::vector<TickInterval>& bans) override;
+
+  [[nodiscard]] Box box_of(const Point& p, const Point& q, Length reach) const;
+  [[nodiscard]] Squares squares_of(const Box& box) const;
+  template <class Visit>
+  void for_each_square(const Box& box, const Visit& visit);
+  /// All passages of shown paths whose boxes meet this one.
+  template <class Visit>
+  void for_each_near(const Box& box, const Visit& visit);
+
+  Scene& scene_;
+  BanTable table_;
+  ClassId asking_;
+  std::vector<Entry> entries_;  // by handle
+  std::vector<Handle> free_;
+  std::vector<Passage> passages_;
+  std::vector<std::uint32_t> free_passages_;
+  std::uint32_t query_ = 0;
+
+  Point origin_;
+  std::int64_t side_ = 1, columns_ = 1, rows_ = 1;
+  std::vector<std::vector<std::uint32_t>> squares_;
+};
+
+}  // namespace quadrille::continuous
