@@ -50,6 +50,13 @@ function(quadrille_add_library folder)
     # CaDiCaL's archive was compiled for all to see.
     target_link_options(${target} PRIVATE "LINKER:--exclude-libs,ALL")
   endif()
+  # One that is not listed would be missing in the package.
+  file(GLOB headers RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/include/quadrille/${folder}"
+    "include/quadrille/${folder}/*.hpp")
+  list(REMOVE_ITEM headers ${arg_HEADERS})
+  if(headers)
+    message(FATAL_ERROR "${folder}: public headers that are not listed: ${headers}")
+  endif()
   foreach(header IN LISTS arg_HEADERS)
     set_property(GLOBAL APPEND PROPERTY QUADRILLE_HEADERS "quadrille/${folder}/${header}")
     if(QUADRILLE_INSTALL)
