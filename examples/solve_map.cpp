@@ -50,8 +50,8 @@ int main(int argc, char** argv) {
   std::cout << "sum of costs " << report.sum_of_costs << ", lower bound " << outcome.lower_bound
             << "\n";
   for (const Violation& violation : report.violations) std::cout << violation.message << "\n";
-  for (const AgentId i : instance->agents()) {
-    const Task& task = instance->tasks()[i];
+  for (const AgentId i : instance->agent_ids()) {
+    const Agent& task = instance->agents()[i];
     const Path& path = outcome.plan->paths[i];
     std::cout << "agent " << i.value() << " from " << vertex_name(instance->graph(), task.start)
               << " to " << vertex_name(instance->graph(), path.back()) << "\n";

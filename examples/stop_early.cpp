@@ -13,7 +13,7 @@ int main() {
   // A board of 6 x 6 cells with one of them free; the agents stand in the opposite order at the
   // end. There are plans, but a cheapest one is out of reach.
   constexpr std::size_t kCells = 36;
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   for (std::size_t i = 0; i + 1 < kCells; ++i)
     tasks.push_back({VertexId(i), VertexId(kCells - 2 - i)});
   const auto instance = Instance::make(Graph::grid(6, 6, std::vector<bool>(kCells, true)), tasks);

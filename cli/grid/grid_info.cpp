@@ -104,7 +104,7 @@ class MapShape {
 std::string describe_distances(const Instance& instance) {
   Cost sum = 0, largest = 0;
   std::size_t unreachable = 0;
-  for (const discrete::Task& task : instance.tasks()) {
+  for (const discrete::Agent& task : instance.agents()) {
     const Timestep distance = distances_from(instance.graph(), task.goal)[task.start];
     if (distance == kUnreachable) {
       ++unreachable;

@@ -40,9 +40,9 @@ std::vector<std::string> frame(const Instance& instance, const GridLayout& layou
     return rows[static_cast<std::size_t>(cell.y)][static_cast<std::size_t>(cell.x)];
   };
   for (const VertexId v : IdRange<VertexId>(layout.num_vertices())) at(v) = '.';
-  for (const AgentId i : instance.agents()) {
+  for (const AgentId i : instance.agent_ids()) {
     const VertexId v = position(plan.paths[i], t);
-    const char first = v == instance.tasks()[i].goal ? 'A' : 'a';
+    const char first = v == instance.agents()[i].goal ? 'A' : 'a';
     at(v) = static_cast<char>(first + static_cast<char>(i.index()));
   }
   return rows;
@@ -109,8 +109,8 @@ std::string draw_plan(const Instance& instance, const Plan& plan) {
   text += frames;
   text += fmt::format("{:>5}  {:<10}{:<10}{:>4}  {}\n", "agent", "start", "goal", "cost",
                       graph.layout() ? "moves" : "vertices");
-  for (const AgentId i : instance.agents()) {
-    const discrete::Task& task = instance.tasks()[i];
+  for (const AgentId i : instance.agent_ids()) {
+    const discrete::Agent& task = instance.agents()[i];
     const std::string name =
         frames.empty() ? std::to_string(i.value())
                        : fmt::format("{} {}", static_cast<char>('a' + static_cast<char>(i.index())),

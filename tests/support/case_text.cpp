@@ -22,9 +22,9 @@ std::vector<std::string> map_rows(const GridLayout& layout) {
 std::string picture(const Instance& instance) {
   const GridLayout& layout = *instance.graph().layout();
   auto starts = map_rows(layout), goals = starts;
-  for (const AgentId i : instance.agents()) {
-    const Cell from = layout.cell_of(instance.tasks()[i].start);
-    const Cell to = layout.cell_of(instance.tasks()[i].goal);
+  for (const AgentId i : instance.agent_ids()) {
+    const Cell from = layout.cell_of(instance.agents()[i].start);
+    const Cell to = layout.cell_of(instance.agents()[i].goal);
     const auto letter = static_cast<char>(i.index() % 26);
     starts[static_cast<std::size_t>(from.y)][static_cast<std::size_t>(from.x)] =
         static_cast<char>('a' + letter);
@@ -172,7 +172,7 @@ class CaseReader {
     if (grid_ == (num_vertices_ > 0)) return fail("either a map or vertices expected");
     const std::optional<Graph> graph = grid_ ? make_grid() : make_graph();
     if (!graph) return;
-    std::vector<Task> tasks;
+    std::vector<Agent> tasks;
     for (const auto& [start, goal] : places_) {
       const auto from = vertex(*graph, start), to = vertex(*graph, goal);
       if (!from || !to) return fail("a task names a place that is no vertex");
@@ -240,7 +240,7 @@ std::string instance_text(const Instance& instance) {
       for (const VertexId w : graph.neighbours(v))
         if (v < w) text += "edge " + place(graph, v) + " " + place(graph, w) + "\n";
   }
-  for (const Task& task : instance.tasks())
+  for (const Agent& task : instance.agents())
     text += "task " + place(graph, task.start) + " -> " + place(graph, task.goal) + "\n";
   return text;
 }

@@ -24,7 +24,7 @@ TEST(CaseText, ReadsAGridWithOptions) {
   const auto read = parse_case(kGridCase, "case.txt");
   ASSERT_TRUE(read) << read.error().to_string();
   EXPECT_EQ(read->instance.graph().num_vertices(), 5U);
-  EXPECT_EQ(read->instance.tasks()[AgentId(1)], (Task{VertexId(1), VertexId(2)}));
+  EXPECT_EQ(read->instance.agents()[AgentId(1)], (Agent{VertexId(1), VertexId(2)}));
   EXPECT_EQ(read->sum_of_costs, 9);
   EXPECT_EQ(read->makespan, 5);
   EXPECT_FALSE(read->infeasible);
@@ -62,7 +62,7 @@ TEST(CaseText, WritesWhatItReads) {
     const std::string text = instance_text(instance);
     const auto read = parse_case(text, "case.txt");
     ASSERT_TRUE(read) << read.error().to_string() << "\n" << text;
-    EXPECT_EQ(read->instance.tasks(), instance.tasks());
+    EXPECT_EQ(read->instance.agents(), instance.agents());
     EXPECT_EQ(instance_text(read->instance), text);
   }
 }

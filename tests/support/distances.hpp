@@ -14,7 +14,7 @@ inline std::shared_ptr<const GoalDistances> distances_of(const Instance& instanc
 }
 
 /// Of an instance that has this task only.
-inline std::shared_ptr<const GoalDistances> distances_of(const Graph& graph, const Task& task) {
+inline std::shared_ptr<const GoalDistances> distances_of(const Graph& graph, const Agent& task) {
   return distances_of(Instance::make(graph, {task}).value());
 }
 

@@ -96,7 +96,7 @@ std::vector<std::vector<std::size_t>> arrangements(std::size_t bound, std::size_
 Instance random_tasks(Random& random, Graph graph, std::size_t num_agents) {
   const auto starts = sample(random, graph.num_vertices(), num_agents);
   const auto goals = sample(random, graph.num_vertices(), num_agents);
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   for (std::size_t i = 0; i < num_agents; ++i)
     tasks.push_back({VertexId(starts[i]), VertexId(goals[i])});
   return Instance::make(std::move(graph), std::move(tasks)).value();

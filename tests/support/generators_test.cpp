@@ -38,7 +38,7 @@ TEST(Generators, RepeatThemselvesForASeed) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     Random first(seed), second(seed);
     const Instance a = random_grid(first, {}), b = random_grid(second, {});
-    EXPECT_EQ(a.tasks(), b.tasks());
+    EXPECT_EQ(a.agents(), b.agents());
     EXPECT_EQ(a.graph().num_edges(), b.graph().num_edges());
   }
 }

@@ -34,7 +34,7 @@ class JointSearch {
       for (const VertexId w : graph.neighbours(v)) moves_[v.index()].push_back(w.value());
       moves_[v.index()].push_back(v.value());
     }
-    for (const Task& task : instance.tasks()) {
+    for (const Agent& task : instance.agents()) {
       start_.at.push_back(task.start.value());
       goals_.push_back(task.goal.value());
       far_.push_back(distances_to(task.goal.value()));
@@ -220,11 +220,11 @@ JointAnswer joint_search(const Instance& instance, Objective objective, std::siz
 std::string replay(const Instance& instance, const Plan& plan) {
   if (plan.paths.size() != instance.num_agents()) return "not one path per agent";
   std::size_t length = 1;
-  for (const AgentId i : instance.agents()) {
+  for (const AgentId i : instance.agent_ids()) {
     const Path& path = plan.paths[i];
     if (path.empty()) return "an empty path";
-    if (path.front() != instance.tasks()[i].start) return at_step(i.index(), 0) + ": wrong start";
-    if (path.back() != instance.tasks()[i].goal) return at_step(i.index(), 0) + ": wrong goal";
+    if (path.front() != instance.agents()[i].start) return at_step(i.index(), 0) + ": wrong start";
+    if (path.back() != instance.agents()[i].goal) return at_step(i.index(), 0) + ": wrong goal";
     for (const VertexId v : path)
       if (v.index() >= instance.graph().num_vertices()) return "no such vertex";
     length = std::max(length, path.size());

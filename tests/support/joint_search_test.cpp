@@ -16,7 +16,7 @@ Instance on_graph(std::size_t n, const std::vector<std::pair<int, int>>& edges,
   const auto id = [](int v) { return VertexId(static_cast<std::size_t>(v)); };
   std::vector<Graph::Edge> list;
   for (const auto& [a, b] : edges) list.emplace_back(id(a), id(b));
-  std::vector<Task> from_to;
+  std::vector<Agent> from_to;
   for (const auto& [start, goal] : tasks) from_to.push_back({id(start), id(goal)});
   return Instance::make(Graph::make(n, list).value(), from_to).value();
 }
@@ -110,7 +110,8 @@ class AllPlans {
   AllPlans(const Instance& instance, Objective objective, std::size_t horizon)
       : instance_(instance), objective_(objective), horizon_(horizon) {
     plan_.paths.resize(instance.num_agents());
-    for (const AgentId i : instance.agents()) plan_.paths[i].assign(1, instance.tasks()[i].start);
+    for (const AgentId i : instance.agent_ids())
+      plan_.paths[i].assign(1, instance.agents()[i].start);
   }
   Cost least() {
     extend(0);
@@ -135,8 +136,8 @@ class AllPlans {
     if (is_step_valid()) extend(0);
   }
   [[nodiscard]] bool is_step_valid() const {
-    for (const AgentId i : instance_.agents())
-      for (const AgentId j : instance_.agents()) {
+    for (const AgentId i : instance_.agent_ids())
+      for (const AgentId j : instance_.agent_ids()) {
         const Path &p = plan_.paths[i], &q = plan_.paths[j];
         const std::size_t t = p.size() - 1;
         if (i < j && (p[t] == q[t] || (p[t] == q[t - 1] && p[t - 1] == q[t]))) return false;
@@ -161,7 +162,7 @@ TEST(JointSearch, AgreesWithTheEnumerationOfAllPlans) {
     for (const Graph& graph : connected_graphs(n))
       for (const auto& starts : arrangements(n, 2))
         for (const auto& goals : arrangements(n, 2)) {
-          std::vector<Task> tasks;
+          std::vector<Agent> tasks;
           for (std::size_t i = 0; i < 2; ++i)
             tasks.push_back({VertexId(starts[i]), VertexId(goals[i])});
           const Instance instance = Instance::make(graph, tasks).value();

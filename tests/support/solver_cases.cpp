@@ -73,11 +73,11 @@ std::string find_fault_of_plan(const Instance& instance, Objective objective,
 /// The instance without a vertex that is nobody's start or goal; nullopt if it is.
 std::optional<Instance> without_vertex(const Instance& instance, VertexId vertex) {
   const Graph& graph = instance.graph();
-  for (const Task& task : instance.tasks())
+  for (const Agent& task : instance.agents())
     if (task.start == vertex || task.goal == vertex) return std::nullopt;
   const auto renumber = [vertex](VertexId v) { return v < vertex ? v : VertexId(v.index() - 1); };
-  std::vector<Task> tasks;
-  for (const Task& task : instance.tasks())
+  std::vector<Agent> tasks;
+  for (const Agent& task : instance.agents())
     tasks.push_back({renumber(task.start), renumber(task.goal)});
   if (graph.layout()) {
     const GridLayout& layout = *graph.layout();
@@ -223,9 +223,9 @@ std::string solve_and_compare(const Instance& instance, const TunedOptions& opti
 }
 
 Instance without_agent(const Instance& instance, AgentId agent) {
-  std::vector<Task> tasks;
-  for (const AgentId i : instance.agents())
-    if (i != agent) tasks.push_back(instance.tasks()[i]);
+  std::vector<Agent> tasks;
+  for (const AgentId i : instance.agent_ids())
+    if (i != agent) tasks.push_back(instance.agents()[i]);
   return Instance::make(instance.shared_graph(), std::move(tasks)).value();
 }
 

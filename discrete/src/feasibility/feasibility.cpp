@@ -39,11 +39,11 @@ Arrangement::Arrangement(std::size_t num_vertices, std::vector<Local> vertices)
 namespace {
 
 Arrangement arrange(const Instance& instance, const ComponentNumbering& numbering,
-                    const Component& component, VertexId Task::*end) {
+                    const Component& component, VertexId Agent::*end) {
   std::vector<Local> vertices;
   vertices.reserve(component.agents.size());
   for (const AgentId agent : component.agents)
-    vertices.push_back(numbering.number(instance.tasks()[agent].*end));
+    vertices.push_back(numbering.number(instance.agents()[agent].*end));
   return {component.vertices.size(), std::move(vertices)};
 }
 
@@ -55,8 +55,8 @@ Feasibility check_feasibility(const Instance& instance) {
   const Graph& graph = instance.graph();
   ComponentNumbering numbering(graph);
   std::vector<Component> components;
-  for (const AgentId agent : instance.agents()) {
-    const auto [start, goal] = instance.tasks()[agent];
+  for (const AgentId agent : instance.agent_ids()) {
+    const auto [start, goal] = instance.agents()[agent];
     if (numbering.component_of(start) == kNone) components.push_back(numbering.explore(start));
     const Local index = numbering.component_of(start);
     if (numbering.component_of(goal) != index)
@@ -67,8 +67,8 @@ Feasibility check_feasibility(const Instance& instance) {
   }
   for (const Component& component : components) {
     if (component.agents.size() < 2) continue;  // An agent alone goes where it likes.
-    const Arrangement start = arrange(instance, numbering, component, &Task::start);
-    const Arrangement goal = arrange(instance, numbering, component, &Task::goal);
+    const Arrangement start = arrange(instance, numbering, component, &Agent::start);
+    const Arrangement goal = arrange(instance, numbering, component, &Agent::goal);
     if (auto reason = check_component(component, start, goal)) return {false, std::move(*reason)};
   }
   return {};

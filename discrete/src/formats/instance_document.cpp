@@ -7,7 +7,7 @@ namespace quadrille::discrete {
 namespace {
 
 bool all_distinct(Checker& checker, const Graph& graph, const std::vector<PlacedTask>& tasks,
-                  VertexId Task::*end, Document::Node PlacedTask::*place, const char* name) {
+                  VertexId Agent::*end, Document::Node PlacedTask::*place, const char* name) {
   constexpr std::size_t kNone = SIZE_MAX;
   IdVector<VertexId, std::size_t> owner(graph.num_vertices(), kNone);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -59,10 +59,10 @@ bool read_place(Checker& checker, const Document& document, const Graph& graph, 
 
 Result<Instance> make_instance(Checker& checker, Graph graph,
                                const std::vector<PlacedTask>& tasks) {
-  if (!all_distinct(checker, graph, tasks, &Task::start, &PlacedTask::start, "start") ||
-      !all_distinct(checker, graph, tasks, &Task::goal, &PlacedTask::goal, "goal"))
+  if (!all_distinct(checker, graph, tasks, &Agent::start, &PlacedTask::start, "start") ||
+      !all_distinct(checker, graph, tasks, &Agent::goal, &PlacedTask::goal, "goal"))
     return checker.error();
-  std::vector<Task> plain;
+  std::vector<Agent> plain;
   plain.reserve(tasks.size());
   for (const PlacedTask& placed : tasks) plain.push_back(placed.task);
   return Instance::make(std::move(graph), std::move(plain));

@@ -28,7 +28,7 @@ bool read_place(Checker& checker, const Document& document, const Graph& graph, 
 
 /// One task, and where it stands in the document.
 struct PlacedTask {
-  Task task;
+  Agent task;
   Document::Node start;
   Document::Node goal;
 };

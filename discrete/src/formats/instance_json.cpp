@@ -197,7 +197,7 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   };
   out << ",\n  \"agents\": [";
   bool first = true;
-  for (const Task& task : instance.tasks()) {
+  for (const Agent& task : instance.agents()) {
     out << (first ? "\n" : ",\n") << "    {\"start\": " << place(task.start)
         << ", \"goal\": " << place(task.goal) << '}';
     first = false;

@@ -128,8 +128,8 @@ std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& f
       any = true;
     }
   out << (any ? "\n" : " []\n") << "agents:" << (instance.num_agents() == 0 ? " []\n" : "\n");
-  for (const AgentId i : instance.agents()) {
-    const Task& task = instance.tasks()[i];
+  for (const AgentId i : instance.agent_ids()) {
+    const Agent& task = instance.agents()[i];
     out << "  - name: agent" << i.value() << "\n    start: " << pair(grid.cell_of(task.start))
         << "\n    goal: " << pair(grid.cell_of(task.goal)) << '\n';
   }

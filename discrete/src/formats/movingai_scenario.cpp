@@ -213,7 +213,7 @@ Result<Instance> make_instance(std::shared_ptr<const Graph> graph, const Scenari
     return *error;
   if (auto error = find_shared(grid, scenario, num_agents, &ScenarioRow::goal, "goal"))
     return *error;
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   tasks.reserve(num_agents);
   for (std::size_t i = 0; i < num_agents; ++i)
     tasks.push_back(

@@ -57,7 +57,7 @@ void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& wr
     return;
   }
   const Graph& graph = model_.instance().graph();
-  if (!a.paths) a.paths.emplace(graph, model_.instance().tasks()[agent]);
+  if (!a.paths) a.paths.emplace(graph, model_.instance().agents()[agent]);
   AgentFormula formula(model_, agent, writer);
   if (!a.paths->extend(graph, delay, formula, nullptr)) {
     a.next_look = INT64_MAX;

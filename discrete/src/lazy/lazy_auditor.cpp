@@ -46,7 +46,7 @@ std::string LazyAuditor::audit_usages(const sat::Lemma& lemma) const {
     const auto var = model_.variable(o.allowed);
     if (var.kind == VariableKind::cost) {
       const bool holds = o.kind == Kind::range && o.last == kForever && var.agent != o.agent &&
-                         model_.instance().tasks()[var.agent].goal == o.vertex &&
+                         model_.instance().agents()[var.agent].goal == o.vertex &&
                          var.cost <= o.first && !o.allowed.positive();
       if (!holds) return "nobody rests where a target usage says so";
     } else if (var.kind != VariableKind::usage || var.obstacle != id) {
@@ -101,7 +101,7 @@ std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
     } else if (var.agent == agent) {
       demand.bound = std::min(demand.bound.value_or(var.cost), var.cost);
     } else {  // the other agent rests at its goal
-      avoid_range(model_.instance().tasks()[var.agent].goal, var.cost, kForever);
+      avoid_range(model_.instance().agents()[var.agent].goal, var.cost, kForever);
     }
   }
   return has_path(agent, demand) ? "some path does not satisfy a clause about explicit paths" : "";
@@ -109,7 +109,7 @@ std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
 
 bool LazyAuditor::has_path(AgentId agent, const Demand& demand) const {
   const Graph& graph = model_.instance().graph();
-  const Task& task = model_.instance().tasks()[agent];
+  const Agent& task = model_.instance().agents()[agent];
   const auto visit_allowed = [&](VertexId v, Timestep t) {
     return std::none_of(demand.avoided.begin(), demand.avoided.end(),
                         [&](const Obstacle& o) { return forbids_visit(o, v, t); }) &&
@@ -186,7 +186,7 @@ bool LazyAuditor::can_use_all(AgentId a, AgentId b, std::span<const Obstacle> us
   const unsigned all = (1U << usages.size()) - 1;
   // By pair of vertices: the sets of usages made so far, as a set of masks.
   std::vector<std::uint16_t> here(n * n, 0), next;
-  const Task &task_a = model_.instance().tasks()[a], &task_b = model_.instance().tasks()[b];
+  const Agent &task_a = model_.instance().agents()[a], &task_b = model_.instance().agents()[b];
   const unsigned at_start =
       used(a, task_a.start, task_a.start, 0) | used(b, task_b.start, task_b.start, 0);
   here[task_a.start.index() * n + task_b.start.index()] =

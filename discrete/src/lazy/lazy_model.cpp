@@ -13,7 +13,8 @@ using sat::Lit;
 LazyModel::LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances)
     : instance_(instance), goal_distances_(std::move(distances)), costs_(instance.num_agents()) {
   distances_.reserve(instance.num_agents());
-  for (const AgentId i : instance.agents()) distances_.emplace_back(instance, *goal_distances_, i);
+  for (const AgentId i : instance.agent_ids())
+    distances_.emplace_back(instance, *goal_distances_, i);
 }
 
 void LazyModel::remember(Lit lit, const Variable& variable) {

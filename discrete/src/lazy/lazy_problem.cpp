@@ -19,7 +19,7 @@ LazyProblem::LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theo
         const AgentId agent(input);
         return model_.cost_above(agent, model_.distances(agent).free_cost() + k - 1, writer_);
       }) {
-  for (const AgentId i : model.instance().agents())
+  for (const AgentId i : model.instance().agent_ids())
     lower_bound_ = objective == Objective::sum_of_costs ? lower_bound_ + free_cost(i)
                                                         : std::max(lower_bound_, free_cost(i));
 }
@@ -28,7 +28,7 @@ LazyProblem::LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theo
 bool LazyProblem::assume_at_most(Cost bound, LimitMonitor&, std::vector<Lit>& assumptions) {
   const bool is_sum = objective_ == Objective::sum_of_costs;
   const Cost delay = bound - lower_bound_;
-  for (const AgentId i : model_.instance().agents()) {
+  for (const AgentId i : model_.instance().agent_ids()) {
     const Cost cap = is_sum ? free_cost(i) + delay : bound;
     assumptions.push_back(~model_.cost_above(i, static_cast<Timestep>(cap), writer_));
   }

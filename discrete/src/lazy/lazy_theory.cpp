@@ -56,13 +56,13 @@ LazyTheory::LazyTheory(LazyModel& model, LimitMonitor& limits, ExplicitPaths::Pr
 
 void LazyTheory::set_free_paths() {
   const std::size_t num_agents = model_.instance().num_agents();
-  for (const AgentId i : model_.instance().agents()) {
+  for (const AgentId i : model_.instance().agent_ids()) {
     const Path* path = search_.find_cheapest(i, {}, model_.distances(i).free_cost()).path();
     QUADRILLE_REQUIRE(path != nullptr, "nothing hinders an agent that is alone");
     paths_.replace(i, *path);
   }
   LazyTrail free_costs(trailed_paths_, num_agents, kForever);
-  for (const AgentId i : model_.instance().agents())
+  for (const AgentId i : model_.instance().agent_ids())
     free_costs.lower_cap(i, model_.distances(i).free_cost());
   Separation separation(paths_, free_costs, search_, limits_);
   constexpr int kRounds = 3;
@@ -88,7 +88,7 @@ void LazyTheory::on_retract(std::size_t kept) { trail_.retract(kept); }
 
 void LazyTheory::on_pause() {
   draft_ = {};
-  for (const AgentId i : model_.instance().agents()) draft_.paths.push_back(paths_.path(i));
+  for (const AgentId i : model_.instance().agent_ids()) draft_.paths.push_back(paths_.path(i));
 }
 
 const Plan& LazyTheory::draft() {
@@ -212,10 +212,10 @@ void LazyTheory::check_paths(ContextWriter& writer) {
 
 void LazyTheory::accept() {
   accepted_.reset();
-  for (const AgentId i : model_.instance().agents())
+  for (const AgentId i : model_.instance().agent_ids())
     if (!is_present(i)) return;
   accepted_.emplace();
-  for (const AgentId i : model_.instance().agents()) accepted_->paths.push_back(paths_.path(i));
+  for (const AgentId i : model_.instance().agent_ids()) accepted_->paths.push_back(paths_.path(i));
 }
 
 Lit LazyTheory::decide(sat::TheoryContext& context) {

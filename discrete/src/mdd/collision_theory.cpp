@@ -165,7 +165,7 @@ sat::Lemma CollisionTheory::explain(Lit implied, std::vector<Lit>& clause) {
 void CollisionTheory::check_paths(sat::TheoryContext& context) {
   const auto is_true = [&](Lit lit) { return context.value(lit) == Truth::is_true; };
   Plan plan;  // an agent without a path has an empty one here, which collides with nothing
-  for (const AgentId i : model_.instance().agents())
+  for (const AgentId i : model_.instance().agent_ids())
     plan.paths.push_back(model_.has_path(i, is_true) ? model_.extract_path(i, is_true) : Path());
   const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { context.add_lemma(lemma); };
   for (const PathCollision& c : find_collisions(model_.instance().graph(), plan))

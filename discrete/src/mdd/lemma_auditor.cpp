@@ -32,7 +32,7 @@ struct Escape {
 };
 
 /// True if a path does all that. O((V + E) * horizon * visits): only for debugging.
-bool can_escape(const Graph& graph, const Task& task, const Escape& escape) {
+bool can_escape(const Graph& graph, const Agent& task, const Escape& escape) {
   Timestep horizon = 0;
   for (const auto& visit : escape.visits) horizon = std::max(horizon, visit.timestep);
   const bool bounded = escape.latest_arrival != std::numeric_limits<Timestep>::max();
@@ -86,7 +86,7 @@ std::string LemmaAuditor::audit_path_of(Clause clause, AgentId agent) const {
     }
   }
   const auto& instance = model_.instance();
-  return can_escape(instance.graph(), instance.tasks()[agent], escape)
+  return can_escape(instance.graph(), instance.agents()[agent], escape)
              ? "some path does not satisfy a path lemma"
              : "";
 }
@@ -114,7 +114,7 @@ std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
       expected.push_back(~model_.at(agent, u.vertex, u.timestep));
     if (u.kind == UsageKind::move) expected.push_back(~model_.at(agent, u.to, u.timestep + 1));
     if (u.kind == UsageKind::rest) {
-      if (model_.instance().tasks()[agent].goal != u.vertex) return "agents rest at their goals";
+      if (model_.instance().agents()[agent].goal != u.vertex) return "agents rest at their goals";
       expected.push_back(model_.arrival_after(agent, u.timestep));
     }
   }

@@ -5,7 +5,7 @@
 
 namespace quadrille::discrete {
 
-Mdd::Mdd(const Graph& graph, const Task& task)
+Mdd::Mdd(const Graph& graph, const Agent& task)
     : task_(task),
       to_goal_(distances_from(graph, task.goal)),
       rank_(graph.num_vertices(), kNoRank),

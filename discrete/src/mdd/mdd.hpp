@@ -20,9 +20,9 @@ namespace quadrille::discrete {
 class Mdd {
  public:
   /// Requires a reachable goal. O(V + E).
-  Mdd(const Graph& graph, const Task& task);
+  Mdd(const Graph& graph, const Agent& task);
 
-  [[nodiscard]] const Task& task() const noexcept { return task_; }
+  [[nodiscard]] const Agent& task() const noexcept { return task_; }
   /// Cost of the cheapest path, d.
   [[nodiscard]] Timestep distance() const noexcept { return to_goal_[task_.start]; }
   /// h(v); kUnreachable if there is none.
@@ -47,7 +47,7 @@ class Mdd {
   }
 
  private:
-  Task task_;
+  Agent task_;
   IdVector<VertexId, Timestep> to_goal_;
   IdVector<VertexId, std::uint32_t> rank_;
   std::vector<VertexId> found_;  // by smallest slack

@@ -12,15 +12,15 @@ using sat::Lit;
 
 MddModel::MddModel(const Instance& instance, Objective objective)
     : instance_(instance), objective_(objective), resident_(instance.graph().num_vertices(), 0) {
-  for (const AgentId i : instance.agents()) resident_[instance.tasks()[i].goal] = i.value() + 1;
+  for (const AgentId i : instance.agent_ids()) resident_[instance.agents()[i].goal] = i.value() + 1;
 }
 
 bool MddModel::attach(sat::Engine& engine, LimitMonitor& limits) {
   engine_ = &engine;
   agents_.reserve(instance_.num_agents());
-  for (const AgentId i : instance_.agents()) {
+  for (const AgentId i : instance_.agent_ids()) {
     if (limits.exhausted_now()) return false;
-    agents_.push_back({MddPaths(instance_.graph(), instance_.tasks()[i]), {}});
+    agents_.push_back({MddPaths(instance_.graph(), instance_.agents()[i]), {}});
   }
   return true;
 }

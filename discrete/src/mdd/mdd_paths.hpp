@@ -28,7 +28,7 @@ class MddPaths {
   };
 
   /// Requires a reachable goal. O(V + E).
-  MddPaths(const Graph& graph, const Task& task) : mdd_(graph, task) {}
+  MddPaths(const Graph& graph, const Agent& task) : mdd_(graph, task) {}
 
   /// Lets the agent have a delay of up to `cap`: variables, clauses and the guard "delay >= cap +
   /// 1" whose negation restricts it to them. No effect if it may already. False if `limits` ended

@@ -19,7 +19,7 @@ MddProblem::MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* th
                return model.delay_at_least(AgentId(input), static_cast<Timestep>(k));
              }),
       wanted_cap_(model.instance().num_agents(), 0) {
-  for (const AgentId i : model.instance().agents()) {
+  for (const AgentId i : model.instance().agent_ids()) {
     const Cost distance = model.mdd(i).distance();
     if (model.objective() == Objective::sum_of_costs)
       lower_bound_ += distance;
@@ -35,13 +35,13 @@ Timestep MddProblem::allowed_delay(AgentId agent, Cost bound) const {
 }
 
 bool MddProblem::assume_at_most(Cost bound, LimitMonitor& limits, std::vector<Lit>& assumptions) {
-  for (const AgentId i : model_.instance().agents()) {
+  for (const AgentId i : model_.instance().agent_ids()) {
     const Timestep allowed = allowed_delay(i, bound);
     const Timestep cap = growth_ == MddGrowth::full ? allowed : std::min(allowed, wanted_cap_[i]);
     if (!model_.extend(i, cap, limits)) return false;
   }
   if (eager_ != nullptr && !eager_->extend(engine_, limits)) return false;
-  for (const AgentId i : model_.instance().agents())
+  for (const AgentId i : model_.instance().agent_ids())
     assumptions.push_back(~model_.delay_at_least(i, model_.cap(i) + 1));
   if (model_.objective() == Objective::sum_of_costs) {
     const Lit too_much = total_.at_least(static_cast<int>(bound - lower_bound_) + 1);
@@ -55,7 +55,7 @@ bool MddProblem::accept_model() {
   const auto is_true = [&](Lit lit) { return engine_.model_value(lit); };
   ++num_checks_;
   plan_ = {};
-  for (const AgentId i : model_.instance().agents())
+  for (const AgentId i : model_.instance().agent_ids())
     plan_.paths.push_back(model_.extract_path(i, is_true));
   CollisionClauses clauses(model_);
   std::vector<PathCollision> collisions = find_collisions(model_.instance().graph(), plan_);

@@ -42,8 +42,8 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
   table->bits_.resize(is_plain ? 0 : agents * bytes);
   table->centres_.resize(is_plain ? 0 : agents * groups);
   BreadthFirst search(graph);
-  for (const AgentId agent : instance.agents()) {
-    if (limits.exhausted_now() || !search.run(instance.tasks()[agent].goal, &limits))
+  for (const AgentId agent : instance.agent_ids()) {
+    if (limits.exhausted_now() || !search.run(instance.agents()[agent].goal, &limits))
       return nullptr;
     const std::vector<Timestep>& distances = search.distances();
     if (is_plain)

@@ -6,7 +6,7 @@ namespace quadrille::discrete {
 AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& table, AgentId agent)
     : graph_(&instance.graph()),
       table_(&table),
-      task_(instance.tasks()[agent]),
+      task_(instance.agents()[agent]),
       to_goal_(table.row(agent)) {
   QUADRILLE_REQUIRE(free_cost() != kUnreachable, "the goal is reachable");
 }

@@ -37,7 +37,7 @@ class AgentDistances {
 
   const Graph* graph_;
   const GoalDistances* table_;
-  Task task_;
+  Agent task_;
   GoalDistances::Row to_goal_;
   mutable std::unique_ptr<const GoalDistances::OwnRow> from_start_;
 };

@@ -15,12 +15,12 @@ PathIndex::PathIndex(const Instance& instance)
       stays_(instance.graph().num_vertices()),
       resident_(instance.graph().num_vertices(), -1),
       is_changed_(instance.num_agents(), 0) {
-  for (const AgentId i : instance.agents())
-    resident_[instance.tasks()[i].goal] = static_cast<std::int32_t>(i.value());
+  for (const AgentId i : instance.agent_ids())
+    resident_[instance.agents()[i].goal] = static_cast<std::int32_t>(i.value());
 }
 
 void PathIndex::replace(AgentId agent, const Path& path) {
-  QUADRILLE_REQUIRE(!path.empty() && path.back() == instance_.tasks()[agent].goal,
+  QUADRILLE_REQUIRE(!path.empty() && path.back() == instance_.agents()[agent].goal,
                     "a path ends at the agent's goal");
   Path& own = paths_[agent];
   for (std::size_t t = 0; t < own.size();) {
@@ -53,7 +53,7 @@ PathIndex::Stay PathIndex::stay_at(AgentId agent, const Path& path, std::size_t 
 
 int PathIndex::collisions_of_rest(AgentId agent, Timestep arrival) const {
   int count = 0;
-  for (const Stay& stay : stays_[instance_.tasks()[agent].goal])
+  for (const Stay& stay : stays_[instance_.agents()[agent].goal])
     if (stay.agent != agent && stay.end > arrival)
       count += stay.end - std::max(stay.begin - 1, arrival);
   return count;
@@ -98,7 +98,7 @@ void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
 }
 
 void PathIndex::collect_rest(AgentId agent, std::vector<Encounter>& out) const {
-  const VertexId goal = instance_.tasks()[agent].goal;
+  const VertexId goal = instance_.agents()[agent].goal;
   for (const Stay& stay : stays_[goal])
     if (stay.agent != agent)
       for (Timestep t = std::max(stay.begin, cost(agent) + 1); t <= stay.end; ++t)

@@ -32,7 +32,7 @@ class Lanes {
 
   void find(LimitMonitor& limits) {
     std::vector<AgentId> order;
-    for (const AgentId i : instance_.agents()) order.push_back(i);
+    for (const AgentId i : instance_.agent_ids()) order.push_back(i);
     std::int64_t fewest = INT64_MAX;
     for (int round = 0; round < kRounds; ++round) {
       random_.shuffle_front(order, order.size());
@@ -123,7 +123,7 @@ class Lanes {
   /// was left.
   std::int64_t search(AgentId agent) {
     const auto row = distances_.row(agent);
-    const auto [start, goal] = instance_.tasks()[agent];
+    const auto [start, goal] = instance_.agents()[agent];
     const Timestep free = row[start];
     const auto bucket_of = [&](const Label& label) {
       return static_cast<std::size_t>(label.meetings * (margin_ + 1) + label.time +
@@ -165,7 +165,7 @@ class Lanes {
   }
 
   void trace(AgentId agent) {
-    const auto [start, goal] = instance_.tasks()[agent];
+    const auto [start, goal] = instance_.agents()[agent];
     Path& path = paths_[agent];
     path.clear();
     for (VertexId v = goal; v != start; v = reached_[v].parent) path.push_back(v);
@@ -178,7 +178,7 @@ class Lanes {
     Path& path = paths_[agent];
     if (path.empty()) {
       const auto row = distances_.row(agent);
-      path.push_back(instance_.tasks()[agent].start);
+      path.push_back(instance_.agents()[agent].start);
       while (row[path.back()] > 0) {
         const auto near = instance_.graph().neighbours(path.back());
         path.push_back(*std::find_if(near.begin(), near.end(),
@@ -214,7 +214,7 @@ Guide::Guide(const Instance& instance, const GoalDistances& distances, Timestep 
   Lanes lanes(instance, distances, margin, seed);
   lanes.find(limits);
   effort_ = lanes.effort();
-  for (const AgentId i : instance.agents()) {
+  for (const AgentId i : instance.agent_ids()) {
     const Path& path = lanes.path(i);
     for (std::size_t t = 0; t + 1 < path.size(); ++t) steps_[i].push_back({path[t], path[t + 1]});
     std::sort(steps_[i].begin(), steps_[i].end(),

@@ -20,12 +20,12 @@ Lacam::Lacam(const Instance& instance, std::shared_ptr<const GoalDistances> dist
   Configuration starts;
   std::vector<AgentId> by_distance;
   const auto far = [&](AgentId agent) {
-    return (*distances_)(agent, instance_.tasks()[agent].start);
+    return (*distances_)(agent, instance_.agents()[agent].start);
   };
-  for (const AgentId agent : instance_.agents()) {
+  for (const AgentId agent : instance_.agent_ids()) {
     if (far(agent) == kUnreachable) state_ = State::exhausted;
-    starts.push_back(instance_.tasks()[agent].start);
-    goals_.push_back(instance_.tasks()[agent].goal);
+    starts.push_back(instance_.agents()[agent].start);
+    goals_.push_back(instance_.agents()[agent].goal);
     by_distance.push_back(agent);
   }
   if (state_ == State::exhausted) return;
@@ -145,7 +145,7 @@ Plan Lacam::plan() const {
   Plan plan;
   plan.paths.resize(goals_.size());
   for (auto step = steps.rbegin(); step != steps.rend(); ++step)
-    for (const AgentId agent : instance_.agents())
+    for (const AgentId agent : instance_.agent_ids())
       plan.paths[agent].push_back(nodes_[*step].configuration[agent.index()]);
   trim(plan);
   return plan;

@@ -68,7 +68,7 @@ void Neighbourhoods::fill_up(std::size_t size) {
     return;
   }
   std::vector<AgentId> agents;
-  for (const AgentId agent : instance_.agents()) agents.push_back(agent);
+  for (const AgentId agent : instance_.agent_ids()) agents.push_back(agent);
   random_.shuffle_front(agents, size);
   for (std::size_t k = 0; k < size; ++k) chosen_.take(agents[k]);
 }

@@ -38,7 +38,7 @@ bool PathPlanner::begin(AgentId agent, const Reservations& reservations, Timeste
   row_ = distances_.row(agent);
   reservations_ = &reservations;
   latest_ = latest;
-  const auto [start, goal] = instance_.tasks()[agent];
+  const auto [start, goal] = instance_.agents()[agent];
   goal_ = goal;
   ++search_;
   labels_.clear();

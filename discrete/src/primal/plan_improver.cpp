@@ -29,7 +29,7 @@ PlanImprover::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
       planner_(instance_, *distances_, random_),
       neighbourhoods_(instance_, *distances_, plan_.paths, reservations_, random_),
       was_seed_(instance_.num_agents(), 0) {
-  for (const AgentId agent : instance_.agents()) ideal_sum_ += distance(agent);
+  for (const AgentId agent : instance_.agent_ids()) ideal_sum_ += distance(agent);
   for (const Rule rule : {Rule::delayed, Rule::place, Rule::any})
     for (const std::size_t size : kSizes)
       if (size == kSizes.front() || size <= instance_.num_agents())
@@ -42,13 +42,13 @@ void PlanImprover::Impl::restart_from(const Plan& plan) {
   for (const Path& path : plan_.paths) reservations_.remove(path);
   plan_ = plan;
   trim(plan_);
-  for (const AgentId agent : instance_.agents()) reservations_.add(agent, plan_.paths[agent]);
+  for (const AgentId agent : instance_.agent_ids()) reservations_.add(agent, plan_.paths[agent]);
   count_costs();
 }
 
 void PlanImprover::Impl::count_costs() {
   sum_ = makespan_ = 0;
-  for (const AgentId agent : instance_.agents()) {
+  for (const AgentId agent : instance_.agent_ids()) {
     sum_ += cost_of(agent);
     makespan_ = std::max(makespan_, cost_of(agent));
   }
@@ -115,14 +115,14 @@ PlanImprover::Impl::Choice& PlanImprover::Impl::draw_choice() {
 AgentId PlanImprover::Impl::draw_seed() {
   if (objective_ == Objective::makespan && random_.below(2) == 0) {
     std::vector<AgentId> last;
-    for (const AgentId agent : instance_.agents())
+    for (const AgentId agent : instance_.agent_ids())
       if (cost_of(agent) == makespan_) last.push_back(agent);
     return last[static_cast<std::size_t>(random_.below(last.size()))];
   }
   for (;;) {
     std::optional<AgentId> seed;
     Cost largest = 0;
-    for (const AgentId agent : instance_.agents()) {
+    for (const AgentId agent : instance_.agent_ids()) {
       const Cost delay = cost_of(agent) - distance(agent);
       if (was_seed_[agent.index()] != 0 || delay <= largest) continue;
       seed = agent;
@@ -150,7 +150,7 @@ PlanImprover::Impl::Budget PlanImprover::Impl::budget_of(const std::vector<Agent
   budget.latest = static_cast<Timestep>(makespan_);
   // Are these all the agents that arrive last, and could they be faster?
   std::size_t num_last = 0;
-  for (const AgentId agent : instance_.agents()) num_last += cost_of(agent) == makespan_ ? 1 : 0;
+  for (const AgentId agent : instance_.agent_ids()) num_last += cost_of(agent) == makespan_ ? 1 : 0;
   for (const AgentId agent : agents) num_last -= cost_of(agent) == makespan_ ? 1 : 0;
   if (num_last == 0 && free_makespan < makespan_)
     budget = {budget.latest - 1, static_cast<Cost>(agents.size()) * makespan_};

@@ -57,7 +57,7 @@ class PlanImprover::Impl {
   void put_back(const std::vector<AgentId>& agents, std::size_t num_new);
   void count_costs();
   [[nodiscard]] Cost distance(AgentId agent) const {
-    return (*distances_)(agent, instance_.tasks()[agent].start);
+    return (*distances_)(agent, instance_.agents()[agent].start);
   }
   [[nodiscard]] Cost cost_of(AgentId agent) const {
     return static_cast<Cost>(plan_.paths[agent].size()) - 1;

@@ -53,7 +53,7 @@ void PlanRepair::restart_from(const Plan& draft) {
   colliding_.clear();
   plan_ = draft;
   trim(plan_);
-  for (const AgentId agent : instance_.agents()) {
+  for (const AgentId agent : instance_.agent_ids()) {
     effort_ += static_cast<std::int64_t>(plan_.paths[agent].size()) / 4 + 1;
     reserve(agent);
   }
@@ -81,7 +81,7 @@ void PlanRepair::step(LimitMonitor& limits) {
   std::size_t num_new = 0;
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
     const AgentId agent = chosen_[k];
-    const Timestep least = (*distances_)(agent, instance_.tasks()[agent].start);
+    const Timestep least = (*distances_)(agent, instance_.agents()[agent].start);
     const auto old_arrival = static_cast<Timestep>(old_paths_[k].size()) - 1;
     const Timestep latest = std::max(least + slack, old_arrival);
     auto found = planner_.find(agent, reservations_, latest, before - num_meetings_,

@@ -22,8 +22,8 @@ constexpr std::int64_t kGuideEffortPerTimestep = 5;
 
 std::int64_t unit_of(const Instance& instance, const GoalDistances& distances) {
   std::int64_t farthest = 0;
-  for (const AgentId i : instance.agents())
-    if (const Timestep way = distances(i, instance.tasks()[i].start); way != kUnreachable)
+  for (const AgentId i : instance.agent_ids())
+    if (const Timestep way = distances(i, instance.agents()[i].start); way != kUnreachable)
       farthest = std::max<std::int64_t>(farthest, way);
   return std::max(kLeastUnit,
                   kEasy * farthest * (static_cast<std::int64_t>(instance.num_agents()) + 1));
@@ -45,8 +45,8 @@ PrimalSearch::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
       seed_(seed),
       part_(part),
       unit_(unit_of(instance, *distances_)) {
-  for (const AgentId i : instance_.agents()) {
-    const Timestep way = (*distances_)(i, instance_.tasks()[i].start);
+  for (const AgentId i : instance_.agent_ids()) {
+    const Timestep way = (*distances_)(i, instance_.agents()[i].start);
     if (way == kUnreachable) state_ = State::exhausted;
     ideal_ += way;
   }

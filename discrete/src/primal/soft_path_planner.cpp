@@ -37,7 +37,7 @@ void SoftPathPlanner::begin(AgentId agent, const SoftReservations& reservations,
   reservations_ = &reservations;
   latest_ = latest;
   most_ = most;
-  const auto [start, goal] = instance_.tasks()[agent];
+  const auto [start, goal] = instance_.agents()[agent];
   goal_ = goal;
   ++search_;
   labels_.clear();

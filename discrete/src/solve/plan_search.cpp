@@ -91,8 +91,8 @@ void PlanImprovement::improve_draft(std::int64_t effort) {
 PlanSearch::PlanSearch(const PlanSearchContext& context)
     : context_(context), first_plan_(context), improvement_(context) {
   std::int64_t steps = 0;
-  for (const AgentId i : context.instance.agents())
-    steps += (*context.distances)(i, context.instance.tasks()[i].start);
+  for (const AgentId i : context.instance.agent_ids())
+    steps += (*context.distances)(i, context.instance.agents()[i].start);
   long_slice_ = std::max(kLeastSlice, steps);
 }
 

@@ -84,8 +84,8 @@ class Search final : private sat::YieldPoint {
     constexpr double kGrace = 0.1;  // s
     Cost bound = 0;
     const double begin = wall_seconds();
-    for (const AgentId i : instance_.agents()) {
-      const Task& task = instance_.tasks()[i];
+    for (const AgentId i : instance_.agent_ids()) {
+      const Agent& task = instance_.agents()[i];
       const Cost cost = distances != nullptr
                             ? (*distances)(i, task.start)
                             : distances_from(instance_.graph(), task.goal)[task.start];

@@ -71,7 +71,7 @@ class Replay {
         continue;
       }
       listed_.push_back(i);
-      const Task& task = instance_.tasks()[AgentId(i)];
+      const Agent& task = instance_.agents()[AgentId(i)];
       const auto last = static_cast<Timestep>(path(i).size() - 1);
       if (path(i).front() != task.start)
         add(Violation::Kind::wrong_start, i, path(i).front(), 0,

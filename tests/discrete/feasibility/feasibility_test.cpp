@@ -29,7 +29,7 @@ double scale() {
 template <class Starts, class Goals>
 Feasibility check(const std::shared_ptr<const Graph>& graph, const Starts& starts,
                   const Goals& goals) {
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   for (std::size_t i = 0; i < starts.size(); ++i)
     tasks.push_back({VertexId(starts[i]), VertexId(goals[i])});
   return check_feasibility(Instance::make(graph, std::move(tasks)).value());

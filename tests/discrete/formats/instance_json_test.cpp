@@ -10,8 +10,8 @@ TEST(InstanceJson, ReadsGrids) {
   const Instance instance = read_instance_json(testing::data("valid/grid.json")).value();
   const GridMap map = read_map(testing::data("valid/small.map")).value();
   EXPECT_TRUE(testing::equal(instance.graph(), map.graph()));
-  EXPECT_EQ(instance.tasks().items(),
-            (std::vector<Task>{{VertexId(0), VertexId(3)}, {VertexId(3), VertexId(0)}}));
+  EXPECT_EQ(instance.agents().items(),
+            (std::vector<Agent>{{VertexId(0), VertexId(3)}, {VertexId(3), VertexId(0)}}));
 }
 
 TEST(InstanceJson, ReadsGraphs) {
@@ -20,8 +20,8 @@ TEST(InstanceJson, ReadsGraphs) {
   EXPECT_EQ(instance.graph().num_edges(), 2u);
   EXPECT_TRUE(instance.graph().adjacent(VertexId(2), VertexId(1)));
   EXPECT_FALSE(instance.graph().layout().has_value());
-  EXPECT_EQ(instance.tasks().items(),
-            (std::vector<Task>{{VertexId(0), VertexId(2)}, {VertexId(2), VertexId(0)}}));
+  EXPECT_EQ(instance.agents().items(),
+            (std::vector<Agent>{{VertexId(0), VertexId(2)}, {VertexId(2), VertexId(0)}}));
 }
 
 TEST(InstanceJson, NumbersAtTheEndOfALineBelongToIt) {

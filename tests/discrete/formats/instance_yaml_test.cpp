@@ -25,7 +25,7 @@ TEST(InstanceYaml, ReadsFlowStyleAndIgnoresRepeatedObstacles) {
       "agents: [{name: agent0, start: [0, 0], goal: [4, 0]}]  # from its manual\n");
   ASSERT_TRUE(instance.has_value()) << instance.error().to_string();
   EXPECT_EQ(instance->graph().num_vertices(), 9u);
-  EXPECT_EQ(instance->tasks().items(), (std::vector<Task>{{VertexId(0), VertexId(4)}}));
+  EXPECT_EQ(instance->agents().items(), (std::vector<Agent>{{VertexId(0), VertexId(4)}}));
 }
 
 TEST(InstanceYaml, AliasBombsAreRefusedAtOnce) {

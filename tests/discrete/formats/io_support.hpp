@@ -79,7 +79,7 @@ inline bool equal(const Graph& a, const Graph& b) {
 }
 
 inline bool equal(const Instance& a, const Instance& b) {
-  return equal(a.graph(), b.graph()) && a.tasks() == b.tasks();
+  return equal(a.graph(), b.graph()) && a.agents() == b.agents();
 }
 
 inline Instance random_grid_instance(std::uint64_t seed) {
@@ -99,7 +99,7 @@ inline Instance random_graph_instance(std::uint64_t seed) {
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = a + 1; b < count; ++b)
       if (random() % 3 == 0) edges.emplace_back(VertexId(a), VertexId(b));
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   for (std::size_t i = 0; i < count; i += 1 + random() % 2)
     tasks.push_back({VertexId(i), VertexId(count - 1 - i)});
   return Instance::make(Graph::make(count, edges).value(), std::move(tasks)).value();

@@ -129,7 +129,7 @@ TEST(Generator, ScenariosAreInstancesThatCanBeWalked) {
     // make_instance refuses equal starts and equal goals.
     const Instance instance =
         make_instance(std::make_shared<const Graph>(map.graph()), scenario, agents).value();
-    for (const Task& task : instance.tasks())
+    for (const Agent& task : instance.agents())
       EXPECT_NE(distances_from(instance.graph(), task.start)[task.goal], kUnreachable);
   }
 }

@@ -46,7 +46,7 @@ std::optional<Instance> random_instance(unsigned seed) {
     if (distances[v] != kUnreachable) component.push_back(v);
   if (component.size() < 3) return std::nullopt;
   const std::size_t num_agents = 1 + below(std::min<std::size_t>(component.size() - 1, 7));
-  std::vector<Task> tasks(num_agents);
+  std::vector<Agent> tasks(num_agents);
   std::shuffle(component.begin(), component.end(), random);
   for (std::size_t i = 0; i < num_agents; ++i) tasks[i].start = component[i];
   std::shuffle(component.begin(), component.end(), random);

@@ -36,7 +36,7 @@ Instance random_instance(Random& random) {
     const Instance instance = random.percent(65) ? support::random_grid(random, {2, 4, 25, 2, 5})
                                                  : support::random_graph(random, 9, 4);
     const bool all_reach =
-        std::all_of(instance.tasks().begin(), instance.tasks().end(), [&](const Task& task) {
+        std::all_of(instance.agents().begin(), instance.agents().end(), [&](const Agent& task) {
           return distances_from(instance.graph(), task.start)[task.goal] != kUnreachable;
         });
     if (all_reach && instance.num_agents() > 1) return instance;
@@ -77,7 +77,7 @@ class Session final : private FormulaWriter {
   void begin_solve() {
     const bool all_present = random_.percent(50);
     theory_.on_solve(all_present);
-    for (const AgentId i : instance_.agents()) {
+    for (const AgentId i : instance_.agent_ids()) {
       const auto delay = static_cast<Timestep>(random_.below(5));
       const Lit above = model_.cost_above(i, model_.distances(i).free_cost() + delay, *this);
       if (all_present || random_.percent(60)) driver_.assume(~above);

@@ -39,7 +39,7 @@ Instance random_instance(Random& random) {
   goals = starts;
   random.shuffle(starts);
   random.shuffle(goals);
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   for (std::size_t i = 0; i < 4; ++i) tasks.push_back({starts[i], goals[i]});
   return Instance::make(Graph::grid(width, 3, std::vector<bool>(size, true)), tasks).value();
 }
@@ -48,7 +48,7 @@ Instance random_instance(Random& random) {
 class Scenery {
  public:
   explicit Scenery(std::uint64_t seed) : random_(seed), instance_(random_instance(random_)) {
-    for (const AgentId i : instance_.agents()) {
+    for (const AgentId i : instance_.agent_ids()) {
       paths_.replace(i, *search_.find_cheapest(i, {}, kForever - 1).path());
       for (std::size_t n = random_.below(12); n > 0; --n) obstacles_[i].push_back(obstacle(i));
       auto& mine = obstacles_[i];
@@ -74,7 +74,7 @@ class Scenery {
   /// Of the agent's path with those of the others.
   [[nodiscard]] int num_collisions(AgentId i, const Path& path) const {
     int count = 0;
-    for (const AgentId j : instance_.agents()) {
+    for (const AgentId j : instance_.agent_ids()) {
       if (j == i) continue;
       const Path& other = paths_.path(j);
       const auto end = static_cast<Timestep>(std::max(path.size(), other.size()));
@@ -110,7 +110,7 @@ class Scenery {
                            t - 1, writer_);
       case 2: {
         // For ever now and then, but not where the agent must come to rest.
-        const bool is_endless = v != instance_.tasks()[i].goal && random_.percent(30);
+        const bool is_endless = v != instance_.agents()[i].goal && random_.percent(30);
         const auto length = static_cast<Timestep>(random_.below(5));
         return model_.range(i, v, t, is_endless ? kForever : t + length, writer_);
       }
@@ -129,7 +129,7 @@ TEST(PathSearch, FindsACheapestPathOrBlamesObstacles) {
   for (std::uint64_t seed = 0; seed < scaled(400) && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Scenery scenery(seed);
-    for (const AgentId i : scenery.instance_.agents()) {
+    for (const AgentId i : scenery.instance_.agent_ids()) {
       const auto& active = scenery.obstacles_[i];
       const Timestep free = scenery.model_.distances(i).free_cost();
       const auto limit = static_cast<Timestep>(free + static_cast<int>(scenery.random_.below(8)));
@@ -165,7 +165,7 @@ TEST(PathSearch, FindsQuieterPathsWithinTheCap) {
   for (std::uint64_t seed = 0; seed < scaled(400) && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Scenery scenery(1'000'000 + seed);
-    for (const AgentId i : scenery.instance_.agents()) {
+    for (const AgentId i : scenery.instance_.agent_ids()) {
       const auto& active = scenery.obstacles_[i];
       const auto cap = static_cast<Timestep>(scenery.model_.distances(i).free_cost() +
                                              static_cast<int>(scenery.random_.below(3)));
@@ -197,7 +197,7 @@ TEST(PathSearchDeathTest, OnlyTheLastSearchCanBeAsked) {
 class Separated {
  public:
   explicit Separated(std::uint64_t seed) : scenery_(seed) {
-    for (const AgentId i : scenery_.instance_.agents()) {
+    for (const AgentId i : scenery_.instance_.agent_ids()) {
       is_present_.push_back(scenery_.random_.percent(75));
       if (!is_present_[i]) continue;
       const auto cap = static_cast<Timestep>(scenery_.model_.distances(i).free_cost() +
@@ -210,7 +210,7 @@ class Separated {
     }
     trail_.notice(scenery_.model_.obstacles());
     std::size_t k = 0;
-    for (const AgentId i : scenery_.instance_.agents()) {
+    for (const AgentId i : scenery_.instance_.agent_ids()) {
       if (!is_present_[i]) continue;
       for (const Lit lit : stacks_[k])
         if (trail_.value(lit) == sat::Truth::unassigned) push(lit);
@@ -226,8 +226,8 @@ class Separated {
   using Collision = std::tuple<AgentId, AgentId, Timestep, bool>;
   [[nodiscard]] std::vector<Collision> collisions() const {
     std::vector<Collision> found;
-    for (const AgentId i : scenery_.instance_.agents())
-      for (const AgentId j : scenery_.instance_.agents()) {
+    for (const AgentId i : scenery_.instance_.agent_ids())
+      for (const AgentId j : scenery_.instance_.agent_ids()) {
         if (!(i < j) || !is_present_[i] || !is_present_[j]) continue;
         const Path& a = scenery_.paths_.path(i);
         const Path& b = scenery_.paths_.path(j);
@@ -251,7 +251,7 @@ class Separated {
   }
   void expect_good_paths() {
     const Situation now(scenery_.model_, pushed_);
-    for (const AgentId i : scenery_.instance_.agents()) {
+    for (const AgentId i : scenery_.instance_.agent_ids()) {
       if (!is_present_[i]) continue;
       EXPECT_EQ(now.find_fault(i, scenery_.paths_.path(i)), "") << i.value();
     }
@@ -279,7 +279,7 @@ TEST(Separation, ListsCollisionsAndBypassesThem) {
     separated.expect_collisions_listed();
     separated.expect_good_paths();
     collided += separated.collisions().empty() ? 0 : 1;
-    for (const AgentId i : scenery.instance_.agents()) {
+    for (const AgentId i : scenery.instance_.agent_ids()) {
       if (!separated.is_present_[i]) continue;
       const Path before = scenery.paths_.path(i);
       const int num_before = scenery.num_collisions(i, before);

@@ -32,7 +32,7 @@ struct Situation {
       if (values.size() <= index) values.resize(index + 1, sat::Truth::unassigned);
       values[index] = lit.positive() ? sat::Truth::is_true : sat::Truth::is_false;
     }
-    for (const AgentId i : model.instance().agents())
+    for (const AgentId i : model.instance().agent_ids())
       for (const auto& literal : model.cost_literals(i))
         if (is_false(literal.above)) cap[i] = std::min(cap[i], literal.cost);
     for (const ObstacleId id : IdRange<ObstacleId>(model.obstacles().size())) {
@@ -41,7 +41,7 @@ struct Situation {
       if (o.kind != Obstacle::Kind::range || o.last != kForever) end = std::max(end, o.last);
       end = std::max(end, o.first + 1);
     }
-    for (const AgentId i : model.instance().agents())
+    for (const AgentId i : model.instance().agent_ids())
       if (is_present(i)) end = std::max(end, cap[i]);
   }
 
@@ -61,7 +61,7 @@ struct Situation {
     return std::find(cap.begin(), cap.end(), kForever) == cap.end();
   }
   [[nodiscard]] bool may_visit(AgentId i, VertexId v, Timestep t) const {
-    return (t < cap[i] || v == model.instance().tasks()[i].goal) &&
+    return (t < cap[i] || v == model.instance().agents()[i].goal) &&
            std::none_of(active[i].begin(), active[i].end(), [&](const Obstacle& o) {
              return forbids_visit(model.obstacles(), o, v, t);
            });
@@ -74,7 +74,7 @@ struct Situation {
   /// Whether some path of a present agent is within its cap and avoids its obstacles.
   [[nodiscard]] bool has_path(AgentId i) const {
     const Graph& graph = model.instance().graph();
-    const Task& task = model.instance().tasks()[i];
+    const Agent& task = model.instance().agents()[i];
     std::vector<bool> here(graph.num_vertices(), false);
     here[task.start.index()] = may_visit(i, task.start, 0);
     for (Timestep t = 0; t <= end; ++t) {
@@ -92,7 +92,7 @@ struct Situation {
   /// Why `path` is not one of these; empty if it is.
   [[nodiscard]] std::string find_fault(AgentId i, const Path& path) const {
     const Graph& graph = model.instance().graph();
-    const Task& task = model.instance().tasks()[i];
+    const Agent& task = model.instance().agents()[i];
     if (path.empty() || path.front() != task.start || path.back() != task.goal)
       return "does not lead from the start to the goal";
     if (static_cast<Timestep>(path.size()) - 1 > cap[i]) return "is costlier than the cap";

@@ -57,12 +57,12 @@ class WatchedTheory final : public sat::Theory {
   void check(sat::Effort effort, sat::TheoryContext& context) override {
     RecordingContext said(context);
     std::vector<Path> before;
-    for (const AgentId i : model_.instance().agents()) before.push_back(theory_.path(i));
+    for (const AgentId i : model_.instance().agent_ids()) before.push_back(theory_.path(i));
     theory_.check(effort, said);
     const Situation now(model_, stack_);
     if (effort == sat::Effort::partial) {
       judge_partial(said, now);
-      for (const AgentId i : model_.instance().agents())
+      for (const AgentId i : model_.instance().agent_ids())
         if (theory_.path(i) != before[i.index()]) expect_bound_told(i, said, now);
       if (has_retracted_ && stack_.size() % 4 == 0) compare_with_fresh(context, now);
       has_retracted_ = false;
@@ -135,7 +135,7 @@ class WatchedTheory final : public sat::Theory {
     ASSERT_EQ(theory_.accepted().has_value(), now.all_present());
     if (!now.all_present()) return;
     EXPECT_EQ(support::replay(model_.instance(), *theory_.accepted()), "");
-    for (const AgentId i : model_.instance().agents())
+    for (const AgentId i : model_.instance().agent_ids())
       EXPECT_EQ(theory_.accepted()->paths[i], theory_.path(i));
   }
   /// A theory that has never seen anything else than this stack finds the same.
@@ -152,19 +152,19 @@ class WatchedTheory final : public sat::Theory {
   }
 
   [[nodiscard]] bool has_all_paths(const Situation& now) const {
-    for (const AgentId i : model_.instance().agents())
+    for (const AgentId i : model_.instance().agent_ids())
       if (now.is_present(i) && !now.has_path(i)) return false;
     return true;
   }
   static void expect_good_paths(const LazyTheory& theory, const Situation& now) {
-    for (const AgentId i : now.model.instance().agents()) {
+    for (const AgentId i : now.model.instance().agent_ids()) {
       const std::string fault = now.is_present(i) ? now.find_fault(i, theory.path(i)) : "";
       EXPECT_EQ(fault, "") << "the path of agent " << i.value();
     }
   }
   void expect_no_collision(const Situation& now) const {
-    for (const AgentId i : model_.instance().agents())
-      for (const AgentId j : model_.instance().agents()) {
+    for (const AgentId i : model_.instance().agent_ids())
+      for (const AgentId j : model_.instance().agent_ids()) {
         const bool matters = i < j && now.is_present(i) && now.is_present(j);
         EXPECT_FALSE(matters && support::collide(theory_.path(i), theory_.path(j)));
       }

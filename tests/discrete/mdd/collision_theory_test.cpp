@@ -35,7 +35,7 @@ struct Fixture {
       std::swap(starts[i - 1], starts[draw(i)]);
       std::swap(goals[i - 1], goals[draw(i)]);
     }
-    std::vector<Task> tasks;
+    std::vector<Agent> tasks;
     for (std::size_t i = 0; i < 2 + draw(2); ++i) tasks.push_back({starts[i], goals[i]});
     const auto objective = draw(2) == 0 ? Objective::sum_of_costs : Objective::makespan;
     model = std::make_unique<MddModel>(Instance::make(std::move(graph), tasks).value(), objective);
@@ -43,9 +43,9 @@ struct Fixture {
     LimitMonitor limits{Limits{}};
     EXPECT_TRUE(model->attach(*engine, limits));
     Timestep longest = 0;
-    for (const AgentId i : model->instance().agents())
+    for (const AgentId i : model->instance().agent_ids())
       longest = std::max(longest, model->mdd(i).distance());
-    for (const AgentId i : model->instance().agents()) {
+    for (const AgentId i : model->instance().agent_ids()) {
       // For the makespan all agents' MDDs end together.
       const Timestep cap = objective == Objective::makespan ? longest + 1 - model->mdd(i).distance()
                                                             : static_cast<Timestep>(draw(3));
@@ -226,7 +226,7 @@ TEST(CollisionTheory, AcceptsAModelExactlyIfItsPathsDoNotCollide) {
       for (int v = 1; v < model.variable_end(); ++v) host.add_variable(v);
       support::MockSolver solver(host, model.variable_end() - 1, s);
       Plan plan;
-      for (const AgentId i : model.instance().agents())
+      for (const AgentId i : model.instance().agent_ids())
         plan.paths.push_back(random_path(model, i, fixture.random));
       for (int v = 1; v < model.variable_end(); ++v) {
         const Lit x = Lit::from_dimacs(v);
@@ -243,8 +243,8 @@ TEST(CollisionTheory, AcceptsAModelExactlyIfItsPathsDoNotCollide) {
       bool collides = false;
       const auto end = static_cast<Timestep>(12);
       for (Timestep t = 0; t < end; ++t)
-        for (const AgentId i : model.instance().agents())
-          for (const AgentId j : model.instance().agents()) {
+        for (const AgentId i : model.instance().agent_ids())
+          for (const AgentId j : model.instance().agent_ids()) {
             if (i == j) continue;
             const auto at = [&](AgentId k, Timestep when) { return position(plan.paths[k], when); };
             collides = collides || at(i, t) == at(j, t) ||

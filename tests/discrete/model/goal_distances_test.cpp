@@ -18,8 +18,8 @@ std::shared_ptr<const GoalDistances> packed_distances_of(const Instance& instanc
 }
 
 void expect_right(const Instance& instance, const GoalDistances& table, std::size_t stride = 1) {
-  for (const AgentId agent : instance.agents()) {
-    const Task& task = instance.tasks()[agent];
+  for (const AgentId agent : instance.agent_ids()) {
+    const Agent& task = instance.agents()[agent];
     const auto expected = distances_from(instance.graph(), task.goal);
     const auto from_start = distances_from(instance.graph(), task.start);
     const GoalDistances::Row row = table.row(agent);

@@ -20,7 +20,7 @@ namespace quadrille::discrete {
 /// A small graph, a task on it and obstacles of all kinds.
 struct Trial {
   std::optional<Graph> graph;
-  Task task;
+  Agent task;
   ObstacleTable table;
   std::vector<ObstacleId> active;
 };

@@ -27,7 +27,7 @@ std::vector<std::pair<Timestep, bool>> collide(const Path& a, const Path& b) {
   return found;
 }
 
-Path random_walk(const Graph& graph, const Task& task, std::mt19937& random) {
+Path random_walk(const Graph& graph, const Agent& task, std::mt19937& random) {
   const auto to_goal = distances_from(graph, task.goal);
   Path path{task.start};
   for (int t = 0; t < 6; ++t) {
@@ -54,11 +54,11 @@ TEST(PathIndex, ListsAllCollisionsWhateverWasReplacedBefore) {
     goals = starts;
     std::shuffle(starts.begin(), starts.end(), random);
     std::shuffle(goals.begin(), goals.end(), random);
-    std::vector<Task> tasks;
+    std::vector<Agent> tasks;
     for (std::size_t i = 0; i < 4; ++i) tasks.push_back({starts[i], goals[i]});
     const Instance instance = Instance::make(graph, tasks).value();
     PathIndex index(instance);
-    for (const AgentId i : instance.agents())
+    for (const AgentId i : instance.agent_ids())
       index.replace(i, random_walk(graph, tasks[i.index()], random));
     for (int change = 0; change < 5; ++change) {
       for (std::size_t many = random() % 3; many > 0; --many) {
@@ -77,12 +77,12 @@ TEST(PathIndex, ListsAllCollisionsWhateverWasReplacedBefore) {
           EXPECT_LE(index.cost(e.first), e.timestep);
         }
       }
-      for (const AgentId i : instance.agents()) {
+      for (const AgentId i : instance.agent_ids()) {
         EXPECT_EQ(index.num_collisions(i, index.path(i)), index.num_collisions(i));
         // Of a path that is not there yet.
         const Path other = random_walk(graph, tasks[i.index()], random);
         int collisions = 0;
-        for (const AgentId j : instance.agents())
+        for (const AgentId j : instance.agent_ids())
           if (j != i) collisions += static_cast<int>(collide(other, index.path(j)).size());
         EXPECT_EQ(index.num_collisions(i, other), collisions);
       }

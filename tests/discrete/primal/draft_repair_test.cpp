@@ -15,8 +15,8 @@ namespace {
 struct Meeting {
   explicit Meeting(const std::string& text) : Meeting(instance_of(text)) {}
   explicit Meeting(Instance crowd) : instance(std::move(crowd)) {
-    for (const AgentId agent : instance.agents()) {
-      const auto [start, goal] = instance.tasks()[agent];
+    for (const AgentId agent : instance.agent_ids()) {
+      const auto [start, goal] = instance.agents()[agent];
       Path path{start};
       while (path.back() != goal) {
         const auto near = instance.graph().neighbours(path.back());

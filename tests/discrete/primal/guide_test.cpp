@@ -21,7 +21,7 @@ using support::instance_text;
 
 /// Where the guide leads from the start, until it leads nowhere.
 Path followed(const Guide& guide, const Instance& instance, AgentId agent) {
-  Path path(1, instance.tasks()[agent].start);
+  Path path(1, instance.agents()[agent].start);
   while (const auto next = guide.next(agent, path.back())) {
     path.push_back(*next);
     if (path.size() > instance.graph().num_vertices()) break;  // A circle.
@@ -32,7 +32,7 @@ Path followed(const Guide& guide, const Instance& instance, AgentId agent) {
 /// Along shortest paths that are chosen without a look at the others.
 Path descent(const Instance& instance, const GoalDistances& distances, AgentId agent) {
   const auto row = distances.row(agent);
-  Path path(1, instance.tasks()[agent].start);
+  Path path(1, instance.agents()[agent].start);
   while (row[path.back()] > 0)
     for (const VertexId v : instance.graph().neighbours(path.back()))
       if (row[v] < row[path.back()]) {
@@ -45,7 +45,7 @@ Path descent(const Instance& instance, const GoalDistances& distances, AgentId a
 std::int64_t num_meetings(const Instance& instance, const IdVector<AgentId, Path>& paths) {
   SoftReservations reservations(instance.graph().num_vertices());
   std::int64_t count = 0;
-  for (const AgentId agent : instance.agents()) {
+  for (const AgentId agent : instance.agent_ids()) {
     reservations.for_each_meeting(agent, paths[agent], [&](AgentId) { ++count; });
     reservations.add(agent, paths[agent]);
   }
@@ -59,15 +59,15 @@ TEST(Guide, LeadsEachAgentToItsGoalWithinTheMargin) {
     const Instance instance = random_instance(random);
     const auto distances = distances_of(instance);
     bool is_cut_off = false;
-    for (const AgentId i : instance.agents())
-      is_cut_off = is_cut_off || (*distances)(i, instance.tasks()[i].start) == kUnreachable;
+    for (const AgentId i : instance.agent_ids())
+      is_cut_off = is_cut_off || (*distances)(i, instance.agents()[i].start) == kUnreachable;
     if (is_cut_off) continue;
     LimitMonitor limits{Limits{}};
     const auto margin = static_cast<Timestep>(random.below(4));
     const Guide guide(instance, *distances, margin, static_cast<std::uint32_t>(round), limits);
-    for (const AgentId agent : instance.agents()) {
+    for (const AgentId agent : instance.agent_ids()) {
       const Path path = followed(guide, instance, agent);
-      const auto [start, goal] = instance.tasks()[agent];
+      const auto [start, goal] = instance.agents()[agent];
       ASSERT_EQ(path.back(), goal) << instance_text(instance);
       EXPECT_LE(static_cast<Timestep>(path.size()) - 1, (*distances)(agent, start) + margin);
       for (std::size_t t = 1; t < path.size(); ++t) {
@@ -92,7 +92,7 @@ TEST(Guide, ItsPathsMeetInFewerPlaces) {
     IdVector<AgentId, Path> shortest, narrow, wide;
     const Guide without(instance, *distances, 0, 0, limits),
         with(instance, *distances, 10, 0, limits);
-    for (const AgentId agent : instance.agents()) {
+    for (const AgentId agent : instance.agent_ids()) {
       shortest.push_back(descent(instance, *distances, agent));
       narrow.push_back(followed(without, instance, agent));
       wide.push_back(followed(with, instance, agent));
@@ -108,7 +108,7 @@ TEST(Guide, TheSameSeedGivesTheSameGuide) {
   LimitMonitor limits{Limits{}};
   const Guide one(instance, *distances, 5, 7, limits), two(instance, *distances, 5, 7, limits);
   EXPECT_EQ(one.effort(), two.effort());
-  for (const AgentId agent : instance.agents())
+  for (const AgentId agent : instance.agent_ids())
     EXPECT_EQ(followed(one, instance, agent), followed(two, instance, agent));
 }
 
@@ -120,8 +120,8 @@ TEST(Guide, StopsAtLimits) {
   LimitMonitor interrupted(limits);
   const Guide guide(instance, *distances_of(instance), 5, 7, interrupted);
   EXPECT_EQ(guide.effort(), 0);
-  for (const AgentId agent : instance.agents())
-    EXPECT_EQ(guide.next(agent, instance.tasks()[agent].start), std::nullopt);
+  for (const AgentId agent : instance.agent_ids())
+    EXPECT_EQ(guide.next(agent, instance.agents()[agent].start), std::nullopt);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ bool collide(const Path& a, const Path& b) {
 std::optional<Timestep> earliest(const Instance& instance, AgentId agent,
                                  const std::vector<Path>& others, Timestep latest) {
   const Graph& graph = instance.graph();
-  const auto [start, goal] = instance.tasks()[agent];
+  const auto [start, goal] = instance.agents()[agent];
   const auto is_free = [&](VertexId v, Timestep t) {
     return std::none_of(others.begin(), others.end(),
                         [&](const Path& path) { return position(path, t) == v; });
@@ -85,11 +85,11 @@ TEST(PathPlanner, FindsTheEarliestPathAmongOthers) {
                                                    : support::random_grid(random, {1, 5, 40, 2, 5});
     const auto distances = distances_of(instance);
     const AgentId agent(0);
-    if ((*distances)(agent, instance.tasks()[agent].start) == kUnreachable) continue;
+    if ((*distances)(agent, instance.agents()[agent].start) == kUnreachable) continue;
     std::vector<Path> others;
     Reservations reservations(instance.graph().num_vertices());
-    for (const AgentId other : instance.agents()) {
-      const Path path = random_walk(random, instance.graph(), instance.tasks()[other].start);
+    for (const AgentId other : instance.agent_ids()) {
+      const Path path = random_walk(random, instance.graph(), instance.agents()[other].start);
       if (other == agent || std::any_of(others.begin(), others.end(), [&](const Path& earlier) {
             return collide(path, earlier);
           }))
@@ -106,8 +106,8 @@ TEST(PathPlanner, FindsTheEarliestPathAmongOthers) {
     if (!path) continue;
     ASSERT_EQ(arrival(*path), *expected) << support::instance_text(instance);
     ASSERT_EQ(path->size(), static_cast<std::size_t>(*expected) + 1);
-    ASSERT_EQ(path->front(), instance.tasks()[agent].start);
-    ASSERT_EQ(path->back(), instance.tasks()[agent].goal);
+    ASSERT_EQ(path->front(), instance.agents()[agent].start);
+    ASSERT_EQ(path->back(), instance.agents()[agent].goal);
     for (std::size_t t = 1; t < path->size(); ++t)
       ASSERT_TRUE((*path)[t - 1] == (*path)[t] ||
                   instance.graph().adjacent((*path)[t - 1], (*path)[t]));
@@ -164,8 +164,8 @@ TEST(Pibt, ObeysOrdersAndTheRules) {
     const Graph& graph = instance.graph();
     std::vector<VertexId> from, to;
     std::vector<AgentId> priority;
-    for (const AgentId agent : instance.agents()) {
-      from.push_back(instance.tasks()[agent].start);
+    for (const AgentId agent : instance.agent_ids()) {
+      from.push_back(instance.agents()[agent].start);
       priority.insert(
           priority.begin() + static_cast<std::ptrdiff_t>(random.below(priority.size() + 1)), agent);
     }
@@ -206,8 +206,8 @@ TEST(Neighbourhoods, HaveTheSizeAskedForAndNobodyTwice) {
   const auto distances = distances_of(instance);
   Plan plan;
   Reservations reservations(144);
-  for (const AgentId agent : instance.agents()) {
-    plan.paths.push_back({instance.tasks()[agent].start});
+  for (const AgentId agent : instance.agent_ids()) {
+    plan.paths.push_back({instance.agents()[agent].start});
     reservations.add(agent, plan.paths[agent]);
   }
   Neighbourhoods neighbourhoods(instance, *distances, plan.paths, reservations, draws);

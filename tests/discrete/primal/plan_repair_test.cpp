@@ -23,15 +23,15 @@ Plan lonely_paths(const Instance& instance, const GoalDistances& distances, std:
   const Reservations nobody(instance.graph().num_vertices());
   LimitMonitor limits{Limits{}};
   Plan plan;
-  for (const AgentId agent : instance.agents())
+  for (const AgentId agent : instance.agent_ids())
     plan.paths.push_back(planner.find(agent, nobody, kForever - 1, kNoEnd / 2, limits).value());
   return plan;
 }
 
 /// Whether all agents can get to their goals if they are alone.
 bool has_ways(const Instance& instance, const GoalDistances& distances) {
-  for (const AgentId agent : instance.agents())
-    if (distances(agent, instance.tasks()[agent].start) == kUnreachable) return false;
+  for (const AgentId agent : instance.agent_ids())
+    if (distances(agent, instance.agents()[agent].start) == kUnreachable) return false;
   return true;
 }
 
@@ -83,7 +83,7 @@ TEST(PlanRepair, KeepsMostPathsWhereThereIsRoom) {
   ASSERT_TRUE(plan.has_value());
   EXPECT_EQ(replay(instance, *plan), "");
   std::size_t num_kept = 0;
-  for (const AgentId agent : instance.agents())
+  for (const AgentId agent : instance.agent_ids())
     if (plan->paths[agent] == draft.paths[agent]) ++num_kept;
   EXPECT_GE(num_kept, 15U);
 }

@@ -33,9 +33,9 @@ inline constexpr std::int64_t kNoEnd = INT64_MAX;
 
 [[nodiscard]] inline Cost sum_of_distances(const Instance& instance) {
   Cost sum = 0;
-  for (const AgentId agent : instance.agents())
+  for (const AgentId agent : instance.agent_ids())
     sum += distances_from(instance.graph(),
-                          instance.tasks()[agent].start)[instance.tasks()[agent].goal];
+                          instance.agents()[agent].start)[instance.agents()[agent].goal];
   return sum;
 }
 

@@ -68,7 +68,7 @@ void append_successors(const Graph& graph, const Configuration& from, Configurat
 
 std::size_t num_reachable(const Instance& instance) {
   Configuration starts, none;
-  for (const Task& task : instance.tasks()) starts.push_back(task.start);
+  for (const Agent& task : instance.agents()) starts.push_back(task.start);
   std::set<Configuration> seen{starts};
   std::vector<Configuration> queue{starts}, next;
   for (std::size_t head = 0; head < queue.size(); ++head) {
@@ -93,9 +93,9 @@ TEST(PrimalSearch, VisitsAllConfigurationsBeforeItGivesUp) {
     for (const VertexId v : IdRange<VertexId>(size))
       for (const VertexId w : inner.graph().neighbours(v))
         if (v < w) edges.emplace_back(v, w);
-    std::vector<Task> tasks{{VertexId(size), VertexId(size + 1)},
-                            {VertexId(size + 1), VertexId(size)}};
-    tasks.insert(tasks.end(), inner.tasks().begin(), inner.tasks().end());
+    std::vector<Agent> tasks{{VertexId(size), VertexId(size + 1)},
+                             {VertexId(size + 1), VertexId(size)}};
+    tasks.insert(tasks.end(), inner.agents().begin(), inner.agents().end());
     const Instance instance =
         Instance::make(Graph::make(size + 2, edges).value(), std::move(tasks)).value();
     const PrimalSearch search = searched(instance);
@@ -151,7 +151,7 @@ TEST(PrimalSearch, PushesALongQueue) {
   // Every vertex of a ring is taken and all want to go one on: whoever begins pushes all others.
   constexpr std::size_t kLength = 4000;
   std::vector<Graph::Edge> edges;
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   for (std::size_t k = 0; k < kLength; ++k) {
     edges.emplace_back(VertexId(k), VertexId((k + 1) % kLength));
     tasks.push_back({edges.back().first, edges.back().second});

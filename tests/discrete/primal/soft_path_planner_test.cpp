@@ -55,7 +55,7 @@ std::optional<std::pair<std::int64_t, Timestep>> best(const Instance& instance, 
                                                       Timestep latest, Timestep end) {
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max() / 2;
   const Graph& graph = instance.graph();
-  const auto [start, goal] = instance.tasks()[agent];
+  const auto [start, goal] = instance.agents()[agent];
   std::vector<std::int64_t> least(graph.num_vertices(), kNever);
   least[start.index()] = meetings_of({start}, others, 0);
   std::optional<std::pair<std::int64_t, Timestep>> result;
@@ -93,10 +93,10 @@ TEST(SoftPathPlanner, MeetsAsFewAsPossibleAndThenArrivesAsSoonAsPossible) {
     const AgentId agent(0);
     std::vector<Path> others;
     SoftReservations reservations(instance.graph().num_vertices());
-    for (const AgentId other : instance.agents()) {
+    for (const AgentId other : instance.agent_ids()) {
       if (other == agent) continue;
       // Several start in the same place, even in that of the agent.
-      const VertexId start = instance.tasks()[random.below(3) == 0 ? agent : other].start;
+      const VertexId start = instance.agents()[random.below(3) == 0 ? agent : other].start;
       others.push_back(random_walk(random, instance.graph(), start));
       reservations.add(other, others.back());
     }
@@ -115,8 +115,8 @@ TEST(SoftPathPlanner, MeetsAsFewAsPossibleAndThenArrivesAsSoonAsPossible) {
     ASSERT_EQ(path.size(), static_cast<std::size_t>(expected->second) + 1);
     ASSERT_EQ(arrival(path), expected->second);
     ASSERT_EQ(meetings_of(path, others, end), num_meetings);
-    ASSERT_EQ(path.front(), instance.tasks()[agent].start);
-    ASSERT_EQ(path.back(), instance.tasks()[agent].goal);
+    ASSERT_EQ(path.front(), instance.agents()[agent].start);
+    ASSERT_EQ(path.back(), instance.agents()[agent].goal);
     for (std::size_t t = 1; t < path.size(); ++t)
       ASSERT_TRUE(path[t - 1] == path[t] || instance.graph().adjacent(path[t - 1], path[t]));
     std::int64_t num_reserved = 0;
@@ -164,8 +164,8 @@ TEST(SoftReservations, ForgetWhatIsTakenOut) {
     const Graph& graph = instance.graph();
     SoftReservations reservations(graph.num_vertices()), expected(graph.num_vertices());
     std::vector<std::pair<AgentId, Path>> paths;
-    for (const AgentId agent : instance.agents()) {
-      paths.emplace_back(agent, random_walk(random, graph, instance.tasks()[AgentId(0)].start));
+    for (const AgentId agent : instance.agent_ids()) {
+      paths.emplace_back(agent, random_walk(random, graph, instance.agents()[AgentId(0)].start));
       reservations.add(agent, paths.back().second);
     }
     for (const auto& [agent, path] : paths) {

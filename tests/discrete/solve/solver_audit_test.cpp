@@ -22,7 +22,7 @@ using quadrille::support::scaled;
 /// Some plan from `from` to `to`; empty if there is none, or none is found soon.
 Plan plan_between(const Instance& instance, const std::vector<VertexId>& from,
                   const std::vector<VertexId>& to) {
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   for (std::size_t i = 0; i < from.size(); ++i) tasks.push_back({from[i], to[i]});
   const Instance part = Instance::make(instance.shared_graph(), std::move(tasks)).value();
   LimitMonitor limits{Limits{}};
@@ -37,7 +37,7 @@ std::vector<VertexId> stopovers(Random& random, const Instance& instance) {
   std::vector<VertexId> vertices, chosen;
   for (const VertexId v : IdRange<VertexId>(instance.graph().num_vertices())) vertices.push_back(v);
   random.shuffle(vertices);
-  for (const AgentId i : instance.agents()) {
+  for (const AgentId i : instance.agent_ids()) {
     const auto at = std::find_if(vertices.begin(), vertices.end(), [&](VertexId v) {
       return (*distances)(i, v) != kUnreachable &&
              std::find(chosen.begin(), chosen.end(), v) == chosen.end();
@@ -52,7 +52,7 @@ std::vector<VertexId> stopovers(Random& random, const Instance& instance) {
 /// they do not get that far, all wait before they follow the given plan.
 Plan detour(Random& random, const Instance& instance, const Plan& straight) {
   std::vector<VertexId> starts, goals;
-  for (const Task& task : instance.tasks()) {
+  for (const Agent& task : instance.agents()) {
     starts.push_back(task.start);
     goals.push_back(task.goal);
   }
@@ -69,7 +69,7 @@ Plan detour(Random& random, const Instance& instance, const Plan& straight) {
   }
   std::size_t length = random.between(1, 3);
   for (const Path& path : plan.paths) length = std::max(length, path.size() + random.below(2));
-  for (const AgentId i : instance.agents()) {
+  for (const AgentId i : instance.agent_ids()) {
     Path& path = plan.paths[i];
     path.resize(length, path.back());
     path.insert(path.end(), rest.paths[i].begin(), rest.paths[i].end());

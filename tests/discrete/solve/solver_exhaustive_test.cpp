@@ -35,7 +35,7 @@ void for_each_instance(Size size, const Visit& visit) {
     for (const Order& starts : arrangements(size.vertices, size.agents)) {
       if (!std::is_sorted(starts.begin(), starts.end())) continue;
       for (const Order& goals : arrangements(size.vertices, size.agents)) {
-        std::vector<Task> tasks;
+        std::vector<Agent> tasks;
         for (const std::size_t i : orders[number % orders.size()])
           tasks.push_back({VertexId(starts[i]), VertexId(goals[i])});
         visit(Instance::make(shared, std::move(tasks)).value(), number++);

@@ -323,9 +323,9 @@ TEST(SolverLimits, ThousandAgentsAreInterruptedAtRandomMoments) {
   Random random(12);
   const Instance instance = random_grid(random, {100, 100, 20, 1000, 1000});
   Cost free_costs = 0;
-  for (const AgentId i : instance.agents())
+  for (const AgentId i : instance.agent_ids())
     free_costs +=
-        distances_from(instance.graph(), instance.tasks()[i].goal)[instance.tasks()[i].start];
+        distances_from(instance.graph(), instance.agents()[i].goal)[instance.agents()[i].start];
   int num_with_plan = 0;
   // Later and later if the machine is too busy for a plan.
   const auto is_enough = [&](std::size_t round) {

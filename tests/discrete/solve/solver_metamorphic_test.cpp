@@ -74,8 +74,8 @@ Instance moved(const Instance& instance, std::int32_t width, std::int32_t height
     passable[static_cast<std::size_t>(to.y * width + to.x)] = true;
   }
   Graph graph = Graph::grid(width, height, passable);
-  std::vector<Task> tasks;
-  for (const Task& task : instance.tasks())
+  std::vector<Agent> tasks;
+  for (const Agent& task : instance.agents())
     tasks.push_back({*graph.layout()->vertex_at(place(layout.cell_of(task.start))),
                      *graph.layout()->vertex_at(place(layout.cell_of(task.goal)))});
   return Instance::make(std::move(graph), std::move(tasks)).value();
@@ -94,7 +94,7 @@ TEST(SolverMetamorphic, MirroredAndRotatedMapsCostTheSame) {
 
 TEST(SolverMetamorphic, TheOrderOfAgentsDoesNotMatter) {
   for_each_base(15, 20'000, [](Base& base) {
-    std::vector<Task> tasks = base.instance.tasks().items();
+    std::vector<Agent> tasks = base.instance.agents().items();
     base.random.shuffle(tasks);
     const Instance variant = Instance::make(base.instance.shared_graph(), tasks).value();
     EXPECT_EQ(base.solve_variant(variant), base.cost);
@@ -111,8 +111,8 @@ TEST(SolverMetamorphic, TheNumbersOfVerticesDoNotMatter) {
     for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
       for (const VertexId w : graph.neighbours(v))
         if (v < w) edges.emplace_back(name[v.index()], name[w.index()]);
-    std::vector<Task> tasks;
-    for (const Task& task : base.instance.tasks())
+    std::vector<Agent> tasks;
+    for (const Agent& task : base.instance.agents())
       tasks.push_back({name[task.start.index()], name[task.goal.index()]});
     const Graph renamed = Graph::make(graph.num_vertices(), edges).value();
     EXPECT_EQ(base.solve_variant(Instance::make(renamed, tasks).value()), base.cost);
@@ -133,8 +133,8 @@ TEST(SolverMetamorphic, AnUnreachableCellChangesNothing) {
       for (std::int32_t x = 0; x < w; ++x)
         passable.push_back((x == 0 && y == 0) || layout.vertex_at({x, y}).has_value());
     const Graph graph = Graph::grid(w, h + 2, passable);
-    std::vector<Task> tasks;
-    for (const Task& task : shifted.tasks())
+    std::vector<Agent> tasks;
+    for (const Agent& task : shifted.agents())
       tasks.push_back({VertexId(task.start.index() + 1), VertexId(task.goal.index() + 1)});
     EXPECT_EQ(base.solve_variant(Instance::make(graph, tasks).value()), base.cost);
   });
@@ -146,7 +146,7 @@ TEST(SolverMetamorphic, RemovingAnAgentNeverRaisesTheCost) {
     const Cost cost = base.solve_variant(without_agent(base.instance, gone));
     if (base.cost < 0) return;  // infeasible may become anything
     ASSERT_GE(cost, 0);
-    const Task& task = base.instance.tasks()[gone];
+    const Agent& task = base.instance.agents()[gone];
     const Cost alone = distances_from(base.instance.graph(), task.goal)[task.start];
     const bool sum = base.objective == Objective::sum_of_costs;
     EXPECT_GE(base.cost, sum ? cost + alone : std::max(cost, alone));
@@ -166,8 +166,8 @@ TEST(SolverMetamorphic, OpeningACellNeverRaisesTheCost) {
     if (blocked.empty()) return;
     passable[base.random.pick(blocked)] = true;
     const Graph graph = Graph::grid(layout.width(), layout.height(), passable);
-    std::vector<Task> tasks;
-    for (const Task& task : base.instance.tasks())
+    std::vector<Agent> tasks;
+    for (const Agent& task : base.instance.agents())
       tasks.push_back({*graph.layout()->vertex_at(layout.cell_of(task.start)),
                        *graph.layout()->vertex_at(layout.cell_of(task.goal))});
     const Cost cost = base.solve_variant(Instance::make(graph, tasks).value());
@@ -183,8 +183,8 @@ TEST(SolverMetamorphic, OpeningACellNeverRaisesTheCost) {
 TEST(SolverMetamorphic, TheWayBackHasTheSameMakespan) {
   for (std::uint64_t seed = 70'000; seed < 70'000 + scaled(30); ++seed) {
     Base base = make_base(seed, Objective::makespan);
-    std::vector<Task> tasks;
-    for (const Task& task : base.instance.tasks()) tasks.push_back({task.goal, task.start});
+    std::vector<Agent> tasks;
+    for (const Agent& task : base.instance.agents()) tasks.push_back({task.goal, task.start});
     const Instance variant = Instance::make(base.instance.shared_graph(), tasks).value();
     ASSERT_EQ(base.solve_variant(variant), base.cost) << seed << "\n" << instance_text(variant);
   }
@@ -204,14 +204,14 @@ TEST(SolverMetamorphic, SeparateMapsAddUp) {
         for (std::int32_t x = 0; x < width; ++x)
           passable.push_back(a.vertex_at({x, y}) || b.vertex_at({x - a.width() - 1, y}));
       const Graph graph = Graph::grid(width, height, passable);
-      std::vector<Task> tasks;
+      std::vector<Agent> tasks;
       const auto add = [&](const Instance& part, std::int32_t shift) {
         const GridLayout& from = *part.graph().layout();
         const auto vertex = [&](VertexId v) {
           const Cell cell = from.cell_of(v);
           return *graph.layout()->vertex_at({cell.x + shift, cell.y});
         };
-        for (const Task& task : part.tasks())
+        for (const Agent& task : part.agents())
           tasks.push_back({vertex(task.start), vertex(task.goal)});
       };
       add(left.instance, 0);

@@ -22,7 +22,7 @@ VertexId at(std::int32_t x, std::int32_t y) {
   return VertexId(static_cast<std::size_t>(y * kSize + x));
 }
 
-Instance open_grid(std::vector<Task> tasks) {
+Instance open_grid(std::vector<Agent> tasks) {
   return Instance::make(empty_map(kSize, kSize).value().graph(), std::move(tasks)).value();
 }
 
@@ -95,7 +95,7 @@ TEST(Verify, AgentsStayAtTheirGoals) {
 
 TEST(Verify, FollowingAndRotatingAreAllowed) {
   const std::vector<VertexId> ring = {at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   Plan plan;
   for (std::size_t i = 0; i < 4; ++i) {
     tasks.push_back({ring[i], ring[(i + 1) % 4]});
@@ -114,7 +114,7 @@ TEST(Verify, AdjacencyOfGraphsIsThatOfTheirEdges) {
 }
 
 TEST(Verify, ACrowdAndALongStayAreReportedInLinearTime) {
-  std::vector<Task> tasks;
+  std::vector<Agent> tasks;
   Plan plan;
   for (std::size_t i = 0; i < 16; ++i) {
     tasks.push_back({VertexId(i), VertexId(i)});
@@ -142,17 +142,17 @@ struct Found {
 Found by_definition(const Instance& instance, const Plan& plan) {
   Found found;
   Timestep horizon = 0;
-  for (const AgentId i : instance.agents()) {
+  for (const AgentId i : instance.agent_ids()) {
     const Path& path = plan.paths[i];
-    const Task& task = instance.tasks()[i];
+    const Agent& task = instance.agents()[i];
     horizon = std::max(horizon, static_cast<Timestep>(path.size()) - 1);
     found.single |= path.front() != task.start || path.back() != task.goal;
     for (std::size_t t = 0; t + 1 < path.size(); ++t)
       found.single |= path[t] != path[t + 1] && !instance.graph().adjacent(path[t], path[t + 1]);
   }
   for (Timestep t = 0; t <= horizon; ++t)
-    for (const AgentId i : instance.agents())
-      for (const AgentId j : instance.agents()) {
+    for (const AgentId i : instance.agent_ids())
+      for (const AgentId j : instance.agent_ids()) {
         const Path &p = plan.paths[i], &q = plan.paths[j];
         if (i == j) continue;
         if (position(p, t) == position(q, t)) found.vertex.emplace(t, i);
@@ -174,7 +174,7 @@ TEST(Verify, AgreesWithTheDefinitionOnRandomPlans) {
     const std::size_t agents = 1 + random() % std::min<std::size_t>(3, graph.num_vertices());
     Plan plan;
     std::set<VertexId> starts, goals;
-    std::vector<Task> tasks;
+    std::vector<Agent> tasks;
     for (std::size_t i = 0; i < agents; ++i) {
       Path path{VertexId(random() % graph.num_vertices())};
       for (std::size_t t = random() % 4; t > 0; --t) {
@@ -186,7 +186,7 @@ TEST(Verify, AgreesWithTheDefinitionOnRandomPlans) {
                                                            : near[random() % near.size()]);
       }
       // The task is the path's if it can be.
-      Task task{path.front(), path.back()};
+      Agent task{path.front(), path.back()};
       while (!starts.insert(task.start).second)
         task.start = VertexId(random() % graph.num_vertices());
       while (!goals.insert(task.goal).second) task.goal = VertexId(random() % graph.num_vertices());
