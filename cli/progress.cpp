@@ -29,7 +29,8 @@ std::string progress_text(const discrete::Progress& progress) {
   return progress_text(progress, [](Cost cost) { return cost; });
 }
 
-std::string progress_text(const continuous::Progress& progress, double resolution) {
+std::string progress_text(const continuous::Progress& progress,
+                          const continuous::Resolution& resolution) {
   return progress_text(progress,
                        [&](Cost ticks) { return continuous::in_input_units(ticks, resolution); });
 }

@@ -10,8 +10,8 @@
 namespace quadrille::cli {
 
 [[nodiscard]] std::string progress_text(const discrete::Progress& progress);
-/// `resolution`: the size of a tick.
-[[nodiscard]] std::string progress_text(const continuous::Progress& progress, double resolution);
+[[nodiscard]] std::string progress_text(const continuous::Progress& progress,
+                                        const continuous::Resolution& resolution);
 
 /// One line on a terminal's stderr that is rewritten in place and gone at the end.
 class ProgressLine {

@@ -24,7 +24,7 @@ Result<continuous::Instance> make(const GenerateRoadmapOptions& options, std::in
   const auto radius =
       continuous::quantise_radius(options.radius.value_or(kDefaultRadius), wanted.resolution);
   if (!radius) return refuse("--radius is less than one length unit, or too large");
-  const auto speed = continuous::quantise_speed(options.speed.value_or(1));
+  const auto speed = continuous::quantise_speed(options.speed.value_or(1), wanted.resolution);
   if (!speed) return refuse("--speed is not between 0.000001 and 1000000");
   const auto unit_width =
       continuous::quantise_coordinate(static_cast<double>(width), wanted.resolution);

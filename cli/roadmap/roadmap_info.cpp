@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
-#include <limits>
 #include <map>
-#include <queue>
 #include <utility>
 #include <vector>
 
 #include "graph_shape.hpp"
 #include "output.hpp"
+#include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
 
 namespace quadrille::cli {
@@ -22,7 +20,6 @@ using continuous::EdgeId;
 using continuous::in_input_units;
 using continuous::Instance;
 using continuous::Roadmap;
-using continuous::Ticks;
 
 /// Components are connected by edges of any direction; degrees count the edges that leave.
 GraphShape shape_of(const Roadmap& roadmap) {
@@ -48,40 +45,14 @@ GraphShape shape_of(const Roadmap& roadmap) {
   return shape;
 }
 
-/// The least duration of the agent's path, alone on the roadmap. The goal can be reached.
-Ticks free_cost(const Instance& instance, AgentId i) {
-  const Roadmap& roadmap = instance.roadmap();
-  constexpr Ticks kFar{std::numeric_limits<Ticks::Count>::max()};
-  std::vector<Ticks> arrival(roadmap.num_vertices(), kFar);
-  using Entry = std::pair<Ticks, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  const auto& agent = instance.agent(i);
-  arrival[agent.start.index()] = 0;
-  open.emplace(Ticks{0}, agent.start.index());
-  while (!open.empty()) {
-    const auto [tick, v] = open.top();
-    open.pop();
-    if (v == agent.goal.index()) return tick;
-    if (tick > arrival[v]) continue;
-    for (const EdgeId e : roadmap.out_edges(VertexId(v))) {
-      const std::size_t w = roadmap.edge(e).to.index();
-      const Ticks then = tick + instance.duration(instance.class_of(i), e);
-      if (then >= arrival[w]) continue;
-      arrival[w] = then;
-      open.emplace(then, w);
-    }
-  }
-  return kFar;
-}
-
 std::string describe_agents(const Instance& instance) {
   Cost sum = 0, largest = 0;
   for (const AgentId i : instance.agent_ids()) {
-    const Cost cost = continuous::as_cost(free_cost(instance, i));
+    const Cost cost = continuous::as_cost(free_cost(instance, i).value());
     sum += cost;
     largest = std::max(largest, cost);
   }
-  const double resolution = instance.resolution();
+  const continuous::Resolution& resolution = instance.resolution();
   return fmt::format(
       "classes    {} of agents with equal body and speed\n"
       "distances  sum {}, largest {} (lower bounds of sum of costs, makespan)\n",

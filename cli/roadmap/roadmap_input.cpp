@@ -52,8 +52,8 @@ Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGr
                    fmt::format("the row is for a map of {} x {} cells, not {} x {}", row.width,
                                row.height, grid->width, grid->height),
                    {file, row.line}};
-    task.rows.push_back({row.line, std::pair{continuous::Cell{row.start.y, row.start.x},
-                                             continuous::Cell{row.goal.y, row.goal.x}}});
+    task.rows.push_back({row.line, std::pair{continuous::Cell{row.start.x, row.start.y},
+                                             continuous::Cell{row.goal.x, row.goal.y}}});
   }
   return task;
 }
@@ -74,7 +74,7 @@ Result<Numbers> quantise(const RoadmapOptions& options) {
   if (!radius)
     return out_of_range(fmt::format("--radius: {} is less than one length unit, or too large",
                                     options.radius.value_or(kDefaultRadius)));
-  const auto speed = continuous::quantise_speed(options.speed.value_or(1));
+  const auto speed = continuous::quantise_speed(options.speed.value_or(1), resolution);
   if (!speed)
     return out_of_range(
         fmt::format("--speed: {} is not between 0.000001 and 1000000", options.speed.value_or(1)));
@@ -223,7 +223,7 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
 
 std::string describe_input(const RoadmapInput& input) {
   const Instance& instance = input.instance;
-  const double resolution = instance.resolution();
+  const continuous::Resolution& resolution = instance.resolution();
   std::string text =
       fmt::format("roadmap    {}: {}{} vertices, {} edges\n", input.source, input.kind,
                   instance.roadmap().num_vertices(), instance.roadmap().num_edges());
@@ -238,12 +238,15 @@ std::string describe_input(const RoadmapInput& input) {
           std::minmax_element(instance.agents().begin(), instance.agents().end(),
                               [](const auto& a, const auto& b) { return a.speed < b.speed; });
       text += fmt::format(", {}, speed {}", describe_bodies(instance),
-                          range(continuous::speed_in_input_units(slow->speed),
-                                continuous::speed_in_input_units(fast->speed)));
+                          range(continuous::speed_in_input_units(slow->speed, resolution),
+                                continuous::speed_in_input_units(fast->speed, resolution)));
     }
     text += "\n";
   }
-  return text + fmt::format("units      one tick, and one length unit, is {}\n", resolution);
+  if (!resolution.is_uniform())
+    return text + fmt::format("units      one tick is {}, one length unit is {}\n", resolution.time,
+                              resolution.length);
+  return text + fmt::format("units      one tick, and one length unit, is {}\n", resolution.time);
 }
 
 }  // namespace quadrille::cli

@@ -34,7 +34,7 @@ std::string claim(const Instance* instance, const char* separator) {
       separator, has_polygons ? ", corners of polygons towards zero" : "");
 }
 
-Json body_json(const continuous::Body& body, double resolution) {
+Json body_json(const continuous::Body& body, const continuous::Resolution& resolution) {
   Json json;
   if (const auto* disc = std::get_if<continuous::Disc>(&body)) {
     json["radius"] = in_input_units(disc->radius, resolution);
@@ -53,9 +53,14 @@ std::optional<continuous::Clearance> least_clearance(const VerifyReport& check) 
   return *least;
 }
 
-/// To a thousandth of a length unit or a tick; the digits after that are noise.
-double rounded(double units, double resolution) {
-  return in_input_units(std::llround(units * 1e3), resolution / 1e3);
+/// To a thousandth of a unit of this size; the digits after that are noise.
+double rounded(double units, double size) {
+  return in_input_units(Cost{std::llround(units * 1e3)}, size / 1e3);
+}
+
+Json resolution_json(const continuous::Resolution& resolution) {
+  if (resolution.is_uniform()) return resolution.length;
+  return {{"length", resolution.length}, {"time", resolution.time}};
 }
 
 Json options_json(const SolveArguments& arguments, const continuous::SolveOptions& options) {
@@ -87,7 +92,7 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
 std::string result_json(const Instance* instance, const SolveArguments& arguments,
                         const continuous::SolveOptions& options, const SolveOutcome& outcome,
                         const VerifyReport& check) {
-  const double resolution = instance != nullptr ? instance->resolution() : 1;
+  const auto resolution = instance != nullptr ? instance->resolution() : continuous::Resolution(1);
   const bool has_bound = outcome.status != Status::infeasible;
   const auto time = [&](Cost ticks) { return Json(in_input_units(ticks, resolution)); };
   ResultJson json(outcome.status, options.objective);
@@ -96,7 +101,7 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   json.add("lower_bound", has_bound ? time(outcome.lower_bound) : Json(nullptr));
   json.add("lower_bound_ticks", has_bound ? Json(outcome.lower_bound) : Json(nullptr));
   json.add_gap(outcome);
-  json.add("resolution", instance != nullptr ? Json(resolution) : Json(nullptr));
+  json.add("resolution", instance != nullptr ? resolution_json(resolution) : Json(nullptr));
   json.add("claim", claim(instance, " "));
   json.add_end_of_search(outcome);
   json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
@@ -108,8 +113,9 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   }
   json.add("bodies", bodies);
   const auto clearance = least_clearance(check);
-  json.add("least_clearance",
-           outcome.plan && clearance ? Json(rounded(clearance->gap, resolution)) : Json(nullptr));
+  json.add("least_clearance", outcome.plan && clearance
+                                  ? Json(rounded(clearance->gap, resolution.length))
+                                  : Json(nullptr));
   return json.finish(outcome.statistics, options.seed, options_json(arguments, options),
                      outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");
 }
@@ -117,14 +123,14 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
 std::string describe_clearance(const Instance& instance, const VerifyReport& check) {
   const auto least = least_clearance(check);
   if (!least) return "";
-  const double resolution = instance.resolution();
+  const continuous::Resolution& resolution = instance.resolution();
   return fmt::format("least clearance {}, between agents {} and {} at {}",
-                     rounded(least->gap, resolution), least->agent.index(), least->other.index(),
-                     rounded(least->tick, resolution));
+                     rounded(least->gap, resolution.length), least->agent.index(),
+                     least->other.index(), rounded(least->tick, resolution.time));
 }
 
 std::string describe_check(const Instance& instance, const VerifyReport& check) {
-  const double resolution = instance.resolution();
+  const continuous::Resolution& resolution = instance.resolution();
   std::string text = fmt::format("verified   {} agents, makespan {}, sum of costs {}, ",
                                  instance.num_agents(), in_input_units(check.makespan, resolution),
                                  in_input_units(check.sum_of_costs, resolution));

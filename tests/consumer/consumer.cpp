@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <iostream>
-#include <memory>
 #include <quadrille/continuous/instance.hpp>
 #include <quadrille/continuous/roadmap.hpp>
 #include <quadrille/continuous/solver.hpp>
@@ -37,9 +36,8 @@ bool on_a_roadmap() {
                     {{VertexId(0), VertexId(1), {}}, {VertexId(2), VertexId(3), {}}});
   const auto square = ConvexPolygon::make({{-100, -100}, {100, -100}, {100, 100}, {-100, 100}});
   if (!roadmap || !square) return false;
-  const auto instance = Instance::make(std::make_shared<const Roadmap>(*roadmap),
-                                       {{VertexId(0), VertexId(1), Disc{100}, kUnitSpeed},
-                                        {VertexId(2), VertexId(3), *square, kUnitSpeed}});
+  const auto instance = Instance::make(*roadmap, {{VertexId(0), VertexId(1), Disc{100}, kUnitSpeed},
+                                                  {VertexId(2), VertexId(3), *square, kUnitSpeed}});
   if (!instance) return false;
   const SolveOutcome outcome = solve(*instance, {}).value();
   if (!outcome.plan || !verify(*instance, *outcome.plan).valid()) return false;

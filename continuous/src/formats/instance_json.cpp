@@ -32,13 +32,14 @@ class InstanceReader {
                                           {"resolution", &resolution, false},
                                           {"roadmap", &roadmap},
                                           {"agents", &agents}}) ||
-        !read_version(*kind, *version) || (resolution && !read_resolution(*resolution)) ||
+        !read_version(*kind, *version) ||
+        (resolution && !read_resolution(document_, check_, *resolution, resolution_)) ||
         !read_roadmap(*roadmap) || !read_agents(*agents))
       return check_.error();
     auto made = Roadmap::make(std::move(positions_), std::move(edges_));
     if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
-    auto instance = Instance::make(std::make_shared<const Roadmap>(std::move(made).value()),
-                                   std::move(agents_), resolution_, places_);
+    auto instance =
+        Instance::make(std::move(made).value(), std::move(agents_), resolution_, places_);
     if (!instance && instance.error().where.file.empty())
       return document_.error(*roadmap, instance.error().code, instance.error().message);
     return instance;
@@ -52,12 +53,6 @@ class InstanceReader {
     if (name != "instance")
       return check_.fail(kind, "expected 'instance', found " + text::in_quotes(name));
     return check_.integer(version, kInstanceJsonVersion, kInstanceJsonVersion, number);
-  }
-
-  bool read_resolution(Node node) {
-    if (!check_.number(node, resolution_)) return false;
-    if (resolution_ > 0) return true;
-    return check_.fail(node, ErrorCode::out_of_range, "a resolution is positive");
   }
 
   bool read_roadmap(Node node) {
@@ -85,7 +80,8 @@ class InstanceReader {
     return read_length(node, quantise_coordinate, length);
   }
 
-  bool read_length(Node node, std::optional<Length> (*quantise)(double, double), Length& length) {
+  bool read_length(Node node, std::optional<Length> (*quantise)(double, const Resolution&),
+                   Length& length) {
     double value = 0;
     if (!check_.number(node, value)) return false;
     const auto units = quantise(value, resolution_);
@@ -144,7 +140,7 @@ class InstanceReader {
                               {"polygon", &polygon, false},
                               {"speed", &speed, false}}) ||
           !read_vertex_number(*start, agent.start) || !read_vertex_number(*goal, agent.goal) ||
-          !read_body(a, radius, polygon, agent.body) || (speed && !read_speed(*speed, agent.speed)))
+          !read_body(a, radius, polygon, agent.body) || !read_speed(a, speed, agent.speed))
         return false;
       agents_.push_back(agent);
       places_.push_back({document_.file(), document_.line(a)});
@@ -194,10 +190,12 @@ class InstanceReader {
     return true;
   }
 
-  bool read_speed(Node node, Speed& speed) {
-    double value = 0;
-    if (!check_.number(node, value)) return false;
-    const auto units = quantise_speed(value);
+  /// 1 if it is missing.
+  bool read_speed(Node agent, std::optional<Node> given, Speed& speed) {
+    const Node node = given.value_or(agent);
+    double value = 1;
+    if (given && !check_.number(node, value)) return false;
+    const auto units = quantise_speed(value, resolution_);
     if (!units) return check_.fail(node, ErrorCode::out_of_range, "the speed is not supported");
     speed = *units;
     return true;
@@ -205,7 +203,7 @@ class InstanceReader {
 
   const Document& document_;
   text::Checker check_;
-  double resolution_ = kDefaultResolution;
+  Resolution resolution_;
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
   std::vector<Agent> agents_;
@@ -213,7 +211,7 @@ class InstanceReader {
 };
 
 /// The member of an agent that says what it looks like.
-std::string body_json(const Body& body, double resolution) {
+std::string body_json(const Body& body, const Resolution& resolution) {
   if (const auto* disc = std::get_if<Disc>(&body))
     return "\"radius\": " + json_number(radius_in_input_units(disc->radius, resolution));
   std::string text = "\"polygon\": [";
@@ -257,10 +255,10 @@ bool is_roadmap_json(const std::string& text) {
 
 std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
                                          const Instance& instance) {
-  const double resolution = instance.resolution();
+  const Resolution& resolution = instance.resolution();
   const auto number = [&](auto units) { return json_number(in_input_units(units, resolution)); };
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
-      << ",\n  \"resolution\": " << json_number(resolution)
+      << ",\n  \"resolution\": " << resolution_json(resolution)
       << ",\n  \"roadmap\": {\n    \"vertices\": [";
   const char* separator = "\n";
   for (const Point& point : instance.roadmap().positions()) {
@@ -280,7 +278,7 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   for (const Agent& agent : instance.agents()) {
     out << separator << "    {\"start\": " << agent.start.index()
         << ", \"goal\": " << agent.goal.index() << ", " << body_json(agent.body, resolution)
-        << ", \"speed\": " << json_number(speed_in_input_units(agent.speed)) << "}";
+        << ", \"speed\": " << json_number(speed_in_input_units(agent.speed, resolution)) << "}";
     separator = ",\n";
   }
   out << (*separator == ',' ? "\n  ]\n}\n" : "]\n}\n");

@@ -5,6 +5,9 @@
 #include <charconv>
 #include <string>
 
+#include "quadrille/continuous/resolution.hpp"
+#include "quadrille/text/document.hpp"
+
 namespace quadrille::continuous {
 
 /// The shortest decimal number that is read as the same double, which has to be finite.
@@ -12,6 +15,31 @@ namespace quadrille::continuous {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
+}
+
+/// A number, or an object with one number for each of length and time.
+[[nodiscard]] inline std::string resolution_json(const Resolution& resolution) {
+  if (resolution.is_uniform()) return json_number(resolution.length);
+  return "{\"length\": " + json_number(resolution.length) +
+         ", \"time\": " + json_number(resolution.time) + "}";
+}
+
+/// Reads what `resolution_json` writes.
+inline bool read_resolution(const text::Document& document, text::Checker& check,
+                            text::Document::Node node, Resolution& resolution) {
+  const auto number = [&](text::Document::Node value, double& size) {
+    if (!check.number(value, size)) return false;
+    return size > 0 || check.fail(value, ErrorCode::out_of_range, "a resolution is positive");
+  };
+  if (document.kind(node) != text::Document::Kind::object) {
+    double both = 0;
+    if (!number(node, both)) return false;
+    resolution = both;
+    return true;
+  }
+  std::optional<text::Document::Node> length, time;
+  return check.members(node, {{"length", &length}, {"time", &time}}) &&
+         number(*length, resolution.length) && number(*time, resolution.time);
 }
 
 }  // namespace quadrille::continuous

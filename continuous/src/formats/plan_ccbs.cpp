@@ -77,13 +77,13 @@ class LogReader {
     const pugi::xml_attribute attribute = summary.attribute(name);
     if (!attribute) return std::nullopt;
     const auto seconds = parse_number(attribute.value());
-    const double units = seconds ? *seconds / instance_.resolution() : -1;
+    const double units = seconds ? *seconds / instance_.resolution().time : -1;
     if (!(units >= 0 && units <= static_cast<double>(kMaxTick.count())))
       return xml_.error(summary, "the " + std::string(name) + " is " + quoted(attribute.value()) +
                                      ", not a time");
     // Rounded as a whole there and section by section here.
     const Cost actual = quadrille::continuous::cost(file_.plan, objective);
-    const double tolerance = last_digit(attribute.value()) / instance_.resolution() +
+    const double tolerance = last_digit(attribute.value()) / instance_.resolution().time +
                              static_cast<double>(((kMoveTolerance + 1) * num_sections_).count());
     const bool agrees = std::abs(units - static_cast<double>(actual)) <= tolerance;
     cost = agrees ? actual : static_cast<Cost>(std::llround(units));
@@ -124,7 +124,7 @@ class LogReader {
     for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
       if (auto error = read_vertex(node, end == 0 ? "start" : "goal", ends[end])) return error;
     const auto seconds = parse_number(node.attribute("duration").value());
-    const double units = seconds ? *seconds / instance_.resolution() : -1;
+    const double units = seconds ? *seconds / instance_.resolution().time : -1;
     if (!(units >= 0 && units <= static_cast<double>((kMaxTick - path.back().depart).count())))
       return xml_.error(
           node, "the duration is " + quoted(node.attribute("duration").value()) + ", not a time");
@@ -162,7 +162,7 @@ class LogReader {
     std::optional<VertexId> found;
     if (grid_ != nullptr) {
       const std::int64_t width = grid_->width();
-      const auto cell = id ? std::pair(*id / width, *id % width) : std::pair(*row, *column);
+      const auto cell = id ? std::pair(*id % width, *id / width) : std::pair(*column, *row);
       found = grid_->vertex(
           {static_cast<std::int32_t>(cell.first), static_cast<std::int32_t>(cell.second)});
     } else if (id && *id < static_cast<std::int64_t>(instance_.roadmap().num_vertices())) {
@@ -201,8 +201,7 @@ void write_ccbs_log(std::ostream& out, const Instance& instance, const Plan& pla
     if (grid == nullptr)
       out << "_id=\"" << v.index() << "\"";
     else
-      out << "_i=\"" << grid->cell(v).row << "\" " << end << "_j=\"" << grid->cell(v).column
-          << "\"";
+      out << "_i=\"" << grid->cell(v).y << "\" " << end << "_j=\"" << grid->cell(v).x << "\"";
   };
   out << "<?xml version=\"1.0\"?>\n<root>\n<log>\n <summary flowtime=\""
       << time(cost(plan, Objective::sum_of_costs)) << "\" makespan=\""

@@ -30,19 +30,20 @@ class JsonPlanReader {
                        {"bodies", &unread[1], false},
                        {"least_clearance", &unread[2], false}},
                       file_.stated) ||
-        !read_resolution(*resolution) || !read_costs(ticks, bound_ticks) || !header_.plan(paths) ||
+        !check_resolution(*resolution) || !read_costs(ticks, bound_ticks) || !header_.plan(paths) ||
         !read_paths(paths) || !header_.agents(file_.plan.paths.size()))
       return check_.error();
     return std::move(file_);
   }
 
  private:
-  bool read_resolution(Node node) {
-    double value = 0;
-    if (!check_.number(node, value)) return false;
+  bool check_resolution(Node node) {
+    Resolution value;
+    if (!read_resolution(document_, check_, node, value)) return false;
     if (value == instance_.resolution()) return true;
-    return check_.fail(node, ErrorCode::invalid_plan,
-                       "the resolution of the instance is " + json_number(instance_.resolution()));
+    return check_.fail(
+        node, ErrorCode::invalid_plan,
+        "the resolution of the instance is " + resolution_json(instance_.resolution()));
   }
 
   bool read_costs(std::optional<Node> cost_ticks, std::optional<Node> bound_ticks) {
@@ -172,7 +173,7 @@ std::string plan_to_json(const Instance& instance, const Plan& plan) {
 
 void write_json_plan(std::ostream& out, const Instance& instance, const Plan& plan) {
   out << "{\n  \"quadrille\": \"plan\",\n  \"version\": " << text::kPlanJsonVersion
-      << ",\n  \"resolution\": " << json_number(instance.resolution())
+      << ",\n  \"resolution\": " << resolution_json(instance.resolution())
       << ",\n  \"plan\": " << plan_to_json(instance, plan) << "\n}\n";
 }
 

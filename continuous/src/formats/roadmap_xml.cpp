@@ -221,7 +221,7 @@ std::optional<Error> read_agent(const XmlFile& xml, const pugi::xml_node& agent,
     row.places = std::pair{numbers["start_id"], numbers["goal_id"]};
   } else if (numbers.size() == 4 && !numbers.contains("start_id") && !numbers.contains("goal_id")) {
     const auto cell = [&](const char* i, const char* j) {
-      return Cell{static_cast<std::int32_t>(numbers[i]), static_cast<std::int32_t>(numbers[j])};
+      return Cell{static_cast<std::int32_t>(numbers[j]), static_cast<std::int32_t>(numbers[i])};
     };
     row.places = std::pair{cell("start_i", "start_j"), cell("goal_i", "goal_j")};
   } else {
@@ -307,8 +307,8 @@ Result<std::vector<Agent>> agents_of(const TaskXml& task, std::size_t num_agents
   struct Find {
     const GridRoadmap& grid;
     std::optional<VertexId> operator()(std::int64_t id) const {
-      return grid.vertex({static_cast<std::int32_t>(id / grid.width()),
-                          static_cast<std::int32_t>(id % grid.width())});
+      return grid.vertex({static_cast<std::int32_t>(id % grid.width()),
+                          static_cast<std::int32_t>(id / grid.width())});
     }
     std::optional<VertexId> operator()(Cell cell) const { return grid.vertex(cell); }
   };

@@ -37,8 +37,8 @@ class SweptDisc {
       : side_(side.count()), reach_(2 * Integer(radius.count())) {}
 
   [[nodiscard]] bool meets(Cell to, Cell obstacle) const {
-    const Integer x = 2 * side_ * to.column, y = 2 * side_ * to.row;
-    const Integer cx = 2 * side_ * obstacle.column, cy = 2 * side_ * obstacle.row;
+    const Integer x = 2 * side_ * to.x, y = 2 * side_ * to.y;
+    const Integer cx = 2 * side_ * obstacle.x, cy = 2 * side_ * obstacle.y;
     // The Minkowski sum of square and disc is the union of two widened squares and four discs
     // around the corners; the segment has to keep out of the interior of all.
     for (const int sx : {-1, 1})
@@ -69,10 +69,10 @@ class SweptDisc {
 std::vector<Cell> with_symmetries(std::initializer_list<Cell> steps) {
   std::vector<Cell> all;
   for (const Cell s : steps)
-    for (const auto& [a, b] : {std::pair{s.row, s.column}, std::pair{s.column, s.row}})
+    for (const auto& [a, b] : {std::pair{s.x, s.y}, std::pair{s.y, s.x}})
       for (const int sign_a : {1, -1})
         for (const int sign_b : {1, -1}) {
-          const Cell step{sign_a * a, sign_b * b};
+          const Cell step{sign_b * b, sign_a * a};
           if (std::find(all.begin(), all.end(), step) == all.end()) all.push_back(step);
         }
   return all;
@@ -94,17 +94,15 @@ std::vector<Cell> steps(int neighbourhood) {
 /// The cells that must be passable for a step, relative to where it begins.
 std::vector<Cell> swept_cells(const SweptDisc& disc, Cell step, std::int32_t margin) {
   std::vector<Cell> cells;
-  for (std::int32_t row = std::min(0, step.row) - margin; row <= std::max(0, step.row) + margin;
-       ++row)
-    for (std::int32_t column = std::min(0, step.column) - margin;
-         column <= std::max(0, step.column) + margin; ++column)
-      if (disc.meets(step, {row, column})) cells.push_back({row, column});
+  for (std::int32_t y = std::min(0, step.y) - margin; y <= std::max(0, step.y) + margin; ++y)
+    for (std::int32_t x = std::min(0, step.x) - margin; x <= std::max(0, step.x) + margin; ++x)
+      if (disc.meets(step, {x, y})) cells.push_back({x, y});
   return cells;
 }
 
 bool is_free(const OccupancyGrid& grid, Cell from, const std::vector<Cell>& cells) {
   return std::all_of(cells.begin(), cells.end(), [&](Cell offset) {
-    const Cell cell{from.row + offset.row, from.column + offset.column};
+    const Cell cell{from.x + offset.x, from.y + offset.y};
     return !grid.contains(cell) || grid.is_passable(cell);
   });
 }
@@ -112,16 +110,15 @@ bool is_free(const OccupancyGrid& grid, Cell from, const std::vector<Cell>& cell
 }  // namespace
 
 std::optional<VertexId> GridRoadmap::vertex(Cell cell) const {
-  if (cell.row < 0 || cell.row >= height_ || cell.column < 0 || cell.column >= width_)
-    return std::nullopt;
-  const auto v = vertex_of_[static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(width_) +
-                            static_cast<std::size_t>(cell.column)];
+  if (cell.x < 0 || cell.x >= width_ || cell.y < 0 || cell.y >= height_) return std::nullopt;
+  const auto v = vertex_of_[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
+                            static_cast<std::size_t>(cell.x)];
   if (v < 0) return std::nullopt;
   return VertexId(static_cast<std::size_t>(v));
 }
 
 Result<GridRoadmap> GridRoadmap::make(const OccupancyGrid& grid, int neighbourhood, Length radius,
-                                      double resolution) {
+                                      Resolution resolution) {
   const auto refuse = [](const std::string& message) {
     return Error{ErrorCode::out_of_range, message, {}};
   };
@@ -143,12 +140,12 @@ Result<GridRoadmap> GridRoadmap::make(const OccupancyGrid& grid, int neighbourho
   result.vertex_of_.assign(grid.passable.size(), -1);
   std::vector<Point> positions;
   const std::vector<Cell> standing = swept_cells(disc, {0, 0}, margin);
-  for (std::int32_t row = 0; row < grid.height; ++row)
-    for (std::int32_t column = 0; column < grid.width; ++column) {
-      const Cell cell{row, column};
+  for (std::int32_t y = 0; y < grid.height; ++y)
+    for (std::int32_t x = 0; x < grid.width; ++x) {
+      const Cell cell{x, y};
       if (!grid.is_passable(cell) || !is_free(grid, cell, standing)) continue;
       result.vertex_of_[grid.index(cell)] = static_cast<std::int64_t>(positions.size());
-      positions.push_back({column * *side, row * *side});
+      positions.push_back({x * *side, y * *side});
       result.cells_.push_back(cell);
     }
   std::vector<Edge> edges;
@@ -158,7 +155,7 @@ Result<GridRoadmap> GridRoadmap::make(const OccupancyGrid& grid, int neighbourho
   for (std::size_t v = 0; v < positions.size(); ++v)
     for (const auto& [step, swept] : moves) {
       const Cell from = result.cells_[v];
-      const auto to = result.vertex({from.row + step.row, from.column + step.column});
+      const auto to = result.vertex({from.x + step.x, from.y + step.y});
       if (to && is_free(grid, from, swept)) edges.push_back({VertexId(v), *to, std::nullopt});
     }
   auto roadmap = Roadmap::make(std::move(positions), std::move(edges));

@@ -136,10 +136,10 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std
 }  // namespace
 
 Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vector<Agent> agents,
-                                double resolution, std::span<const SourcePlace> places) {
+                                Resolution resolution, std::span<const SourcePlace> places) {
   QUADRILLE_REQUIRE(roadmap != nullptr, "an instance has a roadmap");
   QUADRILLE_REQUIRE(places.empty() || places.size() == agents.size(), "one place per agent");
-  if (!(std::isfinite(resolution) && resolution > 0))
+  if (!resolution.is_valid())
     return Error{ErrorCode::out_of_range, "the resolution has to be positive and finite", {}};
   std::size_t at = 0;
   if (auto error = check_all(*roadmap, agents, at)) {
@@ -173,6 +173,12 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
   instance.agents_ = IdVector<AgentId, Agent>(std::move(agents));
   instance.resolution_ = resolution;
   return instance;
+}
+
+Result<Instance> Instance::make(Roadmap roadmap, std::vector<Agent> agents, Resolution resolution,
+                                std::span<const SourcePlace> places) {
+  return make(std::make_shared<const Roadmap>(std::move(roadmap)), std::move(agents), resolution,
+              places);
 }
 
 }  // namespace quadrille::continuous

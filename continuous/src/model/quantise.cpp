@@ -17,43 +17,57 @@ std::optional<double> units_per_one(double resolution) {
   return std::nullopt;
 }
 
-std::optional<double> in_units(double value, double resolution, double max) {
-  if (!std::isfinite(value) || !std::isfinite(resolution) || resolution <= 0) return std::nullopt;
-  const auto factor = units_per_one(resolution);
-  const double units = factor ? value * *factor : value / resolution;
+/// In units of the size `unit`; not rounded.
+double divided(double value, double unit) {
+  const auto factor = units_per_one(unit);
+  return factor ? value * *factor : value / unit;
+}
+
+double multiplied(double units, double unit) {
+  const auto factor = units_per_one(unit);
+  return factor ? units / *factor : units * unit;
+}
+
+std::optional<double> in_units(double value, double unit, std::int64_t limit) {
+  if (!std::isfinite(value) || !std::isfinite(unit) || unit <= 0) return std::nullopt;
+  const double units = divided(value, unit), max = static_cast<double>(limit);
   if (!(std::abs(units) <= max)) return std::nullopt;
   return units;
 }
 
 }  // namespace
 
-std::optional<Length> quantise_coordinate(double value, double resolution) {
-  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength.count()));
+std::optional<Length> quantise_coordinate(double value, const Resolution& resolution) {
+  const auto units = in_units(value, resolution.length, geometry::kMaxLength.count());
   if (!units) return std::nullopt;
   return Length(static_cast<std::int64_t>(std::round(*units)));
 }
 
-std::optional<Length> quantise_radius(double value, double resolution) {
-  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength.count()));
+std::optional<Length> quantise_radius(double value, const Resolution& resolution) {
+  const auto units = in_units(value, resolution.length, geometry::kMaxLength.count());
   if (!units || *units < 1) return std::nullopt;
   return Length(static_cast<std::int64_t>(std::floor(*units)));
 }
 
-std::optional<Length> quantise_corner(double value, double resolution) {
-  const auto units = in_units(value, resolution, static_cast<double>(geometry::kMaxLength.count()));
+std::optional<Length> quantise_corner(double value, const Resolution& resolution) {
+  const auto units = in_units(value, resolution.length, geometry::kMaxLength.count());
   if (!units) return std::nullopt;
   return Length(static_cast<std::int64_t>(std::trunc(*units)));
 }
 
-std::optional<Ticks> quantise_duration(double value, double resolution) {
-  const auto units =
-      in_units(value, resolution, static_cast<double>(geometry::kMaxDuration.count()));
+std::optional<Ticks> quantise_duration(double value, const Resolution& resolution) {
+  const auto units = in_units(value, resolution.time, geometry::kMaxDuration.count());
   if (!units || std::round(*units) < 1) return std::nullopt;
   return Ticks(static_cast<std::int64_t>(std::round(*units)));
 }
 
-std::optional<Speed> quantise_speed(double value) {
-  const double speed = std::round(value * static_cast<double>(kUnitSpeed.count()));
+std::optional<Speed> quantise_speed(double value, const Resolution& resolution) {
+  if (!resolution.is_valid()) return std::nullopt;
+  // Length units per tick.
+  const double units = resolution.is_uniform()
+                           ? value
+                           : multiplied(divided(value, resolution.length), resolution.time);
+  const double speed = std::round(units * static_cast<double>(kUnitSpeed.count()));
   if (!(speed >= 1 && speed <= static_cast<double>(kMaxSpeed.count()))) return std::nullopt;
   return Speed(static_cast<std::int64_t>(speed));
 }
@@ -67,20 +81,19 @@ std::optional<Ticks> travel_time(const Point& from, const Point& to, Speed speed
   return Ticks(static_cast<std::int64_t>(ticks));
 }
 
-double in_input_units(Cost cost, double resolution) {
-  const auto factor = units_per_one(resolution);
-  return factor ? static_cast<double>(cost) / *factor : static_cast<double>(cost) * resolution;
+double in_input_units(Cost cost, const Resolution& resolution) {
+  return multiplied(static_cast<double>(cost), resolution.time);
 }
 
-double in_input_units(Ticks ticks, double resolution) {
-  return in_input_units(ticks.count(), resolution);
+double in_input_units(Ticks ticks, const Resolution& resolution) {
+  return multiplied(static_cast<double>(ticks.count()), resolution.time);
 }
 
-double in_input_units(Length length, double resolution) {
-  return in_input_units(length.count(), resolution);
+double in_input_units(Length length, const Resolution& resolution) {
+  return multiplied(static_cast<double>(length.count()), resolution.length);
 }
 
-double radius_in_input_units(Length radius, double resolution) {
+double radius_in_input_units(Length radius, const Resolution& resolution) {
   double value = in_input_units(radius, resolution);
   // Radii are rounded down: the nearest number may be just too small.
   for (int step = 0; step < 8 && quantise_radius(value, resolution) != radius; ++step)
@@ -88,20 +101,22 @@ double radius_in_input_units(Length radius, double resolution) {
   return value;
 }
 
-double corner_in_input_units(Length coordinate, double resolution) {
+double corner_in_input_units(Length coordinate, const Resolution& resolution) {
   if (coordinate == 0) return 0;
   const Length size = coordinate < 0 ? -coordinate : coordinate;
   const double value = radius_in_input_units(size, resolution);
   return coordinate < 0 ? -value : value;
 }
 
-double speed_in_input_units(Speed speed) {
-  return static_cast<double>(speed.count()) / static_cast<double>(kUnitSpeed.count());
+double speed_in_input_units(Speed speed, const Resolution& resolution) {
+  const double units = static_cast<double>(speed.count()) / static_cast<double>(kUnitSpeed.count());
+  if (resolution.is_uniform()) return units;
+  return divided(multiplied(units, resolution.length), resolution.time);
 }
 
-bool is_about(double value, std::int64_t units, double resolution) {
-  const double exact = in_input_units(units, resolution);
-  return std::abs(value - exact) <= resolution / 2 + 1e-12 * std::abs(exact);
+bool is_about(double value, std::int64_t ticks, const Resolution& resolution) {
+  const double exact = in_input_units(Ticks(ticks), resolution);
+  return std::abs(value - exact) <= resolution.time / 2 + 1e-12 * std::abs(exact);
 }
 
 }  // namespace quadrille::continuous

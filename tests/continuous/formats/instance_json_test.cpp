@@ -125,7 +125,7 @@ TEST(RoadmapJson, WhatIsWrittenIsReadBack) {
     SCOPED_TRACE(seed);
     const Instance drawn = test::random_instance(seed, {});
     // Other resolutions, where decimals are not exact.
-    const double resolutions[] = {1e-6, 1, 0.001, 0.3, 7, 1.0 / 3};
+    const Resolution resolutions[] = {1e-6, 1, 0.001, 0.3, 7, 1.0 / 3, {0.001, 0.01}, {0.3, 7}};
     const Instance instance = Instance::make(drawn.shared_roadmap(), drawn.agents().items(),
                                              resolutions[seed % std::size(resolutions)])
                                   .value();
@@ -134,6 +134,37 @@ TEST(RoadmapJson, WhatIsWrittenIsReadBack) {
     const auto again = read_instance_json(file, "out");
     ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
     EXPECT_TRUE(equal(*again, instance)) << file.str();
+  }
+}
+
+TEST(RoadmapJson, LengthAndTimeMayHaveResolutionsOfTheirOwn) {
+  const auto read = [](const std::string& resolution) {
+    std::istringstream file(
+        "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": " + resolution +
+        ", \"roadmap\": {\"vertices\": [[0, 0], [3, 4]], \"edges\": [[0, 1], [1, 0, 2.5]]}, "
+        "\"agents\": [{\"start\": 0, \"goal\": 1, \"radius\": 0.35}]}");
+    return read_instance_json(file, "f");
+  };
+  const Instance instance = read("{\"length\": 0.001, \"time\": 0.05}").value();
+  EXPECT_EQ(instance.resolution(), Resolution(0.001, 0.05));
+  EXPECT_EQ(instance.roadmap().position(VertexId(1)), (Point{3000, 4000}));
+  // A speed that is not given is 1 in the file's units: 50 length units per tick.
+  EXPECT_EQ(instance.agent(AgentId(0)),
+            (Agent{VertexId(0), VertexId(1), Disc{350}, 50 * kUnitSpeed}));
+  EXPECT_EQ(instance.duration(ClassId(0), EdgeId(0)), Ticks{100});  // 5 / 0.05
+  EXPECT_EQ(instance.duration(ClassId(0), EdgeId(1)), Ticks{50});
+
+  const std::pair<const char*, const char*> wrong[] = {
+      {"{}", "f:1: /resolution: the key 'length' is missing"},
+      {"{\"length\": 1}", "f:1: /resolution: the key 'time' is missing"},
+      {"{\"length\": 0, \"time\": 1}", "f:1: /resolution/length: a resolution is positive"},
+      {"{\"length\": 1, \"time\": -1}", "f:1: /resolution/time: a resolution is positive"},
+      {"{\"length\": 1e-3, \"time\": 1e-10}", "f:1: /agents/0: the speed is not supported"},
+      {"[1, 1]", "f:1: /resolution: expected a number"}};
+  for (const auto& [resolution, message] : wrong) {
+    const auto refused = read(resolution);
+    ASSERT_FALSE(refused.has_value()) << resolution;
+    EXPECT_EQ(refused.error().to_string().substr(0, std::string(message).size()), message);
   }
 }
 
@@ -170,19 +201,28 @@ TEST(Quantise, TravelTimeIsDistanceBySpeedToTheNearestTick) {
 }
 
 TEST(Quantise, GoesThereAndBack) {
-  for (const double resolution : {1e-6, 1e-9, 0.001, 0.3, 1.0, 7.0, 1.0 / 3})
+  for (const Resolution resolution :
+       {Resolution(1e-6), Resolution(1e-9), Resolution(0.001), Resolution(0.3), Resolution(7),
+        Resolution(1.0 / 3), Resolution(0.001, 0.05), Resolution(0.3, 1.0 / 3)})
     for (const std::int64_t units : {1L, 2L, 3L, 7L, 49L, 353'553L, 999'999L, 123'456'789L}) {
-      SCOPED_TRACE(std::to_string(resolution) + " " + std::to_string(units));
+      SCOPED_TRACE(std::to_string(resolution.length) + " " + std::to_string(units));
       EXPECT_EQ(quantise_radius(radius_in_input_units(Length(units), resolution), resolution),
                 Length(units));
       EXPECT_EQ(quantise_coordinate(in_input_units(Length(-units), resolution), resolution),
                 Length(-units));
       EXPECT_EQ(quantise_duration(in_input_units(Ticks(units), resolution), resolution),
                 Ticks(units));
+      EXPECT_EQ(quantise_speed(speed_in_input_units(Speed(units), resolution), resolution),
+                Speed(units));
       EXPECT_TRUE(is_about(in_input_units(units, resolution), units, resolution));
       EXPECT_FALSE(is_about(in_input_units(units + 1, resolution), units, resolution));
     }
   EXPECT_EQ(in_input_units(1'414'214, 1e-6), 1.414214);
+  const Resolution apart(0.001, 0.01);  // Millimetres and hundredths of a second, say.
+  EXPECT_EQ(in_input_units(Length{350}, apart), 0.35);
+  EXPECT_EQ(in_input_units(Ticks{350}, apart), 3.5);
+  EXPECT_EQ(quantise_speed(0.8, apart), 8 * kUnitSpeed);
+  EXPECT_EQ(speed_in_input_units(8 * kUnitSpeed, apart), 0.8);
 }
 
 TEST(Quantise, RefusesWhatIsNotSupported) {
@@ -192,10 +232,12 @@ TEST(Quantise, RefusesWhatIsNotSupported) {
     EXPECT_EQ(quantise_coordinate(wrong, 1e-6), std::nullopt);
     EXPECT_EQ(quantise_radius(wrong, 1e-6), std::nullopt);
     EXPECT_EQ(quantise_duration(wrong, 1e-6), std::nullopt);
-    EXPECT_EQ(quantise_speed(wrong), std::nullopt);
+    EXPECT_EQ(quantise_speed(wrong, 1), std::nullopt);
   }
-  for (const double resolution : {0.0, -1.0, nan, inf})
+  for (const double resolution : {0.0, -1.0, nan, inf}) {
     EXPECT_EQ(quantise_coordinate(1, resolution), std::nullopt);
+    EXPECT_EQ(quantise_speed(1, {1, resolution}), std::nullopt);
+  }
   EXPECT_EQ(quantise_radius(0.9e-6, 1e-6), std::nullopt);
   EXPECT_EQ(quantise_radius(-1, 1e-6), std::nullopt);
   EXPECT_EQ(quantise_radius(1.9e-6, 1e-6), Length{1});      // down

@@ -233,7 +233,7 @@ TEST(TimedPlanFiles, APlanForNoAgentsIsReadBack) {
 TEST(TimedPlanFiles, LogsOnGridsNameCells) {
   const OccupancyGrid cells{2, 2, std::vector<bool>(4, true)};
   const GridRoadmap grid = GridRoadmap::make(cells, 3, 1000, 1e-6).value();
-  const VertexId start = *grid.vertex({0, 1}), goal = *grid.vertex({1, 1});
+  const VertexId start = *grid.vertex({1, 0}), goal = *grid.vertex({1, 1});
   const Instance instance =
       Instance::make(grid.roadmap(), {{start, goal, Disc{1000}, kUnitSpeed}}).value();
   Plan plan;

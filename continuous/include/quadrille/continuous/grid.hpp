@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "quadrille/continuous/resolution.hpp"
 #include "quadrille/continuous/roadmap.hpp"
 #include "quadrille/core/export.hpp"
 
@@ -13,10 +14,10 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
-/// A cell of a grid; (0, 0) is the upper left one.
+/// A cell of a grid: x = column, y = row, (0, 0) upper left.
 struct Cell {
-  std::int32_t row = 0;
-  std::int32_t column = 0;
+  std::int32_t x = 0;
+  std::int32_t y = 0;
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
@@ -27,18 +28,18 @@ struct OccupancyGrid {
   std::vector<bool> passable;  ///< height * width entries, row by row.
 
   [[nodiscard]] bool contains(Cell cell) const {
-    return cell.row >= 0 && cell.row < height && cell.column >= 0 && cell.column < width;
+    return cell.x >= 0 && cell.x < width && cell.y >= 0 && cell.y < height;
   }
   /// Requires a cell of the grid.
   [[nodiscard]] bool is_passable(Cell cell) const { return passable[index(cell)]; }
   [[nodiscard]] std::size_t index(Cell cell) const {
-    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(cell.column);
+    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(cell.x);
   }
 };
 
 /// The roadmap of a grid: one vertex in the centre of each cell on which a disc of the given radius
-/// can stand, with x = column and y = row.
+/// can stand, at (x, y) times the side.
 class GridRoadmap {
  public:
   static constexpr int kMinNeighbourhood = 2, kMaxNeighbourhood = 5;
@@ -48,7 +49,7 @@ class GridRoadmap {
   /// disc meets the interior of no impassable cell; what is outside of the grid is free. Errors:
   /// out_of_range for a neighbourhood, a radius or a resolution that is not supported.
   [[nodiscard]] static Result<GridRoadmap> make(const OccupancyGrid& grid, int neighbourhood,
-                                                Length radius, double resolution);
+                                                Length radius, Resolution resolution);
 
   [[nodiscard]] std::shared_ptr<const Roadmap> roadmap() const noexcept { return roadmap_; }
   [[nodiscard]] std::int32_t height() const noexcept { return height_; }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "quadrille/continuous/resolution.hpp"
 #include "quadrille/continuous/roadmap.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/geometry/body.hpp"
@@ -37,10 +38,6 @@ struct Agent {
 /// Agents of the same body and speed are alike.
 using ClassId = StrongId<struct ClassTag>;
 
-/// How a number of the input becomes integers: `resolution` is the size of a length unit and of a
-/// tick in the input's units of length and time.
-inline constexpr double kDefaultResolution = 1e-6;
-
 /// A MAPF_R instance: a roadmap and one body with a task per agent, all in whole ticks and length
 /// units. Agents wait at vertices only, a whole number of ticks, move along edges at constant
 /// speed, and stay at their goal for ever. Two agents collide when the interiors of their bodies
@@ -55,13 +52,15 @@ class Instance {
   /// starts, overlapping goals (interiors) and goals that cannot be reached. Agents are named by
   /// index. `places`: where each agent comes from, for errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
-                                             std::vector<Agent> agents,
-                                             double resolution = kDefaultResolution,
+                                             std::vector<Agent> agents, Resolution resolution = {},
+                                             std::span<const SourcePlace> places = {});
+  [[nodiscard]] static Result<Instance> make(Roadmap roadmap, std::vector<Agent> agents,
+                                             Resolution resolution = {},
                                              std::span<const SourcePlace> places = {});
 
   [[nodiscard]] const Roadmap& roadmap() const noexcept { return *roadmap_; }
   [[nodiscard]] std::shared_ptr<const Roadmap> shared_roadmap() const noexcept { return roadmap_; }
-  [[nodiscard]] double resolution() const noexcept { return resolution_; }
+  [[nodiscard]] const Resolution& resolution() const noexcept { return resolution_; }
   [[nodiscard]] std::size_t num_agents() const noexcept { return agents_.size(); }
   [[nodiscard]] IdRange<AgentId> agent_ids() const noexcept {
     return IdRange<AgentId>(num_agents());
@@ -93,7 +92,7 @@ class Instance {
 
   std::shared_ptr<const Roadmap> roadmap_;
   IdVector<AgentId, Agent> agents_;
-  double resolution_ = kDefaultResolution;
+  Resolution resolution_;
   IdVector<ClassId, Class> classes_;
   IdVector<AgentId, ClassId> class_of_;
   std::vector<std::vector<Ticks>> durations_;  // by speed, by edge

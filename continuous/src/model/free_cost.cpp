@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/free_cost.hpp"
+
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace quadrille::continuous {
+
+std::optional<Ticks> free_cost(const Instance& instance, AgentId agent) {
+  const Roadmap& roadmap = instance.roadmap();
+  const ClassId kind = instance.class_of(agent);
+  const VertexId goal = instance.agent(agent).goal;
+  constexpr Ticks kFar{std::numeric_limits<Ticks::Count>::max()};
+  std::vector<Ticks> arrival(roadmap.num_vertices(), kFar);
+  using Entry = std::pair<Ticks, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  const auto reach = [&](VertexId v, Ticks then) {
+    if (then >= arrival[v.index()]) return;
+    arrival[v.index()] = then;
+    open.emplace(then, v);
+  };
+  reach(instance.agent(agent).start, 0);
+  while (!open.empty()) {
+    const auto [tick, v] = open.top();
+    open.pop();
+    if (v == goal) return tick;
+    if (tick > arrival[v.index()]) continue;
+    for (const EdgeId e : roadmap.out_edges(v))
+      reach(roadmap.edge(e).to, tick + instance.duration(kind, e));
+  }
+  return std::nullopt;
+}
+
+}  // namespace quadrille::continuous
