@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "ordering.hpp"
+#include "quadrille/discrete/verify.hpp"
+#include "quadrille/execution/precedences.hpp"
+
+namespace quadrille::execution {
+namespace {
+
+/// An agent is at a vertex, from the end of `in` to the beginning of `out`.
+struct Visit {
+  VertexId vertex;
+  AgentId agent;
+  Ticks arrive = 0;
+  std::optional<MoveId> in, out;  // No move into its start, none out of its goal.
+};
+
+/// The moves of a path, and what it visits.
+std::vector<TimedMove> moves_of(AgentId agent, const discrete::Path& path,
+                                std::vector<Visit>& visits) {
+  std::vector<TimedMove> moves;
+  Visit visit{path.front(), agent, 0, std::nullopt, std::nullopt};
+  for (std::size_t t = 0; t + 1 < path.size(); ++t) {
+    if (path[t] == path[t + 1]) continue;
+    const MoveId move{agent, static_cast<std::uint32_t>(moves.size())};
+    const Ticks begin(static_cast<std::int64_t>(t));
+    moves.push_back({path[t], path[t + 1], begin, begin + 1});
+    visit.out = move;
+    visits.push_back(visit);
+    visit = Visit{path[t + 1], agent, begin + 1, move, std::nullopt};
+  }
+  visits.push_back(visit);
+  return moves;
+}
+
+}  // namespace
+
+Result<Precedences> precedences(const discrete::Instance& instance, const discrete::Plan& plan) {
+  const auto report = discrete::verify(instance, plan);
+  if (!report.valid()) return Error{ErrorCode::invalid_plan, report.violations.front().message, {}};
+  Precedences result;
+  std::vector<Visit> visits;
+  for (const AgentId agent : instance.agent_ids())
+    result.moves.push_back(moves_of(agent, plan.paths[agent], visits));
+  std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {
+    return std::tie(a.vertex, a.arrive) < std::tie(b.vertex, b.arrive);
+  });
+  for (std::size_t k = 0; k + 1 < visits.size(); ++k) {
+    const Visit &first = visits[k], &next = visits[k + 1];
+    if (first.vertex != next.vertex || first.agent == next.agent) continue;
+    const Ticks leaves = result.at(*first.out).begin;
+    result.list.push_back({*first.out, *next.in, result.at(*next.in).begin - leaves});
+  }
+  sort_precedences(result.list);
+  return result;
+}
+
+}  // namespace quadrille::execution

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "execution/plans.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/solver.hpp"
+#include "quadrille/discrete/primal.hpp"
+#include "support/generators.hpp"
+
+namespace quadrille::execution::test {
+
+std::optional<ContinuousCase> continuous_case(std::uint32_t seed, std::size_t agents) {
+  continuous::test::RandomOptions shape;
+  shape.num_agents = agents;
+  shape.num_vertices = agents * 5;
+  shape.size = geometry::Length(static_cast<std::int64_t>(15 + 20 * agents));
+  shape.max_radius = 6;
+  shape.edge_percent = agents > 4 ? 12 : 30;
+  const continuous::Instance instance = continuous::test::random_instance(seed, shape);
+  continuous::SolveOptions options;
+  options.gap_percent = 1e6;
+  options.joint_work = 0;
+  options.route_work = 0;
+  options.limits.conflicts = 20;
+  auto outcome = continuous::solve(instance, options);
+  if (!outcome || !outcome->plan) return std::nullopt;
+  return ContinuousCase{instance, std::move(*outcome->plan)};
+}
+
+std::optional<DiscreteCase> discrete_case(std::uint64_t seed) {
+  quadrille::support::Random random(seed);
+  discrete::support::GridShape shape;
+  shape.min_side = 2;
+  shape.max_side = 6;
+  shape.max_obstacles_percent = 20;
+  shape.max_agents = 10;
+  const discrete::Instance instance = discrete::support::random_grid(random, shape);
+  LimitMonitor limits{Limits{}};
+  discrete::PrimalSearch search(instance, discrete::GoalDistances::make(instance, limits),
+                                static_cast<std::uint32_t>(seed));
+  if (search.advance(200'000, limits) != discrete::PrimalSearch::State::found) return std::nullopt;
+  return DiscreteCase{instance, search.plan()};
+}
+
+}  // namespace quadrille::execution::test

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/execution/precedences.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <variant>
+
+#include "execution/plans.hpp"
+#include "execution/replay.hpp"
+#include "quadrille/discrete/graph.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::execution::test {
+namespace {
+
+using continuous::Agent;
+using continuous::Disc;
+using geometry::Point;
+using quadrille::support::scaled;
+
+VertexId v(std::size_t index) { return VertexId(index); }
+
+/// A crossing of two roads of length 20, with agents of this radius from west to east and from
+/// south to north.
+continuous::Instance crossing(geometry::Length radius) {
+  auto roadmap = continuous::Roadmap::make({{-10, 0}, {10, 0}, {0, -10}, {0, 10}},
+                                           {{v(0), v(1), {}}, {v(2), v(3), {}}});
+  return continuous::Instance::make(
+             std::make_shared<const continuous::Roadmap>(std::move(roadmap).value()),
+             {{v(0), v(1), Disc{radius}, continuous::kUnitSpeed},
+              {v(2), v(3), Disc{radius}, continuous::kUnitSpeed}})
+      .value();
+}
+
+continuous::Plan crossing_plan(Ticks second_start) {
+  continuous::Plan plan;
+  plan.paths.push_back({{v(0), 0, 0}, {v(1), 20, 20}});
+  plan.paths.push_back({{v(2), 0, second_start}, {v(3), second_start + 20, second_start + 20}});
+  return plan;
+}
+
+TEST(Precedences, SlackIsWhatIsLeftToTheNearestUnsafeOffset) {
+  // Two points at right angles, offset d: the least distance is d / sqrt(2). Radii 3 and 3 collide
+  // for d <= 8.
+  const auto nine = precedences(crossing(3), crossing_plan(9));
+  ASSERT_TRUE(nine.has_value());
+  EXPECT_EQ(nine->list, (std::vector<Precedence>{{{AgentId(0), 0}, {AgentId(1), 0}, 0}}));
+  EXPECT_EQ(nine->moves[AgentId(1)], (std::vector<TimedMove>{{v(2), v(3), 9, 29}}));
+  EXPECT_EQ(nine->end(AgentId(1)), Ticks(29));
+  EXPECT_TRUE(nine->overlaps(nine->list.front()));
+  const auto fifty = precedences(crossing(3), crossing_plan(50));
+  ASSERT_TRUE(fifty.has_value());
+  EXPECT_EQ(fifty->list, (std::vector<Precedence>{{{AgentId(0), 0}, {AgentId(1), 0}, 41}}));
+  EXPECT_FALSE(fifty->overlaps(fifty->list.front()));
+}
+
+TEST(Precedences, APlanWithACollisionIsRefused) {
+  const auto refused = precedences(crossing(3), crossing_plan(8));
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::invalid_plan);
+  EXPECT_NE(refused.error().message.find("agent"), std::string::npos) << refused.error().message;
+}
+
+TEST(Precedences, AWindowBetweenTwoTicksCounts) {
+  // Fast and small: agent 0 passes the crossing 2 ticks after it has begun, agent 1 after 1.2; they
+  // collide at offsets near 0.8 and at no whole one. Delays need not be whole.
+  auto roadmap = continuous::Roadmap::make({{-50, 0}, {50, 0}, {0, -40}, {0, 60}},
+                                           {{v(0), v(1), Ticks(4)}, {v(2), v(3), Ticks(3)}});
+  const auto instance = continuous::Instance::make(
+      std::make_shared<const continuous::Roadmap>(std::move(roadmap).value()),
+      {{v(0), v(1), Disc{1}, continuous::kUnitSpeed},
+       {v(2), v(3), Disc{1}, continuous::kUnitSpeed}});
+  ASSERT_TRUE(instance.has_value());
+  for (const std::int64_t offset : {-3, 0, 1, 7}) {
+    continuous::Plan plan;
+    const Ticks first(std::max<std::int64_t>(0, -offset)),
+        second(std::max<std::int64_t>(0, offset));
+    plan.paths.push_back({{v(0), 0, first}, {v(1), first + 4, first + 4}});
+    plan.paths.push_back({{v(2), 0, second}, {v(3), second + 3, second + 3}});
+    const auto order = precedences(*instance, plan);
+    ASSERT_TRUE(order.has_value()) << order.error().to_string();
+    const Precedence wanted = offset >= 1
+                                  ? Precedence{{AgentId(0), 0}, {AgentId(1), 0}, Ticks(offset - 1)}
+                                  : Precedence{{AgentId(1), 0}, {AgentId(0), 0}, Ticks(-offset)};
+    EXPECT_EQ(order->list, std::vector<Precedence>{wanted}) << offset;
+  }
+}
+
+TEST(Precedences, WhoOnlyTouchIsFree) {
+  // Agent 0 goes to (100, 0) and back, agent 1 to (100, 21): radii 10 and 11 touch there.
+  auto roadmap = continuous::Roadmap::make(
+      {{0, 0}, {100, 0}, {100, 21}, {200, 21}},
+      {{v(0), v(1), Ticks(4)}, {v(1), v(0), Ticks(4)}, {v(3), v(2), Ticks(3)}});
+  const auto instance = continuous::Instance::make(
+      std::make_shared<const continuous::Roadmap>(std::move(roadmap).value()),
+      {{v(0), v(0), Disc{10}, continuous::kUnitSpeed},
+       {v(3), v(2), Disc{11}, continuous::kUnitSpeed}});
+  ASSERT_TRUE(instance.has_value());
+  continuous::Plan plan;
+  plan.paths.push_back({{v(0), 0, 0}, {v(1), 4, 4}, {v(0), 8, 8}});
+  plan.paths.push_back({{v(3), 0, 1}, {v(2), 4, 4}});
+  const auto order = precedences(*instance, plan);
+  ASSERT_TRUE(order.has_value()) << order.error().to_string();
+  EXPECT_TRUE(order->list.empty());
+}
+
+TEST(Precedences, TimestepsFollowTheLastVisitor) {
+  // 0 - 1 - 2 - 3: agent 0 goes ahead, agent 1 follows at its heels, agent 2 comes to 1 later.
+  auto graph = discrete::Graph::make(5, {{v(0), v(1)}, {v(1), v(2)}, {v(2), v(3)}, {v(1), v(4)}});
+  const auto instance = discrete::Instance::make(std::move(graph).value(),
+                                                 {{v(1), v(3)}, {v(0), v(2)}, {v(4), v(1)}});
+  ASSERT_TRUE(instance.has_value());
+  discrete::Plan plan;
+  plan.paths.push_back({v(1), v(2), v(3)});
+  plan.paths.push_back({v(0), v(1), v(2)});
+  plan.paths.push_back({v(4), v(4), v(4), v(4), v(1)});
+  const auto order = precedences(*instance, plan);
+  ASSERT_TRUE(order.has_value()) << order.error().to_string();
+  EXPECT_EQ(order->list, (std::vector<Precedence>{{{AgentId(0), 0}, {AgentId(1), 0}, 0},
+                                                  {{AgentId(0), 1}, {AgentId(1), 1}, 0},
+                                                  {{AgentId(1), 1}, {AgentId(2), 0}, 2}}));
+  EXPECT_EQ(order->moves[AgentId(2)], (std::vector<TimedMove>{{v(4), v(1), 3, 4}}));
+}
+
+// A second opinion on each single slack: with the clocks apart by as much, or by less, the two
+// moves never collide; by one tick more, they do.
+
+__extension__ typedef __int128 Wide;
+
+/// Whether two discs that move as `a` and `b` say, b's clock ahead of a's by `lead`, collide while
+/// both are on their moves. Exact.
+bool discs_collide(const ContinuousCase& c, const Precedences& order, const MoveId& a,
+                   const MoveId& b, std::int64_t lead) {
+  const auto point = [&](VertexId vertex) {
+    const Point& p = c.instance.roadmap().position(vertex);
+    return std::pair<Wide, Wide>(p.x.count(), p.y.count());
+  };
+  const TimedMove &ma = order.at(a), &mb = order.at(b);
+  const Wide duration_a = (ma.end - ma.begin).count(), duration_b = (mb.end - mb.begin).count();
+  const auto radius = [&](const MoveId& id) -> Wide {
+    return std::get<Disc>(c.instance.agent(id.agent).body).radius.count();
+  };
+  // s: since a began. b is at s - shift. All is multiplied by both durations.
+  const Wide shift = (mb.begin - ma.begin).count() - lead;
+  const Wide first = std::max<Wide>(0, shift), last = std::min(duration_a, duration_b + shift);
+  if (first > last) return false;
+  const auto [ax0, ay0] = point(ma.from);
+  const auto [ax1, ay1] = point(ma.to);
+  const auto [bx0, by0] = point(mb.from);
+  const auto [bx1, by1] = point(mb.to);
+  const Wide both = duration_a * duration_b;
+  const Wide vx = (bx1 - bx0) * duration_a - (ax1 - ax0) * duration_b;
+  const Wide vy = (by1 - by0) * duration_a - (ay1 - ay0) * duration_b;
+  const Wide px = (bx0 - ax0) * both - (bx1 - bx0) * duration_a * shift;
+  const Wide py = (by0 - ay0) * both - (by1 - by0) * duration_a * shift;
+  const Wide reach = (radius(a) + radius(b)) * both;
+  const auto is_near = [&](Wide s) {
+    const Wide x = px + vx * s, y = py + vy * s;
+    return x * x + y * y < reach * reach;
+  };
+  if (is_near(first) || is_near(last)) return true;
+  const Wide square = vx * vx + vy * vy, along = -(px * vx + py * vy);
+  if (square == 0 || along <= first * square || along >= last * square) return false;
+  const Wide cross = px * vy - py * vx;
+  return cross * cross < reach * reach * square;
+}
+
+TEST(Precedences, OneTickMoreThanEachSlackAndTheTwoCollide) {
+  std::size_t num_checked = 0;
+  for (std::uint32_t seed = 0; seed < scaled(200); ++seed) {
+    const auto c = continuous_case(seed, 2 + seed % 3);
+    if (!c) continue;
+    const auto order = precedences(c->instance, c->plan);
+    ASSERT_TRUE(order.has_value()) << order.error().to_string();
+    const Replay replay(c->instance, c->plan);
+    for (const Precedence& p : order->list) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      ASSERT_GE(p.slack, Ticks(0));
+      if (!std::holds_alternative<Disc>(c->instance.agent(p.leader.agent).body) ||
+          !std::holds_alternative<Disc>(c->instance.agent(p.follower.agent).body))
+        continue;
+      ++num_checked;
+      const std::int64_t slack = p.slack.count();
+      for (std::int64_t lead = -200; lead <= slack; ++lead)
+        ASSERT_FALSE(discs_collide(*c, *order, p.leader, p.follower, lead)) << lead;
+      if (discs_collide(*c, *order, p.leader, p.follower, slack + 1)) continue;
+      // Then somewhere between slack and slack + 1.
+      const TimedMove &a = order->at(p.leader), &b = order->at(p.follower);
+      Replay::Real least = 1;
+      for (int part = 1; part < 4096; ++part) {
+        const Replay::Real lead = static_cast<Replay::Real>(slack) + part / Replay::Real{4096};
+        const auto low = std::max(static_cast<Replay::Real>(a.begin.count()),
+                                  static_cast<Replay::Real>(b.begin.count()) - lead);
+        const auto high = std::min(static_cast<Replay::Real>(a.end.count()),
+                                   static_cast<Replay::Real>(b.end.count()) - lead);
+        if (low <= high)
+          least = std::min(least, replay.separation(p.leader.agent, low, high, p.follower.agent,
+                                                    low + lead, high + lead));
+      }
+      EXPECT_LT(least, 0);
+    }
+  }
+  EXPECT_GE(num_checked, scaled(400));
+}
+
+}  // namespace
+}  // namespace quadrille::execution::test

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "execution/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <variant>
+
+namespace quadrille::execution::test {
+namespace {
+
+using Real = Replay::Real;
+
+Real real(geometry::Ticks ticks) { return static_cast<Real>(ticks.count()); }
+Real real(geometry::Length length) { return static_cast<Real>(length.count()); }
+
+/// The moments of [x0, x1], as shares of it, at which a path begins or ends a move.
+void add_breaks(const continuous::Path& path, Real x0, Real x1, std::vector<Real>& shares) {
+  for (const continuous::Stop& stop : path)
+    for (const Real clock : {real(stop.arrive), real(stop.depart)})
+      if (x0 < clock && clock < x1) shares.push_back((clock - x0) / (x1 - x0));
+}
+
+/// max over p in the body of p . u
+Real support(const geometry::Body& body, Real ux, Real uy) {
+  if (const auto* disc = std::get_if<geometry::Disc>(&body))
+    return real(disc->radius) * std::hypot(ux, uy);
+  Real most = -std::numeric_limits<Real>::infinity();
+  for (const geometry::Point& p : std::get<geometry::ConvexPolygon>(body).vertices())
+    most = std::max(most, real(p.x) * ux + real(p.y) * uy);
+  return most;
+}
+
+}  // namespace
+
+Replay::Vector Replay::place(AgentId agent, Real clock) const {
+  const continuous::Path& path = plan_.paths[agent];
+  std::size_t k = 0;
+  while (k + 1 < path.size() && real(path[k + 1].arrive) <= clock) ++k;
+  const auto at = [&](VertexId v) {
+    const geometry::Point& p = instance_.roadmap().position(v);
+    return Vector{real(p.x), real(p.y)};
+  };
+  const Vector from = at(path[k].vertex);
+  if (k + 1 == path.size() || clock <= real(path[k].depart)) return from;
+  const Vector to = at(path[k + 1].vertex);
+  const Real share =
+      (clock - real(path[k].depart)) / (real(path[k + 1].arrive) - real(path[k].depart));
+  return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share};
+}
+
+/// The largest gap between the bodies along any direction that can be the one of least distance.
+Real Replay::apart(AgentId i, AgentId j, const Vector& offset) const {
+  const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
+  Real most = -std::numeric_limits<Real>::infinity();
+  const auto look = [&](Real ux, Real uy) {
+    const Real length = std::hypot(ux, uy);
+    if (length == 0) return;
+    ux /= length;
+    uy /= length;
+    most =
+        std::max(most, offset.x * ux + offset.y * uy - support(a, ux, uy) - support(b, -ux, -uy));
+  };
+  look(offset.x, offset.y);
+  const auto look_at = [&](const geometry::Body& body, Real sign) {
+    const auto* polygon = std::get_if<geometry::ConvexPolygon>(&body);
+    if (polygon == nullptr) return;
+    const auto& corners = polygon->vertices();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const geometry::Point &p = corners[k], &q = corners[(k + 1) % corners.size()];
+      look(sign * real(q.y - p.y), -sign * real(q.x - p.x));           // out of the edge
+      look(offset.x - sign * real(p.x), offset.y - sign * real(p.y));  // from a corner to a disc
+    }
+  };
+  look_at(a, 1);
+  look_at(b, -1);
+  return most;
+}
+
+Real Replay::straight(AgentId i, AgentId j, const Vector& from, const Vector& to) const {
+  const Vector way{to.x - from.x, to.y - from.y};
+  const Real square = way.x * way.x + way.y * way.y;
+  const auto at = [&](Real share) {
+    return Vector{from.x + way.x * share, from.y + way.y * share};
+  };
+  const Real nearest =
+      square == 0 ? 0 : std::clamp<Real>(-(from.x * way.x + from.y * way.y) / square, 0, 1);
+  const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
+  const Vector closest = at(nearest);
+  if (std::holds_alternative<geometry::Disc>(a) && std::holds_alternative<geometry::Disc>(b))
+    return apart(i, j, closest);
+  const auto reach = [](const geometry::Body& body) {
+    return real(geometry::enclosing_radius(body));
+  };
+  const Real room = std::hypot(closest.x, closest.y) - reach(a) - reach(b);
+  if (room > 1) return room;
+  // The distance of convex bodies is a convex function of the offset.
+  Real low = 0, high = 1;
+  Real least = std::min(apart(i, j, from), apart(i, j, to));
+  for (int round = 0; round < 50; ++round) {
+    const Real p = low + (high - low) / 3, q = high - (high - low) / 3;
+    const Real at_p = apart(i, j, at(p)), at_q = apart(i, j, at(q));
+    least = std::min({least, at_p, at_q});
+    (at_p < at_q ? high : low) = at_p < at_q ? q : p;
+  }
+  return least;
+}
+
+Real Replay::separation(AgentId i, Real x0, Real x1, AgentId j, Real y0, Real y1) const {
+  std::vector<Real> shares{0, 1};
+  add_breaks(plan_.paths[i], x0, x1, shares);
+  add_breaks(plan_.paths[j], y0, y1, shares);
+  std::sort(shares.begin(), shares.end());
+  const auto offset = [&](Real share) {
+    const Vector a = place(i, x0 + (x1 - x0) * share), b = place(j, y0 + (y1 - y0) * share);
+    return Vector{b.x - a.x, b.y - a.y};
+  };
+  Real least = std::numeric_limits<Real>::infinity();
+  for (std::size_t k = 0; k + 1 < shares.size(); ++k)
+    least = std::min(least, straight(i, j, offset(shares[k]), offset(shares[k + 1])));
+  return least;
+}
+
+Real Replay::least_separation(const std::vector<Real>& before,
+                              const std::vector<Real>& after) const {
+  Real least = std::numeric_limits<Real>::infinity();
+  for (std::size_t i = 0; i < before.size(); ++i)
+    for (std::size_t j = i + 1; j < before.size(); ++j)
+      if (before[i] != after[i] || before[j] != after[j])
+        least = std::min(
+            least, separation(AgentId(i), before[i], after[i], AgentId(j), before[j], after[j]));
+  return least;
+}
+
+bool collide(const discrete::Plan& plan, const std::vector<std::size_t>& before,
+             const std::vector<std::size_t>& after) {
+  std::map<VertexId, std::size_t> at_before, at_after;
+  const auto place = [&](std::size_t i, std::size_t t) {
+    return discrete::position(plan.paths[AgentId(i)], static_cast<Timestep>(t));
+  };
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (!at_before.emplace(place(i, before[i]), i).second ||
+        !at_after.emplace(place(i, after[i]), i).second)
+      return true;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto other = at_before.find(place(i, after[i]));
+    if (other == at_before.end() || other->second == i) continue;
+    if (place(other->second, after[other->second]) == place(i, before[i])) return true;
+  }
+  return false;
+}
+
+}  // namespace quadrille::execution::test
