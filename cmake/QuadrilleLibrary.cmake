@@ -16,6 +16,16 @@ function(quadrille_compile_options target)
   endif()
 endfunction()
 
+# quadrille_precompile(<target> <header>...): two thirds of the time of a compilation are spent on
+# reading headers; these, and those that everything includes, are read once for the target.
+# Each file names what it uses all the same: builds without the option see to that.
+function(quadrille_precompile target)
+  if(QUADRILLE_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} PRIVATE <algorithm> <cstdint> <functional> <memory>
+      <optional> <span> <string> <utility> <vector> ${ARGN})
+  endif()
+endfunction()
+
 # quadrille_add_library(<folder> HEADERS ... SOURCES ... [LINK folder...] [PRIVATE_LINK target...])
 # Headers are relative to include/quadrille/<folder>, sources to src. LINK names folders of this
 # project, PRIVATE_LINK libraries from outside; one that consists of headers only has no business
@@ -34,6 +44,7 @@ function(quadrille_add_library folder)
     PRIVATE src)
   target_link_libraries(${target} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
   quadrille_compile_options(${target})
+  quadrille_precompile(${target})
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${folder}
     VERSION ${PROJECT_VERSION}

@@ -4,6 +4,7 @@
 #
 # Environment:
 #   QUADRILLE_SKIP_SETUP=1   install nothing; what is missing shows as an error of CMake
+#   QUADRILLE_HEARTBEAT=30   seconds between signs of life without a terminal
 #   QUADRILLE_CMAKE_ARGS     more arguments for the first configuration, split at spaces
 
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
@@ -32,12 +33,33 @@ network_failed() {
   grep -qE 'Temporary failure|Could not (resolve|connect)|unreachable|timed out' "$1"
 }
 
+# heartbeat <log> <command...>: runs the command with its output in the log, and says every half
+# minute that it is still at work and, where ninja tells, how far it is: somebody who watches a silent
+# log must be able to tell a long build from one that hangs.
+heartbeat() {
+  local log=$1 began=$SECONDS step pulse status=0
+  shift
+  (
+    # Nothing ever comes through this pipe; a `sleep` would outlive its parent.
+    exec {never}<> <(:)
+    while ! read -rt "${QUADRILLE_HEARTBEAT:-30}" -u "$never"; do
+      step=$(grep -oE '^\[[0-9]+/[0-9]+\]' "$log" | tail -n 1 | tr -d '[]')
+      say "still at work after $((SECONDS - began)) s${step:+, step ${step/\// of }}"
+    done
+  ) 9>&- &
+  pulse=$!
+  "$@" >"$log" 2>&1 || status=$?
+  kill "$pulse" 2>/dev/null || true
+  wait "$pulse" 2>/dev/null || true
+  return "$status"
+}
+
 # run_quietly <what> <command...>: shows the output of the command only when it fails.
 run_quietly() {
   local what=$1 log
   shift
   log=$(mktemp)
-  if ! "$@" >"$log" 2>&1; then
+  if ! heartbeat "$log" "$@"; then
     cat "$log" >&2
     rm -f "$log"
     die "$what failed; the output is above."
@@ -58,13 +80,17 @@ configure() {
   local stamp=$build_dir/.configured args=("$@") more=()
   read -ra more <<<"${QUADRILLE_CMAKE_ARGS:-}"
   args+=("${more[@]}")
+  if [[ -n ${CMAKE_CXX_COMPILER_LAUNCHER:-} ]]; then
+    : # the user's
+  elif command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  else
+    args+=(-DQUADRILLE_PRECOMPILE_HEADERS=ON)
+  fi
   if is_configured; then
     if [[ $(<"$stamp") == "${args[*]}" ]]; then return; fi
   else
     rm -rf "$build_dir"
-  fi
-  if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER:-} ]] && command -v ccache >/dev/null; then
-    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
   fi
   say "configuring"
   # Presets are found in the current folder only.
