@@ -13,6 +13,9 @@
 namespace quadrille::cli {
 namespace {
 
+/// Tells the options for files that are read from those for outputs.
+constexpr const char* kInputType = "INPUT";
+
 /// The whole text as a number; nullopt if it is anything else.
 template <class Number>
 std::optional<Number> parse_whole(const std::string& text) {
@@ -90,6 +93,27 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file,
     file = text;
   };
   return app.add_option_function<std::string>(name, read, help)->type_name("FILE");
+}
+
+CLI::Option* add_input_file(CLI::App& app, const std::string& name, std::string& file,
+                            const std::string& help) {
+  const auto read = [&file, name](const std::string& text) {
+    if (text.empty()) refuse_value(name, text, "a file name");
+    file = text == "-" ? kStandardInput : text;
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name(kInputType);
+}
+
+std::string check_standard_input(const CLI::App& app) {
+  const CLI::Option* first = nullptr;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_type_name() != kInputType || option->results() != CLI::results_t{"-"}) continue;
+    if (first != nullptr)
+      return fmt::format("{} and {} both name standard input", first->get_name(),
+                         option->get_name());
+    first = option;
+  }
+  return "";
 }
 
 ExitCode usage_error(const CLI::App& app, const std::string& message) {

@@ -46,6 +46,14 @@ CLI::Option* add_positive(CLI::App& app, const std::string& name, std::optional<
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file,
                       const std::string& help);
 
+/// The same for a file that is read: "-" is standard input, in `file` as kStandardInput.
+CLI::Option* add_input_file(CLI::App& app, const std::string& name, std::string& file,
+                            const std::string& help);
+/// Under this name standard input is a file like others.
+inline constexpr const char* kStandardInput = "/dev/stdin";
+/// What is wrong if several options of the command line name standard input; empty if none is.
+[[nodiscard]] std::string check_standard_input(const CLI::App& app);
+
 /// Adds an option that takes one of `names`, as `choose` understands them.
 template <class Choice>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& choice,

@@ -23,19 +23,42 @@ void add_letters(CLI::App& app, const std::string& name, std::string& letters,
 
 void add_input_options(CLI::App& app, InputOptions& options) {
   const std::string group = "Instance";
-  add_file(app, "--map", options.map, "Map in MovingAI's format")->group(group);
-  add_file(app, "--scen", options.scen, "Scenario in MovingAI's format")->group(group);
-  add_integer(app, "--agents", options.agents, 0, kMaxAgents, "Take the first N rows of --scen")
+  add_input_file(app, "--map", options.map, "Map in MovingAI's format")->group(group);
+  add_input_file(app, "--scen", options.scen, "Scenario in MovingAI's format")->group(group);
+  add_integer(app, "--agents", options.agents, 0, kMaxAgents,
+              "Take the first N rows of --scen, or agents of --instance")
       ->group(group);
-  add_file(app, "--instance", options.instance,
-           "Instead: one file, quadrille's JSON (also with a roadmap) or\n"
-           "libMultiRobotPlanning's YAML")
+  add_input_file(app, "--instance", options.instance,
+                 "Instead: one file, quadrille's JSON (also with a roadmap) or\n"
+                 "libMultiRobotPlanning's YAML")
       ->group(group);
   add_letters(app, "--passable", options.letters.passable,
               "Map letters that are passable besides . and G");
   add_letters(app, "--blocked", options.letters.blocked,
               "Map letters that are blocked besides @, O and T");
   for (const char* name : {"--passable", "--blocked"}) app.get_option(name)->group(group);
+}
+
+std::optional<Error> check_agents(const InputOptions& options, std::size_t agents) {
+  if (!options.agents || static_cast<std::size_t>(*options.agents) <= agents) return std::nullopt;
+  return Error{ErrorCode::invalid_instance,
+               fmt::format("there are only {} agents, not {}", agents, *options.agents),
+               {options.instance, 0}};
+}
+
+Error with_letters_hint(Error error) {
+  if (error.message.find("is neither known as passable nor as blocked") != std::string::npos)
+    error.message += " (--passable and --blocked say what it is)";
+  return error;
+}
+
+std::string why_no_instance(const std::string& text) {
+  const std::string_view begin = std::string_view(text).substr(0, text.find_first_of("\r\n"));
+  if (begin.starts_with("type ")) return "this is a map of MovingAI's: it belongs to --map";
+  if (begin.starts_with("version "))
+    return "this is a scenario of MovingAI's: it belongs to --scen";
+  if (begin.starts_with('<')) return "this is XML: roadmaps belong to --roadmap, tasks to --task";
+  return "";
 }
 
 std::string PlanFormats::why_not_discrete(const std::string& option) const {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "quadrille/continuous/plan_files.hpp"
+#include "quadrille/core/result.hpp"
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
 
@@ -25,6 +26,15 @@ enum class Need {
   tasks,  ///< A map needs its scenario and the number of agents.
   map,    ///< A map alone will do, and all rows of a scenario are taken by default.
 };
+
+/// What is wrong if an `--instance` with so many agents has fewer than `--agents` asks for.
+[[nodiscard]] std::optional<Error> check_agents(const InputOptions& options, std::size_t agents);
+
+/// An error of the reader of maps; one about a letter says which options can help.
+[[nodiscard]] Error with_letters_hint(Error error);
+
+/// What a file is, if `--instance` is given one that belongs to another option; empty else.
+[[nodiscard]] std::string why_no_instance(const std::string& text);
 
 void add_input_options(CLI::App& app, InputOptions& options);
 

@@ -8,6 +8,7 @@
 #include "output.hpp"
 #include "signals.hpp"
 #include "subcommands.hpp"
+#include "suggestion.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -50,12 +51,17 @@ ExitCode run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     for (const Subcommand& subcommand : subcommands)
       if (subcommand.app->parsed()) active = subcommand.app;
-    if (active == &program && program.remaining_size() > 0)
-      return usage_error(program, "'" + program.remaining().front() + "' is no command");
+    // An option that is not known explains best what is missing or too much.
+    if (active->remaining_size() > 0)
+      return usage_error(*active, describe_unexpected(*active, active->remaining().front()));
     return usage_error(*active, error.what());
   }
-  for (const Subcommand& subcommand : subcommands)
-    if (subcommand.app->parsed()) return subcommand.run();
+  for (const Subcommand& subcommand : subcommands) {
+    if (!subcommand.app->parsed()) continue;
+    if (const std::string wrong = check_standard_input(*subcommand.app); !wrong.empty())
+      return usage_error(*subcommand.app, wrong);
+    return subcommand.run();
+  }
   return ExitCode::usage;
 }
 

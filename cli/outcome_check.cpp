@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace quadrille::cli {
 namespace {
@@ -54,16 +55,18 @@ std::string find_false_claim(const Claim& claim, const Replay& replay) {
   return "";
 }
 
-std::string find_false_statements(const StatedOutcome& stated, Cost sum_of_costs, Cost makespan) {
-  std::string text;
-  const auto compare = [&text](const char* name, std::optional<Cost> cost, Cost actual) {
+std::vector<std::string> find_false_statements(const StatedOutcome& stated, Cost sum_of_costs,
+                                               Cost makespan) {
+  std::vector<std::string> found;
+  const auto compare = [&found](const char* name, std::optional<Cost> cost, Cost actual) {
     if (cost && *cost != actual)
-      text += fmt::format("the file states a {} of {}, but it is {}\n", name, *cost, actual);
+      found.push_back(fmt::format("the file states a {} of {}, but it is {}", name, *cost, actual));
   };
   compare("sum of costs", stated.sum_of_costs, sum_of_costs);
   compare("makespan", stated.makespan, makespan);
-  const std::string wrong = find_contradiction(stated, sum_of_costs, makespan);
-  return wrong.empty() ? text : text + wrong + "\n";
+  std::string wrong = find_contradiction(stated, sum_of_costs, makespan);
+  if (!wrong.empty()) found.push_back(std::move(wrong));
+  return found;
 }
 
 }  // namespace quadrille::cli

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/outcome.hpp"
@@ -29,9 +30,9 @@ struct Replay {
 [[nodiscard]] std::string find_false_claim(const Claim& claim, const Replay& replay);
 
 /// What a file says about its plan and the replay of a plan without violations does not confirm:
-/// costs, a status, a lower bound. One line for each; empty if all is well.
-[[nodiscard]] std::string find_false_statements(const StatedOutcome& stated, Cost sum_of_costs,
-                                                Cost makespan);
+/// costs, a status, a lower bound. A sentence for each; empty if all is well.
+[[nodiscard]] std::vector<std::string> find_false_statements(const StatedOutcome& stated,
+                                                             Cost sum_of_costs, Cost makespan);
 
 /// Replays the plan of an outcome with the `verify` of its domain and holds its claims against the
 /// replay, which is returned. A claim that fails turns the outcome into `unknown` with an internal

@@ -8,11 +8,6 @@
 namespace quadrille::cli {
 namespace {
 
-/// On one line. Bytes that are not UTF-8, as file names may have, are replaced.
-std::string dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 Json statistics_json(const Statistics& statistics) {
   Json json;
   // Digits beyond a microsecond are noise.
@@ -78,15 +73,18 @@ void add_limits(Json& options, const Limits& limits) {
   options["conflict_limit"] = or_null(limits.conflicts);
 }
 
-ResultJson::ResultJson(Status status, Objective objective) {
-  add("quadrille", "result");
+ResultJson::ResultJson(Status status, Objective objective) : JsonLines("result") {
   add("status", to_string(status));
   add("objective", to_string(objective));
 }
 
-void ResultJson::add(std::string_view key, const Json& value) { add_text(key, dump(value)); }
+std::string JsonLines::on_one_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
-void ResultJson::add_text(std::string_view key, std::string_view json) {
+void JsonLines::add(std::string_view key, const Json& value) { add_text(key, on_one_line(value)); }
+
+void JsonLines::add_text(std::string_view key, std::string_view json) {
   text_ += fmt::format("{}\n  \"{}\": {}", text_ == "{" ? "" : ",", key, json);
 }
 
@@ -97,7 +95,7 @@ std::string ResultJson::finish(const Statistics& statistics, std::uint32_t seed,
   add("seed", seed);
   add("options", options);
   add_text("plan", plan);
-  return text_ + "\n}\n";
+  return JsonLines::finish();
 }
 
 }  // namespace quadrille::cli

@@ -82,12 +82,39 @@ template <class T>
 /// "time_limit" and so on.
 void add_limits(Json& options, const Limits& limits);
 
-/// The result of a solve as JSON, documented in docs/cli.md: one key per line.
-class ResultJson {
+/// A JSON object with one key per line.
+class JsonLines {
+ public:
+  /// `what`: the value of the key "quadrille", which comes first.
+  explicit JsonLines(std::string_view what) { add("quadrille", what); }
+
+  void add(std::string_view key, const Json& value);
+  /// A list with one item per line.
+  template <class List, class ToJson>
+  void add_list(std::string_view key, const List& list, const ToJson& to_json) {
+    std::string text = "[";
+    for (const auto& item : list)
+      text += (text == "[" ? "\n    " : ",\n    ") + on_one_line(to_json(item));
+    add_text(key, text + (text == "[" ? "]" : "\n  ]"));
+  }
+  [[nodiscard]] std::string finish() const { return text_ + "\n}\n"; }
+
+ protected:
+  /// `json`: JSON as text.
+  void add_text(std::string_view key, std::string_view json);
+
+ private:
+  /// Bytes that are not UTF-8, as file names may have, are replaced.
+  static std::string on_one_line(const Json& json);
+
+  std::string text_ = "{";
+};
+
+/// The result of a solve as JSON, documented in docs/cli.md.
+class ResultJson : public JsonLines {
  public:
   ResultJson(Status status, Objective objective);
 
-  void add(std::string_view key, const Json& value);
   /// "gap_percent": null without a plan, and where it is infinite.
   template <class Outcome>
   void add_gap(const Outcome& outcome) {
@@ -107,11 +134,6 @@ class ResultJson {
   /// The last keys, from "statistics" to "plan". `plan`: JSON, or "null".
   [[nodiscard]] std::string finish(const Statistics& statistics, std::uint32_t seed,
                                    const Json& options, const std::string& plan);
-
- private:
-  void add_text(std::string_view key, std::string_view json);
-
-  std::string text_ = "{";
 };
 
 }  // namespace quadrille::cli

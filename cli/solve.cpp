@@ -87,8 +87,12 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
       "dpll: backtrack chronologically (default with 175 agents or more) or jump back as\n"
       "far as each lemma asks")
       ->group(group);
-  app.add_flag("!--no-first-plan", options.first_plan,
-               "Do not look for a plan of any cost before and beside the proof")
+  app.add_flag_callback(
+         "--no-first-plan", [&options] { options.first_plan = false; },
+         "Do not look for a plan of any cost before and beside the proof")
+      ->group(group);
+  add_input_file(app, "--initial-plan", arguments.initial_plan,
+                 "Begin with this valid plan, such as that of a run that a limit ended")
       ->group(group);
   add_integer(app, "--threads", arguments.threads, 1, static_cast<std::int64_t>(kMaxThreads),
               "Searches side by side: for the bound, for plans, further ones for either; default 1")
@@ -139,8 +143,8 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
   app.add_flag("--audit", arguments.options.debug.audit,
                "Check every lemma against the rules; slow")
       ->group("Debugging");
-  add_file(app, "--known-plan", arguments.known_plan,
-           "Check every clause against this valid plan; slow")
+  add_input_file(app, "--known-plan", arguments.known_plan,
+                 "Check every clause against this valid plan; slow")
       ->group("Debugging");
 }
 

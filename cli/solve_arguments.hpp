@@ -20,8 +20,8 @@ struct SolveArguments {
   std::optional<discrete::System> system;
   std::optional<discrete::CheckSchedule> check;
   std::optional<std::int64_t> seed, threads, memory_mib;
-  std::string known_plan;  ///< File name; empty without one.
-  std::string plan, json;  ///< Output files; empty without, "-" for standard output.
+  std::string initial_plan, known_plan;  ///< File names; empty without one.
+  std::string plan, json;                ///< Output files; empty without, "-" for standard output.
   PlanFormats plan_format;
   std::optional<double> plan_every;  ///< Seconds.
   bool quiet = false;

@@ -14,10 +14,10 @@
 
 namespace quadrille::cli {
 
-/// The plan of `--known-plan`, if there is one: `read` reads plan files for this instance. Errors:
-/// those of the file, and that the plan is not a valid one.
+/// A plan that is an input of `solve`, if there is one: `read` reads plan files for this instance.
+/// Errors: those of the file, and that the plan is not a valid one.
 template <class Plan, class Instance, class Read>
-std::optional<Error> read_known_plan(const std::string& name, const Instance& instance,
+std::optional<Error> read_valid_plan(const std::string& name, const Instance& instance,
                                      std::optional<Plan>& plan, const Read& read) {
   if (name.empty()) return std::nullopt;
   auto file = read(std::filesystem::path(name));
@@ -29,6 +29,15 @@ std::optional<Error> read_known_plan(const std::string& name, const Instance& in
                  {name, 0}};
   plan = std::move(file.value().plan);
   return std::nullopt;
+}
+
+/// The plans of `--initial-plan` and `--known-plan`, into the options. Errors as above.
+template <class Instance, class Options, class Read>
+std::optional<Error> read_given_plans(const SolveArguments& arguments, const Instance& instance,
+                                      Options& options, const Read& read) {
+  if (auto error = read_valid_plan(arguments.initial_plan, instance, options.initial_plan, read))
+    return error;
+  return read_valid_plan(arguments.known_plan, instance, options.debug.known_plan, read);
 }
 
 /// From an instance to the exit code: solves, holds the outcome against a replay of its plan,

@@ -18,15 +18,22 @@ constexpr const char* kFooter =
 
 }  // namespace
 
+std::string check_verify_outputs(const VerifyArguments& arguments) {
+  return check_outputs({{"--json", &arguments.json}},
+                       {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
+                        &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan});
+}
+
 Subcommand add_verify(CLI::App& program) {
   CLI::App* app = program.add_subcommand("verify", "Check a plan by replaying it");
   const auto arguments = std::make_shared<VerifyArguments>();
   add_input_options(*app, arguments->input);
   add_roadmap_options(*app, arguments->roadmap);
-  add_file(*app, "PLAN", arguments->plan, "Plan file")->required();
+  add_input_file(*app, "PLAN", arguments->plan, "Plan file")->required();
   add_plan_format(*app, "--plan-format", arguments->format,
                   "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs; default: by what\n"
                   "the file says");
+  add_file(*app, "--json", arguments->json, "Write the verdict as JSON; - is standard output");
   app->add_flag("--quiet", arguments->quiet, "Print nothing but errors; the exit code says it");
   app->footer(std::string(kFooter) + kExitCodesHelp);
   return {app, [app, arguments] {

@@ -21,14 +21,14 @@ _quadrille() {
     --plan-format | --from | --to) values="json cbsh2 visualizer yaml ccbs" ;;
     --kind) values="empty random maze room warehouse roadmap" ;;
     --neighbourhood) values="2 3 4 5" ;;
-    --map | --scen | --instance | --roadmap | --task | --plan | --json | --known-plan | --output | --map-output | \
+    --map | --scen | --instance | --roadmap | --task | --plan | --json | --initial-plan | --known-plan | --output | --map-output | \
       --scen-output | --instance-output)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
       ;;
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
       --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
-      --speed | --resolution)
+      --speed | --resolution | --reach | --threads | --gap | --plan-every)
       return
       ;;
   esac
@@ -43,10 +43,10 @@ _quadrille() {
   case $command in
     solve)
       options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
-        --backtracking --no-first-plan --threads --race --gap --seed --time-limit --cpu-limit
+        --backtracking --no-first-plan --initial-plan --threads --race --gap --seed --time-limit --cpu-limit
         --memory-limit --conflict-limit --plan --plan-format --plan-every --json --quiet --audit --known-plan"
       ;;
-    verify) options="$instance --plan-format --quiet" ;;
+    verify) options="$instance --plan-format --json --quiet" ;;
     info) options="$instance" ;;
     generate)
       options="--kind --map --map-output --scen-output --agents --any-goal --seed --width --height

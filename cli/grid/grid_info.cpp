@@ -128,7 +128,7 @@ ExitCode finish(const Console& console) {
 ExitCode print_map_info(const InputOptions& options) {
   const auto map = discrete::read_map(std::filesystem::path(options.map), options.letters);
   if (!map) {
-    report_error(map.error());
+    report_error(with_letters_hint(map.error()));
     return ExitCode::bad_input;
   }
   const GraphShape shape = MapShape(*map).run();

@@ -8,20 +8,29 @@
 #include <sstream>
 #include <utility>
 
+#include "arguments.hpp"
 #include "quadrille/discrete/instance_json.hpp"
 #include "quadrille/discrete/instance_yaml.hpp"
 
 namespace quadrille::cli {
 namespace {
 
+/// The name of the map that a scenario was made for, if that is not `map`: a scenario for another
+/// map of the same size is read without complaint. Empty if all is well.
+std::string name_other_map(const discrete::Scenario& scenario, const std::string& map) {
+  if (scenario.rows.empty() || map == kStandardInput) return "";
+  const std::filesystem::path named(scenario.rows.front().map);
+  return named.stem() == std::filesystem::path(map).stem() ? "" : named.string();
+}
+
 Result<GridInput> load_map(const InputOptions& options) {
   auto map = discrete::read_map(std::filesystem::path(options.map), options.letters);
-  if (!map) return map.error();
+  if (!map) return with_letters_hint(map.error());
   auto graph = std::make_shared<const discrete::Graph>(map->graph());
   if (options.scen.empty()) {
     auto instance = discrete::Instance::make(std::move(graph), {});
     if (!instance) return instance.error();
-    return GridInput{std::move(instance.value()), options.map, "", 0, map->other_letters};
+    return GridInput{std::move(instance.value()), options.map, "", 0, map->other_letters, ""};
   }
   const auto scenario = discrete::read_scenario(std::filesystem::path(options.scen));
   if (!scenario) return scenario.error();
@@ -29,8 +38,9 @@ Result<GridInput> load_map(const InputOptions& options) {
       options.agents ? static_cast<std::size_t>(*options.agents) : scenario->rows.size();
   auto instance = discrete::make_instance(std::move(graph), *scenario, agents);
   if (!instance) return instance.error();
-  return GridInput{std::move(instance.value()), options.map, options.scen, scenario->rows.size(),
-                   map->other_letters};
+  return GridInput{
+      std::move(instance.value()), options.map,        options.scen,
+      scenario->rows.size(),       map->other_letters, name_other_map(*scenario, options.map)};
 }
 
 Result<discrete::Instance> read_instance(const InputOptions& options) {
@@ -41,6 +51,8 @@ Result<discrete::Instance> read_instance(const InputOptions& options) {
     if (extension == ".yaml" || extension == ".yml") return discrete::read_instance_yaml(path);
     return discrete::read_instance_json(path);
   }
+  if (std::string why = why_no_instance(*options.instance_text); !why.empty())
+    return Error{ErrorCode::syntax, std::move(why), {options.instance, 1}};
   std::istringstream in(*options.instance_text);
   const bool is_yaml = extension == ".yaml" || extension == ".yml" ||
                        (extension != ".json" && !options.instance_text->starts_with('{'));
@@ -55,7 +67,6 @@ std::string check_grid_options(const InputOptions& options, Need need) {
   if (!options.instance.empty()) {
     if (!options.map.empty() || !options.scen.empty())
       return "--instance excludes --map and --scen";
-    if (options.agents) return "--agents belongs to --scen, not to --instance";
     if (letters) return "--passable and --blocked belong to --map, not to --instance";
     return "";
   }
@@ -71,7 +82,13 @@ Result<GridInput> load_grid_input(const InputOptions& options) {
   if (options.instance.empty()) return load_map(options);
   auto instance = read_instance(options);
   if (!instance) return instance.error();
-  return GridInput{std::move(instance.value()), options.instance, options.instance, 0, {}};
+  if (auto error = check_agents(options, instance->num_agents())) return *std::move(error);
+  if (options.agents) {
+    std::vector<discrete::Agent> agents(instance->agents().begin(), instance->agents().end());
+    agents.resize(static_cast<std::size_t>(*options.agents));
+    instance = discrete::Instance::make(instance->shared_graph(), std::move(agents));
+  }
+  return GridInput{std::move(instance.value()), options.instance, options.instance, 0, {}, ""};
 }
 
 std::string describe_graph(const discrete::Graph& graph) {
@@ -96,7 +113,10 @@ std::string describe_input(const GridInput& input) {
   if (input.task_source.empty()) return text;
   text += fmt::format("agents     {} from {}", input.instance.num_agents(), input.task_source);
   if (input.rows > 0) text += fmt::format(" (of {} rows)", input.rows);
-  return text + "\n";
+  text += "\n";
+  if (!input.other_map.empty())
+    text += fmt::format("note       the scenario names another map, {}\n", input.other_map);
+  return text;
 }
 
 }  // namespace quadrille::cli

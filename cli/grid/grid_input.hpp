@@ -21,6 +21,7 @@ struct GridInput {
   std::string task_source;  ///< The file that holds the agents; empty if there are none.
   std::size_t rows = 0;     ///< Of the scenario; 0 without one.
   std::vector<discrete::LetterCount> other_letters;
+  std::string other_map;  ///< What the scenario names, if it is not the map; else empty.
 };
 /// Requires options that pass check_grid_options. Reads each file once, front to back.
 [[nodiscard]] Result<GridInput> load_grid_input(const InputOptions& options);

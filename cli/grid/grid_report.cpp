@@ -32,6 +32,7 @@ Json options_json(const SolveArguments& arguments) {
   if (options.lazy.chronological)
     json["backtracking"] = *options.lazy.chronological ? "chronological" : "jump";
   json["first_plan"] = options.first_plan;
+  json["initial_plan"] = text_or_null(arguments.initial_plan);
   json["gap"] = or_null(options.gap_percent);
   json["threads"] = options.threads;
   json["race"] = options.race;

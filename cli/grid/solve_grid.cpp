@@ -111,8 +111,7 @@ ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments) {
   const auto read = [&](const std::filesystem::path& path) {
     return discrete::read_plan(path, input->instance.graph());
   };
-  auto error = read_known_plan(arguments.known_plan, input->instance,
-                               arguments.options.debug.known_plan, read);
+  auto error = read_given_plans(arguments, input->instance, arguments.options, read);
   const GridSolve solve(arguments, *input);
   if (!error && !arguments.plan.empty()) {
     // Some formats need a grid; that must not come out after the search.

@@ -2,6 +2,8 @@
 #include "grid/verify_grid.hpp"
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "arguments.hpp"
 #include "grid/grid_input.hpp"
@@ -9,11 +11,73 @@
 #include "quadrille/discrete/verify.hpp"
 
 namespace quadrille::cli {
+namespace {
+
+std::string_view kind_name(discrete::Violation::Kind kind) {
+  using Kind = discrete::Violation::Kind;
+  switch (kind) {
+    case Kind::path_count:
+      return "path-count";
+    case Kind::empty_path:
+      return "empty-path";
+    case Kind::bad_vertex:
+      return "bad-vertex";
+    case Kind::wrong_start:
+      return "wrong-start";
+    case Kind::wrong_goal:
+      return "wrong-goal";
+    case Kind::not_adjacent:
+      return "not-adjacent";
+    case Kind::vertex:
+      return "vertex-conflict";
+    case Kind::swap:
+      return "swap-conflict";
+  }
+  return "";
+}
+
+class GridVerdict {
+ public:
+  GridVerdict(const GridInput& input, const discrete::Plan& plan,
+              const discrete::VerifyReport& replay)
+      : input_(input), plan_(plan), replay_(replay) {}
+
+  [[nodiscard]] std::string describe_input() const { return cli::describe_input(input_); }
+  [[nodiscard]] std::string good() const { return describe_check(plan_, replay_); }
+  [[nodiscard]] std::string more() const { return ""; }
+  [[nodiscard]] Json cost_json(Cost cost) const { return cost; }
+  void add_measures(JsonLines&) const {}
+  [[nodiscard]] Json violation_json(const discrete::Violation& violation) const {
+    const discrete::Graph& graph = input_.instance.graph();
+    Json json;
+    json["kind"] = kind_name(violation.kind);
+    json["agents"] = Json::array();
+    if (violation.kind != discrete::Violation::Kind::path_count)
+      json["agents"].push_back(violation.agent.index());
+    if (violation.other) json["agents"].push_back(violation.other->index());
+    if (graph.layout() && violation.vertex.index() < graph.num_vertices()) {
+      const auto [x, y] = graph.layout()->cell_of(violation.vertex);
+      json["at"] = {x, y};
+    } else {
+      json["at"] = violation.vertex.index();
+    }
+    json["timestep"] = violation.timestep;
+    return json;
+  }
+
+ private:
+  const GridInput& input_;
+  const discrete::Plan& plan_;
+  const discrete::VerifyReport& replay_;
+};
+
+}  // namespace
 
 ExitCode verify_grid(const CLI::App& app, const VerifyArguments& arguments) {
   std::string wrong = why_no_roadmap(arguments.roadmap);
   if (wrong.empty()) wrong = check_grid_options(arguments.input, Need::tasks);
   if (wrong.empty()) wrong = arguments.format.why_not_discrete("--plan-format");
+  if (wrong.empty()) wrong = check_verify_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 
   const auto input = load_grid_input(arguments.input);
@@ -28,8 +92,7 @@ ExitCode verify_grid(const CLI::App& app, const VerifyArguments& arguments) {
     return ExitCode::bad_input;
   }
   const auto replay = verify(input->instance, file->plan);
-  return pronounce(arguments.quiet, describe_input(*input), *file, replay,
-                   describe_check(file->plan, replay), "");
+  return pronounce(arguments, GridVerdict(*input, file->plan, replay), *file, replay);
 }
 
 }  // namespace quadrille::cli

@@ -35,7 +35,7 @@ Result<continuous::MapXml> read_map(const std::string& file, const discrete::Map
   if (!is_movingai_map(file))
     return continuous::read_map_xml(std::filesystem::path(file), resolution);
   auto map = discrete::read_map(std::filesystem::path(file), letters);
-  if (!map) return map.error();
+  if (!map) return with_letters_hint(map.error());
   return continuous::MapXml{OccupancyGrid{map->height, map->width, std::move(map->passable)}, 0};
 }
 
@@ -85,6 +85,13 @@ Result<RoadmapInput> read_instance(const InputOptions& input) {
   std::istringstream in(*input.instance_text);
   auto instance = continuous::read_instance_json(in, input.instance);
   if (!instance) return instance.error();
+  if (auto error = check_agents(input, instance->num_agents())) return *std::move(error);
+  if (input.agents) {
+    std::vector<continuous::Agent> agents(instance->agents().begin(), instance->agents().end());
+    agents.resize(static_cast<std::size_t>(*input.agents));
+    instance =
+        Instance::make(instance->shared_roadmap(), std::move(agents), instance->resolution());
+  }
   const std::size_t count = instance->num_agents();
   return RoadmapInput{
       std::move(instance).value(), {}, input.instance, input.instance, count, "", 0};
@@ -115,10 +122,10 @@ std::string describe_bodies(const Instance& instance) {
 
 void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
   const std::string group = "Continuous time";
-  add_file(app, "--roadmap", options.roadmap,
-           "Roadmap: GraphML, a grid as XML, or a MovingAI .map file")
+  add_input_file(app, "--roadmap", options.roadmap,
+                 "Roadmap: GraphML, a grid as XML, or a MovingAI .map file")
       ->group(group);
-  add_file(app, "--task", options.task, "Its agents: a task as XML, or a MovingAI .scen file")
+  add_input_file(app, "--task", options.task, "Its agents: a task as XML, or a MovingAI .scen file")
       ->group(group);
   add_positive(app, "--radius", options.radius, "Radius of all agents; default sqrt(2)/4")
       ->group(group);
@@ -155,7 +162,6 @@ std::string check_roadmap_options(const RoadmapOptions& options, const InputOpti
     return numbers ? "" : numbers.error().message;
   }
   if (!input.map.empty() || !input.scen.empty()) return "--instance excludes --map and --scen";
-  if (input.agents) return "--agents belongs to --task, not to --instance";
   if (letters) return "--passable and --blocked belong to .map files, not to --instance";
   return why_no_roadmap(options);
 }

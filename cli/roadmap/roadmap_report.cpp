@@ -77,6 +77,7 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
   json["resolution"] = or_null(arguments.roadmap.resolution);
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
+  json["initial_plan"] = text_or_null(arguments.initial_plan);
   json["gap"] = or_null(options.gap_percent);
   json["threads"] = options.threads;
   json["race"] = options.race;
@@ -112,12 +113,14 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
       bodies.push_back(body_json(agent.body, resolution));
   }
   json.add("bodies", bodies);
-  const auto clearance = least_clearance(check);
-  json.add("least_clearance", outcome.plan && clearance
-                                  ? Json(rounded(clearance->gap, resolution.length))
-                                  : Json(nullptr));
+  json.add("least_clearance", outcome.plan ? clearance_json(*instance, check) : Json(nullptr));
   return json.finish(outcome.statistics, options.seed, options_json(arguments, options),
                      outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");
+}
+
+Json clearance_json(const Instance& instance, const VerifyReport& check) {
+  const auto least = least_clearance(check);
+  return least ? Json(rounded(least->gap, instance.resolution().length)) : Json(nullptr);
 }
 
 std::string describe_clearance(const Instance& instance, const VerifyReport& check) {

@@ -5,6 +5,7 @@
 
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "report.hpp"
 #include "solve_arguments.hpp"
 
 namespace quadrille::cli {
@@ -32,6 +33,9 @@ namespace quadrille::cli {
 /// "least clearance 0.25, between agents 0 and 3 at 1.5"; empty for fewer than two sound paths.
 [[nodiscard]] std::string describe_clearance(const continuous::Instance& instance,
                                              const continuous::VerifyReport& check);
+/// The least clearance in the length unit of the input; null for fewer than two sound paths.
+[[nodiscard]] Json clearance_json(const continuous::Instance& instance,
+                                  const continuous::VerifyReport& check);
 
 /// One line per agent: start, goal, cost, and the vertices with the waits between them. A line that
 /// says why not for a plan too large to read.

@@ -138,8 +138,7 @@ ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments) {
   const auto read = [&](const std::filesystem::path& path) {
     return continuous::read_plan(path, input->instance, input->grid_or_null());
   };
-  if (auto error =
-          read_known_plan(arguments.known_plan, input->instance, options->debug.known_plan, read)) {
+  if (const auto error = read_given_plans(arguments, input->instance, *options, read)) {
     report_error(*error);
     return ExitCode::bad_input;
   }

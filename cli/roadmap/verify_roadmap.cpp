@@ -2,17 +2,83 @@
 #include "roadmap/verify_roadmap.hpp"
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
+#include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "roadmap/roadmap_report.hpp"
 
 namespace quadrille::cli {
+namespace {
+
+std::string_view kind_name(continuous::Violation::Kind kind) {
+  using Kind = continuous::Violation::Kind;
+  switch (kind) {
+    case Kind::path_count:
+      return "path-count";
+    case Kind::empty_path:
+      return "empty-path";
+    case Kind::bad_vertex:
+      return "bad-vertex";
+    case Kind::bad_time:
+      return "bad-time";
+    case Kind::wrong_start:
+      return "wrong-start";
+    case Kind::wrong_goal:
+      return "wrong-goal";
+    case Kind::not_adjacent:
+      return "not-adjacent";
+    case Kind::duration:
+      return "duration";
+    case Kind::collision:
+      return "collision";
+  }
+  return "";
+}
+
+class RoadmapVerdict {
+ public:
+  RoadmapVerdict(const RoadmapInput& input, const continuous::VerifyReport& replay)
+      : input_(input), replay_(replay) {}
+
+  [[nodiscard]] std::string describe_input() const { return cli::describe_input(input_); }
+  [[nodiscard]] std::string good() const { return describe_check(input_.instance, replay_); }
+  [[nodiscard]] std::string more() const {
+    const std::string clearance = describe_clearance(input_.instance, replay_);
+    return clearance.empty() ? "" : "           " + clearance + "\n";
+  }
+  [[nodiscard]] Json cost_json(Cost cost) const {
+    return continuous::in_input_units(cost, input_.instance.resolution());
+  }
+  void add_measures(JsonLines& json) const {
+    json.add("least_clearance", clearance_json(input_.instance, replay_));
+  }
+  [[nodiscard]] Json violation_json(const continuous::Violation& violation) const {
+    Json json;
+    json["kind"] = kind_name(violation.kind);
+    json["agents"] = Json::array();
+    if (violation.kind != continuous::Violation::Kind::path_count)
+      json["agents"].push_back(violation.agent.index());
+    if (violation.other) json["agents"].push_back(violation.other->index());
+    json["time"] = continuous::in_input_units(violation.tick, input_.instance.resolution());
+    json["tick"] = violation.tick.count();
+    return json;
+  }
+
+ private:
+  const RoadmapInput& input_;
+  const continuous::VerifyReport& replay_;
+};
+
+}  // namespace
 
 ExitCode verify_roadmap(const CLI::App& app, const VerifyArguments& arguments) {
   std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
   if (wrong.empty()) wrong = arguments.format.why_not_continuous("--plan-format");
+  if (wrong.empty()) wrong = check_verify_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 
   const auto input = load_roadmap_input(arguments.roadmap, arguments.input);
@@ -28,10 +94,7 @@ ExitCode verify_roadmap(const CLI::App& app, const VerifyArguments& arguments) {
     return ExitCode::bad_input;
   }
   const auto replay = verify(input->instance, file->plan);
-  const std::string clearance = describe_clearance(input->instance, replay);
-  return pronounce(arguments.quiet, describe_input(*input), *file, replay,
-                   describe_check(input->instance, replay),
-                   clearance.empty() ? "" : "           " + clearance + "\n");
+  return pronounce(arguments, RoadmapVerdict(*input, replay), *file, replay);
 }
 
 }  // namespace quadrille::cli

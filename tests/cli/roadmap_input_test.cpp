@@ -90,7 +90,6 @@ TEST_F(RoadmapInputTest, WrongCommandLinesExitWith64AndNameTheCulprit) {
       {small("info", {"--neighbourhood", "2"}), "belong to --roadmap"},
       {small("convert", {"--resolution", "1", "--to", "json"}), "belong to --roadmap"},
       {discs("solve", {"--radius", "1"}), "belong to --roadmap"},
-      {discs("solve", {"--agents", "1"}), "--agents belongs to --task, not to --instance"},
       {discs("solve", {"--map", "m"}), "--instance excludes --map and --scen"},
       {discs("solve", {"--passable", "S"}), "--passable and --blocked belong to .map files"},
       {xml("solve", {"--blocked", "S"}), "--passable and --blocked belong to .map files"},

@@ -42,7 +42,7 @@ TEST_F(UsageTest, WrongCommandLinesExitWith64AndNameTheCulprit) {
       {{"solve", "--map", "m", "--scen", "s"}, "--agents"},
       {{"solve", "--scen", "s", "--agents", "1"}, "--map"},
       {{"solve", "--instance", "i", "--map", "m"}, "--instance"},
-      {{"solve", "--instance", "i", "--agents", "3"}, "--agents"},
+      {{"solve", "--map", "-", "--scen", "-", "--agents", "3"}, "--map and --scen"},
       {{"solve", "--instance", "i", "--passable", "S"}, "--passable"},
       {{"solve", "--map", ""}, "--map"},
       {{"verify", "--instance", "i"}, "PLAN"},
@@ -70,6 +70,37 @@ TEST_F(UsageTest, WrongCommandLinesExitWith64AndNameTheCulprit) {
     EXPECT_THAT(finished.err, HasSubstr(c.culprit));
     EXPECT_THAT(finished.err, HasSubstr("--help'"));
   }
+}
+
+TEST_F(UsageTest, WordsThatAreNotKnownAreNamedWithWhatWasProbablyMeant) {
+  const struct {
+    std::vector<std::string> arguments;
+    const char* message;
+  } cases[] = {
+      {{"slove"}, "'slove' is no command; did you mean solve?"},
+      {{"verfiy", "p"}, "'verfiy' is no command; did you mean verify?"},
+      {{"frobnicate"}, "'frobnicate' is no command\n"},
+      {{"--verison"}, "there is no option '--verison'; did you mean --version?"},
+      {{"solve", "--agnets", "3", "--frob"},
+       "there is no option '--agnets'; did you mean --agents?"},
+      {{"solve", "--agents=3", "--frob", "--agnets"}, "there is no option '--frob'\n"},
+      {{"solve", "--time-limt=3"}, "there is no option '--time-limt'; did you mean --time-limit?"},
+      {{"solve", "--instance", "i", "map.map"}, "'map.map' was not expected"},
+      {{"generate", "--with", "4"}, "there is no option '--with'; did you mean --width?"},
+      {{"verify", "--jsn", "f"}, "there is no option '--jsn'; did you mean --json?"},
+  };
+  for (const auto& c : cases) {
+    const Finished finished = run(c.arguments);
+    SCOPED_TRACE(testing::PrintToString(c.arguments));
+    EXPECT_EQ(finished.code, 64);
+    EXPECT_THAT(finished.err, testing::StartsWith(std::string("quadrille: ") + c.message));
+  }
+}
+
+TEST_F(UsageTest, HelpShowsFlagsAsTheyAreWritten) {
+  const std::string help = run({"solve", "--help"}).out;
+  EXPECT_THAT(help, HasSubstr("  --no-first-plan  "));
+  EXPECT_THAT(help, testing::Not(HasSubstr("{false}")));
 }
 
 TEST_F(UsageTest, NumbersAreStrict) {

@@ -142,6 +142,8 @@ class CaseReader {
       options_->debug.audit = true;
     } else if (word == "known-plan") {
       known_plan_ = true;
+    } else if (word == "initial-plan") {
+      initial_plan_ = true;
     } else if (word == "objective=sum-of-costs") {
       options_->objective = Objective::sum_of_costs;
     } else if (word == "objective=makespan") {
@@ -180,8 +182,13 @@ class CaseReader {
     }
     auto instance = Instance::make(*graph, std::move(tasks));
     if (!instance) return fail(instance.error().message, instance.error().code);
-    result_ = Case{
-        std::move(instance).value(), sum_of_costs_, makespan_, infeasible_, options_, known_plan_};
+    result_ = Case{std::move(instance).value(),
+                   sum_of_costs_,
+                   makespan_,
+                   infeasible_,
+                   options_,
+                   known_plan_,
+                   initial_plan_};
   }
 
   std::optional<Graph> make_grid() {
@@ -221,7 +228,7 @@ class CaseReader {
   std::vector<Graph::Edge> edges_;
   std::vector<std::pair<Cell, Cell>> places_;
   std::optional<Cost> sum_of_costs_, makespan_;
-  bool infeasible_ = false, known_plan_ = false;
+  bool infeasible_ = false, known_plan_ = false, initial_plan_ = false;
   std::optional<TunedOptions> options_;
   std::optional<Case> result_;
 };
@@ -265,6 +272,7 @@ std::string options_text(const TunedOptions& options) {
   if (!options.first_plan) text += " no-first-plan";
   if (options.debug.audit) text += " audit";
   if (options.debug.known_plan) text += " known-plan";
+  if (options.initial_plan) text += " initial-plan";
   return text + "\n";
 }
 

@@ -30,7 +30,8 @@ struct Case {
   std::optional<Cost> makespan;      ///< Expected.
   bool infeasible = false;           ///< Expected.
   std::optional<TunedOptions> options;
-  bool known_plan = false;  ///< Give the solver an optimal plan to check its clauses against.
+  bool known_plan = false;    ///< Give the solver an optimal plan to check its clauses against.
+  bool initial_plan = false;  ///< Give the solver a plan to begin with.
 };
 
 /// The lines of a graph and its tasks, with a picture of a grid as a comment.

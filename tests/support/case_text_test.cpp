@@ -18,7 +18,8 @@ constexpr const char* kGridCase =
     "task 2 0 -> 0 1\n"
     "expect sum-of-costs 9\n"
     "expect makespan 5\n"
-    "options objective=makespan system=dpll-mdd check=1/3,2/3 seed=7 audit known-plan\n";
+    "options objective=makespan system=dpll-mdd check=1/3,2/3 seed=7 audit known-plan "
+    "initial-plan\n";
 
 TEST(CaseText, ReadsAGridWithOptions) {
   const auto read = parse_case(kGridCase, "case.txt");
@@ -35,6 +36,7 @@ TEST(CaseText, ReadsAGridWithOptions) {
   EXPECT_EQ(read->options->seed, 7U);
   EXPECT_TRUE(read->options->debug.audit);
   EXPECT_TRUE(read->known_plan);
+  EXPECT_TRUE(read->initial_plan);
   EXPECT_EQ(options_text(*read->options),
             "options objective=makespan system=dpll-mdd check=1/3,2/3 seed=7 audit\n");
 }
@@ -73,6 +75,7 @@ TEST(CaseText, WritesTheOptionsThatItReads) {
     const std::string grid = instance_text(random_grid(random, {}));
     for (TunedOptions& options : random_systems(random, Objective::sum_of_costs)) {
       options.debug.known_plan.reset();  // the reader leaves finding one to its user
+      options.initial_plan.reset();
       const std::string text = options_text(options);
       const auto read = parse_case(grid + text, "case.txt");
       ASSERT_TRUE(read) << read.error().to_string() << "\n" << text;

@@ -145,6 +145,7 @@ std::vector<TunedOptions> random_systems(Random& random, Objective objective) {
       if (random.percent(80)) options.round = 1 + static_cast<std::int64_t>(random.below(3000));
     }
     if (random.percent(30)) options.debug.known_plan = Plan();  // replaced by the oracle's
+    if (random.percent(15)) options.initial_plan = Plan();      // by the same, or one that waits
   }
   return systems;
 }
@@ -186,6 +187,12 @@ std::string find_fault(const Instance& instance, const TunedOptions& options,
   return "";
 }
 
+/// The same, after everybody has waited for some timesteps.
+Plan delayed(Plan plan, std::size_t timesteps) {
+  for (Path& path : plan.paths) path.insert(path.begin(), timesteps, path.front());
+  return plan;
+}
+
 std::string solve_and_compare(const Instance& instance, const TunedOptions& options,
                               const JointAnswer& expected, const std::string& origin) {
   std::string fault;
@@ -196,6 +203,11 @@ std::string solve_and_compare(const Instance& instance, const TunedOptions& opti
     if (complete.debug.known_plan) {
       complete.debug.known_plan.reset();
       if (answer.status == Status::optimal) complete.debug.known_plan = answer.plan;
+    }
+    if (complete.initial_plan) {
+      complete.initial_plan.reset();
+      if (answer.status == Status::optimal)
+        complete.initial_plan = delayed(answer.plan, options.seed % 3);
     }
     outcome = solve_noted(candidate, complete, origin);
     fault = answer.status == Status::unknown ? find_inconsistency(candidate, options, outcome)

@@ -196,7 +196,9 @@ class InstanceReader {
     double value = 1;
     if (given && !check_.number(node, value)) return false;
     const auto units = quantise_speed(value, resolution_);
-    if (!units) return check_.fail(node, ErrorCode::out_of_range, "the speed is not supported");
+    if (!units)
+      return check_.fail(node, ErrorCode::out_of_range,
+                         "the speed is not 0.000001 .. 1000000 length units per tick");
     speed = *units;
     return true;
   }

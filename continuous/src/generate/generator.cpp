@@ -37,7 +37,8 @@ std::optional<Error> check(const RandomInstanceOptions& options) {
     return out_of_range("the reach is 1 .. " + std::to_string(geometry::kMaxLength.count()) +
                         " length units");
   if (options.speed < 1 || options.speed > kMaxSpeed)
-    return out_of_range("the speed is not supported");
+    return out_of_range("the speed is 1 .. " + std::to_string(kMaxSpeed.count()) +
+                        " millionths of a length unit per tick");
   return std::nullopt;
 }
 

@@ -33,9 +33,12 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
         ErrorCode::out_of_range, "the progress interval is not a number of at least 0", {}};
   if (!(options.plan_interval_s >= 0))
     return Error{ErrorCode::out_of_range, "the plan interval is not a number of at least 0", {}};
-  if (options.debug.known_plan && !verify(instance, *options.debug.known_plan).valid())
-    return Error{ErrorCode::invalid_plan, "the known plan is not a plan of this instance", {}};
-  return std::nullopt;
+  std::optional<Error> error;
+  if (options.initial_plan)
+    error = refuse_invalid(verify(instance, *options.initial_plan), "initial plan");
+  if (!error && options.debug.known_plan)
+    error = refuse_invalid(verify(instance, *options.debug.known_plan), "known plan");
+  return error;
 }
 
 std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_agents) {
@@ -62,6 +65,8 @@ Cost free_bound(const Scene& scene, Objective objective) {
 
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
                const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome) {
+  std::optional<Plan> some_plan = outcome.plan = options.initial_plan;
+  keep_best(options, outcome);  // the answer if a limit is met
   Scene scene(instance, limits);
   if (!scene.is_complete()) return;
   const auto is_blocked = [&](const std::vector<AgentId>& blocked) {
@@ -71,7 +76,6 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     return true;
   };
   Cost floor = outcome.lower_bound = free_bound(scene, options.objective);
-  std::optional<Plan> some_plan;
   /// Whether that is all.
   const auto learn = [&](Cost bound, std::optional<Plan> plan) {
     floor = outcome.lower_bound = std::max(floor, bound);
@@ -105,9 +109,9 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
                                 : search_alone(scene, options, known, limits, nullptr);
 }
 
-/// What is claimed must not contradict the known plan.
-void check_known_plan(const SolveOptions& options, SolveOutcome& outcome) {
-  const Cost known = cost(*options.debug.known_plan, options.objective);
+/// What is claimed must not contradict a plan that the user gave.
+void check_known_plan(const Plan& plan, const SolveOptions& options, SolveOutcome& outcome) {
+  const Cost known = cost(plan, options.objective);
   if (outcome.status == Status::infeasible)
     outcome.internal_error = Error{ErrorCode::internal, "infeasible, but a plan is known", {}};
   else if (known < outcome.lower_bound)
@@ -171,7 +175,8 @@ Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options
   const auto account = std::make_shared<ResourceAccount>();
   LimitMonitor limits(options.limits, account);
   answer(instance, options, limits, account, outcome);
-  if (options.debug.known_plan && !outcome.internal_error) check_known_plan(options, outcome);
+  for (const auto* plan : {&options.initial_plan, &options.debug.known_plan})
+    if (*plan && !outcome.internal_error) check_known_plan(**plan, options, outcome);
   if (outcome.internal_error) {
     outcome.status = Status::unknown;
     outcome.plan.reset();

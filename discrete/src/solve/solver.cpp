@@ -36,32 +36,14 @@ class Search final : private sat::YieldPoint {
         incumbent_(options.objective) {}
 
   void run() {
-    const auto distances = companion_ != nullptr ? companion_->distances(limits_)
-                                                 : GoalDistances::make(instance_, limits_);
-    incumbent_.raise(free_bound(distances.get()));
-    outcome_.lower_bound = lower();
-    if (!distances) return;
-    if (options_.first_plan) {
-      using Part = PrimalSearch::Part;
-      const Part part = role_ == Role::both    ? Part::all
-                        : role_ == Role::bound ? Part::first_guide
-                                               : Part::rest;
-      plans_.emplace(PlanSearchContext{instance_, distances, options_.objective, options_.seed,
-                                       part, incumbent_, limits_});
-      if (role_ == Role::both)
-        while (plans_->start()) yield();
-      else
-        plans_->begin();
-      if (role_ == Role::bound) plans_.reset();
-      exchange(0);
-      if (role_ != Role::plans) yield();
+    if (options_.initial_plan) {
+      Plan plan = *options_.initial_plan;
+      trim(plan);
+      incumbent_.offer(plan);
     }
     try {
-      if (role_ == Role::plans)
-        look_for_plans();
-      else if (!limits_.exhausted_now())
-        search(distances);
-    } catch (const LimitReached&) {  // while the search was set up
+      search();
+    } catch (const LimitReached&) {
     } catch (const std::bad_alloc&) {
       // The search's memory is free again: the bound and the best plan are the answer.
       outcome_.stop = StopReason::memory;
@@ -78,6 +60,37 @@ class Search final : private sat::YieldPoint {
   }
 
  private:
+  void search() {
+    const auto distances = companion_ != nullptr ? companion_->distances(limits_)
+                                                 : GoalDistances::make(instance_, limits_);
+    incumbent_.raise(free_bound(distances.get()));
+    if (!distances) return;
+    if (options_.first_plan) begin_plans(distances);
+    if (role_ == Role::plans)
+      look_for_plans();
+    else if (!limits_.exhausted_now())
+      search_costs(distances);
+  }
+
+  /// Looks for a first plan, unless there is one, for as long as everything else can wait for it.
+  void begin_plans(const std::shared_ptr<const GoalDistances>& distances) {
+    using Part = PrimalSearch::Part;
+    const Part part = role_ == Role::both    ? Part::all
+                      : role_ == Role::bound ? Part::first_guide
+                                             : Part::rest;
+    plans_.emplace(PlanSearchContext{instance_, distances, options_.objective, options_.seed, part,
+                                     incumbent_, limits_});
+    if (!options_.initial_plan) {
+      if (role_ == Role::both)
+        while (plans_->start()) yield();
+      else
+        plans_->begin();
+    }
+    if (role_ == Role::bound) plans_.reset();
+    exchange(0);
+    if (role_ != Role::plans) yield();
+  }
+
   /// What the agents cost when each is alone. Without `distances`, because a limit was met, of as
   /// many as can be looked at in little time.
   [[nodiscard]] Cost free_bound(const GoalDistances* distances) const {
@@ -168,7 +181,7 @@ class Search final : private sat::YieldPoint {
     next_plan_s_ = limits_.elapsed_wall() + options_.plan_interval_s;
   }
 
-  [[nodiscard]] sat::SearchEnd search_costs(Run& run) {
+  [[nodiscard]] sat::SearchEnd search_costs_of(Run& run) {
     const sat::CostSearchContext context{run.engine(), run.problem(), incumbent_, limits_, *this};
     const CostSearch by_default =
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
@@ -178,7 +191,7 @@ class Search final : private sat::YieldPoint {
     return sat::search_upwards(context);
   }
 
-  void search(const std::shared_ptr<const GoalDistances>& distances) {
+  void search_costs(const std::shared_ptr<const GoalDistances>& distances) {
     const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
     if (!run->prepare(distances, limits_)) return;
     run_ = run.get();
@@ -187,7 +200,7 @@ class Search final : private sat::YieldPoint {
     yield();
     sat::SearchEnd end = sat::SearchEnd::stopped;
     try {
-      end = search_costs(*run);
+      end = search_costs_of(*run);
     } catch (const LimitReached&) {  // the engine is left in order, and what was raised is proved
     }
     run->engine().add_statistics(outcome_.statistics);
@@ -256,9 +269,12 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return refuse(ErrorCode::out_of_range, "the plan interval is not a number of at least 0");
   if (options.seed > 2'000'000'000)
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
-  if (options.debug.known_plan && !verify(instance, *options.debug.known_plan).valid())
-    return refuse(ErrorCode::invalid_plan, "the known plan is not a plan of this instance");
-  return std::nullopt;
+  std::optional<Error> error;
+  if (options.initial_plan)
+    error = refuse_invalid(verify(instance, *options.initial_plan), "initial plan");
+  if (!error && options.debug.known_plan)
+    error = refuse_invalid(verify(instance, *options.debug.known_plan), "known plan");
+  return error;
 }
 
 /// Fills in what was found, proved and checked. Throws what callbacks throw, and bad_alloc when
@@ -269,6 +285,8 @@ void answer(const Instance& instance, const SolveOptions& options, const Tuning&
   if (!feasibility.feasible) {
     outcome.status = Status::infeasible;
     outcome.explanation = feasibility.reason;
+    if (options.initial_plan)
+      outcome.internal_error = Error{ErrorCode::internal, "infeasible, but a plan is known", {}};
     return;
   }
   Search(instance, options, tuning, limits, outcome, companion).run();

@@ -76,8 +76,10 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithLineAndReason) {
       {"[1, 3]", "[1, 3, 1, 1]", "f:7: /roadmap/edges/4: expected [from, to]"},
       {"1.5]]", "0]]", "f:7: /roadmap/edges/5/2: the duration is less than one tick"},
       {"1.5]]", "-2]]", "f:7: /roadmap/edges/5/2: the duration is less than one tick"},
-      {"\"speed\": 2", "\"speed\": 0", "f:11: /agents/1/speed: the speed is not supported"},
-      {"\"speed\": 2", "\"speed\": -1", "f:11: /agents/1/speed: the speed is not supported"},
+      {"\"speed\": 2", "\"speed\": 0",
+       "f:11: /agents/1/speed: the speed is not 0.000001 .. 1000000 length units per tick"},
+      {"\"speed\": 2", "\"speed\": -1",
+       "f:11: /agents/1/speed: the speed is not 0.000001 .. 1000000 length units per tick"},
       {"\"speed\": 2", "\"speed\": null", "f:11: /agents/1/speed: expected a number"},
       {"0.25", "0", "f:11: /agents/1/radius: the radius is less than one length unit"},
       {"0.25", "0.0009", "f:11: /agents/1/radius: the radius is less than one length unit"},
@@ -159,7 +161,8 @@ TEST(RoadmapJson, LengthAndTimeMayHaveResolutionsOfTheirOwn) {
       {"{\"length\": 1}", "f:1: /resolution: the key 'time' is missing"},
       {"{\"length\": 0, \"time\": 1}", "f:1: /resolution/length: a resolution is positive"},
       {"{\"length\": 1, \"time\": -1}", "f:1: /resolution/time: a resolution is positive"},
-      {"{\"length\": 1e-3, \"time\": 1e-10}", "f:1: /agents/0: the speed is not supported"},
+      {"{\"length\": 1e-3, \"time\": 1e-10}",
+       "f:1: /agents/0: the speed is not 0.000001 .. 1000000"},
       {"[1, 1]", "f:1: /resolution: expected a number"}};
   for (const auto& [resolution, message] : wrong) {
     const auto refused = read(resolution);

@@ -50,6 +50,8 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     // cores are weaker than those that solves without one learn.
     if (!oracle.some_plans.empty() && seed % 2 == 0)
       options.debug.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
+    if (!oracle.some_plans.empty() && seed % 5 == 0)
+      options.initial_plan = oracle.some_plans[seed / 5 % oracle.some_plans.size()];
     check_against(oracle, max_moves, instance, options, tally);
     if (HasFatalFailure()) return;
   }

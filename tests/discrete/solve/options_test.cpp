@@ -45,6 +45,7 @@ TEST(SolveOptions, OutsideTheirRangesAreErrorsWithAReason) {
        [](auto& o) {
          o.mdd.check = {Kind::fractions, {{1, 0}}};
        }},
+      {"initial plan", ErrorCode::invalid_plan, [](auto& o) { o.initial_plan = Plan(); }},
       {"known plan", ErrorCode::invalid_plan, [](auto& o) { o.debug.known_plan = Plan(); }},
   };
   for (const Refused& refused : all)

@@ -359,6 +359,7 @@ TEST(SolverLimits, NeverClaimsWhatIsNotTrue) {
     const JointAnswer truth = joint_search(instance, objective);
     for (TunedOptions options : random_systems(random, objective)) {
       options.debug.known_plan.reset();
+      options.initial_plan.reset();
       options.limits = random_limits(random);
       SCOPED_TRACE("seed " + std::to_string(500'000 + seed) + "\n" + instance_text(instance) +
                    options_text(options));
@@ -427,6 +428,7 @@ TEST(SolverLimits, SearchesRepeatThemselves) {
     for (const TunedOptions& options : random_systems(random, Objective::sum_of_costs)) {
       TunedOptions same = options;
       same.debug.known_plan.reset();
+      same.initial_plan.reset();
       same.race = false;
       const SolveOutcome first = solve(instance, same).value(),
                          second = solve(instance, same).value();

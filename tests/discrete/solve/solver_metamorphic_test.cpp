@@ -40,7 +40,10 @@ struct Base {
   }
   [[nodiscard]] std::vector<TunedOptions> random_systems_without_plan() {
     std::vector<TunedOptions> systems = random_systems(random, objective);
-    for (TunedOptions& options : systems) options.debug.known_plan.reset();
+    for (TunedOptions& options : systems) {
+      options.debug.known_plan.reset();
+      options.initial_plan.reset();
+    }
     return systems;
   }
 };

@@ -62,6 +62,7 @@ TEST_P(SolverRegression, AllSystemsAnswerAsExpected) {
     if (read.options && read.options->objective == objective) {
       systems.push_back(*read.options);
       if (read.known_plan) systems.back().debug.known_plan = Plan();
+      if (read.initial_plan) systems.back().initial_plan = Plan();
     }
     for (const TunedOptions& options : systems) {
       const std::string fault = solve_and_compare(read.instance, options, expected, GetParam());

@@ -53,6 +53,9 @@ struct SolveOptions {
   Objective objective = Objective::sum_of_costs;
   System system = System::dpll;
   Limits limits;
+  /// A plan to begin with, so that no first one is looked for: the answer costs no more, whenever
+  /// a limit ends the search. It has to be valid.
+  std::optional<Plan> initial_plan;
   /// Stop when the plan costs at most this many per cent more than the proven lower bound, see
   /// quadrille/core/outcome.hpp. Not negative.
   std::optional<double> gap_percent;
@@ -100,7 +103,8 @@ struct SolveOutcome {
 /// limit ends it: `unknown` then. If a limit ends the search and
 /// some plan is known, that is `feasible`. Deterministic for the same instance, options and seed as
 /// long as no limit is met. Does not print. Thread-safe. Errors: out_of_range (an option),
-/// invalid_plan (`debug.known_plan` is not a plan of the instance).
+/// invalid_plan (`initial_plan` or `debug.known_plan` is not a plan of the instance; with the first
+/// violation).
 ///
 /// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
 /// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be

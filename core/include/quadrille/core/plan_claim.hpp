@@ -10,6 +10,18 @@
 
 namespace quadrille {
 
+/// The error (invalid_plan) for a plan that a user claims to be valid, if `verify` found violations
+/// in it. `what`: what it is called, such as "initial plan".
+template <class VerifyReport>
+[[nodiscard]] std::optional<Error> refuse_invalid(const VerifyReport& report,
+                                                  const std::string& what) {
+  if (report.valid()) return std::nullopt;
+  return Error{
+      ErrorCode::invalid_plan,
+      "the " + what + " is not a plan of this instance: " + report.violations.front().message,
+      {}};
+}
+
 /// Holds the outcome of a solver of either domain, which has a plan, against what `verify` of that
 /// domain says of the plan: it has to be valid, to cost no less than the proven bound, and just
 /// that if it is called optimal. Sets the cost, or an internal error.

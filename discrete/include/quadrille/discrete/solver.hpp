@@ -112,6 +112,9 @@ struct SolveOptions {
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
   bool first_plan = true;
+  /// A plan to begin with, so that no first one is looked for: the answer costs no more, whenever
+  /// a limit ends the search. It has to be valid.
+  std::optional<Plan> initial_plan;
   /// Stop when the plan costs at most this many per cent more than the proven lower bound, see
   /// quadrille/core/outcome.hpp. Not negative.
   std::optional<double> gap_percent;
@@ -150,8 +153,8 @@ struct SolveOutcome {
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range
-/// (an option, or more vertices than kMaxVertices), invalid_plan (`debug.known_plan` is not a plan
-/// of the instance).
+/// (an option, or more vertices than kMaxVertices), invalid_plan (`initial_plan` or
+/// `debug.known_plan` is not a plan of the instance; with the first violation).
 ///
 /// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
 /// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be
