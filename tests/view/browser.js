@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Opens pages in Debian's Chromium and notes whatever goes wrong in them.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const FLAGS = [
+  "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+  "--disable-background-networking", "--disable-component-update", "--disable-sync",
+];
+
+/** A folder for the files of one test program, and a browser. */
+export class Laboratory {
+  static async open() {
+    const laboratory = new Laboratory();
+    laboratory.folder = mkdtempSync(join(tmpdir(), "quadrille-view-"));
+    laboratory.browser = await chromium.launch({
+      executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS, timeout: 120000,
+    });
+    return laboratory;
+  }
+
+  async close() {
+    await this.browser?.close();
+    if (this.folder) rmSync(this.folder, { recursive: true });
+  }
+
+  /**
+   * Runs the program under test.
+   * @param {string[]} options
+   * @returns {string} what it wrote to standard output
+   */
+  run(...options) {
+    const program = process.env.QUADRILLE_PROGRAM;
+    assert.ok(program, "QUADRILLE_PROGRAM names the program");
+    return execFileSync(program, options, { cwd: this.folder, encoding: "utf8" });
+  }
+
+  /**
+   * @param {string} name
+   * @param {string} text
+   * @returns {string} where it is
+   */
+  write(name, text) {
+    const path = join(this.folder, name);
+    writeFileSync(path, text);
+    return path;
+  }
+
+  /**
+   * @param {string} file
+   * @param {{hash?: string, viewport?: {width: number, height: number}, touch?: boolean,
+   *   dark?: boolean, ratio?: number}} options
+   */
+  async visit(file, options = {}) {
+    const context = await this.browser.newContext({
+      viewport: options.viewport ?? { width: 1000, height: 700 },
+      hasTouch: options.touch ?? false,
+      colorScheme: options.dark ? "dark" : "light",
+      deviceScaleFactor: options.ratio ?? 1,
+    });
+    const page = await context.newPage();
+    page.setDefaultTimeout(60000);
+    const visit = new Visit(context, page);
+    const url = pathToFileURL(file).href;
+    page.on("request", (request) => {
+      const own = request.url().split("#")[0] === url || request.url().startsWith("data:");
+      if (!own) visit.faults.push(`request: ${request.url()}`);
+    });
+    page.on("console", (message) => visit.faults.push(`console: ${message.text()}`));
+    page.on("pageerror", (error) => visit.faults.push(`error: ${error.message}`));
+    await page.goto(url + (options.hash ?? ""));
+    return visit;
+  }
+}
+
+/** One page that is open. */
+class Visit {
+  /**
+   * @param {import("playwright-core").BrowserContext} context
+   * @param {import("playwright-core").Page} page
+   */
+  constructor(context, page) {
+    this.context = context;
+    this.page = page;
+    /** @type {string[]} */
+    this.faults = [];
+  }
+
+  /** Closes the page. It must not have asked for anything, nor complained. */
+  async leave() {
+    await this.context.close();
+    assert.deepEqual(this.faults, []);
+  }
+
+  /** @param {string} id */
+  text(id) {
+    return this.page.locator(`#${id}`).textContent();
+  }
+
+  time() {
+    return this.page.evaluate("quadrille.time()");
+  }
+
+  selected() {
+    return this.page.evaluate("quadrille.selected()");
+  }
+}

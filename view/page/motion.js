@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+
+/** @import {Agent, Point, Scene} from "./scene.js" */
+
+/**
+ * The last frame of the path that is not after the time; -1 before the first one. Binary search.
+ * @param {Agent} agent
+ * @param {number} time
+ * @returns {number}
+ */
+export function frameAt(agent, time) {
+  const { times } = agent;
+  let low = -1;
+  let high = times.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+/**
+ * Where an agent is: at its start without a path, at the end of its path for ever.
+ * @param {Agent} agent
+ * @param {number} time
+ * @returns {Point}
+ */
+export function positionAt(agent, time) {
+  const { times, xs, ys } = agent;
+  if (times.length === 0) return { x: agent.start.x, y: agent.start.y };
+  const k = Math.max(0, frameAt(agent, time));
+  if (k + 1 === times.length || time <= times[k]) return { x: xs[k], y: ys[k] };
+  const share = (time - times[k]) / (times[k + 1] - times[k]);
+  return { x: xs[k] + (xs[k + 1] - xs[k]) * share, y: ys[k] + (ys[k + 1] - ys[k]) * share };
+}
+
+/**
+ * What an agent does at a time.
+ * @param {Agent} agent
+ * @param {number} time
+ * @returns {"no path" | "waits" | "moves" | "arrived"}
+ */
+export function activityAt(agent, time) {
+  const { times, xs, ys } = agent;
+  if (times.length === 0) return "no path";
+  const k = Math.max(0, frameAt(agent, time));
+  if (agent.cost === null || k + 1 === times.length || time >= agent.cost) return "arrived";
+  return xs[k] === xs[k + 1] && ys[k] === ys[k + 1] ? "waits" : "moves";
+}
+
+/**
+ * How long the agent stands before it has arrived.
+ * @param {Agent} agent
+ * @returns {number}
+ */
+export function totalWait(agent) {
+  let total = 0;
+  for (let k = 0; k + 1 < agent.times.length; ++k)
+    {if (agent.xs[k] === agent.xs[k + 1] && agent.ys[k] === agent.ys[k + 1])
+      total += Math.max(0, Math.min(agent.times[k + 1], agent.cost ?? 0) - agent.times[k]);}
+  return total;
+}
+
+/**
+ * The moments at which anything begins or ends, in order, without repetitions.
+ * @param {Scene} scene
+ * @returns {Float64Array}
+ */
+export function eventTimes(scene) {
+  const all = new Set([0]);
+  for (const agent of scene.agents) for (const time of agent.times) all.add(time);
+  return Float64Array.from(all).sort();
+}
+
+/**
+ * The next moment of `events` after `time`, or the last one before it; `time` where there is none.
+ * @param {Float64Array} events
+ * @param {number} time
+ * @param {1 | -1} direction
+ * @returns {number}
+ */
+export function neighbouringEvent(events, time, direction) {
+  let low = 0;
+  let high = events.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (direction > 0 ? events[middle] <= time : events[middle] < time) low = middle + 1;
+    else high = middle;
+  }
+  const found = direction > 0 ? low : low - 1;
+  return found >= 0 && found < events.length ? events[found] : time;
+}

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+
+/** @import {Agent, Point} from "./scene.js" */
+/** @import {State} from "./state.js" */
+import { activityAt, positionAt, totalWait } from "./motion.js";
+import { element } from "./state.js";
+
+/** A list longer than this helps nobody; the rest is counted. */
+const MOST_LISTED = 300;
+
+/**
+ * @param {State} state
+ * @param {Point} point
+ * @returns {string}
+ */
+export function placeName(state, point) {
+  const { scene } = state;
+  const factor = scene.lengthUnit;
+  const round = (/** @type {number} */ value) => String(Number((value * factor).toFixed(3)));
+  if (scene.hasLayout) return `(${round(point.x)}, ${round(point.y)})`;
+  const index = scene.places.findIndex((place) => place.x === point.x && place.y === point.y);
+  return index >= 0 ? `vertex ${index}` : "on its way";
+}
+
+/**
+ * The line under the title.
+ * @param {State} state
+ * @returns {string}
+ */
+export function summaryOf(state) {
+  const { scene } = state;
+  const parts = [`${scene.agents.length} ${scene.agents.length === 1 ? "agent" : "agents"}`];
+  if (scene.violations.length > 0)
+    parts.push(`${scene.violations.length} ${scene.violations.length === 1 ? "violation" : "violations"}`);
+  else
+    parts.push(`sum of costs ${state.show(scene.sumOfCosts)}`, `makespan ${state.show(scene.makespan)}`);
+  if (scene.status !== null) parts.push(scene.status);
+  if (scene.lowerBound !== null && scene.status !== "optimal")
+    parts.push(`lower bound ${state.show(scene.lowerBound)} (${scene.objective})`);
+  if (!scene.hasLayout) parts.push("positions are made up");
+  if (scene.hiddenLinks > 0) parts.push(`${scene.hiddenLinks} edges not shown`);
+  return parts.join(" · ");
+}
+
+/** The lists and facts beside the map. */
+export class Panel {
+  /**
+   * @param {State} state
+   * @param {(time: number, agents: number[]) => void} jump
+   */
+  constructor(state, jump) {
+    this.state = state;
+    this.jump = jump;
+    this.agentSection = element("agent", HTMLElement);
+    this.facts = element("agent-facts", HTMLElement);
+    this.agentTitle = element("agent-title", HTMLElement);
+    this.clearance = element("clearance-now", HTMLElement);
+    element("summary", HTMLElement).textContent = summaryOf(state);
+    this.listViolations();
+    this.listNearest();
+    this.listDelays();
+  }
+
+  /**
+   * @param {string} section
+   * @param {string} list
+   * @param {{text: string, time: number, agents: number[]}[]} entries
+   */
+  fill(section, list, entries) {
+    element(section, HTMLElement).hidden = entries.length === 0;
+    const parent = element(list, HTMLElement);
+    for (const entry of entries.slice(0, MOST_LISTED)) {
+      const button = document.createElement("button");
+      button.textContent = entry.text;
+      button.addEventListener("click", () => this.jump(entry.time, entry.agents));
+      const item = document.createElement("li");
+      item.append(button);
+      parent.append(item);
+    }
+    if (entries.length <= MOST_LISTED) return;
+    const rest = document.createElement("li");
+    rest.textContent = `and ${entries.length - MOST_LISTED} more`;
+    parent.append(rest);
+  }
+
+  listViolations() {
+    const { state } = this;
+    const { violations } = state.scene;
+    element("violations-title", HTMLElement).textContent = `Violations (${violations.length})`;
+    const inOrder = [...violations].sort((a, b) => a.time - b.time);
+    this.fill("violations", "violation-list", inOrder.map((violation) => ({
+      text: `${state.show(violation.time)}  ${violation.kind}: ${violation.message}`,
+      time: violation.time, agents: violation.agents,
+    })));
+  }
+
+  listNearest() {
+    const { state } = this;
+    if (!state.scene.continuous) return;
+    const { lengthUnit } = state.scene;
+    this.fill("nearest", "nearest-list", state.scene.nearest.map(({ agents, gap, time }) => ({
+      text: `${showGap(gap * lengthUnit)}  agents ${agents[0]} and ${agents[1]} at ${state.show(time)}`,
+      time, agents: [...agents],
+    })));
+  }
+
+  listDelays() {
+    const { state } = this;
+    const delayed = state.scene.agents.filter((agent) => delayOf(agent) > 0)
+      .sort((a, b) => delayOf(b) - delayOf(a) || a.index - b.index);
+    this.fill("delays", "delay-list", delayed.map((agent) => ({
+      text: `+${state.show(delayOf(agent))}  agent ${agent.index}`,
+      time: state.player.time, agents: [agent.index],
+    })));
+  }
+
+  /** What depends on the moment and on the selection. */
+  update() {
+    const { state } = this;
+    const { player, scene } = state;
+    if (scene.continuous && scene.nearest.length > 0) {
+      const least = state.clearances.leastAt(player.time);
+      this.clearance.textContent = least === null ? "none"
+        : `${showGap(least.gap * scene.lengthUnit)}, agents ${least.agents[0]} and ${least.agents[1]}`;
+    }
+    const agent = state.agent();
+    this.agentSection.hidden = agent === null;
+    if (agent === null) return;
+    this.agentTitle.textContent = `Agent ${agent.index}`;
+    this.showFacts(agent);
+  }
+
+  /** @param {Agent} agent */
+  showFacts(agent) {
+    const { state } = this;
+    const { scene, player } = state;
+    /** @type {[string, string][]} */
+    const facts = [
+      ["start", placeName(state, agent.start)],
+      ["goal", placeName(state, agent.goal)],
+      ["cost", agent.cost === null ? "no path" : state.show(agent.cost)],
+      ["free cost", agent.free === null ? "no way to the goal" : state.show(agent.free)],
+    ];
+    if (agent.cost !== null && agent.free !== null)
+      facts.push(["delay", state.show(agent.cost - agent.free)]);
+    facts.push(["waits", state.show(totalWait(agent))]);
+    if (scene.continuous) facts.push(["body", bodyName(state, agent)]);
+    const activity = activityAt(agent, player.time);
+    facts.push(["now", `${activity}, ${placeName(state, positionAt(agent, player.time))}`]);
+    this.facts.replaceChildren(...facts.flatMap(([name, value]) => {
+      const term = document.createElement("dt");
+      term.textContent = name;
+      const text = document.createElement("dd");
+      text.textContent = value;
+      return [term, text];
+    }));
+  }
+}
+
+/**
+ * @param {number} gap
+ * @returns {string}
+ */
+function showGap(gap) {
+  return gap !== 0 && Math.abs(gap) < 0.001 ? gap.toExponential(2) : String(Number(gap.toFixed(4)));
+}
+
+/**
+ * @param {Agent} agent
+ * @returns {number}
+ */
+function delayOf(agent) {
+  return agent.cost === null || agent.free === null ? 0 : agent.cost - agent.free;
+}
+
+/**
+ * @param {State} state
+ * @param {Agent} agent
+ * @returns {string}
+ */
+function bodyName(state, agent) {
+  const body = state.scene.bodies[agent.body];
+  if (body.corners.length > 0) return `polygon with ${body.corners.length} corners`;
+  return `disc of radius ${Number((body.radius * state.scene.lengthUnit).toPrecision(6))}`;
+}

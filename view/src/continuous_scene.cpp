@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "quadrille/continuous/free_cost.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "scene.hpp"
+
+namespace quadrille::view {
+namespace {
+
+using continuous::Violation;
+
+/// More links than this make a page heavy and a picture grey.
+constexpr std::size_t kMostLinks = 100'000;
+/// Pairs of agents whose least clearance is listed.
+constexpr std::size_t kMostNearest = 200;
+
+std::string name_of(Violation::Kind kind) {
+  switch (kind) {
+    case Violation::Kind::path_count:
+      return "number of paths";
+    case Violation::Kind::empty_path:
+      return "empty path";
+    case Violation::Kind::bad_vertex:
+      return "no such vertex";
+    case Violation::Kind::bad_time:
+      return "impossible time";
+    case Violation::Kind::wrong_start:
+      return "wrong start";
+    case Violation::Kind::wrong_goal:
+      return "wrong goal";
+    case Violation::Kind::not_adjacent:
+      return "jump";
+    case Violation::Kind::duration:
+      return "wrong duration";
+    case Violation::Kind::collision:
+      return "collision";
+  }
+  return "violation";
+}
+
+/// The path as far as it can be laid out in space and time.
+std::vector<SceneStop> stops_of(const continuous::Roadmap& roadmap, const continuous::Path& path) {
+  std::vector<SceneStop> stops;
+  std::int64_t now = 0;
+  for (const continuous::Stop& stop : path) {
+    const std::int64_t arrive = stop.arrive.count(), depart = stop.depart.count();
+    if (stop.vertex.index() >= roadmap.num_vertices() || arrive < now || depart < arrive) break;
+    if (!stops.empty() && arrive == now && stops.back().place != stop.vertex.index()) break;
+    stops.push_back({stop.vertex.index(), arrive, depart});
+    now = depart;
+  }
+  return stops;
+}
+
+void add_cells(const continuous::GridRoadmap& grid, Scene& scene) {
+  Cells cells{grid.width(), grid.height(), {}, 1 / scene.length_unit};
+  for (std::int32_t y = 0; y < grid.height(); ++y)
+    for (std::int32_t x = 0; x < grid.width(); ++x)
+      cells.passable.push_back(grid.vertex({x, y}).has_value());
+  scene.cells = std::move(cells);
+}
+
+void add_links(const continuous::Roadmap& roadmap, Scene& scene) {
+  std::map<std::pair<std::size_t, std::size_t>, int> directions;  // 1: upwards, 2: downwards
+  for (const continuous::Edge& edge : roadmap.edges()) {
+    const std::size_t v = edge.from.index(), w = edge.to.index();
+    directions[{std::min(v, w), std::max(v, w)}] |= v < w ? 1 : 2;
+  }
+  for (const auto& [ends, direction] : directions) {
+    if (scene.links.size() == kMostLinks) break;
+    const auto [v, w] = ends;
+    scene.links.push_back(direction == 2 ? Link{w, v, true} : Link{v, w, direction == 1});
+  }
+  scene.hidden_links = directions.size() - scene.links.size();
+}
+
+void add_report(const continuous::VerifyReport& report, Scene& scene) {
+  scene.sum_of_costs = report.sum_of_costs;
+  scene.makespan = report.makespan;
+  std::map<std::pair<AgentId, AgentId>, double> moments;
+  for (const continuous::Clearance& c : report.clearances) {
+    scene.nearest.push_back({c.agent.index(), c.other.index(), c.gap, c.tick});
+    if (c.gap < 1) moments[{c.agent, c.other}] = c.tick;
+  }
+  std::sort(scene.nearest.begin(), scene.nearest.end(), [](const Nearness& a, const Nearness& b) {
+    return std::tie(a.gap, a.agent, a.other) < std::tie(b.gap, b.agent, b.other);
+  });
+  if (scene.nearest.size() > kMostNearest) scene.nearest.resize(kMostNearest);
+  for (const Violation& violation : report.violations) {
+    auto time = static_cast<double>(violation.tick.count());
+    std::optional<std::size_t> other;
+    if (violation.other) {
+      other = violation.other->index();
+      // A collision is best looked at where the two are nearest.
+      const auto moment = moments.find({violation.agent, *violation.other});
+      if (moment != moments.end()) time = moment->second;
+    }
+    scene.violations.push_back(
+        {name_of(violation.kind), violation.message, violation.agent.index(), other, time});
+  }
+}
+
+}  // namespace
+
+Scene make_scene(const continuous::Instance& instance, const continuous::Plan& plan,
+                 const continuous::GridRoadmap* grid) {
+  Scene scene;
+  scene.is_continuous = true;
+  scene.time_unit = instance.resolution().time;
+  scene.length_unit = instance.resolution().length;
+  scene.y_up = grid == nullptr;
+  for (const continuous::Point& point : instance.roadmap().positions())
+    scene.places.push_back(
+        {static_cast<double>(point.x.count()), static_cast<double>(point.y.count())});
+  if (grid != nullptr)
+    add_cells(*grid, scene);
+  else
+    add_links(instance.roadmap(), scene);
+  std::map<std::size_t, std::size_t> body_of_class;
+  for (const AgentId i : instance.agent_ids()) {
+    const continuous::Agent& task = instance.agent(i);
+    const auto [body, is_new] =
+        body_of_class.emplace(instance.class_of(i).index(), scene.bodies.size());
+    if (is_new) scene.bodies.push_back(task.body);
+    SceneAgent agent{task.start.index(), task.goal.index(), body->second, {}, {}, {}};
+    if (const auto alone = continuous::free_cost(instance, i)) agent.free_cost = alone->count();
+    if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.roadmap(), plan.paths[i]);
+    if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive;
+    scene.agents.push_back(std::move(agent));
+  }
+  add_report(verify(instance, plan), scene);
+  return scene;
+}
+
+}  // namespace quadrille::view

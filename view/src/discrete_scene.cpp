@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <string>
+
+#include "quadrille/discrete/verify.hpp"
+#include "scene.hpp"
+
+namespace quadrille::view {
+namespace {
+
+using discrete::Violation;
+
+std::string name_of(Violation::Kind kind) {
+  switch (kind) {
+    case Violation::Kind::path_count:
+      return "number of paths";
+    case Violation::Kind::empty_path:
+      return "empty path";
+    case Violation::Kind::bad_vertex:
+      return "no such vertex";
+    case Violation::Kind::wrong_start:
+      return "wrong start";
+    case Violation::Kind::wrong_goal:
+      return "wrong goal";
+    case Violation::Kind::not_adjacent:
+      return "jump";
+    case Violation::Kind::vertex:
+      return "vertex conflict";
+    case Violation::Kind::swap:
+      return "swap conflict";
+  }
+  return "";
+}
+
+/// A move is best looked at half way.
+bool is_move(Violation::Kind kind) {
+  return kind == Violation::Kind::swap || kind == Violation::Kind::not_adjacent;
+}
+
+/// One stop per stay, up to the first vertex that the graph does not have.
+std::vector<SceneStop> stops_of(const discrete::Graph& graph, const discrete::Path& path) {
+  std::vector<SceneStop> stops;
+  for (std::size_t t = 0; t < path.size(); ++t) {
+    const std::size_t place = path[t].index();
+    const auto time = static_cast<std::int64_t>(t);
+    if (place >= graph.num_vertices()) break;
+    if (!stops.empty() && stops.back().place == place)
+      stops.back().depart = time;
+    else
+      stops.push_back({place, time, time});
+  }
+  if (!stops.empty()) stops.back().depart = stops.back().arrive;
+  return stops;
+}
+
+void add_map(const discrete::Graph& graph, Scene& scene) {
+  const auto& layout = graph.layout();
+  if (layout) {
+    Cells cells{layout->width(), layout->height(), {}, 1};
+    cells.passable.resize(static_cast<std::size_t>(cells.width) *
+                          static_cast<std::size_t>(cells.height));
+    for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
+      const discrete::Cell cell = layout->cell_of(v);
+      scene.places.push_back({static_cast<double>(cell.x), static_cast<double>(cell.y)});
+      cells.passable[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(cells.width) +
+                     static_cast<std::size_t>(cell.x)] = true;
+    }
+    scene.cells = std::move(cells);
+    return;
+  }
+  scene.has_layout = false;
+  scene.places = lay_out(graph);
+  for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
+    for (const VertexId w : graph.neighbours(v))
+      if (v < w) scene.links.push_back({v.index(), w.index()});
+}
+
+}  // namespace
+
+Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan) {
+  Scene scene;
+  add_map(instance.graph(), scene);
+  for (const AgentId i : instance.agent_ids()) {
+    const discrete::Agent& task = instance.agents()[i];
+    SceneAgent agent{task.start.index(), task.goal.index(), 0, {}, {}, {}};
+    const Timestep alone = distances_from(instance.graph(), task.start)[task.goal];
+    if (alone != discrete::kUnreachable) agent.free_cost = alone;
+    if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.graph(), plan.paths[i]);
+    if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive;
+    scene.agents.push_back(std::move(agent));
+  }
+  const discrete::VerifyReport report = verify(instance, plan);
+  scene.sum_of_costs = report.sum_of_costs;
+  scene.makespan = report.makespan;
+  for (const Violation& violation : report.violations)
+    scene.violations.push_back(
+        {name_of(violation.kind), violation.message, violation.agent.index(),
+         violation.other ? std::optional(violation.other->index()) : std::nullopt,
+         violation.timestep + (is_move(violation.kind) ? 0.5 : 0)});
+  return scene;
+}
+
+}  // namespace quadrille::view

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/view/page.hpp"
+
+#include <string_view>
+
+#include "page_parts.hpp"
+#include "scene.hpp"
+#include "scene_json.hpp"
+#include "svg.hpp"
+
+namespace quadrille::view {
+namespace {
+
+/// The document with its marks replaced. What is put in is not looked at again.
+std::string fill(const Scene& scene, PageOptions options) {
+  if (options.title.empty()) {
+    const std::size_t count = scene.agents.size();
+    options.title = "Plan of " + std::to_string(count) + (count == 1 ? " agent" : " agents");
+  }
+  const PageParts parts = page_parts();
+  std::string html;
+  std::string_view rest = parts.document;
+  while (true) {
+    const std::size_t begin = rest.find('@');
+    html += rest.substr(0, begin);
+    if (begin == std::string_view::npos) return html;
+    const std::size_t end = rest.find('@', begin + 1);
+    const std::string_view mark = rest.substr(begin + 1, end - begin - 1);
+    if (mark == "TITLE") html += escaped(options.title);
+    if (mark == "STYLE") html += parts.style;
+    if (mark == "DATA") html += scene_json(scene, options);
+    if (mark == "SCRIPT")
+      for (const std::string_view script : parts.scripts) html += script;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+std::string page(const discrete::Instance& instance, const discrete::Plan& plan,
+                 const PageOptions& options) {
+  return fill(make_scene(instance, plan), options);
+}
+
+std::string page(const continuous::Instance& instance, const continuous::Plan& plan,
+                 const PageOptions& options, const continuous::GridRoadmap* grid) {
+  return fill(make_scene(instance, plan, grid), options);
+}
+
+}  // namespace quadrille::view
