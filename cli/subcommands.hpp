@@ -12,5 +12,6 @@ namespace quadrille::cli {
 [[nodiscard]] Subcommand add_info(CLI::App& program);
 [[nodiscard]] Subcommand add_generate(CLI::App& program);
 [[nodiscard]] Subcommand add_convert(CLI::App& program);
+[[nodiscard]] Subcommand add_campaign(CLI::App& program);
 
 }  // namespace quadrille::cli

@@ -6,7 +6,7 @@ _quadrille() {
   local command=${COMP_WORDS[1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "solve verify info generate convert --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "solve verify info generate convert campaign --help --version" -- "$word")
     return
   fi
 
@@ -22,7 +22,7 @@ _quadrille() {
     --kind) values="empty random maze room warehouse roadmap" ;;
     --neighbourhood) values="2 3 4 5" ;;
     --map | --scen | --instance | --roadmap | --task | --plan | --json | --initial-plan | --known-plan | --output | --map-output | \
-      --scen-output | --instance-output)
+      --scen-output | --instance-output | --folder | --data)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
       ;;
@@ -55,6 +55,13 @@ _quadrille() {
         --instance-output"
       ;;
     convert) options="$instance --to --from --output" ;;
+    campaign)
+      options="--folder --data --jobs --dry-run --submission --task --quiet"
+      if ((COMP_CWORD == 2)) && [[ $word != -* ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "list run resume submit task status merge" -- "$word")
+        return
+      fi
+      ;;
   esac
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options --help" -- "$word")

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kCommands[] = {"solve", "verify", "info", "generate", "convert"};
+constexpr const char* kCommands[] = {"solve", "verify", "info", "generate", "convert", "campaign"};
 
 class DocumentsTest : public CliTest {
  protected:

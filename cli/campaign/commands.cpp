@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "campaign/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <csignal>
+#include <map>
+#include <system_error>
+
+#include "campaign/runner.hpp"
+#include "output.hpp"
+#include "signals.hpp"
+
+namespace quadrille::cli::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+ExitCode exit_code(const Runner& runner, Runner::End end) {
+  switch (end) {
+    case Runner::End::complete:
+      return ExitCode::success;
+    case Runner::End::left:
+      return ExitCode::unknown;
+    case Runner::End::failed:
+      break;
+  }
+  report_error(*runner.error());
+  return ExitCode::output;
+}
+
+ExitCode run_ladders(const CampaignArguments& arguments, const JobList& list, Schedule schedule,
+                     bool wait_for_others) {
+  // A file that may not grow is an error like a full disk, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  RunOptions options;
+  options.processes = static_cast<std::size_t>(arguments.processes.value_or(1));
+  options.wait_for_others = wait_for_others;
+  options.program = own_program();
+  options.interrupt = &catch_interrupts();
+  auto store = Store::open(arguments.files().results());
+  if (!store) {
+    report_error(store.error());
+    return ExitCode::output;
+  }
+  // Who reads our output may go away; the work goes on.
+  Console console(arguments.quiet, false);
+  Runner runner(list, schedule, *store, options, console);
+  const Runner::End end = runner.run();
+  const bool resume = end == Runner::End::left && *options.interrupt;
+  if (resume)
+    console.print(
+        fmt::format("interrupted; 'quadrille campaign resume {}' goes on\n", arguments.manifest));
+  return exit_code(runner, end);
+}
+
+}  // namespace
+
+Folder CampaignArguments::files() const {
+  if (!folder.empty()) return {folder};
+  fs::path path(manifest);
+  return {path.replace_extension(".campaign")};
+}
+
+std::string own_program() {
+  std::error_code error;
+  const fs::path path = fs::read_symlink("/proc/self/exe", error);
+  return error ? "quadrille" : path.string();
+}
+
+std::optional<JobList> prepare(const CampaignArguments& arguments) {
+  const auto manifest = read_manifest(arguments.manifest, arguments.data);
+  auto list = manifest ? expand(*manifest) : Result<JobList>(manifest.error());
+  if (!list) {
+    report_error(list.error());
+    return std::nullopt;
+  }
+  if (arguments.action == Action::list) return *std::move(list);
+  const Folder folder = arguments.files();
+  std::error_code error;
+  fs::create_directories(folder.path, error);
+  const auto file = OutputFile::probe(folder.jobs());
+  if (!file) report_error(file.error());
+  if (!file || !write_or_report(*file, to_json(*list))) return std::nullopt;
+  return *std::move(list);
+}
+
+std::optional<JobList> prepared(const CampaignArguments& arguments) {
+  auto list = read_job_list(arguments.files().jobs());
+  if (list) return *std::move(list);
+  report_error(list.error());
+  return std::nullopt;
+}
+
+ExitCode list_jobs(const CampaignArguments& arguments) {
+  const auto list = prepare(arguments);
+  if (!list) return ExitCode::bad_input;
+  Console console(arguments.quiet, false);
+  std::string text;
+  for (const Job& job : list->jobs)
+    text += fmt::format("{}\t{}\t{}\t{}\t{}\t{}\n", job.name, job.family, job.scenario, job.agents,
+                        job.system, job.seed);
+  console.print(text);
+  return console.failure() == 0 ? ExitCode::success : ExitCode::output;
+}
+
+ExitCode run_campaign(const CampaignArguments& arguments) {
+  const auto list = arguments.action == Action::resume ? prepared(arguments) : prepare(arguments);
+  if (!list) return ExitCode::bad_input;
+  return run_ladders(arguments, *list, Schedule(*list), true);
+}
+
+ExitCode run_task(const CampaignArguments& arguments) {
+  const auto list = prepared(arguments);
+  if (!list) return ExitCode::bad_input;
+  const auto ladders = read_task(arguments.files(), *list, *arguments.submission, *arguments.task);
+  if (!ladders) {
+    report_error(ladders.error());
+    return ExitCode::bad_input;
+  }
+  return run_ladders(arguments, *list, Schedule(*list, *ladders), false);
+}
+
+ExitCode show_status(const CampaignArguments& arguments) {
+  const auto list = prepared(arguments);
+  if (!list) return ExitCode::bad_input;
+  auto store = Store::open(arguments.files().results());
+  if (!store) {
+    report_error(store.error());
+    return ExitCode::output;
+  }
+  Schedule schedule(*list);
+  Follower follower(*list, *store, schedule);
+  std::map<std::string, std::array<std::size_t, 3>> systems;  // solved, not, failed
+  const auto error = follower.update([&](std::size_t job, const Row& row) {
+    ++systems[list->jobs[job].system][row.solved() ? 0 : row.status == "failed" ? 2 : 1];
+  });
+  if (error) {
+    report_error(*error);
+    return ExitCode::bad_input;
+  }
+  std::size_t running = 0;
+  for (std::size_t job = 0; job < list->jobs.size(); ++job)
+    if (schedule.is_open(job) && store->is_claimed_elsewhere(list->jobs[job].name)) ++running;
+  const Schedule::Counts counts = schedule.count();
+  std::string text = fmt::format(
+      "{}: {} jobs in {} ladders\nsolved     {}\nnot solved {}\nnot needed {}\nleft       at most "
+      "{}, in {} ladders\nrunning    {}\n",
+      list->title, counts.jobs, list->ladders.size(), counts.solved, counts.unsolved,
+      counts.not_needed, counts.left, counts.open_ladders, running);
+  const auto rest =
+      estimate_s(schedule, follower.times(), list->limits, std::max<std::size_t>(1, running));
+  if (counts.left > 0 && rest)
+    text += fmt::format("time left  about {} with {} at a time\n", duration_text(*rest),
+                        std::max<std::size_t>(1, running));
+  for (const auto& [name, sum] : systems)
+    text +=
+        fmt::format("system     {}: {} solved, {} not, {} failed\n", name, sum[0], sum[1], sum[2]);
+  if (follower.damaged() > 0)
+    text += fmt::format("damaged    {} lines of the results; their jobs are run again\n",
+                        follower.damaged());
+  if (follower.foreign() > 0)
+    text += fmt::format("others     {} rows of jobs that are not asked for any more\n",
+                        follower.foreign());
+  Console console(arguments.quiet, false);
+  console.print(text);
+  return counts.left == 0 ? ExitCode::success : ExitCode::unknown;
+}
+
+}  // namespace quadrille::cli::campaign

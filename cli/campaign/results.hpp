@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "campaign/job.hpp"
+#include "campaign/row.hpp"
+#include "campaign/schedule.hpp"
+#include "campaign/store.hpp"
+
+namespace quadrille::cli::campaign {
+
+/// The files of a campaign in its folder.
+struct Folder {
+  std::filesystem::path path;
+
+  [[nodiscard]] std::filesystem::path jobs() const { return path / "jobs.json"; }
+  [[nodiscard]] std::filesystem::path results() const { return path / "results.jsonl"; }
+  [[nodiscard]] std::filesystem::path merged() const { return path / "merged"; }
+  [[nodiscard]] std::filesystem::path slurm() const { return path / "slurm"; }
+};
+
+/// Follows the file of results, and keeps a schedule up to date with it.
+class Follower {
+ public:
+  /// All three have to outlive it.
+  Follower(const JobList& list, Store& store, Schedule& schedule);
+
+  /// Reads what is new. `take` hears of each row of the list's jobs, and its job.
+  std::optional<Error> update(const std::function<void(std::size_t, const Row&)>& take = {});
+
+  /// Lines that are no rows. Their jobs are run again.
+  [[nodiscard]] std::size_t damaged() const noexcept { return damaged_; }
+  /// Rows of jobs that the list does not have: of an earlier manifest.
+  [[nodiscard]] std::size_t foreign() const noexcept { return foreign_; }
+  /// Seconds that jobs took: all solved ones, and all others.
+  struct Times {
+    double solved_s = 0, unsolved_s = 0;
+    std::size_t solved = 0, unsolved = 0;
+  };
+  [[nodiscard]] const Times& times() const noexcept { return times_; }
+
+ private:
+  Store& store_;
+  Schedule& schedule_;
+  std::map<std::string, std::size_t> numbers_;
+  std::size_t damaged_ = 0, foreign_ = 0;
+  Times times_;
+};
+
+/// A guess at the seconds that are left with so many processes; nullopt as long as nothing is
+/// known.
+[[nodiscard]] std::optional<double> estimate_s(const Schedule& schedule,
+                                               const Follower::Times& times,
+                                               const JobLimits& limits, std::size_t processes);
+/// "42 s", "17 min", "3.5 h", "2.1 days"
+[[nodiscard]] std::string duration_text(double seconds);
+
+}  // namespace quadrille::cli::campaign
