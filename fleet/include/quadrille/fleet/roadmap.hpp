@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "quadrille/continuous/resolution.hpp"
+#include "quadrille/continuous/roadmap.hpp"
+#include "quadrille/core/export.hpp"
+#include "quadrille/core/ids.hpp"
+#include "quadrille/core/result.hpp"
+#include "quadrille/fleet/units.hpp"
+
+QUADRILLE_API_BEGIN
+
+namespace quadrille::fleet {
+
+using units::Hertz;
+using units::Metres;
+using units::MetresPerSecond;
+using units::Seconds;
+
+/// A place in the plane.
+struct Point {
+  Metres x;
+  Metres y;
+  friend constexpr bool operator==(const Point&, const Point&) = default;
+};
+
+/// The distance of two places.
+[[nodiscard]] Metres distance(const Point& a, const Point& b);
+
+/// What places and times are rounded to: all coordinates become multiples of `length` and all times
+/// multiples of `time`, each to the nearest.
+struct Resolution {
+  Metres length = Metres(0.001);
+  Seconds time = Seconds(0.01);
+  friend constexpr bool operator==(const Resolution&, const Resolution&) = default;
+};
+
+/// Vertices in the plane, joined by straight lanes. Immutable; cheap to copy.
+class Roadmap {
+ public:
+  [[nodiscard]] Resolution resolution() const noexcept { return resolution_; }
+  [[nodiscard]] std::size_t num_vertices() const noexcept { return roads_->num_vertices(); }
+  /// Lanes go one way; a road is two of them.
+  [[nodiscard]] std::size_t num_lanes() const noexcept { return roads_->num_edges(); }
+  [[nodiscard]] IdRange<VertexId> vertex_ids() const { return IdRange<VertexId>(num_vertices()); }
+
+  /// Where the vertex is, rounded to the resolution. Requires a vertex of this roadmap.
+  [[nodiscard]] Point position(VertexId v) const;
+  /// The name that the vertex was given, or its place, such as "(1.5 m, 2 m)".
+  [[nodiscard]] std::string name(VertexId v) const;
+  /// The vertex of this name, among those that were given one.
+  [[nodiscard]] std::optional<VertexId> find(std::string_view name) const;
+  /// The vertex nearest to a place, of several the one that was made first. Requires a vertex.
+  /// Linear in the number of vertices.
+  [[nodiscard]] VertexId nearest(const Point& place) const;
+
+  /// The same in whole length units, and what these are; for the layers below.
+  [[nodiscard]] const std::shared_ptr<const continuous::Roadmap>& in_units() const noexcept {
+    return roads_;
+  }
+  [[nodiscard]] continuous::Resolution unit_sizes() const noexcept {
+    return {resolution_.length.value(), resolution_.time.value()};
+  }
+
+ private:
+  friend class RoadmapBuilder;
+  Roadmap() = default;
+  Resolution resolution_;
+  std::shared_ptr<const continuous::Roadmap> roads_;
+  std::shared_ptr<const std::vector<std::string>> names_;  // By vertex; empty for none.
+  std::shared_ptr<const std::map<std::string, VertexId, std::less<>>> by_name_;
+};
+
+/// Collects the vertices and roads of a Roadmap. A copy of it can go on in another direction.
+class RoadmapBuilder {
+ public:
+  explicit RoadmapBuilder(Resolution resolution = {}) : resolution_(resolution) {}
+
+  /// A new vertex. Names are optional.
+  VertexId vertex(Metres x, Metres y, std::string name = {});
+  VertexId vertex(const Point& place, std::string name = {}) {
+    return vertex(place.x, place.y, std::move(name));
+  }
+  /// A road for both directions, or a lane for one. The roads of a roadmap are a set: one that is
+  /// there already stays as it is.
+  RoadmapBuilder& road(VertexId a, VertexId b);
+  RoadmapBuilder& lane(VertexId from, VertexId to);
+  /// Takes out what joins the two vertices, in both directions. Vertices keep their ids.
+  RoadmapBuilder& close(VertexId a, VertexId b);
+
+  [[nodiscard]] Resolution resolution() const noexcept { return resolution_; }
+  [[nodiscard]] std::size_t num_vertices() const noexcept { return places_.size(); }
+  /// As it was given, not rounded. Requires a vertex that has been made.
+  [[nodiscard]] const Point& position(VertexId v) const { return places_[v.index()]; }
+
+  /// Errors: out_of_range for a resolution that is not positive and for coordinates beyond 2^40
+  /// times the resolution; invalid_instance for a name given twice, a lane from a vertex to itself,
+  /// between vertices in the same place once they are rounded, or with an end that does not exist.
+  [[nodiscard]] Result<Roadmap> build() const;
+
+ private:
+  [[nodiscard]] std::string name_of(VertexId v) const;
+  [[nodiscard]] Result<std::vector<continuous::Point>> rounded_places() const;
+
+  Resolution resolution_;
+  std::vector<Point> places_;
+  std::vector<std::string> names_;
+  std::vector<std::pair<VertexId, VertexId>> lanes_;
+};
+
+}  // namespace quadrille::fleet
+
+QUADRILLE_API_END

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "quadrille/continuous/solver.hpp"
+#include "quadrille/core/export.hpp"
+#include "quadrille/core/outcome.hpp"
+#include "quadrille/core/result.hpp"
+#include "quadrille/core/statistics.hpp"
+#include "quadrille/fleet/fleet.hpp"
+#include "quadrille/fleet/timed_plan.hpp"
+
+QUADRILLE_API_BEGIN
+
+namespace quadrille::fleet {
+
+/// What a search may use, see quadrille::Limits. An absent limit does not bind.
+struct Limits {
+  std::optional<Seconds> wall = {};
+  std::optional<Seconds> cpu = {};  ///< Of all threads of the search together.
+  std::optional<double> memory_mib = {};
+  std::optional<std::int64_t> conflicts = {};
+  const std::atomic<bool>* interrupt = nullptr;
+};
+
+/// A look at a running search.
+struct Progress {
+  Seconds lower_bound;
+  std::optional<Seconds> cost;  ///< Of the best plan so far.
+  Seconds elapsed;
+  std::int64_t conflicts = 0;
+};
+
+/// As continuous::SolveOptions, where more is said.
+struct SolveOptions {
+  Objective objective = Objective::sum_of_costs;
+  Limits limits = {};
+  /// Stop when the plan costs at most this many per cent more than the proven lower bound.
+  std::optional<double> gap_percent = {};
+  std::uint32_t seed = 0;   ///< 0 .. 2'000'000'000
+  std::size_t threads = 1;  ///< 1 .. kMaxThreads
+  /// Both are called on the solving thread, at most once in so many seconds; what they throw ends
+  /// the search and comes out of `solve`. May be empty.
+  std::function<void(const Progress&)> on_progress = {};
+  Seconds progress_interval = Seconds(0.25);
+  /// With the best plan so far, if it is cheaper than at the last call; the answer may be better
+  /// still.
+  std::function<void(const TimedPlan&)> on_plan = {};
+  Seconds plan_interval = Seconds(1);
+};
+
+struct SolveOutcome {
+  Status status = Status::unknown;
+  std::optional<TimedPlan> plan;  ///< Present for optimal and feasible; verified.
+  std::optional<Seconds> cost;    ///< Of `plan`, by the objective.
+  Seconds lower_bound;            ///< Proven, for every status but infeasible.
+  StopReason stop = StopReason::none;
+  std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
+  Statistics statistics;
+  /// A check of the program's own work failed; status is unknown then.
+  std::optional<Error> internal_error;
+
+  /// One line, such as "feasible: 34.6 s, at least 33.8 s (gap 2.4 %)".
+  [[nodiscard]] std::string summary() const;
+};
+
+/// Finds a plan of least cost among those whose departures are at multiples of the resolution of
+/// time. That there is no plan is an outcome, `infeasible`, and never an error: also where it can
+/// be seen at once, because starts or goals overlap or a goal cannot be reached. Errors: those of
+/// `fleet.instance()` but no_plan; out_of_range (an option). Otherwise as continuous::solve.
+[[nodiscard]] Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options = {});
+
+}  // namespace quadrille::fleet
+
+QUADRILLE_API_END

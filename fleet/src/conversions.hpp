@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/fleet/roadmap.hpp"
+
+// All that becomes whole units, and all that is made of them again. nullopt: not finite, or out of
+// range.
+
+namespace quadrille::fleet {
+
+/// To the nearest length unit.
+[[nodiscard]] inline std::optional<continuous::Point> to_units(
+    const Point& place, const continuous::Resolution& resolution) {
+  const auto x = continuous::quantise_coordinate(place.x.value(), resolution);
+  const auto y = continuous::quantise_coordinate(place.y.value(), resolution);
+  if (!x || !y) return std::nullopt;
+  return continuous::Point{*x, *y};
+}
+
+/// Up to a whole length unit. A number that differs from one by a billionth is meant to be that:
+/// 0.35 m in millimetres are 350, whatever the last bit of 0.35 says.
+[[nodiscard]] inline std::optional<continuous::Length> radius_to_units(
+    Metres radius, const continuous::Resolution& resolution) {
+  const double value = radius.value();
+  const auto nearest = continuous::quantise_coordinate(value, resolution);
+  if (!nearest || !(value > 0)) return std::nullopt;
+  const double exact = continuous::in_input_units(*nearest, resolution);
+  return exact >= value || value - exact <= 1e-9 * value ? *nearest : *nearest + 1;
+}
+
+[[nodiscard]] inline Point in_metres(const continuous::Point& point,
+                                     const continuous::Resolution& resolution) {
+  return {Metres(continuous::in_input_units(point.x, resolution)),
+          Metres(continuous::in_input_units(point.y, resolution))};
+}
+
+[[nodiscard]] inline Seconds in_seconds(continuous::Ticks ticks,
+                                        const continuous::Resolution& resolution) {
+  return Seconds(continuous::in_input_units(ticks, resolution));
+}
+
+[[nodiscard]] inline Seconds in_seconds(Cost cost, const continuous::Resolution& resolution) {
+  return Seconds(continuous::in_input_units(cost, resolution));
+}
+
+}  // namespace quadrille::fleet

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/fleet/roadmap.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "conversions.hpp"
+
+namespace quadrille::fleet {
+namespace {
+
+std::string text(const Point& place) {
+  return "(" + to_string(place.x) + ", " + to_string(place.y) + ")";
+}
+
+Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+
+}  // namespace
+
+Metres distance(const Point& a, const Point& b) {
+  return Metres(std::hypot((a.x - b.x).value(), (a.y - b.y).value()));
+}
+
+Point Roadmap::position(VertexId v) const { return in_metres(roads_->position(v), unit_sizes()); }
+
+std::string Roadmap::name(VertexId v) const {
+  QUADRILLE_REQUIRE(v.index() < num_vertices(), "a vertex of this roadmap");
+  const std::string& name = (*names_)[v.index()];
+  return name.empty() ? text(position(v)) : name;
+}
+
+std::optional<VertexId> Roadmap::find(std::string_view name) const {
+  const auto found = by_name_->find(name);
+  if (found == by_name_->end()) return std::nullopt;
+  return found->second;
+}
+
+VertexId Roadmap::nearest(const Point& place) const {
+  QUADRILLE_REQUIRE(num_vertices() > 0, "a roadmap with vertices");
+  VertexId best(0);
+  Metres least = distance(position(best), place);
+  for (const VertexId v : vertex_ids()) {
+    const Metres here = distance(position(v), place);
+    if (!(here < least)) continue;
+    best = v;
+    least = here;
+  }
+  return best;
+}
+
+VertexId RoadmapBuilder::vertex(Metres x, Metres y, std::string name) {
+  places_.push_back({x, y});
+  names_.push_back(std::move(name));
+  return VertexId(places_.size() - 1);
+}
+
+RoadmapBuilder& RoadmapBuilder::road(VertexId a, VertexId b) { return lane(a, b).lane(b, a); }
+
+RoadmapBuilder& RoadmapBuilder::lane(VertexId from, VertexId to) {
+  lanes_.emplace_back(from, to);
+  return *this;
+}
+
+RoadmapBuilder& RoadmapBuilder::close(VertexId a, VertexId b) {
+  std::erase_if(
+      lanes_, [&](const auto& lane) { return lane == std::pair(a, b) || lane == std::pair(b, a); });
+  return *this;
+}
+
+std::string RoadmapBuilder::name_of(VertexId v) const {
+  if (v.index() >= places_.size()) return "vertex " + std::to_string(v.index());
+  const std::string& name = names_[v.index()];
+  return name.empty() ? text(places_[v.index()]) : "'" + name + "'";
+}
+
+Result<std::vector<continuous::Point>> RoadmapBuilder::rounded_places() const {
+  const continuous::Resolution sizes(resolution_.length.value(), resolution_.time.value());
+  if (!sizes.is_valid())
+    return Error{ErrorCode::out_of_range,
+                 "the resolution is " + to_string(resolution_.length) + " and " +
+                     to_string(resolution_.time) + "; both have to be positive and finite",
+                 {}};
+  std::vector<continuous::Point> points;
+  points.reserve(places_.size());
+  for (std::size_t v = 0; v < places_.size(); ++v) {
+    const auto point = to_units(places_[v], sizes);
+    if (!point)
+      return Error{ErrorCode::out_of_range,
+                   "vertex " + name_of(VertexId(v)) + " at " + text(places_[v]) +
+                       " is too far away for a resolution of " + to_string(resolution_.length),
+                   {}};
+    points.push_back(*point);
+  }
+  return points;
+}
+
+Result<Roadmap> RoadmapBuilder::build() const {
+  auto points = rounded_places();
+  if (!points) return points.error();
+  std::map<std::string, VertexId, std::less<>> by_name;
+  for (std::size_t v = 0; v < names_.size(); ++v)
+    if (!names_[v].empty() && !by_name.emplace(names_[v], VertexId(v)).second)
+      return invalid("two vertices are called '" + names_[v] + "'");
+
+  std::vector<continuous::Edge> edges;
+  std::set<std::pair<VertexId, VertexId>> known;
+  for (const auto& lane : lanes_) {
+    const VertexId from = lane.first, to = lane.second;
+    const std::string what = "a lane from " + name_of(from) + " to " + name_of(to);
+    for (const VertexId end : {from, to})
+      if (end.index() >= places_.size())
+        return invalid(what + ": there are only " + std::to_string(places_.size()) + " vertices");
+    if ((*points)[from.index()] == (*points)[to.index()])
+      return invalid(what + ": both are in the same place" +
+                     (from == to ? "" : " at a resolution of " + to_string(resolution_.length)));
+    if (known.insert(lane).second) edges.push_back({from, to, std::nullopt});
+  }
+  auto roads = continuous::Roadmap::make(std::move(points).value(), std::move(edges));
+  if (!roads) return roads.error();
+  Roadmap roadmap;
+  roadmap.resolution_ = resolution_;
+  roadmap.roads_ = std::make_shared<const continuous::Roadmap>(std::move(roads).value());
+  roadmap.names_ = std::make_shared<const std::vector<std::string>>(names_);
+  roadmap.by_name_ =
+      std::make_shared<const std::map<std::string, VertexId, std::less<>>>(std::move(by_name));
+  return roadmap;
+}
+
+}  // namespace quadrille::fleet

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/fleet/solver.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "conversions.hpp"
+#include "numbers.hpp"
+
+namespace quadrille::fleet {
+namespace {
+
+std::optional<double> number(const std::optional<Seconds>& time) {
+  if (!time) return std::nullopt;
+  return time->value();
+}
+
+/// `instance` outlives the result.
+continuous::SolveOptions in_units(const Fleet& fleet, const continuous::Resolution& resolution,
+                                  const SolveOptions& options) {
+  continuous::SolveOptions result;
+  result.objective = options.objective;
+  result.limits.wall_s = number(options.limits.wall);
+  result.limits.cpu_s = number(options.limits.cpu);
+  result.limits.memory_mib = options.limits.memory_mib;
+  result.limits.conflicts = options.limits.conflicts;
+  result.limits.interrupt = options.limits.interrupt;
+  result.gap_percent = options.gap_percent;
+  result.seed = options.seed;
+  result.threads = options.threads;
+  result.progress_interval_s = options.progress_interval.value();
+  result.plan_interval_s = options.plan_interval.value();
+  if (options.on_progress)
+    result.on_progress = [resolution, &options](const continuous::Progress& progress) {
+      Progress seen;
+      seen.lower_bound = in_seconds(progress.lower_bound, resolution);
+      if (progress.cost) seen.cost = in_seconds(*progress.cost, resolution);
+      seen.elapsed = Seconds(progress.elapsed_s);
+      seen.conflicts = progress.conflicts;
+      options.on_progress(seen);
+    };
+  if (options.on_plan)
+    result.on_plan = [&fleet, &options](const continuous::Plan& plan) {
+      // It has not been verified yet; one that fails is an internal error, which the end tells.
+      if (const auto timed = TimedPlan::make(fleet, plan)) options.on_plan(*timed);
+    };
+  return result;
+}
+
+}  // namespace
+
+Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
+  SolveOutcome outcome;
+  const auto instance = fleet.instance();
+  if (!instance && instance.error().code == ErrorCode::no_plan) {
+    outcome.status = Status::infeasible;
+    outcome.explanation = instance.error().message;
+    return outcome;
+  }
+  if (!instance) return instance.error();
+  const continuous::Resolution resolution = instance->resolution();
+  auto solved = continuous::solve(*instance, in_units(fleet, resolution, options));
+  if (!solved) return solved.error();
+
+  outcome.status = solved->status;
+  outcome.lower_bound = in_seconds(solved->lower_bound, resolution);
+  outcome.stop = solved->stop;
+  outcome.explanation = std::move(solved->explanation);
+  outcome.statistics = solved->statistics;
+  outcome.internal_error = std::move(solved->internal_error);
+  if (!solved->plan) return outcome;
+  auto timed = TimedPlan::make(fleet, *solved->plan);
+  if (!timed) {
+    outcome.status = Status::unknown;
+    outcome.internal_error = std::move(timed).error();
+    outcome.explanation = outcome.internal_error->message;
+    return outcome;
+  }
+  outcome.plan = std::move(timed).value();
+  if (solved->cost) outcome.cost = in_seconds(*solved->cost, resolution);
+  return outcome;
+}
+
+std::string SolveOutcome::summary() const {
+  std::string text(to_string(status));
+  switch (status) {
+    case Status::optimal:
+      return text + ": " + to_string(cost.value_or(lower_bound));
+    case Status::feasible: {
+      const Seconds most = cost.value_or(lower_bound);
+      text += ": " + to_string(most) + ", at least " + to_string(lower_bound);
+      if (lower_bound > Seconds(0)) {
+        const double gap = 100 * ((most - lower_bound) / lower_bound);
+        text += " (gap " + shortest(std::round(gap * 100) / 100) + " %)";
+      }
+      return text;
+    }
+    case Status::infeasible:
+    case Status::unknown:
+      return text + ": " + explanation;
+  }
+  return text;
+}
+
+}  // namespace quadrille::fleet

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/fleet/verify.hpp"
+
+#include "conversions.hpp"
+
+namespace quadrille::fleet {
+namespace {
+
+/// What robot `i` does wrong; `when` is the time, if it has one.
+std::string message(const Fleet& fleet, const continuous::Violation& violation,
+                    const std::string& when) {
+  using Kind = continuous::Violation::Kind;
+  // A plan may have more paths than the fleet has robots.
+  const bool is_known = violation.agent.index() < fleet.num_robots();
+  const std::string robot = is_known ? "'" + fleet.name(violation.agent) + "' " : "a path ";
+  const auto place = [&](std::optional<VertexId> v) {
+    return v ? fleet.roadmap().name(*v) : std::string("nowhere");
+  };
+  switch (violation.kind) {
+    case Kind::path_count:
+      return "the plan has not one path for each of the " + std::to_string(fleet.num_robots()) +
+             " robots";
+    case Kind::empty_path:
+      return robot + "has an empty path";
+    case Kind::bad_vertex:
+      return robot + "comes to a vertex that the roadmap does not have, at " + when;
+    case Kind::bad_time:
+      return robot + "leaves before it arrives, or at a time that is not supported, at " + when;
+    case Kind::wrong_start:
+      return robot + "does not begin at " + place(fleet.start(violation.agent));
+    case Kind::wrong_goal:
+      return robot + "does not end at " + place(fleet.goal(violation.agent));
+    case Kind::not_adjacent:
+      return robot + "moves along no lane at " + when;
+    case Kind::duration:
+      return robot + "takes longer or shorter for a lane than it does at its speed, at " + when;
+    case Kind::collision:
+      return robot + "and '" + fleet.name(violation.other.value_or(violation.agent)) +
+             "' collide in the move or wait that begins at " + when;
+    default:
+      return violation.message;
+  }
+}
+
+}  // namespace
+
+Result<VerifyReport> verify(const Fleet& fleet, const continuous::Plan& plan) {
+  const auto instance = fleet.instance();
+  if (!instance) return instance.error();
+  const continuous::Resolution& resolution = instance->resolution();
+  const continuous::VerifyReport found = continuous::verify(*instance, plan);
+  VerifyReport report;
+  for (const continuous::Violation& violation : found.violations) {
+    const Seconds time = in_seconds(violation.tick, resolution);
+    report.violations.push_back({violation.kind, violation.agent, violation.other, time,
+                                 message(fleet, violation, to_string(time))});
+  }
+  for (const continuous::Clearance& clearance : found.clearances)
+    report.clearances.push_back({clearance.agent, clearance.other,
+                                 Metres(clearance.gap * resolution.length),
+                                 Seconds(clearance.tick * resolution.time)});
+  return report;
+}
+
+}  // namespace quadrille::fleet
