@@ -138,6 +138,9 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
       ->group(group);
   add_file(app, "--json", arguments.json, "Write the result as JSON; - is standard output")
       ->group(group);
+  app.add_flag("--history", arguments.history,
+               "Tell in the result when which bound and which cost was known")
+      ->group(group);
   app.add_flag("--quiet", arguments.quiet, "Print nothing but errors and what is asked for")
       ->group(group);
   app.add_flag("--audit", arguments.options.debug.audit,
@@ -165,6 +168,8 @@ std::string check_solve_outputs(const SolveArguments& arguments) {
     wrong = "--plan-format needs --plan";
   if (wrong.empty() && arguments.plan_every && (arguments.plan.empty() || arguments.plan == "-"))
     wrong = "--plan-every needs --plan with a file";
+  if (wrong.empty() && arguments.history && arguments.json.empty())
+    wrong = "--history needs --json";
   return wrong;
 }
 

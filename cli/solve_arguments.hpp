@@ -24,6 +24,7 @@ struct SolveArguments {
   std::string plan, json;                ///< Output files; empty without, "-" for standard output.
   PlanFormats plan_format;
   std::optional<double> plan_every;  ///< Seconds.
+  bool history = false;
   bool quiet = false;
 };
 

@@ -22,6 +22,8 @@ std::vector<std::string> command_of(const Job& job) {
   words.insert(words.end(), job.instance.begin(), job.instance.end());
   words.insert(words.end(), job.options.begin(), job.options.end());
   words.insert(words.end(), {"--json", "-", "--quiet"});
+  // Other programs, or older versions, need not know it.
+  if (job.program.empty()) words.emplace_back("--history");
   return words;
 }
 

@@ -44,7 +44,7 @@ _quadrille() {
     solve)
       options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
         --backtracking --no-first-plan --initial-plan --threads --race --gap --seed --time-limit --cpu-limit
-        --memory-limit --conflict-limit --plan --plan-format --plan-every --json --quiet --audit --known-plan"
+        --memory-limit --conflict-limit --plan --plan-format --plan-every --json --history --quiet --audit --known-plan"
       ;;
     verify) options="$instance --plan-format --json --quiet" ;;
     info) options="$instance" ;;

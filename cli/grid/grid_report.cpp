@@ -66,7 +66,7 @@ std::string break_lines(std::string_view text) {
 bool has_schedule(discrete::System system) noexcept { return system == discrete::System::dpll_mdd; }
 
 std::string result_json(const discrete::Instance& instance, const SolveArguments& arguments,
-                        const SolveOutcome& outcome) {
+                        const SolveOutcome& outcome, const History& history) {
   const discrete::SolveOptions& options = arguments.options;
   const bool infeasible = outcome.status == Status::infeasible;
   ResultJson json(outcome.status, options.objective);
@@ -75,6 +75,7 @@ std::string result_json(const discrete::Instance& instance, const SolveArguments
   json.add_gap(outcome);
   json.add_end_of_search(outcome);
   json.add("agents", instance.num_agents());
+  if (arguments.history) json.add("history", history.json());
   return json.finish(
       outcome.statistics, options.seed, options_json(arguments),
       outcome.plan ? break_lines(plan_to_json(instance.graph(), *outcome.plan)) : "null");

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "history.hpp"
 #include "quadrille/discrete/solver.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "solve_arguments.hpp"
@@ -15,7 +16,8 @@ namespace quadrille::cli {
 /// The result as JSON, documented in docs/cli.md: one key per line, the plan one agent per line.
 [[nodiscard]] std::string result_json(const discrete::Instance& instance,
                                       const SolveArguments& arguments,
-                                      const discrete::SolveOutcome& outcome);
+                                      const discrete::SolveOutcome& outcome,
+                                      const History& history);
 
 /// The lines "result", "cost", "search" and "verified" of the human output. `check`: the replay of
 /// the outcome's plan, if it has one.

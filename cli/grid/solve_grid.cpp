@@ -12,6 +12,7 @@
 #include "grid/grid_input.hpp"
 #include "grid/grid_report.hpp"
 #include "grid/picture.hpp"
+#include "history.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "solving.hpp"
 
@@ -74,6 +75,7 @@ class GridSolve {
     }
     if (line.active())
       options.on_progress = [&line](const auto& progress) { line.show(progress_text(progress)); };
+    if (arguments_.history) keep_history<discrete::Progress>(options, history_);
     return discrete::solve(instance(), options);
   }
   [[nodiscard]] Result<std::string> plan_text(const discrete::Plan& plan) const {
@@ -83,7 +85,8 @@ class GridSolve {
     return text.str();
   }
   [[nodiscard]] std::string json(const SolveOutcome& outcome, const discrete::VerifyReport&) const {
-    return result_json(instance(), arguments_, outcome);
+    history_.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
+    return result_json(instance(), arguments_, outcome, history_);
   }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const discrete::VerifyReport& replay) const {
@@ -96,6 +99,7 @@ class GridSolve {
  private:
   const SolveArguments& arguments_;
   const GridInput& input_;
+  mutable History history_;  // of the one solve
 };
 
 }  // namespace

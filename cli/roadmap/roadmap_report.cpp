@@ -92,7 +92,7 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
 
 std::string result_json(const Instance* instance, const SolveArguments& arguments,
                         const continuous::SolveOptions& options, const SolveOutcome& outcome,
-                        const VerifyReport& check) {
+                        const VerifyReport& check, const History& history) {
   const auto resolution = instance != nullptr ? instance->resolution() : continuous::Resolution(1);
   const bool has_bound = outcome.status != Status::infeasible;
   const auto time = [&](Cost ticks) { return Json(in_input_units(ticks, resolution)); };
@@ -114,6 +114,7 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   }
   json.add("bodies", bodies);
   json.add("least_clearance", outcome.plan ? clearance_json(*instance, check) : Json(nullptr));
+  if (arguments.history) json.add("history", history.json());
   return json.finish(outcome.statistics, options.seed, options_json(arguments, options),
                      outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");
 }

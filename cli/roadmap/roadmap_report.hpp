@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "history.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "report.hpp"
@@ -16,7 +17,8 @@ namespace quadrille::cli {
                                       const SolveArguments& arguments,
                                       const continuous::SolveOptions& options,
                                       const continuous::SolveOutcome& outcome,
-                                      const continuous::VerifyReport& check);
+                                      const continuous::VerifyReport& check,
+                                      const History& history);
 
 /// The lines "result", "cost", "search", "verified" and "claim" of the human output.
 [[nodiscard]] std::string describe_outcome(const continuous::Instance& instance,

@@ -78,6 +78,7 @@ class RoadmapSolve {
       options.on_progress = [&](const continuous::Progress& progress) {
         line.show(progress_text(progress, instance().resolution()));
       };
+    if (arguments_.history) keep_history<continuous::Progress>(options, history_);
     return continuous::solve(instance(), options);
   }
   [[nodiscard]] Result<std::string> plan_text(const continuous::Plan& plan) const {
@@ -90,7 +91,8 @@ class RoadmapSolve {
   }
   [[nodiscard]] std::string json(const SolveOutcome& outcome,
                                  const continuous::VerifyReport& replay) const {
-    return result_json(&instance(), arguments_, options_, outcome, replay);
+    history_.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
+    return result_json(&instance(), arguments_, options_, outcome, replay, history_);
   }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const continuous::VerifyReport& replay) const {
@@ -104,6 +106,7 @@ class RoadmapSolve {
   const SolveArguments& arguments_;
   const SolveOptions& options_;
   const RoadmapInput& input_;
+  mutable History history_;  // of the one solve
 };
 
 /// What cannot have a plan, as can be seen without a search.
@@ -116,7 +119,7 @@ ExitCode report_refused(const Error& error, const SolveArguments& arguments,
   if (!delivery.probe()) return ExitCode::output;
   delivery.write_plan(std::nullopt);
   if (delivery.has_json_file())
-    delivery.write_json(result_json(nullptr, arguments, options, outcome, {}));
+    delivery.write_json(result_json(nullptr, arguments, options, outcome, {}, {}));
   delivery.print_summary(describe_refused(outcome), "");
   return delivery.finish(exit_code_of(outcome));
 }

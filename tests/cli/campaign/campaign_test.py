@@ -245,13 +245,15 @@ class Trouble(CampaignCase):
                                         ("spin", "cpu: 0.3", "cpu-time"),
                                         ("hog", "memory: 64", "memory")):
             with self.subTest(behaviour):
-                manifest = self.manifest("1", systems=self.fake(behaviour), limits=limits,
-                                         name=behaviour + ".yaml")
-                self.campaign("run", manifest, "--jobs", "2")
-                rows = self.rows(behaviour + ".campaign").values()
-                self.assertEqual({(row["status"], row["stop_reason"], row["enforced"])
-                                  for row in rows}, {("unknown", stop, True)})
-                self.assertEqual(len(rows), 4)
+                manifest = self.write(behaviour + ".yaml", f"""data: data
+instances: [{{maps: alpha.map, scenarios: "{{map}}-random-1.scen", agents: 1}}]
+systems: {{{self.fake(behaviour)}}}
+limits: {{{limits}, grace: 0.5}}
+""")
+                self.campaign("run", manifest)
+                row, = self.rows(behaviour + ".campaign").values()
+                self.assertEqual((row["status"], row["stop_reason"], row["enforced"]),
+                                 ("unknown", stop, True))
 
     def test_limits_of_the_program_itself(self):
         hard = self.path("data/hard.map")
@@ -476,7 +478,7 @@ class Merging(CampaignCase):
         Parser().feed(text)
         self.assertEqual(open_tags, [])
         figures = re.findall(r"<svg.*?</svg>", text, re.DOTALL)
-        self.assertEqual(len(figures), 1 + 2)  # cactus, ladders
+        self.assertEqual(len(figures), 1 + 2 + 2)  # cactus, ladders, gaps
         for figure in figures:
             root = xml.etree.ElementTree.fromstring(figure)
             curves = root.findall("{http://www.w3.org/2000/svg}polyline")
@@ -486,6 +488,23 @@ class Merging(CampaignCase):
                     x, y = map(float, point.split(","))
                     self.assertTrue(0 <= x <= float(root.get("width")))
                     self.assertTrue(0 <= y <= float(root.get("height")))
+
+    def test_histories_end_with_the_answer(self):
+        manifest = self.manifest("6")
+        self.campaign("run", manifest)
+        for row in self.rows().values():
+            times = [point[0] for point in row["history"]]
+            bounds = [point[1] for point in row["history"]]
+            self.assertEqual(times, sorted(times))
+            self.assertEqual(bounds, sorted(bounds))
+            self.assertEqual(row["history"][-1][1:], [row["lower_bound"], row["cost"]])
+        instance = ["--map", os.path.join(self.data, "alpha.map"), "--scen",
+                    os.path.join(self.data, "alpha-random-1.scen"), "--agents", "6"]
+        result = self.path("result.json")
+        self.quadrille("solve", *instance, "--quiet", "--history", "--json", result)
+        self.assertTrue(json.loads(self.read("result.json"))["history"])
+        self.quadrille("verify", *instance, "--quiet", result)  # It is read like any other.
+        self.quadrille("solve", *instance, "--history", code=64)
 
     def test_roadmaps_and_files(self):
         os.mkdir(self.path("data/square"))
