@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// A road is closed while robots are under way: each one finishes its move, and they plan again.
+#include <algorithm>
+#include <iostream>
+#include <quadrille/fleet/solver.hpp>
+
+using namespace quadrille;
+using namespace quadrille::fleet;
+using namespace quadrille::units;
+
+namespace {
+
+/// A grid of 4 x 3 crossings, five metres apart.
+RoadmapBuilder make_roads() {
+  RoadmapBuilder roads({.length = 1_mm, .time = 100_ms});
+  for (std::size_t i = 0; i < 12; ++i)
+    roads.vertex(5_m * static_cast<double>(i % 4), 5_m * static_cast<double>(i / 4),
+                 {static_cast<char>('A' + i / 4), static_cast<char>('1' + i % 4)});
+  for (std::size_t i = 0; i < 12; ++i) {
+    if (i % 4 < 3) roads.road(VertexId(i), VertexId(i + 1));
+    if (i / 4 < 2) roads.road(VertexId(i), VertexId(i + 4));
+  }
+  return roads;
+}
+
+void print(const Fleet& fleet, const TimedPlan& plan) {
+  for (const AgentId robot : plan.robot_ids()) {
+    std::cout << "  " << plan[robot].name() << ":";
+    for (const Stop& stop : plan[robot].stops())
+      std::cout << " " << fleet.roadmap().name(stop.vertex) << " " << to_string(stop.arrive);
+    std::cout << "\n";
+  }
+}
+
+/// Where the robot stands when it has finished what it does at this time.
+const Stop& next_stop(const TimedPath& path, Seconds time) {
+  return *std::find_if(path.stops().begin(), path.stops().end() - 1,
+                       [&](const Stop& stop) { return stop.depart >= time; });
+}
+
+}  // namespace
+
+int main() {
+  RoadmapBuilder roads = make_roads();
+  Fleet fleet(roads.build().value());
+  const auto at = [&](const char* name) { return fleet.roadmap().find(name).value(); };
+  const auto add = [&](const char* name, const char* from, const char* to) {
+    return fleet.robot({.name = name, .body = Disc(0.6_m), .speed = 1_mps})
+        .from(at(from))
+        .to(at(to));
+  };
+  add("red", "B1", "B4");
+  add("green", "B4", "B1");
+  add("blue", "A1", "C4");
+
+  SolveOutcome outcome = solve(fleet).value();
+  std::cout << outcome.summary() << "\n";
+  const TimedPlan before = outcome.plan.value();
+  print(fleet, before);
+
+  const Seconds now = 3_s;
+  roads.close(at("B2"), at("B3"));
+  fleet.set_roadmap(roads.build().value());
+  std::cout << "at " << to_string(now) << " the road from B2 to B3 is closed\n";
+  Seconds all_stand = now;
+  for (const AgentId robot : before.robot_ids()) {
+    const Stop& stop = next_stop(before[robot], now);
+    fleet[robot].from(stop.vertex);
+    all_stand = std::max(all_stand, stop.arrive);
+  }
+  outcome = solve(fleet).value();
+  std::cout << "from " << to_string(all_stand) << " on, " << outcome.summary() << "\n";
+  print(fleet, outcome.plan.value());
+}
