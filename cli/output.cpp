@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -154,8 +155,45 @@ int OutputFile::replace(std::string_view text) const {
   return code;
 }
 
+bool is_colourful(int stream) {
+  if (::isatty(stream) != 1) return false;
+  const char* const refused = std::getenv("NO_COLOR");
+  const char* const terminal = std::getenv("TERM");
+  return (refused == nullptr || *refused == '\0') && terminal != nullptr &&
+         std::string_view(terminal) != "dumb";
+}
+
+std::string in_colours(std::string_view text) {
+  constexpr const char *kRed = "31", *kGreen = "32", *kYellow = "33";
+  constexpr std::pair<std::string_view, const char*> kWords[] = {
+      {"result     optimal", kGreen},  {"result     feasible", kYellow},
+      {"result     infeasible", kRed}, {"result     unknown", kRed},
+      {"verified   ", kGreen},         {"invalid    ", kRed}};
+  std::string painted;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    std::string shown(line);
+    for (const auto& [words, colour] : kWords) {
+      if (!line.starts_with(words)) continue;
+      // The key of a result stays as it is, so that columns of words look alike.
+      const std::size_t from = words.starts_with("result") ? words.find_last_of(' ') + 1 : 0;
+      const std::size_t to = words.find_last_not_of(' ') + 1;
+      shown.insert(to, "\033[0m");
+      shown.insert(from, fmt::format("\033[{}m", colour));
+    }
+    painted += shown;
+    text.remove_prefix(line.size());
+    if (text.empty()) break;
+    painted += '\n';
+    text.remove_prefix(1);
+  }
+  return painted;
+}
+
 void Console::print(std::string_view text) {
   if (quiet_ || failure_ != 0) return;
+  std::string painted;
+  if (is_colourful(to_stderr_ ? STDERR_FILENO : STDOUT_FILENO)) text = painted = in_colours(text);
   if (to_stderr_)
     print_stderr(text);
   else

@@ -65,6 +65,13 @@ void reserve_standard_streams();
 /// Prints to stderr as far as that takes it.
 void print_stderr(std::string_view text) noexcept;
 
+/// Whether what goes to the stream is read on a terminal that shows colours, by somebody who wants
+/// them: the environment says so with NO_COLOR (if it has any value) and TERM=dumb.
+[[nodiscard]] bool is_colourful(int stream);
+/// The text with the words that say how it went in green, yellow or red: the result of a solve, the
+/// verdict on a plan.
+[[nodiscard]] std::string in_colours(std::string_view text);
+
 /// Prints "quadrille: <file>:<line>: <reason>" to stderr.
 void report_error(const Error& error);
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -165,6 +166,25 @@ TEST_F(ComfortTest, ARunGoesOnWithThePlanOfAnother) {
   const auto refused = run(small("solve", {"--initial-plan", bad_plan()}));
   EXPECT_EQ(refused.code, 65);
   EXPECT_THAT(refused.err, HasSubstr("bad.json: not a valid plan: agent 0"));
+}
+
+TEST_F(ComfortTest, ATerminalShowsColoursUnlessTheyAreNotWanted) {
+  const auto on_terminal = [&](const std::string& environment) {
+    std::string command = environment + " " QUADRILLE_PROGRAM;
+    for (const std::string& word : small("solve")) command += " " + word;
+    const std::string script =
+        "script -qec '" + command + "' /dev/null > " + path("terminal.out") + " < /dev/null";
+    EXPECT_EQ(std::system(script.c_str()), 0) << script;
+    return read("terminal.out");
+  };
+  const std::string green = "result     \033[32moptimal\033[0m";
+  EXPECT_THAT(on_terminal("TERM=xterm"), HasSubstr(green));
+  EXPECT_THAT(on_terminal("TERM=xterm"), HasSubstr("\033[32mverified\033[0m   3 agents"));
+  for (const char* environment : {"TERM=dumb", "TERM=xterm NO_COLOR=1"}) {
+    EXPECT_THAT(on_terminal(environment), HasSubstr("result     optimal")) << environment;
+    EXPECT_THAT(on_terminal(environment), Not(HasSubstr("\033"))) << environment;
+  }
+  EXPECT_THAT(run(small("solve")).out, Not(HasSubstr("\033")));
 }
 
 TEST_F(ComfortTest, RoadmapsToo) {
