@@ -13,5 +13,8 @@ namespace quadrille::cli {
 [[nodiscard]] Subcommand add_generate(CLI::App& program);
 [[nodiscard]] Subcommand add_convert(CLI::App& program);
 [[nodiscard]] Subcommand add_campaign(CLI::App& program);
+[[nodiscard]] Subcommand add_execute_check(CLI::App& program);
+[[nodiscard]] Subcommand add_simulate(CLI::App& program);
+[[nodiscard]] Subcommand add_export(CLI::App& program);
 
 }  // namespace quadrille::cli

@@ -6,7 +6,7 @@ _quadrille() {
   local command=${COMP_WORDS[1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "solve verify info generate convert campaign --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "solve verify info generate convert execute-check simulate export campaign --help --version" -- "$word")
     return
   fi
 
@@ -18,8 +18,13 @@ _quadrille() {
     --cost-search) values="iterative core-guided" ;;
     --backtracking) values="chronological jump" ;;
     --mdd-growth) values="on-demand full" ;;
-    --plan-format | --from | --to) values="json cbsh2 visualizer yaml ccbs" ;;
+    --to)
+      values="json cbsh2 visualizer yaml ccbs"
+      if [[ $command == export ]]; then values="csv multidof path vda5050"; fi
+      ;;
+    --plan-format | --from) values="json cbsh2 visualizer yaml ccbs" ;;
     --kind) values="empty random maze room warehouse roadmap" ;;
+    --rule) values="naive gated coupled" ;;
     --neighbourhood) values="2 3 4 5" ;;
     --map | --scen | --instance | --roadmap | --task | --plan | --json | --initial-plan | --known-plan | --output | --map-output | \
       --scen-output | --instance-output | --folder | --data)
@@ -28,7 +33,8 @@ _quadrille() {
       ;;
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
       --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
-      --speed | --resolution | --reach | --threads | --gap | --plan-every)
+      --speed | --resolution | --reach | --threads | --gap | --plan-every | --delays | \
+      --longest | --slow | --period | --runs | --rate)
       return
       ;;
   esac
@@ -61,6 +67,11 @@ _quadrille() {
         mapfile -t COMPREPLY < <(compgen -W "list run resume submit task status merge" -- "$word")
         return
       fi
+      ;;
+    export) options="$instance --to --from --rate --output" ;;
+    execute-check) options="$instance --plan-format --json --quiet" ;;
+    simulate)
+      options="$instance --plan-format --json --quiet --rule --delays --longest --slow --period --runs --seed"
       ;;
   esac
   if [[ $word == -* ]]; then

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "grid/execution_grid.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include "grid/grid_input.hpp"
+#include "quadrille/execution/clearance.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+/// Keeps the plan that it looks at.
+class GridWatch : public ContactWatch {
+ public:
+  explicit GridWatch(std::shared_ptr<const discrete::Plan> plan)
+      : plan_(std::move(plan)), watch_(*plan_) {}
+  void add(std::span<const Ticks> before, std::span<const Ticks> after) override {
+    watch_.add(before, after);
+  }
+  [[nodiscard]] std::size_t contacts() const override { return watch_.contacts().size(); }
+  [[nodiscard]] std::optional<double> clearance() const override { return std::nullopt; }
+
+ private:
+  std::shared_ptr<const discrete::Plan> plan_;
+  execution::ConflictWatch watch_;
+};
+
+}  // namespace
+
+std::string check_execution_grid(const ExecutionArguments& arguments) {
+  std::string wrong = why_no_roadmap(arguments.roadmap);
+  if (wrong.empty()) wrong = check_grid_options(arguments.input, Need::tasks);
+  if (wrong.empty()) wrong = arguments.format.why_not_discrete("--plan-format");
+  return wrong;
+}
+
+Result<ExecutionCase> load_execution_grid(const ExecutionArguments& arguments) {
+  const auto input = load_grid_input(arguments.input);
+  if (!input) return input.error();
+  auto file = discrete::read_plan(std::filesystem::path(arguments.plan), input->instance.graph(),
+                                  arguments.format.discrete);
+  if (!file) return file.error();
+  auto order = execution::precedences(input->instance, file->plan);
+  if (!order) return order.error();
+  const auto plan = std::make_shared<const discrete::Plan>(std::move(file->plan));
+  return ExecutionCase{describe_input(*input),
+                       std::move(order).value(),
+                       1,
+                       true,
+                       [graph = input->instance.shared_graph()](VertexId vertex) {
+                         return discrete::vertex_name(*graph, vertex);
+                       },
+                       [plan] { return std::make_unique<GridWatch>(plan); }};
+}
+
+}  // namespace quadrille::cli

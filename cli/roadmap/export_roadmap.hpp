@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "exit_codes.hpp"
+#include "input.hpp"
+#include "roadmap/exports.hpp"
+#include "roadmap/roadmap_input.hpp"
+
+namespace quadrille::cli {
+
+/// What `export` was asked on the command line.
+struct ExportArguments {
+  InputOptions input;
+  RoadmapOptions roadmap;
+  std::string plan;
+  PlanFormats from;
+  std::optional<ExportFormat> to;
+  std::optional<double> rate;
+  std::string output = "-";
+};
+
+/// Checks the arguments, reads instance and plan, and writes.
+[[nodiscard]] ExitCode export_roadmap(const CLI::App& app, const ExportArguments& arguments);
+
+}  // namespace quadrille::cli

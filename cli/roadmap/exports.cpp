@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "roadmap/exports.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/execution/releaser.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+using continuous::Instance;
+using continuous::Path;
+using continuous::Ticks;
+using Json = nlohmann::ordered_json;
+
+constexpr std::pair<ExportFormat, std::string_view> kFormats[] = {
+    {ExportFormat::csv, "csv"},
+    {ExportFormat::multidof, "multidof"},
+    {ExportFormat::path, "path"},
+    {ExportFormat::vda5050, "vda5050"}};
+
+/// In the instance's units; the velocity is that of what comes next.
+struct Sample {
+  double time = 0, x = 0, y = 0, vx = 0, vy = 0;
+};
+
+class Sampler {
+ public:
+  Sampler(const Instance& instance, double rate) : instance_(instance), rate_(rate) {}
+
+  [[nodiscard]] std::vector<Sample> samples(const Path& path) {
+    samples_.clear();
+    next_ = 0;
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+      add(path[k].vertex, path[k].vertex, path[k].arrive, path[k].depart);
+      add(path[k].vertex, path[k + 1].vertex, path[k].depart, path[k + 1].arrive);
+    }
+    const auto [x, y] = place(path.back().vertex);
+    samples_.push_back({units(path.back().arrive), x, y, 0, 0});
+    return samples_;
+  }
+
+ private:
+  [[nodiscard]] double units(Ticks ticks) const {
+    return continuous::in_input_units(ticks, instance_.resolution());
+  }
+  [[nodiscard]] std::pair<double, double> place(VertexId vertex) const {
+    const auto& p = instance_.roadmap().position(vertex);
+    return {continuous::in_input_units(p.x, instance_.resolution()),
+            continuous::in_input_units(p.y, instance_.resolution())};
+  }
+  /// From its beginning on, its end excluded.
+  void add(VertexId from, VertexId to, Ticks begin, Ticks end) {
+    if (begin == end) return;
+    const double start = units(begin), stop = units(end);
+    const auto [x0, y0] = place(from);
+    const auto [x1, y1] = place(to);
+    const double vx = (x1 - x0) / (stop - start), vy = (y1 - y0) / (stop - start);
+    samples_.push_back({start, x0, y0, vx, vy});
+    next_ = std::max(next_, static_cast<std::int64_t>(std::floor(start * rate_)) + 1);
+    for (; static_cast<double>(next_) / rate_ < stop; ++next_) {
+      const double time = static_cast<double>(next_) / rate_;
+      if (time > start)
+        samples_.push_back({time, x0 + vx * (time - start), y0 + vy * (time - start), vx, vy});
+    }
+  }
+
+  const Instance& instance_;
+  double rate_;
+  std::int64_t next_ = 0;  // Of the multiples of 1 / rate_.
+  std::vector<Sample> samples_;
+};
+
+Json point(double x, double y) { return {{"x", x}, {"y", y}, {"z", 0.0}}; }
+Json no_rotation() { return {{"x", 0.0}, {"y", 0.0}, {"z", 0.0}, {"w", 1.0}}; }
+Json duration(double time) {
+  const auto nanoseconds = std::llround(time * 1e9);
+  return {{"secs", nanoseconds / 1'000'000'000}, {"nsecs", nanoseconds % 1'000'000'000}};
+}
+Json header(double time) { return {{"stamp", duration(time)}, {"frame_id", "map"}}; }
+
+Json multidof(AgentId agent, const std::vector<Sample>& samples) {
+  Json points = Json::array();
+  for (const Sample& s : samples)
+    points.push_back(
+        {{"transforms", {{{"translation", point(s.x, s.y)}, {"rotation", no_rotation()}}}},
+         {"velocities", {{{"linear", point(s.vx, s.vy)}, {"angular", point(0, 0)}}}},
+         {"accelerations", Json::array()},
+         {"time_from_start", duration(s.time)}});
+  return {{"header", header(0)},
+          {"joint_names", {fmt::format("agent{}", agent.value())}},
+          {"points", points}};
+}
+
+Json nav_path(const std::vector<Sample>& samples) {
+  Json poses = Json::array();
+  for (const Sample& s : samples)
+    poses.push_back({{"header", header(s.time)},
+                     {"pose", {{"position", point(s.x, s.y)}, {"orientation", no_rotation()}}}});
+  return {{"header", header(0)}, {"poses", poses}};
+}
+
+Json order_message(const Instance& instance, AgentId agent, const Path& path,
+                   std::uint32_t released) {
+  const double length = instance.resolution().length, time = instance.resolution().time;
+  Json nodes = Json::array(), edges = Json::array();
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const auto& p = instance.roadmap().position(path[k].vertex);
+    nodes.push_back({{"nodeId", fmt::format("v{}", path[k].vertex.value())},
+                     {"sequenceId", 2 * k},
+                     {"released", k <= released},
+                     {"nodePosition",
+                      {{"x", continuous::in_input_units(p.x, instance.resolution())},
+                       {"y", continuous::in_input_units(p.y, instance.resolution())},
+                       {"mapId", "map"}}},
+                     {"actions", Json::array()}});
+    if (k + 1 == path.size()) break;
+    const auto& q = instance.roadmap().position(path[k + 1].vertex);
+    const double way = std::hypot(static_cast<double>((q.x - p.x).count()),
+                                  static_cast<double>((q.y - p.y).count())) *
+                       length;
+    Json edge = {
+        {"edgeId", fmt::format("v{}-v{}", path[k].vertex.value(), path[k + 1].vertex.value())},
+        {"sequenceId", 2 * k + 1},
+        {"released", k < released}};
+    if (way > 0)
+      edge["maximumSpeed"] =
+          way / (static_cast<double>((path[k + 1].arrive - path[k].depart).count()) * time);
+    edge["actions"] = Json::array();
+    edges.push_back(edge);
+  }
+  return {{"headerId", 0},
+          {"timestamp", "1970-01-01T00:00:00.000Z"},
+          {"version", "3.0.0"},
+          {"manufacturer", "quadrille"},
+          {"serialNumber", fmt::format("agent{}", agent.value())},
+          {"orderId", fmt::format("agent{}", agent.value())},
+          {"orderUpdateId", 0},
+          {"nodes", nodes},
+          {"edges", edges}};
+}
+
+/// One element per line.
+void append(std::string& text, const Json& item) {
+  text += (text.empty() ? "[\n" : ",\n") + item.dump();
+}
+std::string finish(std::string text) { return text.empty() ? "[]\n" : text + "\n]\n"; }
+
+}  // namespace
+
+std::optional<ExportFormat> parse_export_format(std::string_view text) noexcept {
+  for (const auto& [format, name] : kFormats)
+    if (name == text) return format;
+  return std::nullopt;
+}
+
+std::string export_samples(const Instance& instance, const continuous::Plan& plan,
+                           ExportFormat format, double rate) {
+  Sampler sampler(instance, rate);
+  std::string text = format == ExportFormat::csv ? "agent,time,x,y,vx,vy\n" : "";
+  for (const AgentId agent : instance.agent_ids()) {
+    const auto samples = sampler.samples(plan.paths[agent]);
+    if (format == ExportFormat::multidof) append(text, multidof(agent, samples));
+    if (format == ExportFormat::path) append(text, nav_path(samples));
+    if (format == ExportFormat::csv)
+      for (const Sample& s : samples)
+        text += fmt::format("{},{},{},{},{},{}\n", agent.value(), s.time, s.x, s.y, s.vx, s.vy);
+  }
+  return format == ExportFormat::csv ? text : finish(std::move(text));
+}
+
+std::string export_orders(const Instance& instance, const continuous::Plan& plan,
+                          const execution::Precedences& order) {
+  const execution::Releaser releaser(order);
+  std::string text;
+  for (const AgentId agent : instance.agent_ids())
+    append(text, order_message(instance, agent, plan.paths[agent], releaser.released(agent)));
+  return finish(std::move(text));
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "quadrille/continuous/instance.hpp"
+#include "quadrille/continuous/plan.hpp"
+#include "quadrille/execution/precedences.hpp"
+
+namespace quadrille::cli {
+
+/// What plans on roadmaps are exported to for other systems; docs/formats.md has the fields.
+enum class ExportFormat {
+  csv,       ///< agent,time,x,y,vx,vy: samples.
+  multidof,  ///< trajectory_msgs/MultiDOFJointTrajectory, one message per agent, as JSON.
+  path,      ///< nav_msgs/Path, one message per agent, as JSON.
+  vda5050,   ///< VDA 5050 orders, one per agent, as JSON.
+};
+[[nodiscard]] std::optional<ExportFormat> parse_export_format(std::string_view text) noexcept;
+
+/// The plan at `rate` samples per unit of time, at both ends of each move, and at the end of the
+/// path. Not for vda5050. Requires a valid plan.
+[[nodiscard]] std::string export_samples(const continuous::Instance& instance,
+                                         const continuous::Plan& plan, ExportFormat format,
+                                         double rate);
+/// One order per agent, in which what can be released at the start is released.
+[[nodiscard]] std::string export_orders(const continuous::Instance& instance,
+                                        const continuous::Plan& plan,
+                                        const execution::Precedences& order);
+
+}  // namespace quadrille::cli

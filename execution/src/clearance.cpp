@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/execution/clearance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <variant>
+
+namespace quadrille::execution {
+namespace {
+
+double real(Ticks ticks) { return static_cast<double>(ticks.count()); }
+double real(geometry::Length length) { return static_cast<double>(length.count()); }
+
+/// How far the body reaches in the direction of a unit vector.
+double extent(const geometry::Body& body, double ux, double uy) {
+  if (const auto* disc = std::get_if<geometry::Disc>(&body)) return real(disc->radius);
+  double most = -std::numeric_limits<double>::infinity();
+  for (const geometry::Point& p : std::get<geometry::ConvexPolygon>(body).vertices())
+    most = std::max(most, real(p.x) * ux + real(p.y) * uy);
+  return most;
+}
+
+bool is_disc(const geometry::Body& body) { return std::holds_alternative<geometry::Disc>(body); }
+
+}  // namespace
+
+ClearanceWatch::ClearanceWatch(const continuous::Instance& instance, const continuous::Plan& plan)
+    : instance_(instance), plan_(plan), stops_(plan.paths.size(), 0), ways_(plan.paths.size()) {
+  double size = 1;
+  for (const geometry::Point& p : instance.roadmap().positions())
+    size = std::max({size, std::abs(real(p.x)), std::abs(real(p.y))});
+  touch_ = -1e-10 * size;
+}
+
+ClearanceWatch::Vector ClearanceWatch::place(AgentId agent, double clock) const {
+  const continuous::Path& path = plan_.paths[agent];
+  std::size_t k = stops_[agent];
+  while (k + 1 < path.size() && real(path[k + 1].arrive) <= clock) ++k;
+  const geometry::Point& from = instance_.roadmap().position(path[k].vertex);
+  if (k + 1 == path.size() || clock <= real(path[k].depart)) return {real(from.x), real(from.y)};
+  const geometry::Point& to = instance_.roadmap().position(path[k + 1].vertex);
+  const double share = (clock - real(path[k].depart)) / real(path[k + 1].arrive - path[k].depart);
+  return {real(from.x) + real(to.x - from.x) * share, real(from.y) + real(to.y - from.y) * share};
+}
+
+void ClearanceWatch::lay_out(AgentId agent, Ticks before, Ticks after) {
+  const continuous::Path& path = plan_.paths[agent];
+  std::vector<Knot>& way = ways_[agent];
+  way.clear();
+  std::size_t& stop = stops_[agent];
+  while (stop + 1 < path.size() && path[stop + 1].arrive <= before) ++stop;
+  way.push_back({0, place(agent, real(before))});
+  if (after > before)
+    for (std::size_t k = stop; k < path.size() && path[k].arrive < after; ++k)
+      for (const Ticks tick : {path[k].arrive, path[k].depart})
+        if (before < tick && tick < after)
+          way.push_back({real(tick - before) / real(after - before), place(agent, real(tick))});
+  way.push_back({1, place(agent, real(after))});
+}
+
+double ClearanceWatch::gap(AgentId i, AgentId j, const Vector& offset) const {
+  const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
+  double most = -std::numeric_limits<double>::infinity();
+  // The gap along a direction is no more than the distance, and is the distance for one of these.
+  const auto along = [&](double x, double y) {
+    const double length = std::hypot(x, y);
+    if (length == 0) return;
+    x /= length;
+    y /= length;
+    most = std::max(most, offset.x * x + offset.y * y - extent(a, x, y) - extent(b, -x, -y));
+  };
+  along(offset.x, offset.y);
+  if (offset.x == 0 && offset.y == 0) along(1, 0);
+  const auto add_polygon = [&](const geometry::Body& body, double sign) {
+    const auto* polygon = std::get_if<geometry::ConvexPolygon>(&body);
+    if (polygon == nullptr) return;
+    const auto& corners = polygon->vertices();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const geometry::Point &p = corners[k], &q = corners[(k + 1) % corners.size()];
+      along(sign * real(q.y - p.y), sign * real(p.x - q.x));
+      along(offset.x - sign * real(p.x), offset.y - sign * real(p.y));
+      if (const auto* other = std::get_if<geometry::ConvexPolygon>(sign > 0 ? &b : &a))
+        for (const geometry::Point& r : other->vertices())
+          along(offset.x - sign * real(p.x - r.x), offset.y - sign * real(p.y - r.y));
+    }
+  };
+  add_polygon(a, 1);
+  add_polygon(b, -1);
+  return most;
+}
+
+double ClearanceWatch::least_gap(AgentId i, AgentId j, const Vector& from, const Vector& to) const {
+  const Vector way{to.x - from.x, to.y - from.y};
+  const auto at = [&](double share) {
+    return Vector{from.x + way.x * share, from.y + way.y * share};
+  };
+  const double square = way.x * way.x + way.y * way.y;
+  const Vector nearest =
+      at(square == 0 ? 0 : std::clamp(-(from.x * way.x + from.y * way.y) / square, 0.0, 1.0));
+  const double reach =
+      real(instance_.reach(instance_.class_of(i))) + real(instance_.reach(instance_.class_of(j)));
+  const double room = std::hypot(nearest.x, nearest.y) - reach;
+  if (is_disc(instance_.agent(i).body) && is_disc(instance_.agent(j).body)) return room;
+  if (room > std::max(0.0, least_)) return room;
+  // A convex function of the share as long as it is positive.
+  double low = 0, high = 1, least = std::min(gap(i, j, from), gap(i, j, to));
+  for (int round = 0; round < 60; ++round) {
+    const double p = low + (high - low) / 3, q = high - (high - low) / 3;
+    const double at_p = gap(i, j, at(p)), at_q = gap(i, j, at(q));
+    least = std::min({least, at_p, at_q});
+    if (at_p < at_q)
+      high = q;
+    else
+      low = p;
+  }
+  return least;
+}
+
+void ClearanceWatch::look_at(AgentId i, AgentId j) {
+  const std::vector<Knot>&a = ways_[i], &b = ways_[j];
+  const auto between = [](const std::vector<Knot>& way, std::size_t k, double share) {
+    const Knot &p = way[k], &q = way[k + 1];
+    const double part = q.share > p.share ? (share - p.share) / (q.share - p.share) : 1;
+    return Vector{p.place.x + (q.place.x - p.place.x) * part,
+                  p.place.y + (q.place.y - p.place.y) * part};
+  };
+  std::size_t m = 0, n = 0;
+  double share = 0;
+  while (true) {
+    const double next = std::min(a[m + 1].share, b[n + 1].share);
+    const Vector p0 = between(a, m, share), p1 = between(a, m, next);
+    const Vector q0 = between(b, n, share), q1 = between(b, n, next);
+    const double free = least_gap(i, j, {q0.x - p0.x, q0.y - p0.y}, {q1.x - p1.x, q1.y - p1.y});
+    least_ = std::min(least_, free);
+    if (free < touch_) contacts_.emplace(i, j);
+    if (next >= 1) return;
+    if (a[m + 1].share <= next) ++m;
+    if (b[n + 1].share <= next) ++n;
+    share = next;
+  }
+}
+
+void ClearanceWatch::add(std::span<const Ticks> before, std::span<const Ticks> after) {
+  for (const AgentId i : instance_.agent_ids()) lay_out(i, before[i.index()], after[i.index()]);
+  for (const AgentId i : instance_.agent_ids())
+    for (std::size_t j = i.index() + 1; j < before.size(); ++j) look_at(i, AgentId(j));
+}
+
+void ConflictWatch::add(std::span<const Ticks> before, std::span<const Ticks> after) {
+  std::multimap<VertexId, AgentId> was, is;
+  const auto place = [&](std::size_t i, Ticks clock) {
+    return discrete::position(plan_.paths[AgentId(i)], static_cast<Timestep>(clock.count()));
+  };
+  const auto meet = [&](AgentId i, AgentId j) {
+    contacts_.emplace(std::min(i, j), std::max(i, j));
+  };
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    was.emplace(place(i, before[i]), AgentId(i));
+    is.emplace(place(i, after[i]), AgentId(i));
+  }
+  for (auto at = is.begin(); at != is.end(); ++at)
+    for (auto other = std::next(at); other != is.end() && other->first == at->first; ++other)
+      meet(at->second, other->second);
+  for (const auto& [vertex, i] : is) {
+    const VertexId from = place(i.index(), before[i.index()]);
+    if (from == vertex) continue;
+    const auto [first, last] = was.equal_range(vertex);
+    for (auto other = first; other != last; ++other)
+      if (place(other->second.index(), after[other->second.index()]) == from)
+        meet(i, other->second);
+  }
+}
+
+}  // namespace quadrille::execution

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/roadmap_support.hpp"
+
+namespace quadrille::cli::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class ExportTest : public RoadmapCliTest {
+ protected:
+  ExportTest() {
+    EXPECT_EQ(run(xml("solve", {"--quiet", "--plan", path("plan.json")})).code, 0);
+    plan_ = json::parse(read("plan.json"))["plan"];
+  }
+  [[nodiscard]] std::string exported(const std::vector<std::string>& more) const {
+    const Finished finished =
+        run(xml("export", more + std::vector<std::string>{path("plan.json")}));
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    return finished.out;
+  }
+  json plan_;
+};
+
+TEST_F(ExportTest, SamplesAreOnThePath) {
+  std::istringstream lines(exported({"--to", "csv", "--rate", "8"}));
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_EQ(line, "agent,time,x,y,vx,vy");
+  std::size_t count = 0;
+  double last_time = -1;
+  int last_agent = -1;
+  while (std::getline(lines, line)) {
+    int agent = 0;
+    double time = 0, x = 0, y = 0, vx = 0, vy = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%d,%lf,%lf,%lf,%lf,%lf", &agent, &time, &x, &y, &vx, &vy),
+              6)
+        << line;
+    if (agent == last_agent) {
+      EXPECT_GT(time, last_time);
+      EXPECT_LE(time, last_time + 0.125 + 1e-9);
+    } else {
+      EXPECT_EQ(time, 0);
+    }
+    last_agent = agent;
+    last_time = time;
+    // Agent 0 goes from (0, 0) to (2, 0), agent 1 from (1, -1) to (1, 1), at speed 1.
+    const json& stops = plan_[static_cast<std::size_t>(agent)];
+    const double depart = stops[0]["depart"], arrive = stops[1]["arrive"];
+    const double way = std::clamp(time, depart, arrive) - depart;
+    EXPECT_NEAR(x, agent == 0 ? way : 1, 1e-9);
+    EXPECT_NEAR(y, agent == 0 ? 0 : way - 1, 1e-9);
+    const double speed = depart <= time && time < arrive ? 1 : 0;
+    EXPECT_NEAR(agent == 0 ? vx : vy, speed, 1e-9);
+    ++count;
+  }
+  EXPECT_EQ(last_agent, 1);
+  EXPECT_GE(count, 34u);
+}
+
+TEST_F(ExportTest, MessagesHaveTheFieldsOfRos) {
+  const json multidof = json::parse(exported({"--to", "multidof", "--rate", "2"}));
+  ASSERT_EQ(multidof.size(), 2u);
+  EXPECT_EQ(multidof[1]["joint_names"], json({"agent1"}));
+  const json& last = multidof[1]["points"].back();
+  EXPECT_EQ(last["transforms"][0]["translation"], json({{"x", 1.0}, {"y", 1.0}, {"z", 0.0}}));
+  EXPECT_EQ(last["transforms"][0]["rotation"]["w"], 1.0);
+  EXPECT_EQ(last["velocities"][0]["linear"]["y"], 0.0);
+  const double arrive = plan_[1][1]["arrive"];
+  EXPECT_NEAR(last["time_from_start"]["secs"].get<double>() +
+                  last["time_from_start"]["nsecs"].get<double>() / 1e9,
+              arrive, 1e-9);
+  const json nav = json::parse(exported({"--to", "path", "--rate", "2"}));
+  ASSERT_EQ(nav.size(), 2u);
+  ASSERT_EQ(nav[0]["poses"].size(), multidof[0]["points"].size());
+  EXPECT_EQ(nav[0]["poses"].back()["pose"]["position"]["x"], 2.0);
+  EXPECT_EQ(nav[0]["poses"].back()["header"]["frame_id"], "map");
+}
+
+TEST_F(ExportTest, OrdersReleaseTheLeaderOnly) {
+  const json orders = json::parse(exported({"--to", "vda5050"}));
+  ASSERT_EQ(orders.size(), 2u);
+  // They cross: one of them has to wait for the other one to end.
+  EXPECT_NE(orders[0]["edges"][0]["released"], orders[1]["edges"][0]["released"]);
+  EXPECT_EQ(orders[0]["nodes"][0]["released"], true);
+  EXPECT_EQ(orders[0]["nodes"][1]["nodePosition"],
+            json({{"x", 2.0}, {"y", 0.0}, {"mapId", "map"}}));
+  EXPECT_NEAR(orders[0]["edges"][0]["maximumSpeed"].get<double>(), 1, 1e-9);
+}
+
+TEST_F(ExportTest, RefusesWhatItCannotDo) {
+  const auto refuses = [&](const std::vector<std::string>& arguments, int code,
+                           const std::string& why) {
+    const Finished finished = run(arguments + std::vector<std::string>{path("plan.json")});
+    EXPECT_EQ(finished.code, code);
+    EXPECT_THAT(finished.err, HasSubstr(why));
+  };
+  refuses(xml("export", {"--to", "vda5050", "--rate", "2"}), 64, "--rate belongs to samples");
+  refuses(xml("export", {"--to", "bag"}), 64, "csv, multidof, path or vda5050");
+  refuses(xml("export", {"--to", "csv", "--rate", "1e12"}), 65, "more than 10 million samples");
+  refuses(small("export", {"--to", "csv"}), 64, "export is for plans on roadmaps");
+}
+
+}  // namespace
+}  // namespace quadrille::cli::test

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Orders of `quadrille export --to vda5050` against a schema of the message, and against the
+precedences that `quadrille execute-check` lists.
+
+usage: vda5050_test.py <quadrille> <schema>
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import jsonschema
+
+program, schema_file = sys.argv[1:]
+schema = json.loads(pathlib.Path(schema_file).read_text())
+jsonschema.Draft7Validator.check_schema(schema)
+validator = jsonschema.Draft7Validator(schema)
+
+
+def run(*arguments, codes=(0,)):
+    done = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode in codes, (arguments, done.returncode, done.stderr)
+    return done.stdout
+
+
+def check_order(order, precedences, agent):
+    """The order of one agent at the start, when nobody has ended a move."""
+    validator.validate(order)
+    nodes, edges = order["nodes"], order["edges"]
+    moves = precedences["moves"][agent]
+    assert len(nodes) == len(edges) + 1 == len(moves) + 1
+    assert [node["sequenceId"] for node in nodes] == list(range(0, 2 * len(nodes), 2))
+    assert [edge["sequenceId"] for edge in edges] == list(range(1, 2 * len(edges), 2))
+    led = [p["follower"]["move"] for p in precedences["precedences"] if p["follower"]["agent"] == agent]
+    released = min(led, default=len(moves))
+    assert [edge["released"] for edge in edges] == [k < released for k in range(len(edges))]
+    assert [node["released"] for node in nodes] == [k <= released for k in range(len(nodes))]
+    for move, edge in zip(moves, edges):
+        assert edge["edgeId"] == f"v{move['from']}-v{move['to']}"
+
+
+def check_refusals(order):
+    """The schema is one that can fail."""
+    for broken in (
+        {**order, "orderUpdateId": -1},
+        {**order, "nodes": []},
+        {key: value for key, value in order.items() if key != "edges"},
+        {**order, "nodes": [{**order["nodes"][0], "sequenceId": 1}]},
+        {**order, "nodes": [{**order["nodes"][0], "released": 1}]},
+    ):
+        assert not validator.is_valid(broken), broken
+
+
+with tempfile.TemporaryDirectory() as folder:
+    instance, plan = f"{folder}/instance.json", f"{folder}/plan.json"
+    held = 0
+    for seed in range(5):
+        run("generate", "--kind", "roadmap", "--vertices", "30", "--agents", "8", "--mixed", "--seed",
+            str(seed), "--instance-output", instance)
+        run("solve", "--instance", instance, "--gap", "1000", "--quiet", "--plan", plan, codes=(0, 10))
+        orders = json.loads(run("export", "--instance", instance, "--to", "vda5050", plan))
+        precedences = json.loads(
+            run("execute-check", "--instance", instance, "--json", "-", plan, codes=(0, 1)))
+        assert len(orders) == 8
+        for agent, order in enumerate(orders):
+            check_order(order, precedences, agent)
+            check_refusals(order)
+            held += any(not edge["released"] for edge in order["edges"])
+    assert held >= 5, "hardly anybody follows anybody"
