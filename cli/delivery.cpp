@@ -18,7 +18,10 @@ bool Delivery::probe(const std::string& path, std::optional<OutputFile>& file) {
   return probed.has_value();
 }
 
-bool Delivery::probe() { return probe(plan_, plan_file_) && probe(json_, json_file_); }
+bool Delivery::probe() {
+  return probe(plan_, plan_file_) && probe(json_, json_file_) && probe(view_, view_file_) &&
+         probe(svg_, svg_file_);
+}
 
 void Delivery::write(const OutputFile& file, const std::string& text) {
   const int code = file.write(text);
@@ -50,6 +53,24 @@ void Delivery::write_interim_plan(const Result<std::string>& text) {
 
 void Delivery::write_json(const std::string& text) {
   if (json_file_) write(*json_file_, text);
+}
+
+void Delivery::show(const std::optional<OutputFile>& file,
+                    const std::optional<Result<std::string>>& text) {
+  if (!file) return;
+  if (!text) {
+    console_.print(fmt::format("picture    none; {} is not written\n", file->path()));
+    return;
+  }
+  if (!*text) {
+    report_error(text->error());
+    output_failed_ = true;
+    return;
+  }
+  const int code = file->write(text->value());
+  if (code == 0) return;
+  report_write_failure(file->path(), code);
+  output_failed_ = true;
 }
 
 void Delivery::print_summary(const std::string& summary, const std::string& picture) {

@@ -141,6 +141,10 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
   app.add_flag("--history", arguments.history,
                "Tell in the result when which bound and which cost was known")
       ->group(group);
+  add_file(app, "--view", arguments.view,
+           "Write a page that plays the plan in a browser; - is standard output")
+      ->group(group);
+  add_picture_options(app, arguments.picture, group);
   app.add_flag("--quiet", arguments.quiet, "Print nothing but errors and what is asked for")
       ->group(group);
   app.add_flag("--audit", arguments.options.debug.audit,
@@ -161,11 +165,15 @@ ExitCode run(const CLI::App& app, SolveArguments& arguments) {
 
 std::string check_solve_outputs(const SolveArguments& arguments) {
   std::string wrong =
-      check_outputs({{"--plan", &arguments.plan}, {"--json", &arguments.json}},
+      check_outputs({{"--plan", &arguments.plan},
+                     {"--json", &arguments.json},
+                     {"--view", &arguments.view},
+                     {"--svg", &arguments.picture.file}},
                     {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
                      &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.known_plan});
   if (wrong.empty() && arguments.plan_format.is_given() && arguments.plan.empty())
     wrong = "--plan-format needs --plan";
+  if (wrong.empty()) wrong = check_picture_options(arguments.picture);
   if (wrong.empty() && arguments.plan_every && (arguments.plan.empty() || arguments.plan == "-"))
     wrong = "--plan-every needs --plan with a file";
   if (wrong.empty() && arguments.history && arguments.json.empty())

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "input.hpp"
+#include "picture_arguments.hpp"
 #include "quadrille/discrete/solver.hpp"
 #include "roadmap/roadmap_input.hpp"
 
@@ -21,7 +22,8 @@ struct SolveArguments {
   std::optional<discrete::CheckSchedule> check;
   std::optional<std::int64_t> seed, threads, memory_mib;
   std::string initial_plan, known_plan;  ///< File names; empty without one.
-  std::string plan, json;                ///< Output files; empty without, "-" for standard output.
+  std::string plan, json, view;          ///< Output files; empty without, "-" for standard output.
+  PictureArguments picture;
   PlanFormats plan_format;
   std::optional<double> plan_every;  ///< Seconds.
   bool history = false;

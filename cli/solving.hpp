@@ -9,6 +9,7 @@
 #include "delivery.hpp"
 #include "outcome_check.hpp"
 #include "progress.hpp"
+#include "quadrille/view/page.hpp"
 #include "report.hpp"
 #include "solve_arguments.hpp"
 
@@ -40,6 +41,18 @@ std::optional<Error> read_given_plans(const SolveArguments& arguments, const Ins
   return read_valid_plan(arguments.known_plan, instance, options.debug.known_plan, read);
 }
 
+/// What the page says of a solve; its title is the name of the file of the map.
+template <class Outcome>
+view::PageOptions page_options(const std::string& source, Objective objective,
+                               const Outcome& outcome) {
+  view::PageOptions options;
+  options.title = std::filesystem::path(source).filename().string();
+  options.objective = objective;
+  options.status = outcome.status;
+  options.lower_bound = outcome.lower_bound;
+  return options;
+}
+
 /// From an instance to the exit code: solves, holds the outcome against a replay of its plan,
 /// writes and prints. `Domain` supplies what differs:
 ///
@@ -48,11 +61,13 @@ std::optional<Error> read_given_plans(const SolveArguments& arguments, const Ins
 ///     solve(ProgressLine&, on_plan)      Result<Outcome>; on_plan(plan) hears of better plans
 ///     plan_text(plan)                    Result<std::string>, the file of --plan
 ///     json(outcome, replay)              the file of --json
+///     page(outcome), drawing(plan)       the files of --view and --svg
 ///     describe(outcome, replay)          the last lines of the human output
 ///     picture(plan)                      the plan for the eye
 template <class Domain>
 ExitCode solve_and_deliver(const Domain& domain, const SolveArguments& arguments) {
-  Delivery delivery(arguments.quiet, arguments.plan, arguments.json);
+  Delivery delivery(arguments.quiet, arguments.plan, arguments.json, arguments.view,
+                    arguments.picture.file);
   if (!delivery.probe()) return ExitCode::output;
   delivery.console().print(domain.describe_request());
   auto answer = [&] {
@@ -79,6 +94,10 @@ ExitCode solve_and_deliver(const Domain& domain, const SolveArguments& arguments
   if (outcome.plan && delivery.has_plan_file()) plan = domain.plan_text(*outcome.plan);
   delivery.write_plan(plan);
   if (delivery.has_json_file()) delivery.write_json(domain.json(outcome, replay));
+  if (delivery.has_view_file())
+    delivery.write_view(outcome.plan ? std::optional(domain.page(outcome)) : std::nullopt);
+  if (delivery.has_svg_file())
+    delivery.write_svg(outcome.plan ? std::optional(domain.drawing(*outcome.plan)) : std::nullopt);
   const bool draw = outcome.plan && !delivery.has_plan_file();
   delivery.print_summary(domain.describe(outcome, replay),
                          draw ? domain.picture(*outcome.plan) : "");

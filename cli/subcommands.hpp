@@ -12,6 +12,7 @@ namespace quadrille::cli {
 [[nodiscard]] Subcommand add_info(CLI::App& program);
 [[nodiscard]] Subcommand add_generate(CLI::App& program);
 [[nodiscard]] Subcommand add_convert(CLI::App& program);
+[[nodiscard]] Subcommand add_view(CLI::App& program);
 [[nodiscard]] Subcommand add_campaign(CLI::App& program);
 [[nodiscard]] Subcommand add_execute_check(CLI::App& program);
 [[nodiscard]] Subcommand add_simulate(CLI::App& program);

@@ -6,7 +6,7 @@ _quadrille() {
   local command=${COMP_WORDS[1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "solve verify info generate convert execute-check simulate export campaign --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "solve verify info generate convert view execute-check simulate export campaign --help --version" -- "$word")
     return
   fi
 
@@ -23,17 +23,18 @@ _quadrille() {
       if [[ $command == export ]]; then values="csv multidof path vda5050"; fi
       ;;
     --plan-format | --from) values="json cbsh2 visualizer yaml ccbs" ;;
+    --svg-kind) values="map space-time waits" ;;
     --kind) values="empty random maze room warehouse roadmap" ;;
     --rule) values="naive gated coupled" ;;
     --neighbourhood) values="2 3 4 5" ;;
-    --map | --scen | --instance | --roadmap | --task | --plan | --json | --initial-plan | --known-plan | --output | --map-output | \
+    --map | --scen | --instance | --roadmap | --task | --plan | --json | --initial-plan | --known-plan | --output | --view | --svg | --map-output | \
       --scen-output | --instance-output | --folder | --data)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
       ;;
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
       --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
-      --speed | --resolution | --reach | --threads | --gap | --plan-every | --delays | \
+      --speed | --resolution | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
       --longest | --slow | --period | --runs | --rate)
       return
       ;;
@@ -50,7 +51,8 @@ _quadrille() {
     solve)
       options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
         --backtracking --no-first-plan --initial-plan --threads --race --gap --seed --time-limit --cpu-limit
-        --memory-limit --conflict-limit --plan --plan-format --plan-every --json --history --quiet --audit --known-plan"
+        --memory-limit --conflict-limit --plan --plan-format --plan-every --json --history --view --svg
+        --svg-kind --svg-agents --quiet --audit --known-plan"
       ;;
     verify) options="$instance --plan-format --json --quiet" ;;
     info) options="$instance" ;;
@@ -61,6 +63,7 @@ _quadrille() {
         --instance-output"
       ;;
     convert) options="$instance --to --from --output" ;;
+    view) options="$instance --plan-format --output --svg --svg-kind --svg-agents" ;;
     campaign)
       options="--folder --data --jobs --dry-run --submission --task --quiet"
       if ((COMP_CWORD == 2)) && [[ $word != -* ]]; then

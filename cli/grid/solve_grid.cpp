@@ -14,6 +14,8 @@
 #include "grid/picture.hpp"
 #include "history.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/view/page.hpp"
+#include "quadrille/view/picture.hpp"
 #include "solving.hpp"
 
 namespace quadrille::cli {
@@ -88,6 +90,12 @@ class GridSolve {
     history_.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
     return result_json(instance(), arguments_, outcome, history_);
   }
+  [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
+    return view::page(instance(), *outcome.plan, page_options(input_.source, objective(), outcome));
+  }
+  [[nodiscard]] Result<std::string> drawing(const discrete::Plan& plan) const {
+    return view::picture(instance(), plan, arguments_.picture.options);
+  }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const discrete::VerifyReport& replay) const {
     return describe_outcome(objective(), outcome, replay);
@@ -116,6 +124,7 @@ ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments) {
     return discrete::read_plan(path, input->instance.graph());
   };
   auto error = read_given_plans(arguments, input->instance, arguments.options, read);
+  if (!error) error = check_picture_agents(arguments.picture, input->instance.num_agents());
   const GridSolve solve(arguments, *input);
   if (!error && !arguments.plan.empty()) {
     // Some formats need a grid; that must not come out after the search.

@@ -11,6 +11,8 @@
 #include "arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/solver.hpp"
+#include "quadrille/view/page.hpp"
+#include "quadrille/view/picture.hpp"
 #include "roadmap/roadmap_report.hpp"
 #include "solving.hpp"
 
@@ -94,6 +96,13 @@ class RoadmapSolve {
     history_.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
     return result_json(&instance(), arguments_, options_, outcome, replay, history_);
   }
+  [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
+    return view::page(instance(), *outcome.plan, page_options(input_.source, objective(), outcome),
+                      input_.grid_or_null());
+  }
+  [[nodiscard]] Result<std::string> drawing(const continuous::Plan& plan) const {
+    return view::picture(instance(), plan, arguments_.picture.options, input_.grid_or_null());
+  }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const continuous::VerifyReport& replay) const {
     return describe_outcome(instance(), objective(), outcome, replay);
@@ -115,9 +124,12 @@ ExitCode report_refused(const Error& error, const SolveArguments& arguments,
   SolveOutcome outcome;
   outcome.status = Status::infeasible;
   outcome.explanation = error.to_string();
-  Delivery delivery(arguments.quiet, arguments.plan, arguments.json);
+  Delivery delivery(arguments.quiet, arguments.plan, arguments.json, arguments.view,
+                    arguments.picture.file);
   if (!delivery.probe()) return ExitCode::output;
   delivery.write_plan(std::nullopt);
+  delivery.write_view(std::nullopt);
+  delivery.write_svg(std::nullopt);
   if (delivery.has_json_file())
     delivery.write_json(result_json(nullptr, arguments, options, outcome, {}, {}));
   delivery.print_summary(describe_refused(outcome), "");
@@ -141,6 +153,10 @@ ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments) {
   const auto read = [&](const std::filesystem::path& path) {
     return continuous::read_plan(path, input->instance, input->grid_or_null());
   };
+  if (auto error = check_picture_agents(arguments.picture, input->instance.num_agents())) {
+    report_error(*error);
+    return ExitCode::bad_input;
+  }
   if (const auto error = read_given_plans(arguments, input->instance, *options, read)) {
     report_error(*error);
     return ExitCode::bad_input;

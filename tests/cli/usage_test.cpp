@@ -17,7 +17,7 @@ TEST_F(UsageTest, VersionAndHelpGoToStdout) {
   const Finished help = run({"--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_EQ(help.err, "");
-  for (const char* command : {"solve", "verify", "info", "generate", "convert"}) {
+  for (const char* command : {"solve", "verify", "info", "generate", "convert", "view"}) {
     SCOPED_TRACE(command);
     EXPECT_THAT(help.out, HasSubstr(command));
     const Finished own = run({command, "--help"});
@@ -58,6 +58,12 @@ TEST_F(UsageTest, WrongCommandLinesExitWith64AndNameTheCulprit) {
       {{"generate", "--kind", "empty", "--scen-output", "-"}, "--agents"},
       {{"generate", "--kind", "empty", "--width", "999999", "--height", "999999"}, "999999"},
       {{"generate", "--map", "m"}, "--scen-output"},
+      {{"view", "--instance", "i"}, "PLAN"},
+      {{"view", "--instance", "i", "--svg-kind", "map", "p"}, "--svg"},
+      {{"view", "--instance", "i", "--svg", "s", "--svg-kind", "cube", "p"}, "cube"},
+      {{"view", "--instance", "i", "--svg", "s", "--svg-agents", "1,", "p"}, "'1,'"},
+      {{"solve", "--map", "m", "--scen", "s", "--agents", "1", "--view", "-", "--json", "-"},
+       "--view"},
       {{"convert", "--instance", "i"}, "--to"},
       {{"convert", "--instance", "i", "--to", "cbsh2"}, "PLAN"},
       {{"convert", "--instance", "i", "--to", "doc", "p"}, "doc"},

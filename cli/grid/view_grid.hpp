@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "view_arguments.hpp"
+
+namespace quadrille::cli {
+
+/// `view` for grids and graphs: checks the arguments, reads and writes.
+[[nodiscard]] ExitCode view_grid(const CLI::App& app, const ViewArguments& arguments);
+
+}  // namespace quadrille::cli
