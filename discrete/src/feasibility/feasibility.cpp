@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/discrete/feasibility.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -11,7 +12,7 @@ namespace feasibility {
 namespace {
 
 /// Components differ in their shape, and only the shape and the number of free vertices matter.
-std::optional<std::string> check_component(const Component& component, const Arrangement& start,
+std::optional<Obstruction> check_component(const Component& component, const Arrangement& start,
                                            const Arrangement& goal) {
   const std::size_t root_degree = component.degree(0);
   if (root_degree <= 1) return check_path(component, start, goal);
@@ -47,6 +48,14 @@ Arrangement arrange(const Instance& instance, const ComponentNumbering& numberin
   return {component.vertices.size(), std::move(vertices)};
 }
 
+Feasibility as_answer(const Component& component, Obstruction obstruction) {
+  Feasibility answer{false, std::move(obstruction.reason)};
+  for (const Local agent : obstruction.agents) answer.agents.push_back(component.agents[agent]);
+  std::sort(answer.agents.begin(), answer.agents.end());
+  for (const Local v : obstruction.vertices) answer.vertices.push_back(component.vertices[v]);
+  return answer;
+}
+
 }  // namespace
 }  // namespace feasibility
 
@@ -60,16 +69,20 @@ Feasibility check_feasibility(const Instance& instance) {
     if (numbering.component_of(start) == kNone) components.push_back(numbering.explore(start));
     const Local index = numbering.component_of(start);
     if (numbering.component_of(goal) != index)
-      return {false, "agent " + std::to_string(agent.value()) + " cannot reach its goal " +
-                         vertex_name(graph, goal) + ": no way leads there from its start " +
-                         vertex_name(graph, start)};
+      return {false,
+              "agent " + std::to_string(agent.value()) + " cannot reach its goal " +
+                  vertex_name(graph, goal) + ": no way leads there from its start " +
+                  vertex_name(graph, start),
+              {agent},
+              {start, goal}};
     components[index].agents.push_back(agent);
   }
   for (const Component& component : components) {
     if (component.agents.size() < 2) continue;  // An agent alone goes where it likes.
     const Arrangement start = arrange(instance, numbering, component, &Agent::start);
     const Arrangement goal = arrange(instance, numbering, component, &Agent::goal);
-    if (auto reason = check_component(component, start, goal)) return {false, std::move(*reason)};
+    if (auto obstruction = check_component(component, start, goal))
+      return as_answer(component, std::move(*obstruction));
   }
   return {};
 }

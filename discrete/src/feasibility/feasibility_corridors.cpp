@@ -9,6 +9,7 @@
 // can be rearranged at will. Two arrangements are reachable from each other exactly if every agent
 // belongs to the same cluster, or has the same place in the same long corridor.
 #include <algorithm>
+#include <utility>
 
 #include "feasibility/feasibility_parts.hpp"
 
@@ -35,7 +36,7 @@ class Corridors {
   /// The home of each agent.
   [[nodiscard]] std::vector<Home> homes(const Arrangement& arrangement) const;
   /// Why an agent whose homes differ cannot have them both.
-  [[nodiscard]] std::string explain(Local agent, const Arrangement& start,
+  [[nodiscard]] Obstruction explain(Local agent, const Arrangement& start,
                                     const Arrangement& goal) const;
 
  private:
@@ -52,7 +53,7 @@ class Corridors {
   [[nodiscard]] Local num_places(const Corridor& corridor) const {
     return corridor.length - num_free_;
   }
-  [[nodiscard]] std::string sentence(const Corridor& corridor, Local a, Local b) const;
+  [[nodiscard]] Obstruction obstruction(const Corridor& corridor, Local a, Local b) const;
 
   const Component& component_;
   Local num_free_;
@@ -148,7 +149,7 @@ std::vector<Home> Corridors::homes(const Arrangement& arrangement) const {
   return homes;
 }
 
-std::string Corridors::explain(Local agent, const Arrangement& start,
+Obstruction Corridors::explain(Local agent, const Arrangement& start,
                                const Arrangement& goal) const {
   for (const Corridor& corridor : long_corridors_) {
     const auto place_of = [&](const Arrangement& arrangement, Local a) {
@@ -161,32 +162,32 @@ std::string Corridors::explain(Local agent, const Arrangement& start,
     for (Local other = 0; other < component_.agents.size(); ++other) {
       const Local other_from = place_of(start, other), other_to = place_of(goal, other);
       if (from < to ? other_from > from && other_to < to : other_from < from && other_to > to)
-        return sentence(corridor, agent, other);
+        return obstruction(corridor, agent, other);
     }
   }
   QUADRILLE_REQUIRE(false, "different homes are told apart by a long corridor");
   return {};
 }
 
-std::string Corridors::sentence(const Corridor& corridor, Local a, Local b) const {
-  Local first = kNone, last = kNone;
-  for_each_vertex(corridor, [&](Local v) {
-    if (first == kNone) first = v;
-    last = v;
-  });
+Obstruction Corridors::obstruction(const Corridor& corridor, Local a, Local b) const {
+  std::vector<Local> vertices;
+  for_each_vertex(corridor, [&](Local v) { vertices.push_back(v); });
+  const Local first = vertices.front(), last = vertices.back();
   std::string where = " at " + component_.name_of(first);
   if (first != last)
     where =
         " in the corridor from " + component_.name_of(first) + " to " + component_.name_of(last);
-  return "agents " + component_.agent_name(std::min(a, b)) + " and " +
-         component_.agent_name(std::max(a, b)) + " cannot pass each other" + where +
-         ": that takes " + std::to_string(corridor.length + 1) +
-         " free vertices, and the component has " + std::to_string(num_free_);
+  return {"agents " + component_.agent_name(std::min(a, b)) + " and " +
+              component_.agent_name(std::max(a, b)) + " cannot pass each other" + where +
+              ": that takes " + std::to_string(corridor.length + 1) +
+              " free vertices, and the component has " + std::to_string(num_free_),
+          {a, b},
+          std::move(vertices)};
 }
 
 }  // namespace
 
-std::optional<std::string> check_corridors(const Component& component, const Arrangement& start,
+std::optional<Obstruction> check_corridors(const Component& component, const Arrangement& start,
                                            const Arrangement& goal) {
   const Corridors corridors(component);
   const std::vector<Home> first = corridors.homes(start), last = corridors.homes(goal);

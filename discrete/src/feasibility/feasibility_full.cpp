@@ -64,15 +64,18 @@ std::vector<Local> sorted_by_block(const Component& component) {
 
 }  // namespace
 
-std::optional<std::string> check_full(const Component& component, const Arrangement& start,
+std::optional<Obstruction> check_full(const Component& component, const Arrangement& start,
                                       const Arrangement& goal) {
   for (Local agent = 0; agent < component.agents.size(); ++agent) {
     const Local from = start.vertex_of[agent], to = goal.vertex_of[agent];
     if (component.block[from] != component.block[to])
-      return "agent " + component.agent_name(agent) + " cannot get from " +
-             component.name_of(from) + " to " + component.name_of(to) +
-             ": their component has no free vertex, so that agents can only rotate along cycles, "
-             "and no chain of cycles leads there";
+      return Obstruction{
+          "agent " + component.agent_name(agent) + " cannot get from " + component.name_of(from) +
+              " to " + component.name_of(to) +
+              ": their component has no free vertex, so that agents can only rotate along cycles, "
+              "and no chain of cycles leads there",
+          {agent},
+          {from, to}};
   }
   const std::vector<BlockShape> shapes = find_shapes(component);
   const std::vector<Local> order = sorted_by_block(component);
@@ -90,11 +93,14 @@ std::optional<std::string> check_full(const Component& component, const Arrangem
       const Local agent = *std::min_element(
           vertices.begin(), vertices.end(),
           [&](Local a, Local b) { return start.agent_at[a] < start.agent_at[b]; });
-      return "agent " + component.agent_name(start.agent_at[agent]) + " and the others around " +
-             component.name_of(agent) +
-             " cannot be rearranged as asked: no vertex is free there and all cycles have odd "
-             "length, so that exchanging only two agents, or any other odd permutation, is "
-             "impossible";
+      return Obstruction{
+          "agent " + component.agent_name(start.agent_at[agent]) + " and the others around " +
+              component.name_of(agent) +
+              " cannot be rearranged as asked: no vertex is free there and all cycles have odd "
+              "length, so that exchanging only two agents, or any other odd permutation, is "
+              "impossible",
+          {start.agent_at[agent]},
+          {vertices.begin(), vertices.end()}};
     }
   }
   return std::nullopt;

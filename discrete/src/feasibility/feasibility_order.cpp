@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paths and cycles: the order of the agents never changes.
 #include <algorithm>
+#include <utility>
 
 #include "feasibility/feasibility_parts.hpp"
 
@@ -26,7 +27,7 @@ std::string both(const Component& component, Local a, Local b) {
 
 }  // namespace
 
-std::optional<std::string> check_path(const Component& component, const Arrangement& start,
+std::optional<Obstruction> check_path(const Component& component, const Arrangement& start,
                                       const Arrangement& goal) {
   std::vector<Local> path(component.size());
   for (Local v = 0; v < component.size(); ++v) path[v] = v;
@@ -34,11 +35,14 @@ std::optional<std::string> check_path(const Component& component, const Arrangem
   const auto [a, b] = std::mismatch(first.begin(), first.end(), last.begin());
   if (a == first.end()) return std::nullopt;
   // Both orders agree before this place, so *a precedes *b at the start and follows it at the end.
-  return both(component, *a, *b) + " cannot pass each other: the component of " +
-         component.name_of(start.vertex_of[std::min(*a, *b)]) + " is a corridor without junctions";
+  return Obstruction{both(component, *a, *b) + " cannot pass each other: the component of " +
+                         component.name_of(start.vertex_of[std::min(*a, *b)]) +
+                         " is a corridor without junctions",
+                     {*a, *b},
+                     std::move(path)};
 }
 
-std::optional<std::string> check_cycle(const Component& component, std::span<const Local> cycle,
+std::optional<Obstruction> check_cycle(const Component& component, std::span<const Local> cycle,
                                        const Arrangement& start, const Arrangement& goal) {
   auto first = agents_along(cycle, start), last = agents_along(cycle, goal);
   if (first.size() < 3) return std::nullopt;  // Two agents on a cycle have only one order.
@@ -51,10 +55,12 @@ std::optional<std::string> check_cycle(const Component& component, std::span<con
   rotate_to_front(last, fixed);
   const auto [a, b] = std::mismatch(first.begin(), first.end(), last.begin());
   if (a == first.end()) return std::nullopt;
-  return both(component, *a, *b) + " cannot change their order relative to agent " +
-         component.agent_name(fixed) + ": none of them can leave the cycle of " +
-         component.name_of(start.vertex_of[std::min(*a, *b)]) +
-         ", on which the cyclic order never changes";
+  return Obstruction{both(component, *a, *b) + " cannot change their order relative to agent " +
+                         component.agent_name(fixed) + ": none of them can leave the cycle of " +
+                         component.name_of(start.vertex_of[std::min(*a, *b)]) +
+                         ", on which the cyclic order never changes",
+                     {*a, *b, fixed},
+                     {cycle.begin(), cycle.end()}};
 }
 
 }  // namespace quadrille::discrete::feasibility

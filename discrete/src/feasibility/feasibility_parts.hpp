@@ -79,23 +79,30 @@ class ComponentNumbering {
   IdVector<VertexId, Local> number_;
 };
 
+/// Why the agents of a component cannot get from one arrangement to another.
+struct Obstruction {
+  std::string reason;
+  std::vector<Local> agents;
+  std::vector<Local> vertices;  ///< Where they are in each other's way.
+};
+
 /// Each of these returns why `goal` cannot be reached from `start`, or nullopt if it can.
 
 /// For a path, the vertices in order. Any number of free vertices.
-[[nodiscard]] std::optional<std::string> check_path(const Component& component,
+[[nodiscard]] std::optional<Obstruction> check_path(const Component& component,
                                                     const Arrangement& start,
                                                     const Arrangement& goal);
 /// For agents that stay on one cycle, whose vertices are given in order. Any number of free ones.
-[[nodiscard]] std::optional<std::string> check_cycle(const Component& component,
+[[nodiscard]] std::optional<Obstruction> check_cycle(const Component& component,
                                                      std::span<const Local> cycle,
                                                      const Arrangement& start,
                                                      const Arrangement& goal);
 /// For a component without a free vertex.
-[[nodiscard]] std::optional<std::string> check_full(const Component& component,
+[[nodiscard]] std::optional<Obstruction> check_full(const Component& component,
                                                     const Arrangement& start,
                                                     const Arrangement& goal);
 /// For a component with a free vertex and a root of degree >= 3.
-[[nodiscard]] std::optional<std::string> check_corridors(const Component& component,
+[[nodiscard]] std::optional<Obstruction> check_corridors(const Component& component,
                                                          const Arrangement& start,
                                                          const Arrangement& goal);
 

@@ -51,6 +51,18 @@ Lit LazyProblem::cost_above(AgentId agent, Cost cost) {
   return model_.cost_above(agent, static_cast<Timestep>(cost), writer_);
 }
 
+std::vector<AgentId> LazyProblem::agents_of(std::span<const Lit> core) const {
+  std::vector<AgentId> agents;
+  for (const Lit lit : core) {
+    const auto variable = model_.variable(lit);
+    // The counter is about all agents.
+    if (variable.kind != LazyModel::VariableKind::cost) return CostProblem::agents_of(core);
+    agents.push_back(variable.agent);
+  }
+  std::sort(agents.begin(), agents.end());
+  return agents;
+}
+
 void LazyProblem::on_solve(bool all_present) { theory_.on_solve(all_present); }
 
 }  // namespace quadrille::discrete

@@ -32,6 +32,7 @@ class LazyProblem final : public sat::CostProblem {
   [[nodiscard]] bool grow_to(AgentId, Cost, LimitMonitor&) override { return true; }
   [[nodiscard]] sat::Lit cost_above(AgentId agent, Cost cost) override;
   void on_solve(bool all_present) override;
+  [[nodiscard]] std::vector<AgentId> agents_of(std::span<const sat::Lit> core) const override;
 
   /// The plan of the last accepted model.
   [[nodiscard]] const Plan& plan() const noexcept { return plan_; }

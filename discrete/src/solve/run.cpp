@@ -7,6 +7,7 @@
 #include "lazy/lazy_model.hpp"
 #include "lazy/lazy_problem.hpp"
 #include "lazy/lazy_theory.hpp"
+#include "lazy/lemma_recorder.hpp"
 #include "mdd/collision_theory.hpp"
 #include "mdd/eager_collisions.hpp"
 #include "mdd/lemma_auditor.hpp"
@@ -83,8 +84,13 @@ class LazyRun final : public Run {
     if (options_.debug.audit || options_.debug.known_plan)
       auditor_ =
           std::make_unique<LazyAuditor>(*model_, options_.debug.audit, options_.debug.known_plan);
-    engine_ = std::make_unique<sat::Engine>(theory_.get(),
-                                            engine_options(options_, tuning_, auditor_.get()));
+    sat::ClauseObserver* observer = auditor_.get();
+    if (options_.explain) {
+      recorder_ = std::make_unique<LemmaRecorder>(*model_, observer);
+      observer = recorder_.get();
+    }
+    engine_ =
+        std::make_unique<sat::Engine>(theory_.get(), engine_options(options_, tuning_, observer));
     problem_ = std::make_unique<LazyProblem>(*model_, *engine_, *theory_, options_.objective);
     return true;
   }
@@ -99,6 +105,12 @@ class LazyRun final : public Run {
   std::optional<std::string> complaint() const override {
     return auditor_ ? auditor_->complaint() : std::nullopt;
   }
+  void explain(std::vector<Raise> raises, Attribution& attribution) const override {
+    const sat::Dependence dependence = recorder_->dependence();
+    for (Raise& raise : raises) dependence.add_bystanders(raise);
+    attribution.raises = std::move(raises);
+    attribution.sites = recorder_->sites();
+  }
 
  private:
   const Instance& instance_;
@@ -107,6 +119,7 @@ class LazyRun final : public Run {
   std::unique_ptr<LazyModel> model_;
   std::unique_ptr<LazyTheory> theory_;
   std::unique_ptr<LazyAuditor> auditor_;
+  std::unique_ptr<LemmaRecorder> recorder_;
   std::unique_ptr<sat::Engine> engine_;
   std::unique_ptr<LazyProblem> problem_;
 };

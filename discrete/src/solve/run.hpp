@@ -5,7 +5,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "quadrille/core/attribution.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/solver.hpp"
@@ -32,6 +34,8 @@ class Run {
   [[nodiscard]] virtual std::int64_t num_checks() const = 0;
   [[nodiscard]] virtual std::int64_t num_rejected() const = 0;
   [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
+  /// Adds the raises, with their bystanders, and the sites. Requires SolveOptions::explain.
+  virtual void explain(std::vector<Raise> /*raises*/, Attribution& /*attribution*/) const {}
 };
 
 /// `instance` and `options` outlive the run.

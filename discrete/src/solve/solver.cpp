@@ -21,6 +21,21 @@
 namespace quadrille::discrete {
 namespace {
 
+/// What the agents cost when each is alone.
+Attribution free_charges(const Instance& instance, const GoalDistances& distances,
+                         Objective objective) {
+  Attribution attribution;
+  attribution.objective = objective;
+  for (const AgentId i : instance.agent_ids()) {
+    const Cost cost = distances(i, instance.agents()[i].start);
+    attribution.agents.push_back({cost, {}});
+    attribution.free_bound = objective == Objective::sum_of_costs
+                                 ? attribution.free_bound + cost
+                                 : std::max(attribution.free_bound, cost);
+  }
+  return attribution;
+}
+
 /// One solve, with what all systems have in common: bounds from both sides.
 class Search final : private sat::YieldPoint {
  public:
@@ -65,6 +80,8 @@ class Search final : private sat::YieldPoint {
                                                  : GoalDistances::make(instance_, limits_);
     incumbent_.raise(free_bound(distances.get()));
     if (!distances) return;
+    if (options_.explain)
+      outcome_.attribution = free_charges(instance_, *distances, options_.objective);
     if (options_.first_plan) begin_plans(distances);
     if (role_ == Role::plans)
       look_for_plans();
@@ -181,8 +198,9 @@ class Search final : private sat::YieldPoint {
     next_plan_s_ = limits_.elapsed_wall() + options_.plan_interval_s;
   }
 
-  [[nodiscard]] sat::SearchEnd search_costs_of(Run& run) {
-    const sat::CostSearchContext context{run.engine(), run.problem(), incumbent_, limits_, *this};
+  [[nodiscard]] sat::SearchEnd search_costs_of(Run& run, std::vector<Raise>* raises) {
+    const sat::CostSearchContext context{run.engine(), run.problem(), incumbent_,
+                                         limits_,      *this,         raises};
     const CostSearch by_default =
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
     if (options_.objective == Objective::sum_of_costs &&
@@ -199,10 +217,12 @@ class Search final : private sat::YieldPoint {
     incumbent_.raise(run->problem().lower_bound());
     yield();
     sat::SearchEnd end = sat::SearchEnd::stopped;
+    std::vector<Raise> raises;
     try {
-      end = search_costs_of(*run);
+      end = search_costs_of(*run, options_.explain ? &raises : nullptr);
     } catch (const LimitReached&) {  // the engine is left in order, and what was raised is proved
     }
+    if (outcome_.attribution) run->explain(std::move(raises), *outcome_.attribution);
     run->engine().add_statistics(outcome_.statistics);
     outcome_.statistics.checks = run->num_checks();
     outcome_.statistics.rejected_models = run->num_rejected();
@@ -269,6 +289,8 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return refuse(ErrorCode::out_of_range, "the plan interval is not a number of at least 0");
   if (options.seed > 2'000'000'000)
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
+  if (options.explain && (options.system != System::dpll || options.threads > 1))
+    return refuse(ErrorCode::out_of_range, "an explanation needs the system dpll and one thread");
   std::optional<Error> error;
   if (options.initial_plan)
     error = refuse_invalid(verify(instance, *options.initial_plan), "initial plan");
@@ -298,6 +320,14 @@ void answer(const Instance& instance, const SolveOptions& options, const Tuning&
     outcome.plan.reset();
     outcome.status = Status::unknown;
   }
+}
+
+void complete(Attribution& attribution, const SolveOutcome& outcome) {
+  attribution.lower_bound = outcome.lower_bound;
+  if (outcome.plan)
+    for (const AgentId i : IdRange<AgentId>(attribution.agents.size()))
+      attribution.agents[i].cost = arrival(outcome.plan->paths[i]);
+  fit_to_bound(attribution);
 }
 
 std::string stop_text(StopReason reason) {
@@ -335,7 +365,9 @@ SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options, 
     outcome.plan.reset();
     outcome.cost.reset();
     outcome.explanation = outcome.internal_error->message;
+    outcome.attribution.reset();
   }
+  if (outcome.attribution) complete(*outcome.attribution, outcome);
   outcome.statistics.cpu_s = limits.elapsed_cpu();
   outcome.statistics.wall_s = limits.elapsed_wall();
   outcome.statistics.peak_rss_mib = peak_rss_mib();

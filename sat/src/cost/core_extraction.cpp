@@ -25,6 +25,14 @@ CoreExtraction::CoreExtraction(const CostSearchContext& context, const CoreGuide
                                Statistics& statistics)
     : context_(context), options_(options), statistics_(statistics), minimiser_(context) {}
 
+CoreExtraction::~CoreExtraction() {
+  if (context_.raises == nullptr) return;
+  const bool is_former_better =
+      best_relaxation_ && (!relaxation_ || best_relaxation_->bound() > relaxation_->bound());
+  Relaxation* const best = is_former_better ? best_relaxation_.get() : relaxation_.get();
+  if (best != nullptr) context_.raises->swap(best->raises());
+}
+
 Outcome CoreExtraction::advance(Slice slice) {
   while (true) {
     context_.bounds.raise(relaxation_->bound());
@@ -65,6 +73,7 @@ Verdict CoreExtraction::solve(Slice slice) {
 
 bool CoreExtraction::start_pass() {
   relaxation_ = std::make_unique<Relaxation>(context_.engine, context_.problem, context_.limits);
+  if (context_.raises != nullptr) relaxation_->keep_raises();
   pass_begin_ = conflicts_;
   return relaxation_->start();
 }

@@ -17,6 +17,10 @@ class CoreExtraction final : public Strategy {
  public:
   CoreExtraction(const CostSearchContext& context, const CoreGuidedOptions& options,
                  Statistics& statistics);
+  /// Hands over what raised the bound in the best of the passes, if that is asked for.
+  ~CoreExtraction() override;
+  CoreExtraction(const CoreExtraction&) = delete;
+  CoreExtraction& operator=(const CoreExtraction&) = delete;
 
   /// To be called first. False: a limit came before the soft constraints were made.
   [[nodiscard]] bool start() { return start_pass(); }

@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/sat/cost_search.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "cost/plan_query.hpp"
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::sat {
+
+namespace {
+
+/// Raises that the same agents account for are one.
+void add_raise(std::vector<Raise>& raises, Cost amount, std::vector<AgentId> agents) {
+  if (!raises.empty() && raises.back().agents == agents)
+    raises.back().amount += amount;
+  else
+    raises.push_back({RaiseKind::core, amount, std::move(agents), {}});
+}
+
+}  // namespace
 
 SearchEnd search_upwards(CostSearchContext context) {
   Cost bound = context.problem.lower_bound();
@@ -25,6 +38,8 @@ SearchEnd search_upwards(CostSearchContext context) {
     if (core.empty()) return SearchEnd::exhausted;
     const Cost next = context.problem.next_bound(bound, core);
     QUADRILLE_REQUIRE(next >= bound, "bounds only grow");
+    if (context.raises != nullptr && next > bound)
+      add_raise(*context.raises, next - bound, context.problem.agents_of(core));
     bound = next;
   }
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cost/relaxation.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::sat {
@@ -63,6 +66,11 @@ bool Relaxation::relax(std::span<const Lit> core, Cost lift) {
     softs_.erase(~assumption);
   }
   engine_.add_clause({LemmaKind::core, violated, {}, false});
+  std::vector<AgentId> agents;
+  if (keeps_raises_) {
+    agents = agents_of(softs);
+    raises_.push_back({RaiseKind::core, lift, agents, {}});
+  }
   bound_ += lift;
   for (Soft soft : softs) {
     soft.bound += lift;
@@ -76,10 +84,26 @@ bool Relaxation::relax(std::span<const Lit> core, Cost lift) {
       if (const Lit lit = violated_by(soft, level); lit.valid()) lits.push_back(lit);
     return lits;
   });
+  if (keeps_raises_) counted_.emplace(&counters_.back(), std::move(agents));
   if (height == 1) return add({&counters_.back(), 0, AgentId(), 0});
   for (int rank = 2; rank <= size; ++rank)
     if (!add({&counters_.back(), rank, AgentId(), 0})) return false;
   return true;
+}
+
+std::vector<AgentId> Relaxation::agents_of(const std::vector<Soft>& softs) const {
+  std::vector<AgentId> agents;
+  for (const Soft& soft : softs) {
+    if (soft.counter == nullptr) {
+      agents.push_back(soft.agent);
+      continue;
+    }
+    const std::vector<AgentId>& counted = counted_.at(soft.counter);
+    agents.insert(agents.end(), counted.begin(), counted.end());
+  }
+  std::sort(agents.begin(), agents.end());
+  agents.erase(std::unique(agents.begin(), agents.end()), agents.end());
+  return agents;
 }
 
 Totalizer::Input Relaxation::excess() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cost/core_counter.hpp"
+#include "quadrille/core/attribution.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
@@ -36,6 +37,12 @@ class Relaxation {
   /// comes to beyond. False: a limit came before that was done.
   [[nodiscard]] bool relax(std::span<const Lit> core, Cost lift = 1);
 
+  /// From now on, remembers what raised the bound.
+  void keep_raises() { keeps_raises_ = true; }
+  /// What was remembered, without bystanders: for each core its agents, which are those that its
+  /// softs count.
+  [[nodiscard]] std::vector<Raise>& raises() noexcept { return raises_; }
+
   [[nodiscard]] std::size_t num_softs() const noexcept { return softs_.size(); }
   /// What plans cost beyond the bound: the sum of these inputs, one per soft as it is now. Valid
   /// until the relaxation is retired. For problems that need no growth.
@@ -59,6 +66,7 @@ class Relaxation {
   /// Adds the soft if it can be violated. False: a limit was met.
   [[nodiscard]] bool add(const Soft& soft);
   [[nodiscard]] const Soft& soft_of(Lit assumption) const;
+  [[nodiscard]] std::vector<AgentId> agents_of(const std::vector<Soft>& softs) const;
 
   Engine& engine_;
   CostProblem& problem_;
@@ -66,6 +74,9 @@ class Relaxation {
   std::map<Lit, Soft> softs_;
   std::list<CoreCounter> counters_;
   Cost bound_ = 0;
+  bool keeps_raises_ = false;
+  std::vector<Raise> raises_;
+  std::map<const CoreCounter*, std::vector<AgentId>> counted_;  // with keeps_raises_
 };
 
 }  // namespace quadrille::sat

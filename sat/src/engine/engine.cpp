@@ -243,7 +243,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     are_reasons_forgettable = true;
     solver_->connect_terminator(this);
     solver_->connect_learner(this);
-    if (observer_ != nullptr) {
+    if (observer_ != nullptr && observer_->wants_learned()) {
       tracer_ = std::make_unique<DerivedClauseTracer>(*observer_, border_);
       solver_->connect_proof_tracer(tracer_.get(), false);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "quadrille/core/export.hpp"
 #include "quadrille/discrete/instance.hpp"
@@ -17,6 +18,11 @@ struct Feasibility {
   /// "agents 0 and 1 cannot pass each other: the component of (0, 0) is a corridor without
   /// junctions". Of several reasons one is given, the same one every time.
   std::string reason;
+  /// Whom and what it names: the agents, and the vertices of the place where they are in each
+  /// other's way, in the order of the corridor, path or cycle; for an agent that no way leads to
+  /// its goal, its start and its goal. Empty when feasible.
+  std::vector<AgentId> agents = {};
+  std::vector<VertexId> vertices = {};
 };
 
 /// Decides whether an instance has a plan. Exact in both directions; docs/feasibility.md has the

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "quadrille/core/attribution.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
@@ -135,6 +136,9 @@ struct SolveOptions {
   /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Plan&)> on_plan;
   double plan_interval_s = 1;  ///< At least 0.
+  /// Say what the lower bound is made of: SolveOutcome::attribution. For dpll, with one thread. The
+  /// search is the same.
+  bool explain = false;
   DebugOptions debug;
 };
 
@@ -147,14 +151,17 @@ struct SolveOutcome {
   StopReason stop = StopReason::none;
   std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
   Statistics statistics;
+  /// With `explain`, for every status but infeasible; absent if a limit was met before the free
+  /// costs were known.
+  std::optional<Attribution> attribution;
   /// A check of the program's own work failed; status is unknown then.
   std::optional<Error> internal_error;
 };
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range
-/// (an option, or more vertices than kMaxVertices), invalid_plan (`initial_plan` or
-/// `debug.known_plan` is not a plan of the instance; with the first violation).
+/// (an option, `explain` with what it is not for, or more vertices than kMaxVertices), invalid_plan
+/// (`initial_plan` or `debug.known_plan` is not a plan of the instance; with the first violation).
 ///
 /// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
 /// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be

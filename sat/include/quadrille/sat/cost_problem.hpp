@@ -50,6 +50,12 @@ class CostProblem {
   /// Called before each solve. `all_present`: the assumptions bound every agent's cost, one by one
   /// or all together.
   virtual void on_solve(bool all_present) = 0;
+  /// Whose costs the assumptions in `core` bound, some of those of `assume_at_most`; increasing.
+  [[nodiscard]] virtual std::vector<AgentId> agents_of(std::span<const Lit> /*core*/) const {
+    std::vector<AgentId> all;
+    for (const AgentId i : IdRange<AgentId>(num_agents())) all.push_back(i);
+    return all;
+  }
   /// Looks at the engine's model for all agents. False: it is no plan, clauses that exclude it were
   /// added.
   [[nodiscard]] virtual bool accept_model() = 0;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "quadrille/core/attribution.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/statistics.hpp"
@@ -32,6 +34,9 @@ struct CostSearchContext {
   Bounds& bounds;
   LimitMonitor& limits;
   YieldPoint& yield_point;
+  /// Unless null, becomes the list of what raised the lower bound, whatever ends the search; no
+  /// bystanders are named. Other bounds, such as those from above, are not in it.
+  std::vector<Raise>* raises = nullptr;
 };
 
 /// How a cost search ended.

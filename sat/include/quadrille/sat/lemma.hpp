@@ -49,6 +49,9 @@ class ClauseObserver {
   virtual void on_lemma(const Lemma& lemma) = 0;
   /// A consequence of all clauses so far; never depends on assumptions.
   virtual void on_learned(std::span<const Lit> clause) = 0;
+  /// Asked once, before the first clause. False: `on_learned` is never called, which saves the
+  /// solver the work of telling.
+  [[nodiscard]] virtual bool wants_learned() const { return true; }
   /// For each verdict `unsat`: the negations of Engine::core, of which one has to be true. A
   /// consequence of all clauses so far, which a search may conclude a bound from without ever
   /// adding it as a clause. Empty if the clauses contradict each other.
