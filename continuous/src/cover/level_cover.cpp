@@ -149,6 +149,21 @@ bool LevelCover::relax(Group& group, CoverLeaf& leaf) {
   return true;
 }
 
+std::vector<CoverShare> LevelCover::shares() const {
+  std::vector<CoverShare> shares;
+  for (const Group& group : make_groups()) {
+    const AgentId at = root(group.agents.front());
+    Cost bound = 0;
+    // Groups of the last solve that have become one were independent then: their bounds add up.
+    for (const Group& old : groups_)
+      if (root(old.agents.front()) == at)
+        bound += old.open.empty() ? old.cost : std::min(old.cost, old.open.front().bound);
+    for (CoverShare& share : share_out(free_costs_, group.cores, bound))
+      shares.push_back(std::move(share));
+  }
+  return shares;
+}
+
 IdVector<AgentId, Cost> LevelCover::completed(IdVector<AgentId, Cost> costs) const {
   std::vector<const LevelCore*> cores;
   for (const LevelCore& core : cores_) cores.push_back(&core);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cover/cover_shares.hpp"
 #include "cover/leaf_program.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/limits.hpp"
@@ -36,6 +37,11 @@ class LevelCover {
   /// `costs`, raised and lowered until they hit all cores and none can be lowered alone. Requires
   /// costs of at least the free costs.
   [[nodiscard]] IdVector<AgentId, Cost> completed(IdVector<AgentId, Cost> costs) const;
+
+  /// What the proven part of the total above the free costs is made of, core by core; cores that
+  /// came after the last call of solve may have their shares, too. A linear program for each group
+  /// of agents.
+  [[nodiscard]] std::vector<CoverShare> shares() const;
 
   [[nodiscard]] std::int64_t num_programs() const noexcept { return num_programs_; }
   /// Elementary steps of all linear programs so far.

@@ -21,6 +21,7 @@ bool has(const LevelCore& core, const Level& level) {
 }  // namespace
 
 LevelCore CoreShrinker::shrink(LevelCore core, const IdVector<AgentId, Cost>& ceilings) {
+  ceilings_of_core_ = problem_.ceilings_of_core();
   raise(core, ceilings);
   drop(core, ceilings);
   return core;
@@ -28,9 +29,12 @@ LevelCore CoreShrinker::shrink(LevelCore core, const IdVector<AgentId, Cost>& ce
 
 bool CoreShrinker::is_core(const LevelCore& core, const IdVector<AgentId, Cost>& ceilings,
                            const sat::SolveBudget& budget) {
-  return !limits_.exhausted() &&
-         problem_.solve({core, ceilings, {}, budget, Question::Search::quick}, limits_) ==
-             Verdict::unsat;
+  const bool is_refuted =
+      !limits_.exhausted() && problem_.solve({core, ceilings, {}, budget, Question::Search::quick},
+                                             limits_) == Verdict::unsat;
+  // Whatever is a core takes the place of the one before.
+  if (is_refuted) ceilings_of_core_ = problem_.ceilings_of_core();
+  return is_refuted;
 }
 
 CoreShrinker::Ladder CoreShrinker::ladder(const Level& level, Cost ceiling) const {

@@ -14,10 +14,14 @@ class CoreShrinker {
   /// Both arguments outlive the shrinker.
   CoreShrinker(CostProblem& problem, LimitMonitor& limits) : problem_(problem), limits_(limits) {}
 
-  /// The result holds for plans in which nobody costs more than its ceiling, and hits no costs that
-  /// `core` does not hit. Empty: there is no such plan. When the limits are met, what has been
-  /// reached.
+  /// `core` is that of the problem's last question. The result holds for plans in which nobody
+  /// costs more than its ceiling, and hits no costs that `core` does not hit. Empty: there is no
+  /// such plan. When the limits are met, what has been reached.
   [[nodiscard]] LevelCore shrink(LevelCore core, const IdVector<AgentId, Cost>& ceilings);
+  /// Whose ceilings the last result rests on, if the problem keeps them. Increasing.
+  [[nodiscard]] const std::vector<AgentId>& ceilings_of_core() const noexcept {
+    return ceilings_of_core_;
+  }
 
  private:
   /// The known thresholds to which a level may be raised, and which of them have been tried.
@@ -37,6 +41,7 @@ class CoreShrinker {
 
   CostProblem& problem_;
   LimitMonitor& limits_;
+  std::vector<AgentId> ceilings_of_core_;
 };
 
 }  // namespace quadrille::continuous

@@ -72,11 +72,17 @@ Verdict CostProblem::solve_assuming(const Question& question, const Assumptions&
   const Verdict verdict = solve_in_slices(literals, limits, question.budget);
   if (yield_point_ != nullptr) yield_point_->yield();
   core_.clear();
+  ceilings_of_core_.clear();
   if (verdict == Verdict::unsat) {
     const std::vector<Lit> failed = engine_.core();
+    const auto has_failed = [&](std::size_t k) {
+      return std::find(failed.begin(), failed.end(), literals[k]) != failed.end();
+    };
     for (std::size_t k = 0; k < question.below.size(); ++k)
-      if (std::find(failed.begin(), failed.end(), literals[k]) != failed.end())
-        core_.push_back(question.below[k]);
+      if (has_failed(k)) core_.push_back(question.below[k]);
+    if (keeps_ceilings_)
+      for (std::size_t k = question.below.size(); k < assumptions.levels.size(); ++k)
+        if (has_failed(k)) ceilings_of_core_.push_back(assumptions.levels[k].agent);
   }
   return verdict;
 }

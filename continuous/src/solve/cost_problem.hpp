@@ -65,6 +65,12 @@ class CostProblem {
   /// is cheaper than the incumbent, keeps to the ceilings, and costs no more than the total. Empty:
   /// there is no such plan.
   [[nodiscard]] const std::vector<Level>& core() const noexcept { return core_; }
+  /// From now on, remembers whose ceilings a core rests on.
+  void keep_ceilings_of_core() { keeps_ceilings_ = true; }
+  /// Of the last core: the agents whose ceilings were needed to refute it. Increasing.
+  [[nodiscard]] const std::vector<AgentId>& ceilings_of_core() const noexcept {
+    return ceilings_of_core_;
+  }
 
   /// The smallest natural threshold (see Model) above `cost`.
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;
@@ -98,6 +104,8 @@ class CostProblem {
   sat::CoreAuditor* const auditor_;
   EngineWriter writer_;
   std::vector<Level> core_;
+  bool keeps_ceilings_ = false;
+  std::vector<AgentId> ceilings_of_core_;
 };
 
 }  // namespace quadrille::continuous

@@ -11,6 +11,7 @@
 #include "solve/cost_problem.hpp"
 #include "solve/cover_search.hpp"
 #include "solve/makespan_search.hpp"
+#include "theory/lemma_recorder.hpp"
 #include "theory/theory.hpp"
 
 namespace quadrille::continuous {
@@ -56,16 +57,29 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     sat::EngineOptions engine_options;
     engine_options.seed = options_.seed;
     engine_options.observer = auditors.is_needed() ? &auditors : nullptr;
+    std::optional<LemmaRecorder> recorder;
+    if (options_.explain) {
+      recorder.emplace(model, engine_options.observer);
+      engine_options.observer = &*recorder;
+    }
     sat::Engine engine(in_search ? &theory : nullptr, engine_options);
     engine_ = &engine;
     CostProblem problem(model, engine, theory, in_search, this, auditors.of_cores());
     const Cost spared = options_.debug.known_plan ? cost_of(*options_.debug.known_plan) : 0;
     const Role role = companion_ != nullptr ? companion_->role() : Role::all;
-    const CostReport report =
-        options_.objective == Objective::sum_of_costs
-            ? search_by_covers({problem, known_, spared, role, options_.seed, limits_,
-                                outcome_.statistics, *this})
-            : search_makespan(problem, known_, limits_, outcome_.statistics, *this);
+    CostTrace trace;
+    CostTrace* const traced = recorder ? &trace : nullptr;
+    CostReport report;
+    try {
+      report = options_.objective == Objective::sum_of_costs
+                   ? search_by_covers({problem, known_, spared, role, options_.seed, limits_,
+                                       outcome_.statistics, *this, traced})
+                   : search_makespan(problem, known_, limits_, outcome_.statistics, *this, traced);
+    } catch (const LimitReached&) {
+      if (recorder) explain(*recorder, std::move(trace), plan_ != nullptr);
+      throw;
+    }
+    if (recorder) explain(*recorder, std::move(trace), plan_ || report.plan);
     outcome_.lower_bound = std::max(outcome_.lower_bound, report.lower_bound);
     engine.add_statistics(outcome_.statistics);
     outcome_.statistics.checks = theory.num_checks();
@@ -84,6 +98,15 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
         outcome_.internal_error =
             Error{ErrorCode::internal, "the plan found does not cost the proven bound", {}};
     }
+  }
+
+  void explain(const LemmaRecorder& recorder, CostTrace trace, bool has_plan) {
+    sat::Dependence dependence = recorder.dependence(has_plan);
+    for (CoreUse& core : trace.cores) dependence.imply(core.agents, std::move(core.ceilings));
+    for (Raise& raise : trace.raises) dependence.add_bystanders(raise);
+    outcome_.attribution.emplace();
+    outcome_.attribution->raises = std::move(trace.raises);
+    outcome_.attribution->sites = recorder.sites();
   }
 
   [[nodiscard]] Cost cost_of(const Plan& plan) const { return cost(plan, options_.objective); }

@@ -56,6 +56,18 @@ class CoverSearch {
         random_(context.seed) {
     report_.lower_bound = context.known.lower_bound;
     report_.plan = context.known.plan;
+    if (context.trace != nullptr) problem_.keep_ceilings_of_core();
+  }
+
+  /// What the bound of the last cover follows from.
+  [[nodiscard]] std::vector<Raise> raises() const {
+    std::vector<Raise> raises;
+    for (CoverShare& share : cover_.shares())
+      raises.push_back({share.is_of_one_core ? RaiseKind::core : RaiseKind::cover,
+                        share.amount,
+                        std::move(share.agents),
+                        {}});
+    return raises;
   }
 
   CostReport run() {
@@ -257,6 +269,7 @@ class CoverSearch {
       problem_.add_core(core, highest);
       if (core.empty()) return false;
       ++context_.statistics.cores;
+      if (context_.trace != nullptr) trace(core);
       cover_.add(core);
       context_.correspondent.report_core(core);
       std::erase_if(below, [&](const Level& level) {
@@ -265,6 +278,12 @@ class CoverSearch {
       });
       if (below.empty() || limits_.exhausted() || !is_refuted(below)) return true;
     }
+  }
+
+  void trace(const Core& core) {
+    std::vector<AgentId> agents;
+    for (const Level& level : core) agents.push_back(level.agent);
+    context_.trace->cores.push_back({std::move(agents), shrinker_.ceilings_of_core()});
   }
 
   /// Whether known clauses say that one of these levels is reached.
@@ -290,6 +309,19 @@ class CoverSearch {
 
 }  // namespace
 
-CostReport search_by_covers(const SumSearchContext& context) { return CoverSearch(context).run(); }
+CostReport search_by_covers(const SumSearchContext& context) {
+  CoverSearch search(context);
+  const auto trace = [&] {
+    if (context.trace != nullptr) context.trace->raises = search.raises();
+  };
+  try {
+    CostReport report = search.run();
+    trace();
+    return report;
+  } catch (const LimitReached&) {
+    trace();
+    throw;
+  }
+}
 
 }  // namespace quadrille::continuous

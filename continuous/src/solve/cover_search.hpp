@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
+#include "quadrille/core/attribution.hpp"
 #include "quadrille/core/statistics.hpp"
 #include "solve/companion.hpp"
 #include "solve/cost_problem.hpp"
 #include "solve/cost_report.hpp"
 
 namespace quadrille::continuous {
+
+/// A core as far as others depend on it: some of `agents` cost more in every plan in which those of
+/// `ceilings` keep to theirs.
+struct CoreUse {
+  std::vector<AgentId> agents, ceilings;
+};
+/// What raised the bound, without bystanders, and all cores that were learned.
+struct CostTrace {
+  std::vector<Raise> raises;
+  std::vector<CoreUse> cores;
+};
 
 /// What a search for the least sum of costs works with. References outlive it.
 struct SumSearchContext {
@@ -20,6 +34,7 @@ struct SumSearchContext {
   LimitMonitor& limits;
   Statistics& statistics;  ///< Adds to `cores`.
   Correspondent& correspondent;
+  CostTrace* trace = nullptr;  ///< Filled in unless null, also when a limit is met.
 };
 
 /// Finds a plan of least sum of costs by implicit hitting sets (Davies and Bacchus 2011, CP): the

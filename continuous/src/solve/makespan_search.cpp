@@ -3,14 +3,30 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace quadrille::continuous {
 
 using sat::SearchEnd;
 using sat::Verdict;
 
+namespace {
+
+/// Raises that the same agents account for are one.
+void add_raise(CostTrace& trace, Cost amount, const LevelCore& core) {
+  std::vector<AgentId> agents;
+  for (const Level& level : core) agents.push_back(level.agent);
+  std::vector<Raise>& raises = trace.raises;
+  if (!raises.empty() && raises.back().agents == agents)
+    raises.back().amount += amount;
+  else
+    raises.push_back({RaiseKind::core, amount, std::move(agents), {}});
+}
+
+}  // namespace
+
 CostReport search_makespan(CostProblem& problem, const CostReport& known, LimitMonitor& limits,
-                           Statistics& statistics, Correspondent& correspondent) {
+                           Statistics& statistics, Correspondent& correspondent, CostTrace* trace) {
   CostReport report = known;
   const Model& model = problem.model();
   for (const AgentId i : model.instance().agent_ids())
@@ -46,6 +62,8 @@ CostReport search_makespan(CostProblem& problem, const CostReport& known, LimitM
       }
       Cost least = core.front().cost;
       for (const auto& level : core) least = std::min(least, level.cost);
+      if (trace != nullptr && least > report.lower_bound)
+        add_raise(*trace, least - report.lower_bound, core);
       report.lower_bound = std::max(report.lower_bound, least);
       LevelCore next;
       for (const auto& level : core)

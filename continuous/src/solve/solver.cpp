@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "feasibility/bottleneck.hpp"
 #include "feasibility/feasibility.hpp"
 #include "paths/scene.hpp"
 #include "primal/first_plan.hpp"
@@ -28,6 +29,8 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return Error{ErrorCode::out_of_range, "the gap is not a number of at least 0", {}};
   if (options.threads < 1 || options.threads > kMaxThreads)
     return Error{ErrorCode::out_of_range, "the number of threads is not from 1 to 64", {}};
+  if (options.explain && options.threads > 1)
+    return Error{ErrorCode::out_of_range, "an explanation needs one thread", {}};
   if (!(options.progress_interval_s >= 0))
     return Error{
         ErrorCode::out_of_range, "the progress interval is not a number of at least 0", {}};
@@ -41,13 +44,17 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   return error;
 }
 
-std::string blocked_text(const std::vector<AgentId>& blocked, std::size_t num_agents) {
-  if (blocked.size() == num_agents) return "the agents cannot all reach their goals";
-  std::string text = "agents";
-  for (const AgentId i : blocked)
-    text += (i == blocked.front() ? " " : " and ") + std::to_string(i.index());
-  return text + " cannot " + (blocked.size() == 2 ? "both" : "all") +
-         " reach their goals, even without the others";
+std::string blocked_text(const Instance& instance, const std::vector<AgentId>& blocked) {
+  const bool are_all = blocked.size() == instance.num_agents();
+  std::string text = are_all && blocked.size() > 2 ? "the agents" : "agents";
+  if (!are_all || blocked.size() == 2)
+    for (const AgentId i : blocked)
+      text += (i == blocked.front() ? " " : " and ") + std::to_string(i.index());
+  text += blocked.size() == 2 ? " cannot both" : " cannot all";
+  text += " reach their goals";
+  if (!are_all) text += ", even without the others";
+  const std::string where = describe_bottleneck(instance, blocked);
+  return where.empty() ? text : text + ": " + where;
 }
 
 void keep_cheaper(std::optional<Plan>& best, std::optional<Plan> plan, Objective objective) {
@@ -63,6 +70,41 @@ Cost free_bound(const Scene& scene, Objective objective) {
   return bound;
 }
 
+Attribution free_charges(const Scene& scene, Objective objective) {
+  Attribution attribution;
+  attribution.objective = objective;
+  attribution.free_bound = free_bound(scene, objective);
+  for (const AgentId i : scene.instance().agent_ids())
+    attribution.agents.push_back({scene.free_cost(i), {}});
+  return attribution;
+}
+
+/// That the agents were searched together up to the bound.
+void charge_search(Attribution& attribution, Cost bound) {
+  attribution.raises.clear();
+  if (bound == attribution.free_bound) return;
+  Raise raise{RaiseKind::search, bound - attribution.free_bound, {}, {}};
+  for (const AgentId i : IdRange<AgentId>(attribution.agents.size())) raise.agents.push_back(i);
+  attribution.raises.push_back(std::move(raise));
+}
+
+/// The charges, with what a search by clauses has traced. Memory may have run out before that.
+void take_traced(Attribution charges, SolveOutcome& outcome) {
+  if (outcome.attribution) {
+    charges.raises = std::move(outcome.attribution->raises);
+    charges.sites = std::move(outcome.attribution->sites);
+  }
+  outcome.attribution = std::move(charges);
+}
+
+void complete(Attribution& attribution, const SolveOutcome& outcome) {
+  attribution.lower_bound = outcome.lower_bound;
+  if (outcome.plan)
+    for (const AgentId i : IdRange<AgentId>(attribution.agents.size()))
+      attribution.agents[i].cost = cost(outcome.plan->paths[i]);
+  fit_to_bound(attribution);
+}
+
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
                const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome) {
   std::optional<Plan> some_plan = outcome.plan = options.initial_plan;
@@ -72,13 +114,15 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   const auto is_blocked = [&](const std::vector<AgentId>& blocked) {
     if (blocked.empty()) return false;
     outcome.status = Status::infeasible;
-    outcome.explanation = blocked_text(blocked, instance.num_agents());
+    outcome.explanation = blocked_text(instance, blocked);
     return true;
   };
   Cost floor = outcome.lower_bound = free_bound(scene, options.objective);
+  if (options.explain) outcome.attribution = free_charges(scene, options.objective);
   /// Whether that is all.
   const auto learn = [&](Cost bound, std::optional<Plan> plan) {
     floor = outcome.lower_bound = std::max(floor, bound);
+    if (outcome.attribution) charge_search(*outcome.attribution, floor);
     keep_cheaper(some_plan, std::move(plan), options.objective);
     outcome.plan = some_plan;  // the answer if a limit is met
     if (!some_plan || cost(*some_plan, options.objective) != floor) return false;
@@ -105,8 +149,10 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   }
   outcome.plan = some_plan;  // the answer if a limit is met
   const CostReport known{sat::SearchEnd::stopped, floor, std::move(some_plan)};
+  std::optional<Attribution> charges = std::move(outcome.attribution);
   outcome = options.threads > 1 ? search_side_by_side(scene, options, known, limits, account)
                                 : search_alone(scene, options, known, limits, nullptr);
+  if (charges) take_traced(*charges, outcome);
 }
 
 /// What is claimed must not contradict a plan that the user gave.
@@ -182,10 +228,13 @@ Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options
     outcome.plan.reset();
     outcome.cost.reset();
     outcome.explanation = outcome.internal_error->message;
+    outcome.attribution.reset();
   } else if (outcome.status == Status::unknown || outcome.status == Status::feasible) {
     if (outcome.stop == StopReason::none) outcome.stop = limits.reason();
     outcome.explanation = stop_text(outcome.stop);
   }
+  if (outcome.status == Status::infeasible) outcome.attribution.reset();
+  if (outcome.attribution) complete(*outcome.attribution, outcome);
   outcome.statistics.cpu_s = limits.elapsed_cpu();
   outcome.statistics.wall_s = limits.elapsed_wall();
   outcome.statistics.peak_rss_mib = peak_rss_mib();

@@ -74,6 +74,7 @@ Lit Model::total_above(Cost total, FormulaWriter& writer) {
 
 ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
                         FormulaWriter& writer, bool& is_new) {
+  const Ban cause = bans.front();
   std::sort(bans.begin(), bans.end());
   const auto [at, inserted] = usages_.try_emplace({agent, bans}, obstacles_.next_id());
   is_new = inserted;
@@ -81,7 +82,7 @@ ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
     // Variables are false by default in the solver: what is forbidden is the exception.
     const Lit allowed = ~writer.new_lit();
     remember(allowed, {VariableKind::usage, agent, 0, at->second});
-    obstacles_.push_back({agent, allowed, std::move(bans), {}});
+    obstacles_.push_back({agent, allowed, std::move(bans), {}, cause});
   }
   auto& partners = obstacles_[at->second].partners;
   if (std::find(partners.begin(), partners.end(), partner) == partners.end())
@@ -108,7 +109,7 @@ ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, For
       bans.push_back(Ban::start(e, starts_meeting(*window, tick - 1, kForever)));
   for (const VertexId v : near.vertices)
     if (contacts().overlap(a, v, b, goal)) bans.push_back(Ban::stay(v, {tick - 1, kForever}));
-  obstacles_.push_back({agent, later, std::move(bans), {resident}});
+  obstacles_.push_back({agent, later, std::move(bans), {resident}, {}});
   return at->second;
 }
 

@@ -29,6 +29,8 @@ struct Obstacle {
   sat::Lit allowed;
   std::vector<Ban> bans;
   std::vector<AgentId> partners;  ///< Agents whose moves and stays these bans keep clear of.
+  /// Of the bans, that of the move or stay that collided when the obstacle was made.
+  Ban cause = {};
 };
 
 /// The literals and what they mean.

@@ -10,6 +10,7 @@
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/attribution.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
@@ -82,6 +83,9 @@ struct SolveOptions {
   /// What it throws ends the search and comes out of `solve`.
   std::function<void(const Plan&)> on_plan;
   double plan_interval_s = 1;  ///< At least 0.
+  /// Say what the lower bound is made of: SolveOutcome::attribution. With one thread. The search is
+  /// the same; without route_work and joint_work, which know no cores, more is explained.
+  bool explain = false;
   DebugOptions debug;
 };
 
@@ -93,6 +97,9 @@ struct SolveOutcome {
   StopReason stop = StopReason::none;
   std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
   Statistics statistics;
+  /// With `explain`, for every status but infeasible; absent if a limit was met before the free
+  /// costs were known.
+  std::optional<Attribution> attribution;
   /// A check of the program's own work failed; status is unknown then.
   std::optional<Error> internal_error;
 };

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "feasibility/bottleneck.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+namespace quadrille::continuous {
+namespace {
+
+constexpr std::size_t kNamed = 12;
+
+/// A way of few moves that leaves out one vertex; empty if there is none.
+std::vector<VertexId> find_way(const Instance& instance, AgentId agent,
+                               std::optional<VertexId> left_out) {
+  const Roadmap& roadmap = instance.roadmap();
+  const VertexId start = instance.agent(agent).start, goal = instance.agent(agent).goal;
+  IdVector<VertexId, std::optional<VertexId>> before(roadmap.num_vertices());
+  std::vector<VertexId> queue{start};
+  before[start] = start;
+  for (std::size_t at = 0; at < queue.size() && !before[goal]; ++at)
+    for (const EdgeId e : roadmap.out_edges(queue[at])) {
+      const VertexId w = roadmap.edge(e).to;
+      if (before[w] || w == left_out) continue;
+      before[w] = queue[at];
+      queue.push_back(w);
+    }
+  if (!before[goal]) return {};
+  std::vector<VertexId> way{goal};
+  while (way.back() != start) way.push_back(*before[way.back()]);
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+}  // namespace
+
+std::vector<VertexId> inevitable_vertices(const Instance& instance, AgentId agent) {
+  const std::vector<VertexId> way = find_way(instance, agent, std::nullopt);
+  std::vector<VertexId> inevitable;
+  for (const VertexId v : way)
+    if (v == way.front() || v == way.back() || find_way(instance, agent, v).empty())
+      inevitable.push_back(v);
+  return inevitable;
+}
+
+std::string describe_bottleneck(const Instance& instance, const std::vector<AgentId>& agents) {
+  std::vector<VertexId> common = inevitable_vertices(instance, agents.front()), order;
+  for (const AgentId i : agents) {
+    order = inevitable_vertices(instance, i);
+    std::erase_if(common, [&](VertexId v) {
+      return std::find(order.begin(), order.end(), v) == order.end();
+    });
+  }
+  if (common.empty()) return "";
+  std::string text = agents.size() == 2 ? "both have" : "all of them have";
+  text += common.size() == 1 ? " to pass vertex " : " to pass vertices ";
+  for (std::size_t k = 0; k < std::min(common.size(), kNamed); ++k) {
+    if (k > 0) text += k + 1 == common.size() ? " and " : ", ";
+    text += std::to_string(common[k].index());
+  }
+  if (common.size() > kNamed) text += " and " + std::to_string(common.size() - kNamed) + " more";
+  // The second of two comes to the same vertices in the same order or in the opposite one.
+  if (agents.size() == 2 && common.size() > 1 &&
+      std::find(order.begin(), order.end(), common.back()) <
+          std::find(order.begin(), order.end(), common.front()))
+    text += ", in opposite directions";
+  return text;
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "quadrille/continuous/instance.hpp"
+
+namespace quadrille::continuous {
+
+/// The vertices that the agent passes on every way from its start to its goal, both included, in
+/// the order in which it comes to them. Requires that the goal can be reached. O(V E) at worst.
+[[nodiscard]] std::vector<VertexId> inevitable_vertices(const Instance& instance, AgentId agent);
+
+/// Where agents that block each other meet, for people: "both have to pass vertices 2, 3 and 4, in
+/// opposite directions". Empty if there is no vertex that all of them have to pass. Requires an
+/// agent.
+[[nodiscard]] std::string describe_bottleneck(const Instance& instance,
+                                              const std::vector<AgentId>& agents);
+
+}  // namespace quadrille::continuous
