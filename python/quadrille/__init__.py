@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT
+"""Exact multi-agent path finding: plans for many agents that move at the same time and must not
+collide, with the proof that no plan is cheaper.
+
+    import quadrille as q
+    fleet = q.read("x.map", "x.scen", agents=50)
+    result = q.solve(fleet, time_limit=5)
+    result.plan.paths          # int32[n, T, 2]
+
+A place on a grid is ``(x, y)``, column and row. On roadmaps, lengths and times are in your own units.
+"""
+
+from ._core import __version__
+from ._errors import FileError, InputError, NoPlanError
+from .fleet import Fleet
+from .graphs import Graph, Grid, Roadmap
+from .plans import Plan, Report, StepPath, StepPlan, TimedPath, TimedPlan, Violation
+from .reading import read
+from .solving import Progress, Result, Statistics, solve
+
+__all__ = [
+    "FileError",
+    "Fleet",
+    "Graph",
+    "Grid",
+    "InputError",
+    "NoPlanError",
+    "Plan",
+    "Progress",
+    "Report",
+    "Result",
+    "Roadmap",
+    "Statistics",
+    "StepPath",
+    "StepPlan",
+    "TimedPath",
+    "TimedPlan",
+    "Violation",
+    "__version__",
+    "read",
+    "solve",
+]

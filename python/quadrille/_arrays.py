@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""From what users pass to arrays of one shape, type and order, or a ValueError."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+# None: of any length.
+Shape = tuple[Optional[int], ...]
+
+
+def _shaped(array: npt.NDArray[Any], name: str, shape: Shape) -> npt.NDArray[Any]:
+    # An empty list has no second dimension.
+    if array.size == 0 and len(shape) > 1 and array.ndim == 1 and shape[0] is None:
+        array = array.reshape([n or 0 for n in shape])
+    fits = array.ndim == len(shape) and all(
+        want is None or want == has for want, has in zip(shape, array.shape)
+    )
+    if not fits:
+        wanted = ", ".join("n" if n is None else str(n) for n in shape)
+        raise ValueError(f"{name}: expected an array of shape ({wanted}), not {array.shape}")
+    return array
+
+
+def bools(values: Any, name: str, shape: Shape) -> npt.NDArray[np.bool_]:
+    array = np.asarray(values)
+    if array.dtype.kind in "iuf" and np.isin(array, (0, 1)).all():
+        array = array.astype(np.bool_)
+    if array.dtype.kind != "b":
+        raise ValueError(f"{name}: expected booleans or 0 and 1, not {array.dtype}")
+    return np.ascontiguousarray(_shaped(array, name, shape))
+
+
+def ints(values: Any, name: str, shape: Shape) -> npt.NDArray[np.int64]:
+    array = np.asarray(values)
+    if array.size == 0:
+        array = array.astype(np.int64)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"{name}: expected integers, not {array.dtype}")
+    if array.dtype.kind == "u" and array.size and array.max() > np.iinfo(np.int64).max:
+        raise ValueError(f"{name}: a number is too large")
+    return np.ascontiguousarray(_shaped(array, name, shape), dtype=np.int64)
+
+
+def doubles(values: Any, name: str, shape: Shape) -> npt.NDArray[np.float64]:
+    array = np.asarray(values)
+    if array.size == 0:
+        array = array.astype(np.float64)
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"{name}: expected numbers, not {array.dtype}")
+    return np.ascontiguousarray(_shaped(array, name, shape), dtype=np.float64)
+
+
+def per_agent(values: Any, name: str, n: int) -> npt.NDArray[np.float64]:
+    """One number for all agents, or one for each."""
+    if np.ndim(values) == 0:
+        values = [values] * n
+    return doubles(values, name, (n,))

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+"""What is raised for bad input."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+
+class InputError(ValueError):
+    """An argument or a file is wrong. The text is what the program prints: ``file:line: reason``.
+
+    Attributes:
+        code: "io", "syntax", "invalid-instance", "no-plan", "out-of-range" or "invalid-plan".
+        reason: The text without file and line.
+        file: Name of the file, or None.
+        line: Line in the file, from 1, or None.
+    """
+
+    code: str = "out-of-range"
+    reason: str = ""
+    file: Optional[str] = None
+    line: Optional[int] = None
+
+
+class NoPlanError(InputError):
+    """No plan can exist, as is seen without a search: starts or goals of bodies overlap, or a goal
+    cannot be reached. The program's ``solve`` calls such a roadmap infeasible."""
+
+
+class FileError(InputError, OSError):
+    """A file cannot be opened, read or written."""
+
+
+def make_error(code: str, text: str, reason: str, file: str, line: int) -> InputError:
+    kinds = {"no-plan": NoPlanError, "io": FileError}
+    error = kinds.get(code, InputError)(text)
+    error.code, error.reason = code, reason
+    error.file, error.line = file or None, line or None
+    return error

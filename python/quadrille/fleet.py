@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: MIT
+"""Agents with their tasks."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Generic, Optional, Sequence, TypeVar, Union, cast, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import doubles, ints, per_agent
+from .graphs import Graph, Grid, Roadmap
+from .plans import Plan, StepPlan, TimedPlan
+
+P = TypeVar("P", bound=Plan)
+
+# sqrt(2) / 4: on a grid of unit cells a diagonal move just touches a disc in the cell beside it.
+DEFAULT_RADIUS = 0.35355339059327379
+
+
+class Fleet(Generic[P]):
+    """Agents on a grid, a graph or a roadmap, each with a start and a goal where it stays at the end.
+
+    Args:
+        graph: ``Grid``, ``Graph`` or ``Roadmap``.
+        starts, goals: On a grid int[n, 2], cells (x, y). Otherwise int[n], vertices, or their names
+            if the roadmap has names.
+        radius: On roadmaps: radius of the agents' discs in your unit of length, a number or
+            float[n]; rounded down to a length unit. Default sqrt(2)/4.
+        polygon: On roadmaps, instead: float[k, 2], corners of a convex polygon around the agent's
+            place, which does not turn; or a list of n entries, None where the radius counts.
+        speed: On roadmaps: length per time, a number or float[n]. Default 1.
+        names: n names for the agents, which plans and tables show; default "0", "1", ...
+
+    Raises:
+        NoPlanError: on roadmaps, for starts or goals of bodies that overlap and goals out of reach.
+        InputError: for places that do not exist or are blocked, two agents with the same start or
+            the same goal, numbers that are out of range.
+        ValueError: for arrays of another shape or type.
+    """
+
+    @overload
+    def __init__(
+        self: Fleet[StepPlan],
+        graph: Union[Grid, Graph],
+        starts: npt.ArrayLike,
+        goals: npt.ArrayLike,
+        *,
+        names: Optional[Sequence[str]] = None,
+    ) -> None: ...
+
+    @overload
+    def __init__(
+        self: Fleet[TimedPlan],
+        graph: Roadmap,
+        starts: Any,
+        goals: Any,
+        *,
+        radius: Optional[npt.ArrayLike] = None,
+        polygon: Any = None,
+        speed: Optional[npt.ArrayLike] = None,
+        names: Optional[Sequence[str]] = None,
+    ) -> None: ...
+
+    def __init__(
+        self,
+        graph: Union[Grid, Graph, Roadmap],
+        starts: Any,
+        goals: Any,
+        *,
+        radius: Optional[npt.ArrayLike] = None,
+        polygon: Any = None,
+        speed: Optional[npt.ArrayLike] = None,
+        names: Optional[Sequence[str]] = None,
+    ) -> None:
+        instance: Union[_core.StepInstance, _core.TimedInstance]
+        if isinstance(graph, Roadmap):
+            begin, end = graph._vertices(starts, "starts"), graph._vertices(goals, "goals")
+            _check_lengths(len(begin), len(end))
+            instance = _core.TimedInstance(
+                graph._graph,
+                graph.resolution,
+                begin,
+                end,
+                _bodies(radius, polygon, len(begin)),
+                per_agent(1.0 if speed is None else speed, "speed", len(begin)),
+            )
+        else:
+            for name, given in (("radius", radius), ("polygon", polygon), ("speed", speed)):
+                if given is not None:
+                    raise ValueError(f"{name} is for roadmaps")
+            shape = (None, 2) if isinstance(graph, Grid) else (None,)
+            begin, end = ints(starts, "starts", shape), ints(goals, "goals", shape)
+            _check_lengths(len(begin), len(end))
+            instance = _core.StepInstance(graph._graph, begin, end)
+        self._setup(graph, instance, names)
+
+    def _setup(
+        self,
+        graph: Union[Grid, Graph, Roadmap],
+        instance: Union[_core.StepInstance, _core.TimedInstance],
+        names: Optional[Sequence[str]],
+    ) -> None:
+        self._graph = graph
+        self._instance = instance
+        self._names = [str(i) for i in range(len(self))] if names is None else list(names)
+        if len(self._names) != len(self):
+            raise ValueError(f"names: {len(self._names)} names for {len(self)} agents")
+        if len(set(self._names)) != len(self):
+            raise ValueError("names: two agents have the same name")
+
+    def __len__(self) -> int:
+        """Number of agents."""
+        return self._instance.num_agents
+
+    @property
+    def graph(self) -> Union[Grid, Graph, Roadmap]:
+        """Where the agents move."""
+        return self._graph
+
+    @property
+    def names(self) -> list[str]:
+        """What the agents are called."""
+        return list(self._names)
+
+    @property
+    def starts(self) -> npt.NDArray[np.int32]:
+        """int32[n, 2], cells (x, y), on grids; int32[n], vertices, otherwise. Read-only."""
+        return self._instance.starts()
+
+    @property
+    def goals(self) -> npt.NDArray[np.int32]:
+        """As ``starts``."""
+        return self._instance.goals()
+
+    @property
+    def bodies(self) -> list[Union[float, npt.NDArray[np.float64]]]:
+        """On roadmaps, per agent: the radius of a disc, or float64[k, 2], corners of a polygon."""
+        return self._timed("bodies").bodies()
+
+    @property
+    def speeds(self) -> npt.NDArray[np.float64]:
+        """On roadmaps: float64[n], length per time; read-only."""
+        return self._timed("speeds").speeds()
+
+    def plan(self, paths: npt.ArrayLike) -> StepPlan:
+        """A plan of your own, in timesteps; ``verify`` says whether it is valid.
+
+        Args:
+            paths: int[n, T, 2], cells (x, y), on grids; int[n, T], vertices, on graphs. An agent
+                stays in its last place.
+
+        Raises:
+            InputError: for places that do not exist or are blocked.
+        """
+        if isinstance(self._instance, _core.TimedInstance):
+            raise ValueError("plan: plans on roadmaps come from solve and read_plan")
+        array = np.asarray(paths)
+        shape = (None, None, 2) if isinstance(self._graph, Grid) else (None, None)
+        if array.ndim == len(shape) and array.shape[1] == 0:
+            raise ValueError("paths: a path has at least one place")
+        fleet = cast("Fleet[StepPlan]", self)
+        return StepPlan(fleet, self._instance.plan(ints(array, "paths", shape)))
+
+    def read_plan(self, file: Union[str, os.PathLike[str]], format: Optional[str] = None) -> P:
+        """A plan from a file. Whether it is valid, ``verify`` says.
+
+        Args:
+            file: Its name.
+            format: "json", "cbsh2", "visualizer" or "yaml", on roadmaps "json" or "ccbs"; by
+                default the contents decide.
+
+        Raises:
+            InputError: with file, line and reason.
+        """
+        return self._make_plan(self._instance.read_plan(os.fspath(file), format))
+
+    def save(self, file: Union[str, os.PathLike[str]]) -> None:
+        """Writes the instance for the program: as YAML if the name says so, else as JSON. Reading it
+        back gives the same integers; names are not kept.
+
+        Raises:
+            FileError: if it cannot be written.
+        """
+        self._instance.save(os.fspath(file))
+
+    def _make_plan(self, plan: Union[_core.StepPlan, _core.TimedPlan]) -> P:
+        made: Plan
+        if isinstance(plan, _core.StepPlan):
+            made = StepPlan(cast("Fleet[StepPlan]", self), plan)
+        else:
+            made = TimedPlan(cast("Fleet[TimedPlan]", self), plan)
+        return cast(P, made)
+
+    def _timed(self, what: str) -> _core.TimedInstance:
+        if isinstance(self._instance, _core.TimedInstance):
+            return self._instance
+        raise ValueError(f"{what}: agents have bodies and speeds on roadmaps only")
+
+    def _cost(self, cost: int) -> float:
+        """A cost of the library in the user's unit of time."""
+        if isinstance(self._instance, _core.TimedInstance):
+            return self._instance.in_input_units(cost)
+        return cost
+
+    def __repr__(self) -> str:
+        return f"<quadrille.Fleet of {len(self)} on {self._graph!r}>"
+
+
+def _check_lengths(starts: int, goals: int) -> None:
+    if starts != goals:
+        raise ValueError(f"there are {starts} starts and {goals} goals")
+
+
+def _bodies(radius: Any, polygon: Any, n: int) -> list[Any]:
+    """Per agent a float or float64[k, 2]."""
+    radii = [float(r) for r in per_agent(DEFAULT_RADIUS if radius is None else radius, "radius", n)]
+    if polygon is None:
+        return list(radii)
+    if len(polygon) and (any(c is None for c in polygon) or np.ndim(polygon[0]) == 2):
+        if len(polygon) != n:
+            raise ValueError(f"polygon: {len(polygon)} entries for {n} agents")
+        return [
+            radii[i] if corners is None else doubles(corners, "polygon", (None, 2))
+            for i, corners in enumerate(polygon)
+        ]
+    if radius is not None:
+        raise ValueError("an agent has either a radius or a polygon")
+    return [doubles(polygon, "polygon", (None, 2))] * n

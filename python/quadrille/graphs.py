@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: MIT
+"""Where agents move: grids and graphs in timesteps, roadmaps in continuous time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Hashable, Optional, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import bools, doubles, ints
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+DEFAULT_RESOLUTION = 1e-6
+
+
+class Grid:
+    """A grid of cells, 4-connected. In each timestep an agent waits or moves to a neighbouring cell.
+
+    A cell is ``(x, y)``: column and row, ``(0, 0)`` in the upper left corner.
+
+    Args:
+        free: bool[h, w], true where an agent may stand: the cell (x, y) is ``free[y, x]``.
+
+    Raises:
+        ValueError: for another shape or type.
+    """
+
+    _graph: _core.StepGraph
+
+    def __init__(self, free: npt.ArrayLike) -> None:
+        self._graph = _core.StepGraph.grid(bools(free, "free", (None, None)))
+
+    @property
+    def free(self) -> npt.NDArray[np.bool_]:
+        """bool[h, w], read-only."""
+        return self._graph.free()
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(h, w): rows and columns."""
+        height, width = self.free.shape
+        return height, width
+
+    @property
+    def num_vertices(self) -> int:
+        """Number of free cells."""
+        return self._graph.num_vertices
+
+    def __repr__(self) -> str:
+        height, width = self.shape
+        return f"<quadrille.Grid {width} x {height}, {self.num_vertices} free cells>"
+
+
+class Graph:
+    """An undirected graph with vertices 0 .. n-1. In each timestep an agent waits or moves along an
+    edge; two agents may not swap over one.
+
+    Args:
+        num_vertices: n.
+        edges: int[m, 2], each edge once.
+
+    Raises:
+        InputError: for loops, edges that are given twice, vertices that do not exist.
+    """
+
+    _graph: _core.StepGraph
+
+    def __init__(self, num_vertices: int, edges: npt.ArrayLike) -> None:
+        if num_vertices < 0:
+            raise ValueError("num_vertices: a number of vertices is 0 or more")
+        self._graph = _core.StepGraph.make(num_vertices, ints(edges, "edges", (None, 2)))
+
+    @property
+    def num_vertices(self) -> int:
+        """Number of vertices."""
+        return self._graph.num_vertices
+
+    @property
+    def edges(self) -> npt.NDArray[np.int32]:
+        """int32[m, 2], each edge once, the smaller vertex first; read-only."""
+        return self._graph.edges()
+
+    def __repr__(self) -> str:
+        return f"<quadrille.Graph {self.num_vertices} vertices, {self._graph.num_edges} edges>"
+
+
+class Roadmap:
+    """Vertices in the plane and directed, straight edges, for agents with bodies in continuous time.
+
+    Args:
+        xy: float[n, 2], places of the vertices in your unit of length.
+        edges: int[m, 2], from and to. An edge leads one way.
+        durations: float[m], how long the move along an edge takes whoever makes it, in your unit of
+            time; NaN, or no array: its length divided by the speed of the agent.
+        both_ways: Whether each edge may also be used backwards, with the same duration.
+        resolution: Size of a length unit and of a tick in your units: lengths and times are whole
+            numbers of these, and exact from there on. The places are rounded to the nearest.
+        nodes: What you call the vertices: ``Fleet`` understands these names as well as numbers.
+
+    Raises:
+        InputError: for loops, vertices that do not exist, numbers that are too large for the
+            resolution, edges of length zero without a duration.
+    """
+
+    _graph: _core.TimedGraph
+
+    def __init__(
+        self,
+        xy: npt.ArrayLike,
+        edges: npt.ArrayLike,
+        *,
+        durations: Optional[npt.ArrayLike] = None,
+        both_ways: bool = False,
+        resolution: float = DEFAULT_RESOLUTION,
+        nodes: Optional[Sequence[Hashable]] = None,
+    ) -> None:
+        places = doubles(xy, "xy", (None, 2))
+        ends = ints(edges, "edges", (None, 2))
+        times = np.full(len(ends), np.nan)
+        if durations is not None:
+            times = doubles(durations, "durations", (len(ends),))
+        if both_ways:
+            # An edge and its reverse are neighbours.
+            ends = np.stack([ends, ends[:, ::-1]], axis=1).reshape(-1, 2)
+            times = np.repeat(times, 2)
+        if not resolution > 0:
+            raise ValueError("resolution: a resolution is positive")
+        self._setup(_core.TimedGraph(places, np.ascontiguousarray(ends), times, resolution), resolution)
+        if nodes is not None:
+            self._name_nodes(nodes)
+
+    def _setup(self, graph: _core.TimedGraph, resolution: float) -> None:
+        self._graph = graph
+        self._resolution = float(resolution)
+        self._nodes: Optional[list[Hashable]] = None
+        self._number: dict[Hashable, int] = {}
+
+    def _name_nodes(self, nodes: Sequence[Hashable]) -> None:
+        if len(nodes) != self.num_vertices:
+            raise ValueError(f"nodes: {len(nodes)} names for {self.num_vertices} vertices")
+        self._nodes = list(nodes)
+        self._number = {node: number for number, node in enumerate(nodes)}
+        if len(self._number) != len(nodes):
+            raise ValueError("nodes: two vertices have the same name")
+
+    @classmethod
+    def from_networkx(
+        cls,
+        G: nx.Graph,
+        pos: Any = "pos",
+        *,
+        duration: Optional[str] = None,
+        resolution: float = DEFAULT_RESOLUTION,
+    ) -> Roadmap:
+        """The roadmap of a networkx graph. Edges of an undirected graph lead both ways.
+
+        Args:
+            G: Graph, DiGraph, or their multi-forms. Vertices are numbered in the order of G.
+            pos: Name of the node attribute that has the place (x, y), or a dict from node to place.
+            duration: Name of an edge attribute with the duration of a move; edges that lack it take
+                their length divided by the speed of the agent.
+            resolution: As for ``Roadmap``.
+
+        Raises:
+            ValueError: for a node without a place, and as ``Roadmap``.
+        """
+        nodes = list(G.nodes)
+        places = G.nodes(data=pos) if isinstance(pos, str) else [(node, pos.get(node)) for node in nodes]
+        xy = []
+        for node, place in places:
+            if place is None or np.shape(place) != (2,):
+                raise ValueError(f"pos: node {node!r} has no place (x, y)")
+            xy.append(place)
+        number = {node: at for at, node in enumerate(nodes)}
+        edges = [(number[u], number[v]) for u, v in G.edges()]
+        durations = None
+        if duration is not None:
+            durations = [np.nan if d is None else d for _, _, d in G.edges(data=duration)]
+        return cls(
+            xy,
+            edges,
+            durations=durations,
+            both_ways=not G.is_directed(),
+            resolution=resolution,
+            nodes=nodes,
+        )
+
+    @property
+    def num_vertices(self) -> int:
+        """Number of vertices."""
+        return self._graph.num_vertices
+
+    @property
+    def resolution(self) -> float:
+        """Size of a length unit and of a tick in your units."""
+        return self._resolution
+
+    @property
+    def xy(self) -> npt.NDArray[np.float64]:
+        """float64[n, 2], places in your unit of length, as rounded; read-only."""
+        return self._graph.xy(self._resolution)
+
+    @property
+    def units(self) -> npt.NDArray[np.int64]:
+        """int64[n, 2], places in whole length units; read-only, and not a copy."""
+        return self._graph.units
+
+    @property
+    def edges(self) -> npt.NDArray[np.int32]:
+        """int32[m, 2], from and to; read-only."""
+        return self._graph.edges()
+
+    @property
+    def durations(self) -> npt.NDArray[np.float64]:
+        """float64[m], in your unit of time, NaN where the agent's speed decides; read-only."""
+        return self._graph.durations(self._resolution)
+
+    @property
+    def nodes(self) -> list[Hashable]:
+        """What the vertices are called: their numbers, or the nodes of the networkx graph."""
+        return list(range(self.num_vertices)) if self._nodes is None else list(self._nodes)
+
+    def _vertices(self, places: Any, name: str) -> npt.NDArray[np.int64]:
+        """Numbers of vertices that are given by number or by node."""
+        if self._nodes is None:
+            return ints(places, name, (None,))
+        numbers = []
+        for agent, place in enumerate(places):
+            if place not in self._number:
+                raise ValueError(f"agent {agent}: {name}: there is no node {place!r}")
+            numbers.append(self._number[place])
+        return ints(numbers, name, (None,))
+
+    def __repr__(self) -> str:
+        return f"<quadrille.Roadmap {self.num_vertices} vertices, {self._graph.num_edges} edges>"

@@ -1,0 +1,315 @@
+# SPDX-License-Identifier: MIT
+"""Plans: one path per agent, in timesteps or in continuous time."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Iterator, Optional, Union, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .graphs import Graph, Grid, Roadmap
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from .fleet import Fleet
+
+
+@dataclass(frozen=True)
+class Violation:
+    """One broken rule of a plan."""
+
+    kind: str
+    """"vertex", "swap", "collision", "wrong-goal", ..."""
+    agent: int
+    other: Optional[int]
+    """The other agent of a collision; larger than ``agent``."""
+    time: float
+    """Timestep, or time in your unit, when the step begins in which it happens."""
+    message: str
+    """One sentence that names agents, place and time."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a replay of a plan says. True if the plan is valid."""
+
+    violations: list[Violation]
+    sum_of_costs: float
+    """In timesteps, or in your unit of time; meaningful for valid plans."""
+    makespan: float
+    clearances: Optional[npt.NDArray[Any]] = None
+    """On roadmaps, per pair of agents: (agent, other, gap, time), the least distance between the
+    bodies over all time, in your unit of length, and a moment at which it is that small."""
+
+    @property
+    def valid(self) -> bool:
+        return not self.violations
+
+    def __bool__(self) -> bool:
+        return self.valid
+
+
+class Plan:
+    """One path per agent. ``StepPlan`` on grids and graphs, ``TimedPlan`` on roadmaps."""
+
+    _plan: Union[_core.StepPlan, _core.TimedPlan]
+
+    def __init__(self, fleet: Fleet[Any], plan: Union[_core.StepPlan, _core.TimedPlan]) -> None:
+        self._fleet = fleet
+        self._plan = plan
+
+    def __len__(self) -> int:
+        """Number of agents."""
+        return self._plan.num_agents
+
+    @property
+    def costs(self) -> npt.NDArray[Any]:
+        """Per agent when it arrives for good: int64[n] in timesteps, float64[n] in your unit of time."""
+        raise NotImplementedError
+
+    @property
+    def makespan(self) -> float:
+        """When the last agent arrives."""
+        return cast(float, self.costs.max(initial=0).item())
+
+    @property
+    def sum_of_costs(self) -> float:
+        return cast(float, self.costs.sum().item())
+
+    def _timeline(self, agent: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Moments float64[k] and places float64[k, 2]; between two of them the agent moves evenly."""
+        raise NotImplementedError
+
+    def sample(self, hz: float) -> npt.NDArray[np.float64]:
+        """Where everybody is, ``hz`` times per timestep or unit of time.
+
+        Returns:
+            float64[n, T, 2], (x, y) at times 0, 1 / hz, ... up to the makespan. On a grid a move takes
+            one timestep, evenly.
+
+        Raises:
+            ValueError: for a rate that is not positive, and on graphs without coordinates.
+        """
+        if not 0 < hz < float("inf"):
+            raise ValueError(f"hz: a rate is positive, not {hz}")
+        # Half a millionth more, so that rounding does not cost the last moment.
+        moments = np.arange(int(np.floor(self.makespan * hz + 5e-7)) + 1) / hz
+        places = np.empty((len(self), len(moments), 2))
+        for agent in range(len(self)):
+            times, xy = self._timeline(agent)
+            for axis in (0, 1):
+                places[agent, :, axis] = np.interp(moments, times, xy[:, axis])
+        return places
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The plan as a table, for which pandas is needed."""
+        import pandas
+
+        return pandas.DataFrame(self._columns())
+
+    def _columns(self) -> dict[str, Any]:
+        raise NotImplementedError
+
+    def verify(self) -> Report:
+        """Replays the plan, by code that shares nothing with the searches."""
+        raise NotImplementedError
+
+    def save(self, file: Union[str, os.PathLike[str]], format: Optional[str] = None) -> None:
+        """Writes the plan.
+
+        Args:
+            file: Its name.
+            format: "json", "cbsh2", "visualizer" or "yaml", on roadmaps "json" or "ccbs"; by
+                default the name decides (.json, .yaml, .yml; .xml), else json.
+
+        Raises:
+            FileError: if it cannot be written.
+            InputError: for a format that is not for this graph.
+        """
+        self._plan.save(self._fleet._instance, os.fspath(file), format)  # type: ignore[arg-type]
+
+    def _checked(self, agent: int) -> int:
+        if not -len(self) <= agent < len(self):
+            raise IndexError(f"there is no agent {agent} among {len(self)}")
+        return agent % len(self)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Plan):
+            return NotImplemented
+        return type(self) is type(other) and self._content() == other._content()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _content(self) -> list[bytes]:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class StepPath:
+    """Path of one agent in timesteps."""
+
+    name: str
+    places: npt.NDArray[np.int32]
+    """int32[T, 2], cells (x, y), on grids; int32[T], vertices, on graphs. As long as the plan's."""
+    cost: int
+    """Timestep of its last arrival."""
+
+
+class StepPlan(Plan):
+    """Paths in timesteps, on a grid or a graph."""
+
+    _plan: _core.StepPlan
+    _paths: Optional[npt.NDArray[np.int32]] = None
+
+    @property
+    def paths(self) -> npt.NDArray[np.int32]:
+        """int32[n, T, 2], cells (x, y), on grids; int32[n, T], vertices, on graphs. T - 1 is the
+        makespan: agents stay in their last place. Read-only; made once."""
+        if self._paths is None:
+            self._paths = self._plan.paths(self._graph)
+        return self._paths
+
+    @property
+    def _graph(self) -> _core.StepGraph:
+        return cast("Union[Grid, Graph]", self._fleet.graph)._graph
+
+    @property
+    def costs(self) -> npt.NDArray[np.int64]:
+        return self._plan.costs()
+
+    def __getitem__(self, agent: int) -> StepPath:
+        agent = self._checked(agent)
+        return StepPath(self._fleet._names[agent], self.paths[agent], int(self.costs[agent]))
+
+    def __iter__(self) -> Iterator[StepPath]:
+        return (self[agent] for agent in range(len(self)))
+
+    def _timeline(self, agent: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        if not self._graph.is_grid:
+            raise ValueError("the vertices of a graph have no coordinates")
+        xy = self.paths[agent].astype(np.float64)
+        return np.arange(len(xy), dtype=np.float64), xy
+
+    def _columns(self) -> dict[str, Any]:
+        """One row per agent and timestep up to its arrival: agent, t, and x and y or vertex."""
+        lengths = self.costs + 1
+        agent = np.repeat(np.arange(len(self)), lengths)
+        t = np.concatenate([np.arange(length) for length in lengths] or [np.arange(0)])
+        columns: dict[str, Any] = {"agent": np.array(self._fleet._names, dtype=object)[agent], "t": t}
+        places = self.paths[agent, t]
+        if places.ndim == 2:
+            columns.update(x=places[:, 0], y=places[:, 1])
+        else:
+            columns.update(vertex=places)
+        return columns
+
+    def verify(self) -> Report:
+        violations, sum_of_costs, makespan = self._fleet._instance.verify(self._plan)
+        return Report([Violation(*violation) for violation in violations], sum_of_costs, makespan)
+
+    def _content(self) -> list[bytes]:
+        return [np.array(self.paths.shape).tobytes(), self.paths.tobytes()]
+
+    def __repr__(self) -> str:
+        return f"<quadrille.StepPlan of {len(self)} agents, makespan {self.makespan}>"
+
+
+STOP = np.dtype(
+    [("vertex", "i4"), ("x", "f8"), ("y", "f8"), ("arrive", "f8"), ("depart", "f8")]
+)
+
+
+@dataclass(frozen=True)
+class TimedPath:
+    """Path of one agent in continuous time."""
+
+    name: str
+    stops: npt.NDArray[np.void]
+    """Structured [k]: (vertex, x, y, arrive, depart), places and times in your units. The agent is at
+    the vertex from its arrival to its departure, then moves evenly to the next one; the last stop is
+    for ever."""
+    ticks: npt.NDArray[np.void]
+    """Structured [k]: (vertex, arrive, depart) in whole ticks, which is what the proof is about.
+    Read-only, and not a copy: it keeps the plan alive."""
+    cost: float
+    """When it arrives at its last stop."""
+
+
+class TimedPlan(Plan):
+    """Paths in continuous time, on a roadmap."""
+
+    _plan: _core.TimedPlan
+
+    @property
+    def _roadmap(self) -> Roadmap:
+        return cast(Roadmap, self._fleet.graph)
+
+    @property
+    def costs(self) -> npt.NDArray[np.float64]:
+        fleet = self._fleet
+        return np.array([fleet._cost(cost) for cost in self._plan.costs().tolist()], dtype=np.float64)
+
+    @property
+    def sum_of_costs(self) -> float:
+        # The sum of whole ticks is exact.
+        return self._fleet._cost(int(self._plan.costs().sum()))
+
+    def __getitem__(self, agent: int) -> TimedPath:
+        agent = self._checked(agent)
+        ticks = self._plan.ticks(agent)
+        stops = np.empty(len(ticks), dtype=STOP)
+        stops["vertex"] = ticks["vertex"]
+        xy = self._roadmap.xy[stops["vertex"]]
+        stops["x"], stops["y"] = xy[:, 0], xy[:, 1]
+        stops["arrive"], stops["depart"] = self._plan.times(agent, self._roadmap.resolution)
+        cost = float(stops["arrive"][-1])
+        return TimedPath(self._fleet._names[agent], stops, ticks, cost)
+
+    def __iter__(self) -> Iterator[TimedPath]:
+        return (self[agent] for agent in range(len(self)))
+
+    def _timeline(self, agent: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        stops = self[agent].stops
+        times = np.stack([stops["arrive"], stops["depart"]], axis=1).ravel()
+        places = np.stack([stops["x"], stops["y"]], axis=1)
+        return times, np.repeat(places, 2, axis=0)
+
+    def _columns(self) -> dict[str, Any]:
+        """One row per stop: agent, vertex, x, y, arrive, depart."""
+        paths = list(self)
+        stops = np.concatenate([path.stops for path in paths] or [np.empty(0, dtype=STOP)])
+        columns: dict[str, Any] = {
+            "agent": [path.name for path in paths for _ in range(len(path.stops))]
+        }
+        columns.update((name, stops[name]) for name in STOP.names or ())
+        return columns
+
+    def verify(self) -> Report:
+        fleet = self._fleet
+        violations, sum_of_costs, makespan, (pairs, gaps) = fleet._instance.verify(self._plan)
+        clearances = np.empty(
+            len(pairs), dtype=[("agent", "i4"), ("other", "i4"), ("gap", "f8"), ("time", "f8")]
+        )
+        clearances["agent"], clearances["other"] = pairs[:, 0], pairs[:, 1]
+        clearances["gap"], clearances["time"] = (gaps * self._roadmap.resolution).T
+        return Report(
+            [
+                Violation(kind, agent, other, fleet._cost(tick), message)
+                for kind, agent, other, tick, message in violations
+            ],
+            fleet._cost(sum_of_costs),
+            fleet._cost(makespan),
+            clearances,
+        )
+
+    def _content(self) -> list[bytes]:
+        return [self._plan.ticks(agent)[name].tobytes() for agent in range(len(self)) for name in
+                ("vertex", "arrive", "depart")]
+
+    def __repr__(self) -> str:
+        return f"<quadrille.TimedPlan of {len(self)} agents, makespan {self.makespan}>"

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: MIT
+"""The search for a plan of least cost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Callable, Generic, NamedTuple, Optional, Union
+
+from . import _core
+from .fleet import Fleet, P
+
+
+class Statistics(NamedTuple):
+    """Counters of one search."""
+
+    cpu_s: float
+    wall_s: float
+    peak_rss_mib: float
+    """Largest resident memory of the process."""
+    sat_calls: int
+    conflicts: int
+    """Clauses learned by the SAT solver."""
+    decisions: int
+    variables: int
+    clauses: int
+    collision_clauses: int
+    """Of the clauses, those that rule out a conflict of two agents."""
+    checks: int
+    models_checked: int
+    rejected_models: int
+    cores: int
+    """Unsatisfiable cores that raised the lower bound."""
+
+
+def _gap(cost: Optional[float], lower_bound: Optional[float]) -> Optional[float]:
+    if cost is None or lower_bound is None:
+        return None
+    if cost == lower_bound:
+        return 0.0
+    return 100 * (cost - lower_bound) / lower_bound if lower_bound > 0 else float("inf")
+
+
+@dataclass(frozen=True)
+class Progress:
+    """A look at a running search. Costs are in timesteps, or in your unit of time."""
+
+    lower_bound: float
+    """Proved: no plan is cheaper."""
+    cost: Optional[float]
+    """Of the best plan so far."""
+    elapsed: float
+    """Seconds."""
+    conflicts: int
+
+    @property
+    def gap(self) -> Optional[float]:
+        """By how many per cent of the bound the best plan may be too dear; None without a plan."""
+        return _gap(self.cost, self.lower_bound)
+
+    def __str__(self) -> str:
+        cost, gap = ("none", "") if self.cost is None else (f"{self.cost:g}", f", gap {self.gap:.2f} %")
+        return f"{self.elapsed:.1f} s: bound {self.lower_bound:g}, best plan {cost}{gap}"
+
+
+@dataclass(frozen=True)
+class Result(Generic[P]):
+    """What a search has found and proved."""
+
+    status: str
+    """"optimal": a plan, and the proof that none is cheaper. "feasible": a plan. "infeasible": the
+    proof that there is none. "unknown": a limit, or Ctrl-C, came first."""
+    plan: Optional[P]
+    """Verified; None unless the status is optimal or feasible."""
+    cost: Optional[float]
+    """Of the plan: int timesteps, or float in your unit of time."""
+    lower_bound: Optional[float]
+    """Proved: no plan is cheaper. None if there is no plan at all."""
+    stop: str
+    """What ended the search: "none" (it ended by itself), "wall-time", "cpu-time", "memory",
+    "conflicts", "interrupt" (Ctrl-C) or "gap"."""
+    explanation: str
+    """For infeasible: why. For unknown: what ended the search."""
+    statistics: Statistics
+    internal_error: Optional[str]
+    """A check of the solver's own work that failed; the status is unknown then. Please report it."""
+
+    @property
+    def gap(self) -> Optional[float]:
+        """By how many per cent of the bound the plan may be too dear; None without a plan."""
+        return _gap(self.cost, self.lower_bound)
+
+    def __repr__(self) -> str:
+        return f"<quadrille.Result {self.status}, cost {self.cost}, lower bound {self.lower_bound}>"
+
+
+def solve(
+    fleet: Fleet[P],
+    *,
+    time_limit: Optional[float] = None,
+    gap: Optional[float] = None,
+    threads: int = 1,
+    seed: int = 0,
+    system: str = "dpll",
+    objective: str = "sum-of-costs",
+    progress: Optional[Callable[[Progress], object]] = None,
+    progress_interval: float = 0.25,
+    on_plan: Optional[Callable[[P], object]] = None,
+    plan_interval: float = 1.0,
+    cpu_limit: Optional[float] = None,
+    memory_limit: Optional[float] = None,
+    conflict_limit: Optional[int] = None,
+    race: bool = False,
+    first_plan: Optional[bool] = None,
+    cost_search: Optional[str] = None,
+    check: Optional[str] = None,
+    mdd_growth: Optional[str] = None,
+    forbid_first: Optional[bool] = None,
+    chronological: Optional[bool] = None,
+    audit: bool = False,
+) -> Result[P]:
+    """Finds a plan of least cost, or proves that there is none.
+
+    The same fleet, options and seed give the same answer as long as no limit of time or memory is
+    met. The GIL is released, so that other Python threads go on and several searches may run at once.
+    Ctrl-C ends the search, which returns what there is (``stop`` is "interrupt").
+
+    Args:
+        fleet: The agents.
+        time_limit: Seconds of wall-clock time; 0 stops at once.
+        gap: Stop when the plan costs at most this many per cent more than is proved necessary.
+        threads: Searches side by side, 1 to 64.
+        seed: Of all random choices, 0 to 2000000000.
+        system: "dpll", "dpll-mdd", "smt-cbs" or "mdd-sat"; on roadmaps "dpll" or "smt-cbs".
+        objective: "sum-of-costs" of the agents' arrivals, or "makespan", the last one.
+        progress: Called with a ``Progress`` in this thread, at most once in ``progress_interval``
+            seconds. An exception ends the search and comes out of ``solve``.
+        on_plan: Called with the best plan so far whenever a better one is known, at most once in
+            ``plan_interval`` seconds. Exceptions as with ``progress``.
+        cpu_limit: Seconds of CPU time, of all threads together.
+        memory_limit: MiB that the search may add to the process.
+        conflict_limit: Conflicts of the SAT solver.
+        race: With threads: take the proof that comes first in time. The plan, not its cost, may
+            differ from run to run then.
+        first_plan: Not on roadmaps: look for a plan of any cost before and beside the proof (default).
+        cost_search: Not on roadmaps: "core-guided" or "iterative".
+        check: Of dpll-mdd: "watch" (default), "propagate", or shares such as "1/2,3/4".
+        mdd_growth: Of the systems with decision diagrams: "on-demand" (default) or "full".
+        forbid_first, chronological: Of dpll in timesteps; see the manual of the program.
+        audit: Derive every lemma again by other means; slow.
+
+    Returns:
+        A ``Result``. Limits, and the lack of a plan, are no errors.
+
+    Raises:
+        InputError: for an option that is out of range or does not apply; nothing else is raised but
+            what callbacks and signal handlers raise, and MemoryError.
+    """
+    arguments: dict[str, Any] = dict(
+        time_limit=time_limit,
+        gap=gap,
+        threads=threads,
+        seed=seed,
+        system=system,
+        objective=objective,
+        progress_interval=progress_interval,
+        plan_interval=plan_interval,
+        cpu_limit=cpu_limit,
+        memory_limit=memory_limit,
+        conflict_limit=conflict_limit,
+        race=race,
+        first_plan=first_plan,
+        cost_search=cost_search,
+        check=check,
+        mdd_growth=mdd_growth,
+        forbid_first=forbid_first,
+        chronological=chronological,
+        audit=audit,
+    )
+    arguments = {name: value for name, value in arguments.items() if value is not None}
+    cost = fleet._cost
+    if progress is not None:
+        tell = progress
+
+        def on_progress(bound: int, best: Optional[int], elapsed: float, conflicts: int) -> None:
+            known = None if best is None else cost(best)
+            tell(Progress(cost(bound), known, elapsed, conflicts))
+
+        arguments["progress"] = on_progress
+    if on_plan is not None:
+        show = on_plan
+
+        def on_better_plan(plan: Union[_core.StepPlan, _core.TimedPlan]) -> None:
+            show(fleet._make_plan(plan))
+
+        arguments["on_plan"] = on_better_plan
+    outcome = fleet._instance.solve(arguments)
+    best, bound, plan = outcome["cost"], outcome["lower_bound"], outcome["plan"]
+    return Result(
+        status=outcome["status"],
+        plan=None if plan is None else fleet._make_plan(plan),
+        cost=None if best is None else cost(best),
+        lower_bound=None if bound is None else cost(bound),
+        stop=outcome["stop"],
+        explanation=outcome["explanation"],
+        statistics=Statistics(**outcome["statistics"]),
+        internal_error=outcome["internal_error"],
+    )

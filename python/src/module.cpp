@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#include "bindings.hpp"
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "What the package quadrille is built on; not for users.";
+  module.attr("__version__") = QUADRILLE_VERSION;
+  quadrille::python::bind_steps(module);
+  quadrille::python::bind_timed(module);
+  quadrille::python::bind_reading(module);
+}

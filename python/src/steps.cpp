@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+// The discrete domain: graphs, tasks and plans in timesteps.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "errors.hpp"
+#include "quadrille/discrete/instance_json.hpp"
+#include "quadrille/discrete/instance_yaml.hpp"
+#include "quadrille/discrete/plan_formats.hpp"
+#include "quadrille/discrete/solver.hpp"
+#include "quadrille/discrete/verify.hpp"
+#include "saving.hpp"
+#include "solving.hpp"
+
+namespace quadrille::python {
+namespace {
+
+using discrete::Graph;
+using discrete::Instance;
+using discrete::Plan;
+
+std::shared_ptr<Graph> grid_of(const Bools& free) {
+  const auto cells = free.unchecked<2>();
+  const auto height = cells.shape(0), width = cells.shape(1);
+  std::vector<bool> passable;
+  passable.reserve(static_cast<std::size_t>(height * width));
+  for (py::ssize_t y = 0; y < height; ++y)
+    for (py::ssize_t x = 0; x < width; ++x) passable.push_back(cells(y, x));
+  return std::make_shared<Graph>(
+      Graph::grid(static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), passable));
+}
+
+std::shared_ptr<Graph> graph_of(std::size_t num_vertices, const Ints& edges) {
+  const auto ends = edges.unchecked<2>();
+  const auto vertex = [&](std::int64_t v) {
+    if (v < 0 || v >= static_cast<std::int64_t>(num_vertices))
+      refuse("edges: there is no vertex " + std::to_string(v) + " among " +
+             std::to_string(num_vertices));
+    return VertexId(static_cast<std::size_t>(v));
+  };
+  std::vector<Graph::Edge> list;
+  for (py::ssize_t e = 0; e < ends.shape(0); ++e)
+    list.emplace_back(vertex(ends(e, 0)), vertex(ends(e, 1)));
+  return std::make_shared<Graph>(take(Graph::make(num_vertices, list)));
+}
+
+py::array free_cells(const Graph& graph) {
+  const auto& layout = *graph.layout();
+  const auto height = static_cast<std::size_t>(layout.height());
+  const auto width = static_cast<std::size_t>(layout.width());
+  auto array = new_array<bool>({height, width});
+  auto cells = array.mutable_unchecked<2>();
+  for (std::int32_t y = 0; y < layout.height(); ++y)
+    for (std::int32_t x = 0; x < layout.width(); ++x)
+      cells(y, x) = layout.vertex_at({x, y}).has_value();
+  return frozen(array);
+}
+
+py::array edges_of(const Graph& graph) {
+  auto array = new_array<std::int32_t>({graph.num_edges(), 2});
+  auto ends = array.mutable_unchecked<2>();
+  py::ssize_t row = 0;
+  for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
+    for (const VertexId w : graph.neighbours(v)) {
+      if (w < v) continue;
+      ends(row, 0) = static_cast<std::int32_t>(v.index());
+      ends(row++, 1) = static_cast<std::int32_t>(w.index());
+    }
+  return frozen(array);
+}
+
+/// The vertex of a place: its number, or the cell (x, y) on a grid. `name` is for messages.
+VertexId vertex_of(const Graph& graph, const std::int64_t* place, const std::string& name) {
+  if (!graph.layout()) {
+    if (place[0] < 0 || place[0] >= static_cast<std::int64_t>(graph.num_vertices()))
+      refuse(name + ": there is no vertex " + std::to_string(place[0]) + " among " +
+             std::to_string(graph.num_vertices()));
+    return VertexId(static_cast<std::size_t>(place[0]));
+  }
+  const auto is_int = [](std::int64_t v) { return v >= INT32_MIN && v <= INT32_MAX; };
+  const auto vertex = is_int(place[0]) && is_int(place[1])
+                          ? graph.layout()->vertex_at({static_cast<std::int32_t>(place[0]),
+                                                       static_cast<std::int32_t>(place[1])})
+                          : std::nullopt;
+  if (!vertex)
+    refuse(name + ": the cell (" + std::to_string(place[0]) + ", " + std::to_string(place[1]) +
+           ") is blocked, or outside of the grid");
+  return *vertex;
+}
+
+/// How many numbers name a place.
+std::size_t place_size(const Graph& graph) { return graph.layout() ? 2 : 1; }
+
+void write_place(const Graph& graph, VertexId v, std::int32_t* place) {
+  if (const auto& layout = graph.layout()) {
+    place[0] = layout->cell_of(v).x;
+    place[1] = layout->cell_of(v).y;
+  } else {
+    place[0] = static_cast<std::int32_t>(v.index());
+  }
+}
+
+/// int32[n, 2] on grids, int32[n] otherwise.
+template <class VertexOf>
+py::array places(const Graph& graph, std::size_t n, const VertexOf& vertex) {
+  auto array = graph.layout() ? new_array<std::int32_t>({n, 2}) : new_array<std::int32_t>({n});
+  std::int32_t* place = array.mutable_data();
+  for (std::size_t i = 0; i < n; ++i, place += place_size(graph))
+    write_place(graph, vertex(i), place);
+  return frozen(array);
+}
+
+Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, const Ints& goals) {
+  std::vector<discrete::Task> tasks;
+  const std::size_t size = place_size(*graph);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(starts.shape(0)); ++i) {
+    const std::string agent = "agent " + std::to_string(i);
+    tasks.push_back({vertex_of(*graph, starts.data() + size * i, agent + ": start"),
+                     vertex_of(*graph, goals.data() + size * i, agent + ": goal")});
+  }
+  return take(Instance::make(graph, std::move(tasks)));
+}
+
+/// int32[n, T, 2] on grids, int32[n, T] otherwise; T - 1 is the makespan.
+py::array paths_of(const Plan& plan, const Graph& graph) {
+  std::size_t length = 1;
+  for (const auto& path : plan.paths) length = std::max(length, path.size());
+  const std::size_t n = plan.paths.size(), size = place_size(graph);
+  auto array = graph.layout() ? new_array<std::int32_t>({n, length, 2})
+                              : new_array<std::int32_t>({n, length});
+  std::int32_t* place = array.mutable_data();
+  for (const auto& path : plan.paths)
+    for (std::size_t t = 0; t < length; ++t, place += size)
+      write_place(graph, t < path.size() ? path[t] : path.back(), place);
+  return frozen(array);
+}
+
+Plan plan_of(const Graph& graph, const Ints& paths) {
+  const auto n = static_cast<std::size_t>(paths.shape(0));
+  const auto length = static_cast<std::size_t>(paths.shape(1));
+  Plan plan;
+  const std::int64_t* place = paths.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    discrete::Path path;
+    for (std::size_t t = 0; t < length; ++t, place += place_size(graph))
+      path.push_back(vertex_of(graph, place,
+                               "agent " + std::to_string(i) + ", timestep " + std::to_string(t)));
+    plan.paths.push_back(std::move(path));
+  }
+  trim(plan);
+  return plan;
+}
+
+discrete::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>& interrupt) {
+  discrete::SolveOptions options;
+  set_common(arguments, options, interrupt);
+  arguments.choose("system", discrete::parse_system, options.system,
+                   "dpll, dpll-mdd, smt-cbs or mdd-sat");
+  arguments.choose("cost_search", discrete::parse_cost_search, options.cost_search,
+                   "iterative or core-guided");
+  arguments.choose("mdd_growth", discrete::parse_mdd_growth, options.mdd.growth,
+                   "on-demand or full");
+  if (const auto text = arguments.take<std::string>("check"))
+    options.mdd.check = take(discrete::parse_check_schedule(*text));
+  arguments.set("forbid_first", options.lazy.forbid_first);
+  arguments.set("chronological", options.lazy.chronological);
+  arguments.set("first_plan", options.first_plan);
+  arguments.finish("timesteps");
+  return options;
+}
+
+py::dict solve_steps(const Instance& instance, const py::dict& arguments) {
+  return run_solve<discrete::Progress, Plan>(instance, arguments, options_of);
+}
+
+const char* name_of(discrete::Violation::Kind kind) {
+  using Kind = discrete::Violation::Kind;
+  switch (kind) {
+    case Kind::path_count:
+      return "path-count";
+    case Kind::empty_path:
+      return "empty-path";
+    case Kind::bad_vertex:
+      return "bad-vertex";
+    case Kind::wrong_start:
+      return "wrong-start";
+    case Kind::wrong_goal:
+      return "wrong-goal";
+    case Kind::not_adjacent:
+      return "not-adjacent";
+    case Kind::vertex:
+      return "vertex";
+    case Kind::swap:
+      return "swap";
+  }
+  return "unknown";
+}
+
+/// (violations, sum of costs, makespan); a violation is (kind, agent, other, timestep, message).
+py::tuple verify_steps(const Instance& instance, const Plan& plan) {
+  discrete::VerifyReport report;
+  {
+    const py::gil_scoped_release release;
+    report = verify(instance, plan);
+  }
+  py::list violations;
+  for (const discrete::Violation& violation : report.violations)
+    violations.append(py::make_tuple(
+        name_of(violation.kind), violation.agent.index(),
+        violation.other ? py::object(py::int_(violation.other->index())) : py::object(py::none()),
+        violation.timestep, violation.message));
+  return py::make_tuple(violations, report.sum_of_costs, report.makespan);
+}
+
+std::optional<discrete::PlanFormat> format_of(const std::optional<std::string>& name) {
+  if (!name) return std::nullopt;
+  const auto format = discrete::parse_plan_format(*name);
+  if (!format) refuse("format: '" + *name + "' is not json, cbsh2, visualizer or yaml");
+  return format;
+}
+
+void save_plan(const Plan& plan, const Instance& instance, const std::filesystem::path& path,
+               const std::optional<std::string>& name) {
+  const auto format =
+      format_of(name).value_or(discrete::plan_format_of(path).value_or(discrete::PlanFormat::json));
+  save(path, [&](std::ostream& out) {
+    return write_plan(out, path.string(), instance.graph(), plan, format);
+  });
+}
+
+Plan read_plan(const Instance& instance, const std::filesystem::path& path,
+               const std::optional<std::string>& name) {
+  const auto format = format_of(name);
+  return take([&] {
+           const py::gil_scoped_release release;
+           return discrete::read_plan(path, instance.graph(), format);
+         }())
+      .plan;
+}
+
+void save_instance(const Instance& instance, const std::filesystem::path& path) {
+  const bool is_yaml = path.extension() == ".yaml" || path.extension() == ".yml";
+  save(path, [&](std::ostream& out) {
+    return is_yaml ? write_instance_yaml(out, path.string(), instance)
+                   : write_instance_json(out, path.string(), instance);
+  });
+}
+
+}  // namespace
+
+void bind_steps(py::module_& module) {
+  py::class_<Graph, std::shared_ptr<Graph>>(module, "StepGraph")
+      .def_static("grid", &grid_of)
+      .def_static("make", &graph_of)
+      .def_property_readonly("is_grid", [](const Graph& graph) { return bool(graph.layout()); })
+      .def_property_readonly("num_vertices", &Graph::num_vertices)
+      .def_property_readonly("num_edges", &Graph::num_edges)
+      .def("free", &free_cells)
+      .def("edges", &edges_of);
+  py::class_<Plan>(module, "StepPlan")
+      .def_property_readonly("num_agents", [](const Plan& plan) { return plan.paths.size(); })
+      .def("costs",
+           [](const Plan& plan) {
+             auto costs = new_array<std::int64_t>({plan.paths.size()});
+             std::transform(plan.paths.begin(), plan.paths.end(), costs.mutable_data(),
+                            &discrete::arrival);
+             return frozen(costs);
+           })
+      .def("paths", &paths_of)
+      .def("save", &save_plan);
+  py::class_<Instance>(module, "StepInstance")
+      .def(py::init(&instance_of))
+      .def_property_readonly("num_agents", &Instance::num_agents)
+      .def_property_readonly("graph",
+                             [](const Instance& instance) {
+                               // Nobody on this side can change it.
+                               return std::const_pointer_cast<Graph>(instance.shared_graph());
+                             })
+      .def("starts",
+           [](const Instance& instance) {
+             return places(instance.graph(), instance.num_agents(),
+                           [&](std::size_t i) { return instance.tasks()[AgentId(i)].start; });
+           })
+      .def("goals",
+           [](const Instance& instance) {
+             return places(instance.graph(), instance.num_agents(),
+                           [&](std::size_t i) { return instance.tasks()[AgentId(i)].goal; });
+           })
+      .def("plan", [](const Instance& instance,
+                      const Ints& paths) { return plan_of(instance.graph(), paths); })
+      .def("solve", &solve_steps)
+      .def("verify", &verify_steps)
+      .def("read_plan", &read_plan)
+      .def("save", &save_instance);
+}
+
+}  // namespace quadrille::python

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+"""The package gives the same answers as the program: status, costs, bound and plan."""
+
+import random
+
+import numpy as np
+import pytest
+from conftest import random_grid_fleet, random_roadmap_fleet, scaled, solve_by_program
+
+import quadrille as q
+
+SYSTEMS = ["dpll", "dpll-mdd", "smt-cbs", "mdd-sat"]
+
+
+@pytest.mark.parametrize("objective", ["sum-of-costs", "makespan"])
+def test_on_random_grids(tmp_path, objective):
+    seen = set()
+    for seed in range(scaled(40)):
+        fleet, system = random_grid_fleet(seed), SYSTEMS[seed % 4]
+        fleet.save(tmp_path / "i.json")
+        theirs = solve_by_program(
+            tmp_path / "i.json", "--objective", objective, "--system", system, "--seed", seed
+        )
+        ours = q.solve(fleet, objective=objective, system=system, seed=seed)
+        assert ours.internal_error is None
+        assert (ours.status, ours.cost, ours.lower_bound) == (
+            theirs["status"], theirs["cost"], theirs["lower_bound"]), seed
+        if ours.plan is not None:
+            report = ours.plan.verify()
+            assert report.valid and ours.cost in (report.sum_of_costs, report.makespan)
+            paths = [np.array(path) for path in theirs["plan"]]
+            for path, (ours_, cost) in zip(paths, zip(ours.plan.paths, ours.plan.costs)):
+                assert np.array_equal(path, ours_[: cost + 1]), seed
+        else:
+            assert ours.explanation == theirs["explanation"]
+        seen.add(ours.status)
+    assert "optimal" in seen and (len(seen) == 2 or scaled(40) < 40)
+
+
+@pytest.mark.parametrize("objective", ["sum-of-costs", "makespan"])
+def test_on_random_roadmaps(tmp_path, objective):
+    solved = 0
+    for seed in range(scaled(16)):
+        fleet = random_roadmap_fleet(seed)
+        if fleet is None:
+            continue
+        fleet.save(tmp_path / "i.json")
+        # A limit that does not depend on time: some of them cannot be solved.
+        limits = {"conflict_limit": 300}
+        theirs = solve_by_program(
+            tmp_path / "i.json", "--objective", objective, "--conflict-limit", 300, "--seed", seed
+        )
+        ours = q.solve(fleet, objective=objective, seed=seed, **limits)
+        assert (ours.status, ours.cost, ours.lower_bound) == (
+            theirs["status"], theirs["cost"], theirs["lower_bound"]), seed
+        if ours.plan is None:
+            continue
+        solved += 1
+        report = ours.plan.verify()
+        assert report.valid
+        assert ours.cost == (report.makespan if objective == "makespan" else report.sum_of_costs)
+        for path, stops in zip(theirs["plan"], ours.plan):
+            ticks = stops.ticks
+            assert [stop["vertex"] for stop in path] == ticks["vertex"].tolist()
+            assert [stop["arrive_ticks"] for stop in path] == ticks["arrive"].tolist()
+            assert [stop["arrive"] for stop in path] == stops.stops["arrive"].tolist()
+            assert [stop["at"] for stop in path] == np.stack(
+                [stops.stops["x"], stops.stops["y"]], axis=1).tolist()
+    assert solved > 0
+
+
+def test_gap_and_limits_and_threads(tmp_path):
+    fleet = random_grid_fleet(3, agents=6, size=8)
+    fleet.save(tmp_path / "i.json")
+    for arguments, options in [
+        (dict(gap=50), ("--gap", 50)),
+        (dict(conflict_limit=0), ("--conflict-limit", 0)),
+        (dict(time_limit=0), ("--time-limit", 0)),
+        (dict(threads=3), ("--threads", 3)),
+        (dict(first_plan=False), ("--no-first-plan",)),
+        (dict(cost_search="iterative"), ("--cost-search", "iterative")),
+        (dict(forbid_first=True, chronological=True),
+         ("--forbid-first", "--backtracking", "chronological")),
+        (dict(system="dpll-mdd", check="1/2,3/4", mdd_growth="full"),
+         ("--system", "dpll-mdd", "--check", "1/2,3/4", "--mdd-growth", "full")),
+    ]:
+        theirs = solve_by_program(tmp_path / "i.json", *options)
+        ours = q.solve(fleet, **arguments)
+        assert (ours.status, ours.cost, ours.lower_bound, ours.stop) == (
+            theirs["status"], theirs["cost"], theirs["lower_bound"], theirs["stop_reason"]), options
+
+
+def test_written_plans_are_read_back_and_verified(tmp_path):
+    grids = [random_grid_fleet(seed) for seed in range(8)]
+    for fleet in grids:
+        plan = q.solve(fleet).plan
+        for name in ("p.json", "p.yaml", "p.txt"):
+            if plan is None:
+                continue
+            format = {"p.txt": random.Random(len(plan)).choice(["cbsh2", "visualizer"])}.get(name)
+            plan.save(tmp_path / name, format)
+            again = fleet.read_plan(tmp_path / name)
+            assert again == plan and again.verify()
+    for fleet in filter(None, map(random_roadmap_fleet, range(8))):
+        plan = q.solve(fleet, conflict_limit=300).plan
+        for name in ("p.json", "p.xml"):
+            if plan is None:
+                continue
+            plan.save(tmp_path / name)
+            again = fleet.read_plan(tmp_path / name)
+            assert again == plan and again.verify()
+
+
+def test_broken_plans_are_found_out():
+    fleet = q.Fleet(q.Grid(np.ones((1, 3))), [(0, 0), (2, 0)], [(2, 0), (0, 0)])
+    plan = fleet.plan([[(0, 0), (1, 0), (2, 0)], [(2, 0), (1, 0), (0, 0)]])
+    report = plan.verify()
+    assert not report and [v.kind for v in report.violations] == ["vertex"]
+    violation = report.violations[0]
+    assert (violation.agent, violation.other, violation.time) == (0, 1, 1)
+    assert "(1, 0)" in violation.message
+    assert q.solve(fleet).status == "infeasible"
+    assert q.solve(fleet).lower_bound is None
