@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Hashable, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Hashable, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     import networkx as nx
 
 DEFAULT_RESOLUTION = 1e-6
+
+# Of both, or of a length unit and of a tick.
+Resolution = Union[float, tuple[float, float]]
 
 
 class Grid:
@@ -97,8 +100,9 @@ class Roadmap:
         durations: float[m], how long the move along an edge takes whoever makes it, in your unit of
             time; NaN, or no array: its length divided by the speed of the agent.
         both_ways: Whether each edge may also be used backwards, with the same duration.
-        resolution: Size of a length unit and of a tick in your units: lengths and times are whole
-            numbers of these, and exact from there on. The places are rounded to the nearest.
+        resolution: Size of a length unit and of a tick in your units, or both: (length, time).
+            Lengths and times are whole numbers of these, and exact from there on. Places are
+            rounded to the nearest.
         nodes: What you call the vertices: ``Fleet`` understands these names as well as numbers.
 
     Raises:
@@ -115,7 +119,7 @@ class Roadmap:
         *,
         durations: Optional[npt.ArrayLike] = None,
         both_ways: bool = False,
-        resolution: float = DEFAULT_RESOLUTION,
+        resolution: Resolution = DEFAULT_RESOLUTION,
         nodes: Optional[Sequence[Hashable]] = None,
     ) -> None:
         places = doubles(xy, "xy", (None, 2))
@@ -127,15 +131,17 @@ class Roadmap:
             # An edge and its reverse are neighbours.
             ends = np.stack([ends, ends[:, ::-1]], axis=1).reshape(-1, 2)
             times = np.repeat(times, 2)
-        if not resolution > 0:
+        sizes = doubles(np.broadcast_to(resolution, 2), "resolution", (2,)).tolist()
+        if not all(0 < size < float("inf") for size in sizes):
             raise ValueError("resolution: a resolution is positive")
-        self._setup(_core.TimedGraph(places, np.ascontiguousarray(ends), times, resolution), resolution)
+        pair = (sizes[0], sizes[1])
+        self._setup(_core.TimedGraph(places, np.ascontiguousarray(ends), times, pair), pair)
         if nodes is not None:
             self._name_nodes(nodes)
 
-    def _setup(self, graph: _core.TimedGraph, resolution: float) -> None:
+    def _setup(self, graph: _core.TimedGraph, resolution: tuple[float, float]) -> None:
         self._graph = graph
-        self._resolution = float(resolution)
+        self._resolution = resolution
         self._nodes: Optional[list[Hashable]] = None
         self._number: dict[Hashable, int] = {}
 
@@ -154,7 +160,7 @@ class Roadmap:
         pos: Any = "pos",
         *,
         duration: Optional[str] = None,
-        resolution: float = DEFAULT_RESOLUTION,
+        resolution: Resolution = DEFAULT_RESOLUTION,
     ) -> Roadmap:
         """The roadmap of a networkx graph. Edges of an undirected graph lead both ways.
 
@@ -195,8 +201,8 @@ class Roadmap:
         return self._graph.num_vertices
 
     @property
-    def resolution(self) -> float:
-        """Size of a length unit and of a tick in your units."""
+    def resolution(self) -> tuple[float, float]:
+        """Sizes of a length unit and of a tick in your units of length and time."""
         return self._resolution
 
     @property

@@ -209,7 +209,8 @@ class StepPlan(Plan):
         return columns
 
     def verify(self) -> Report:
-        violations, sum_of_costs, makespan = self._fleet._instance.verify(self._plan)
+        instance = cast(_core.StepInstance, self._fleet._instance)
+        violations, sum_of_costs, makespan = instance.verify(self._plan)
         return Report([Violation(*violation) for violation in violations], sum_of_costs, makespan)
 
     def _content(self) -> list[bytes]:
@@ -291,12 +292,13 @@ class TimedPlan(Plan):
 
     def verify(self) -> Report:
         fleet = self._fleet
-        violations, sum_of_costs, makespan, (pairs, gaps) = fleet._instance.verify(self._plan)
+        instance = cast(_core.TimedInstance, fleet._instance)
+        violations, sum_of_costs, makespan, (pairs, gaps) = instance.verify(self._plan)
         clearances = np.empty(
             len(pairs), dtype=[("agent", "i4"), ("other", "i4"), ("gap", "f8"), ("time", "f8")]
         )
         clearances["agent"], clearances["other"] = pairs[:, 0], pairs[:, 1]
-        clearances["gap"], clearances["time"] = (gaps * self._roadmap.resolution).T
+        clearances["gap"], clearances["time"] = (gaps * np.array(self._roadmap.resolution)).T
         return Report(
             [
                 Violation(kind, agent, other, fleet._cost(tick), message)

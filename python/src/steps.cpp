@@ -120,14 +120,14 @@ py::array places(const Graph& graph, std::size_t n, const VertexOf& vertex) {
 }
 
 Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, const Ints& goals) {
-  std::vector<discrete::Task> tasks;
+  std::vector<discrete::Agent> agents;
   const std::size_t size = place_size(*graph);
   for (std::size_t i = 0; i < static_cast<std::size_t>(starts.shape(0)); ++i) {
     const std::string agent = "agent " + std::to_string(i);
-    tasks.push_back({vertex_of(*graph, starts.data() + size * i, agent + ": start"),
-                     vertex_of(*graph, goals.data() + size * i, agent + ": goal")});
+    agents.push_back({vertex_of(*graph, starts.data() + size * i, agent + ": start"),
+                      vertex_of(*graph, goals.data() + size * i, agent + ": goal")});
   }
-  return take(Instance::make(graph, std::move(tasks)));
+  return take(Instance::make(graph, std::move(agents)));
 }
 
 /// int32[n, T, 2] on grids, int32[n, T] otherwise; T - 1 is the makespan.
@@ -288,12 +288,12 @@ void bind_steps(py::module_& module) {
       .def("starts",
            [](const Instance& instance) {
              return places(instance.graph(), instance.num_agents(),
-                           [&](std::size_t i) { return instance.tasks()[AgentId(i)].start; });
+                           [&](std::size_t i) { return instance.agents()[AgentId(i)].start; });
            })
       .def("goals",
            [](const Instance& instance) {
              return places(instance.graph(), instance.num_agents(),
-                           [&](std::size_t i) { return instance.tasks()[AgentId(i)].goal; });
+                           [&](std::size_t i) { return instance.agents()[AgentId(i)].goal; });
            })
       .def("plan", [](const Instance& instance,
                       const Ints& paths) { return plan_of(instance.graph(), paths); })

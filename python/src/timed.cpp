@@ -32,9 +32,14 @@ using continuous::Instance;
 using continuous::Length;
 using continuous::Plan;
 using continuous::Point;
+using continuous::Resolution;
 using continuous::Roadmap;
 using continuous::Stop;
 using continuous::Ticks;
+
+/// Sizes of a length unit and of a tick, as Python has them.
+using Sizes = std::pair<double, double>;
+Resolution resolution_of(const Sizes& sizes) { return {sizes.first, sizes.second}; }
 
 /// For messages: "xy[3]".
 std::string entry(const char* array, py::ssize_t row) {
@@ -52,7 +57,8 @@ VertexId vertex_of(std::int64_t vertex, std::size_t size, const std::string& nam
 
 /// `xy`: [n, 2], `edges`: [m, 2], `durations`: [m], NaN for none.
 std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const Doubles& durations,
-                                    double resolution) {
+                                    const Sizes& sizes) {
+  const Resolution resolution = resolution_of(sizes);
   const auto coordinates = xy.unchecked<2>();
   std::vector<Point> points;
   for (py::ssize_t v = 0; v < coordinates.shape(0); ++v) {
@@ -89,7 +95,8 @@ py::array units_of(const py::object& self) {
                  {sizeof(Point), sizeof(std::int64_t)}, self);
 }
 
-py::array coordinates_of(const Roadmap& roadmap, double resolution) {
+py::array coordinates_of(const Roadmap& roadmap, const Sizes& sizes) {
+  const Resolution resolution = resolution_of(sizes);
   auto array = new_array<double>({roadmap.num_vertices(), 2});
   double* to = array.mutable_data();
   for (const Point& point : roadmap.positions()) {
@@ -109,7 +116,8 @@ py::array edges_of(const Roadmap& roadmap) {
   return frozen(array);
 }
 
-py::array durations_of(const Roadmap& roadmap, double resolution) {
+py::array durations_of(const Roadmap& roadmap, const Sizes& sizes) {
+  const Resolution resolution = resolution_of(sizes);
   auto array = new_array<double>({roadmap.num_edges()});
   double* to = array.mutable_data();
   for (const continuous::Edge& edge : roadmap.edges())
@@ -118,7 +126,7 @@ py::array durations_of(const Roadmap& roadmap, double resolution) {
 }
 
 /// `corners`: float64[k, 2].
-continuous::Body polygon_of(const Doubles& corners, double resolution, py::ssize_t i) {
+continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution, py::ssize_t i) {
   const auto xy = corners.unchecked<2>();
   std::vector<Point> points;
   for (py::ssize_t k = 0; k < xy.shape(0); ++k) {
@@ -133,9 +141,10 @@ continuous::Body polygon_of(const Doubles& corners, double resolution, py::ssize
 }
 
 /// A body is a radius or the corners of a polygon.
-TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, double resolution,
+TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& sizes,
                           const Ints& starts, const Ints& goals, const py::list& bodies,
                           const Doubles& speeds) {
+  const Resolution resolution = resolution_of(sizes);
   std::vector<continuous::Agent> agents;
   for (py::ssize_t i = 0; i < starts.shape(0); ++i) {
     continuous::Agent made;
@@ -149,7 +158,7 @@ TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, double resolu
     } else {
       made.body = polygon_of(body.cast<Doubles>(), resolution, i);
     }
-    const auto speed = continuous::quantise_speed(speeds.at(i));
+    const auto speed = continuous::quantise_speed(speeds.at(i), resolution);
     if (!speed) refuse(agent(i) + "the speed is not between 0.000001 and 1000000");
     made.speed = *speed;
     agents.push_back(std::move(made));
@@ -168,7 +177,7 @@ py::array vertices(const TimedInstance& self, const VertexOf& vertex) {
 
 /// Per agent a radius, or float64[k, 2].
 py::list bodies_of(const TimedInstance& self) {
-  const double resolution = self.instance.resolution();
+  const Resolution& resolution = self.instance.resolution();
   py::list bodies;
   for (const continuous::Agent& agent : self.instance.agents()) {
     if (const auto* disc = std::get_if<continuous::Disc>(&agent.body)) {
@@ -191,7 +200,7 @@ py::array speeds_of(const TimedInstance& self) {
   auto array = new_array<double>({self.instance.num_agents()});
   double* to = array.mutable_data();
   for (const continuous::Agent& agent : self.instance.agents())
-    *to++ = continuous::speed_in_input_units(agent.speed);
+    *to++ = continuous::speed_in_input_units(agent.speed, self.instance.resolution());
   return frozen(array);
 }
 
@@ -280,7 +289,8 @@ py::array ticks_of(const py::object& self, std::size_t i) {
 }
 
 /// By agent the times of its stops: (arrivals float64[k], departures float64[k]).
-py::tuple times_of(const Plan& plan, std::size_t i, double resolution) {
+py::tuple times_of(const Plan& plan, std::size_t i, const Sizes& sizes) {
+  const Resolution resolution = resolution_of(sizes);
   if (i >= plan.paths.size()) throw py::index_error("there is no agent " + std::to_string(i));
   const continuous::Path& path = plan.paths[AgentId(i)];
   auto arrivals = new_array<double>({path.size()}), departures = new_array<double>({path.size()});
@@ -350,7 +360,10 @@ void bind_timed(py::module_& module) {
       .def_property_readonly("num_agents",
                              [](const TimedInstance& self) { return self.instance.num_agents(); })
       .def_property_readonly("resolution",
-                             [](const TimedInstance& self) { return self.instance.resolution(); })
+                             [](const TimedInstance& self) {
+                               const Resolution& resolution = self.instance.resolution();
+                               return Sizes(resolution.length, resolution.time);
+                             })
       .def_property_readonly(
           "graph",
           [](const TimedInstance& self) {

@@ -62,6 +62,14 @@ def test_stops_on_roadmaps(siding):
         plan[2]
 
 
+def test_lengths_and_times_may_have_units_of_their_own():
+    millimetres = q.Roadmap([(0, 0), (2000, 0)], [(0, 1)], resolution=(1, 0.001))
+    assert millimetres.resolution == (1, 0.001) and millimetres.units.tolist() == [[0, 0], [2000, 0]]
+    result = q.solve(q.Fleet(millimetres, [0], [1], radius=100, speed=500))
+    assert result.cost == 4 and result.plan[0].ticks["arrive"].tolist() == [0, 4000]
+    assert result.plan.sample(1)[0].tolist() == [[0, 0], [500, 0], [1000, 0], [1500, 0], [2000, 0]]
+
+
 def test_samples_are_where_the_paths_are(siding):
     for fleet in [siding, *filter(None, map(random_roadmap_fleet, range(6)))]:
         plan = q.solve(fleet, conflict_limit=300).plan
