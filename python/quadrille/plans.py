@@ -14,6 +14,7 @@ from . import _core
 from .graphs import Graph, Grid, Roadmap
 
 if TYPE_CHECKING:
+    import networkx as nx
     import pandas as pd
 
     from .fleet import Fleet
@@ -115,6 +116,37 @@ class Plan:
     def _columns(self) -> dict[str, Any]:
         raise NotImplementedError
 
+    def precedences(self) -> nx.DiGraph:
+        """Which moves come before which, whatever delays the agents; networkx is needed.
+
+        Returns:
+            A DiGraph. A node is (agent, move), its attributes are ``source``, ``target`` (vertices),
+            ``begin`` and ``end`` (of the plan). An edge says that the second move waits for the first
+            one; ``kind`` is "next" within a path, "after" between two agents. The latter have a
+            ``slack``: until the first move has ended, the second agent may be that much ahead of the
+            first one, counted in times of the plan.
+
+        Raises:
+            InputError: if the plan is not valid.
+        """
+        import networkx
+
+        graph = networkx.DiGraph()
+        moves, list_ = self._precedences()
+        time = self._fleet._cost
+        for agent, move, source, target, begin, end in moves.tolist():
+            graph.add_node(
+                (agent, move), source=source, target=target, begin=time(begin), end=time(end)
+            )
+            if move > 0:
+                graph.add_edge((agent, move - 1), (agent, move), kind="next")
+        for leader, first, follower, second, slack in list_.tolist():
+            graph.add_edge((leader, first), (follower, second), kind="after", slack=time(slack))
+        return graph
+
+    def _precedences(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+        raise NotImplementedError
+
     def verify(self) -> Report:
         """Replays the plan, by code that shares nothing with the searches."""
         raise NotImplementedError
@@ -213,6 +245,9 @@ class StepPlan(Plan):
         violations, sum_of_costs, makespan = instance.verify(self._plan)
         return Report([Violation(*violation) for violation in violations], sum_of_costs, makespan)
 
+    def _precedences(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+        return _core.step_precedences(cast(_core.StepInstance, self._fleet._instance), self._plan)
+
     def _content(self) -> list[bytes]:
         return [np.array(self.paths.shape).tobytes(), self.paths.tobytes()]
 
@@ -309,9 +344,12 @@ class TimedPlan(Plan):
             clearances,
         )
 
+    def _precedences(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+        return _core.timed_precedences(cast(_core.TimedInstance, self._fleet._instance), self._plan)
+
     def _content(self) -> list[bytes]:
-        return [self._plan.ticks(agent)[name].tobytes() for agent in range(len(self)) for name in
-                ("vertex", "arrive", "depart")]
+        ticks = [self._plan.ticks(agent) for agent in range(len(self))]
+        return [stops[name].tobytes() for stops in ticks for name in ("vertex", "arrive", "depart")]
 
     def __repr__(self) -> str:
         return f"<quadrille.TimedPlan of {len(self)} agents, makespan {self.makespan}>"

@@ -105,6 +105,7 @@ def solve(
     progress: Optional[Callable[[Progress], object]] = None,
     progress_interval: float = 0.25,
     on_plan: Optional[Callable[[P], object]] = None,
+    initial: Optional[P] = None,
     plan_interval: float = 1.0,
     cpu_limit: Optional[float] = None,
     memory_limit: Optional[float] = None,
@@ -136,6 +137,7 @@ def solve(
             seconds. An exception ends the search and comes out of ``solve``.
         on_plan: Called with the best plan so far whenever a better one is known, at most once in
             ``plan_interval`` seconds. Exceptions as with ``progress``.
+        initial: A valid plan for the same agents to begin with: the answer costs no more.
         cpu_limit: Seconds of CPU time, of all threads together.
         memory_limit: MiB that the search may add to the process.
         conflict_limit: Conflicts of the SAT solver.
@@ -175,6 +177,7 @@ def solve(
         forbid_first=forbid_first,
         chronological=chronological,
         audit=audit,
+        initial=None if initial is None else initial._plan,
     )
     arguments = {name: value for name, value in arguments.items() if value is not None}
     cost = fleet._cost

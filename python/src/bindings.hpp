@@ -7,8 +7,9 @@ namespace quadrille::python {
 
 // What the Python files of the package are made of: names, arrays and numbers of the library's own
 // units. Docstrings are with the classes that users see.
-void bind_steps(pybind11::module_& module);    ///< The discrete domain.
-void bind_timed(pybind11::module_& module);    ///< The continuous domain.
-void bind_reading(pybind11::module_& module);  ///< Files of either.
+void bind_steps(pybind11::module_& module);        ///< The discrete domain.
+void bind_timed(pybind11::module_& module);        ///< The continuous domain.
+void bind_precedences(pybind11::module_& module);  ///< Of plans of either.
+void bind_reading(pybind11::module_& module);      ///< Files of either.
 
 }  // namespace quadrille::python

@@ -6,5 +6,6 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = QUADRILLE_VERSION;
   quadrille::python::bind_steps(module);
   quadrille::python::bind_timed(module);
+  quadrille::python::bind_precedences(module);
   quadrille::python::bind_reading(module);
 }

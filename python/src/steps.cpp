@@ -171,6 +171,7 @@ discrete::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>&
                    "on-demand or full");
   if (const auto text = arguments.take<std::string>("check"))
     options.mdd.check = take(discrete::parse_check_schedule(*text));
+  arguments.set("initial", options.initial_plan);
   arguments.set("forbid_first", options.lazy.forbid_first);
   arguments.set("chronological", options.lazy.chronological);
   arguments.set("first_plan", options.first_plan);

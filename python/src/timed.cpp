@@ -208,6 +208,7 @@ continuous::SolveOptions options_of(Arguments& arguments, const std::atomic<bool
   continuous::SolveOptions options;
   set_common(arguments, options, interrupt);
   arguments.choose("system", continuous::parse_system, options.system, "dpll or smt-cbs");
+  arguments.set("initial", options.initial_plan);
   arguments.finish("roadmaps");
   return options;
 }

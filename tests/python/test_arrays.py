@@ -188,3 +188,26 @@ def test_pandas(siding):
     table = plan.to_pandas()
     assert list(table.columns) == ["agent", "t", "x", "y"]
     assert table.groupby("agent")["t"].max().sum() == plan.sum_of_costs
+
+
+def test_precedences(siding):
+    nx = need("networkx")
+    corridor = q.Fleet(q.Grid(np.ones((1, 4))), [(1, 0), (0, 0)], [(3, 0), (2, 0)])
+    graph = q.solve(corridor).plan.precedences()
+    # The second agent comes to each cell after the first one has left it.
+    after = [(u, v) for u, v, kind in graph.edges(data="kind") if kind == "after"]
+    assert after and all((u[0], v[0]) == (0, 1) for u, v in after)
+    assert nx.is_directed_acyclic_graph(graph)
+    plan = q.solve(siding).plan
+    graph = plan.precedences()
+    assert len(graph) == sum(len(path.stops) - 1 for path in plan)
+    # What the plan does obeys them.
+    for u, v, data in graph.edges(data=True):
+        if data["kind"] == "after":
+            assert data["slack"] >= 0
+        else:
+            assert graph.nodes[u]["end"] <= graph.nodes[v]["begin"]
+            assert graph.nodes[u]["target"] == graph.nodes[v]["source"]
+    broken = corridor.plan([[(1, 0), (3, 0)], [(0, 0), (2, 0)]])
+    with pytest.raises(q.InputError):
+        broken.precedences()

@@ -66,9 +66,10 @@ def test_tasks_that_do_not_fit(tmp_path):
 
 def test_options_that_do_not_fit():
     siding = SOURCE / "examples/maps/siding.json"
-    for arguments in (dict(radius=1), dict(agents=1), dict(passable="S")):
+    for arguments in (dict(radius=1), dict(passable="S")):
         with pytest.raises(ValueError, match="belong"):
             q.read(siding, **arguments)
+    assert len(q.read(siding, agents=1)) == 1
     with pytest.raises(ValueError, match="one file"):
         q.read()
     with pytest.raises(q.InputError, match="needs the grid|--task is missing"):

@@ -134,3 +134,11 @@ print(result.stop, result.lower_bound > 0, flush=True)
     finally:
         process.kill()
     assert (out, process.returncode) == ("interrupt True\n", 0)
+
+
+def test_a_plan_to_begin_with(crowd):
+    first = q.solve(crowd, time_limit=1)
+    again = q.solve(crowd, time_limit=0.2, initial=first.plan)
+    assert again.status == "feasible" and again.cost <= first.cost
+    with pytest.raises(q.InputError):
+        q.solve(crowd, initial=crowd.plan(first.plan.paths[:, ::-1]))
