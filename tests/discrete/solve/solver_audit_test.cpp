@@ -94,6 +94,7 @@ void expect_that_all_allow_detours(const Instance& instance, Random& random, Cou
     options.threads = 1;
     options.debug.audit = random.percent(50);
     options.debug.known_plan = plan;
+    if (options.initial_plan) options.initial_plan = plan;
     options.first_plan = random.percent(70);
     const SolveOutcome outcome = solve(instance, options).value();
     ASSERT_EQ(find_fault(instance, options, outcome, expected), "")
