@@ -75,6 +75,12 @@ Real Replay::apart(AgentId i, AgentId j, const Vector& offset) const {
   };
   look_at(a, 1);
   look_at(b, -1);
+  const auto *of_a = std::get_if<geometry::ConvexPolygon>(&a),
+             *of_b = std::get_if<geometry::ConvexPolygon>(&b);
+  if (of_a != nullptr && of_b != nullptr)
+    for (const geometry::Point& p : of_a->vertices())
+      for (const geometry::Point& q : of_b->vertices())
+        look(offset.x + real(q.x) - real(p.x), offset.y + real(q.y) - real(p.y));
   return most;
 }
 
