@@ -74,16 +74,30 @@ test("keys: steps, ends, speed, selection, theme, help", async () => {
   await visit.leave();
 });
 
+/**
+ * Until the expression is true, for ten seconds at most. The page's policy forbids what
+ * waitForFunction does when it has to ask twice.
+ * @param {import("playwright-core").Page} page
+ * @param {string} expression
+ */
+async function until(page, expression) {
+  const end = Date.now() + 10_000;
+  while (!(await page.evaluate(expression))) {
+    assert.ok(Date.now() < end, `it never came true: ${expression}`);
+    await page.waitForTimeout(10);
+  }
+}
+
 test("playing comes to the end and stops", async () => {
   const visit = await laboratory.visit(good);
   const { page } = visit;
   await page.locator("#speed").selectOption("50");
   await page.locator("#play").click();
-  await page.waitForFunction("quadrille.time() === 5");
-  await page.waitForFunction("document.getElementById('play').getAttribute('aria-label') === 'Play'");
+  await until(page, "quadrille.time() === 5");
+  await until(page, "document.getElementById('play').getAttribute('aria-label') === 'Play'");
   await page.locator("#map").focus();
   await page.keyboard.press(" ");
-  await page.waitForFunction("quadrille.time() > 0 && quadrille.time() < 6");
+  await until(page, "quadrille.time() > 0 && quadrille.time() < 6");
   await visit.leave();
 });
 
@@ -120,12 +134,12 @@ test("a link leads to a moment, and the page's address follows", async () => {
   assert.equal(await visit.time(), 3.25);
   assert.equal(await visit.selected(), 2);
   await page.keyboard.press("ArrowRight");
-  await page.waitForFunction("location.hash === '#t=4&a=2'");
+  await until(page, "location.hash === '#t=4&a=2'");
   await page.evaluate("location.hash = '#t=1.5&a=1'");
-  await page.waitForFunction("quadrille.time() === 1.5 && quadrille.selected() === 1");
+  await until(page, "quadrille.time() === 1.5 && quadrille.selected() === 1");
   // Nonsense is ignored.
   await page.evaluate("location.hash = '#t=abc&a=99'");
-  await page.waitForFunction("quadrille.selected() === null");
+  await until(page, "quadrille.selected() === null");
   assert.equal(await visit.time(), 1.5);
   await visit.leave();
 });
@@ -204,7 +218,7 @@ test("the strip and the slider go to a moment", async () => {
   await page.locator("#time").fill("2");
   assert.equal(await visit.time(), 2);
   await page.keyboard.press("v");
-  assert.equal(await page.locator("#strip-mode").getAttribute("aria-pressed"), "true");
+  await page.waitForSelector("#strip-mode[aria-pressed=true]");
   await visit.leave();
 });
 
@@ -216,7 +230,7 @@ test("continuous time: clearance now, and the list of the least ones leads there
   assert.ok(Math.abs(await visit.time() - 0.623) < 0.001);
   assert.match(await visit.text("clearance-now"), /^7\.\d+e-5, agents 0 and 1$/);
   await page.keyboard.press("b");
-  assert.equal(await page.locator("#swept").getAttribute("aria-pressed"), "true");
+  await page.waitForSelector("#swept[aria-pressed=true]");
   await visit.leave();
 });
 

@@ -217,7 +217,8 @@ void make_continuous(const std::string& name, std::uint32_t seed) {
   random.polygon_percent = 40;
   const auto drawn = continuous::test::random_instance(seed, random);
   const auto instance =
-      continuous::Instance::make(drawn.shared_roadmap(), drawn.agents().items(), kResolution)
+      continuous::Instance::make(drawn.shared_roadmap(), drawn.agents().items(),
+                                 continuous::Resolution(kLengthResolution, kResolution))
           .value();
   const continuous::Plan plan = random_plan(draw, instance);
   const auto report = verify(instance, plan);
