@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "arguments.hpp"
 #include "grid/grid_input.hpp"
@@ -12,29 +11,6 @@
 
 namespace quadrille::cli {
 namespace {
-
-std::string_view kind_name(discrete::Violation::Kind kind) {
-  using Kind = discrete::Violation::Kind;
-  switch (kind) {
-    case Kind::path_count:
-      return "path-count";
-    case Kind::empty_path:
-      return "empty-path";
-    case Kind::bad_vertex:
-      return "bad-vertex";
-    case Kind::wrong_start:
-      return "wrong-start";
-    case Kind::wrong_goal:
-      return "wrong-goal";
-    case Kind::not_adjacent:
-      return "not-adjacent";
-    case Kind::vertex:
-      return "vertex-conflict";
-    case Kind::swap:
-      return "swap-conflict";
-  }
-  return "";
-}
 
 class GridVerdict {
  public:
@@ -50,7 +26,7 @@ class GridVerdict {
   [[nodiscard]] Json violation_json(const discrete::Violation& violation) const {
     const discrete::Graph& graph = input_.instance.graph();
     Json json;
-    json["kind"] = kind_name(violation.kind);
+    json["kind"] = to_string(violation.kind);
     json["agents"] = Json::array();
     if (violation.kind != discrete::Violation::Kind::path_count)
       json["agents"].push_back(violation.agent.index());

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
@@ -13,31 +12,6 @@
 
 namespace quadrille::cli {
 namespace {
-
-std::string_view kind_name(continuous::Violation::Kind kind) {
-  using Kind = continuous::Violation::Kind;
-  switch (kind) {
-    case Kind::path_count:
-      return "path-count";
-    case Kind::empty_path:
-      return "empty-path";
-    case Kind::bad_vertex:
-      return "bad-vertex";
-    case Kind::bad_time:
-      return "bad-time";
-    case Kind::wrong_start:
-      return "wrong-start";
-    case Kind::wrong_goal:
-      return "wrong-goal";
-    case Kind::not_adjacent:
-      return "not-adjacent";
-    case Kind::duration:
-      return "duration";
-    case Kind::collision:
-      return "collision";
-  }
-  return "";
-}
 
 class RoadmapVerdict {
  public:
@@ -58,7 +32,7 @@ class RoadmapVerdict {
   }
   [[nodiscard]] Json violation_json(const continuous::Violation& violation) const {
     Json json;
-    json["kind"] = kind_name(violation.kind);
+    json["kind"] = to_string(violation.kind);
     json["agents"] = Json::array();
     if (violation.kind != continuous::Violation::Kind::path_count)
       json["agents"].push_back(violation.agent.index());

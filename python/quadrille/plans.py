@@ -25,7 +25,7 @@ class Violation:
     """One broken rule of a plan."""
 
     kind: str
-    """"vertex", "swap", "collision", "wrong-goal", ..."""
+    """"vertex-conflict", "swap-conflict", "collision", "wrong-goal", ..."""
     agent: int
     other: Optional[int]
     """The other agent of a collision; larger than ``agent``."""

@@ -183,29 +183,6 @@ py::dict solve_steps(const Instance& instance, const py::dict& arguments) {
   return run_solve<discrete::Progress, Plan>(instance, arguments, options_of);
 }
 
-const char* name_of(discrete::Violation::Kind kind) {
-  using Kind = discrete::Violation::Kind;
-  switch (kind) {
-    case Kind::path_count:
-      return "path-count";
-    case Kind::empty_path:
-      return "empty-path";
-    case Kind::bad_vertex:
-      return "bad-vertex";
-    case Kind::wrong_start:
-      return "wrong-start";
-    case Kind::wrong_goal:
-      return "wrong-goal";
-    case Kind::not_adjacent:
-      return "not-adjacent";
-    case Kind::vertex:
-      return "vertex";
-    case Kind::swap:
-      return "swap";
-  }
-  return "unknown";
-}
-
 /// (violations, sum of costs, makespan); a violation is (kind, agent, other, timestep, message).
 py::tuple verify_steps(const Instance& instance, const Plan& plan) {
   discrete::VerifyReport report;
@@ -216,7 +193,7 @@ py::tuple verify_steps(const Instance& instance, const Plan& plan) {
   py::list violations;
   for (const discrete::Violation& violation : report.violations)
     violations.append(py::make_tuple(
-        name_of(violation.kind), violation.agent.index(),
+        to_string(violation.kind), violation.agent.index(),
         violation.other ? py::object(py::int_(violation.other->index())) : py::object(py::none()),
         violation.timestep, violation.message));
   return py::make_tuple(violations, report.sum_of_costs, report.makespan);

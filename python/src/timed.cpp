@@ -217,31 +217,6 @@ py::dict solve_timed(const TimedInstance& self, const py::dict& arguments) {
   return run_solve<continuous::Progress, Plan>(self.instance, arguments, options_of);
 }
 
-const char* name_of(continuous::Violation::Kind kind) {
-  using Kind = continuous::Violation::Kind;
-  switch (kind) {
-    case Kind::path_count:
-      return "path-count";
-    case Kind::empty_path:
-      return "empty-path";
-    case Kind::bad_vertex:
-      return "bad-vertex";
-    case Kind::bad_time:
-      return "bad-time";
-    case Kind::wrong_start:
-      return "wrong-start";
-    case Kind::wrong_goal:
-      return "wrong-goal";
-    case Kind::not_adjacent:
-      return "not-adjacent";
-    case Kind::duration:
-      return "duration";
-    case Kind::collision:
-      return "collision";
-  }
-  return "unknown";
-}
-
 /// (violations, sum of costs, makespan, clearances); a violation is (kind, agent, other, tick,
 /// message), clearances are (agents int32[k, 2], gap and tick float64[k, 2]).
 py::tuple verify_timed(const TimedInstance& self, const Plan& plan) {
@@ -253,7 +228,7 @@ py::tuple verify_timed(const TimedInstance& self, const Plan& plan) {
   py::list violations;
   for (const continuous::Violation& violation : report.violations)
     violations.append(py::make_tuple(
-        name_of(violation.kind), violation.agent.index(),
+        to_string(violation.kind), violation.agent.index(),
         violation.other ? py::object(py::int_(violation.other->index())) : py::object(py::none()),
         violation.tick.count(), violation.message));
   auto pairs = new_array<std::int32_t>({report.clearances.size(), 2});

@@ -115,7 +115,7 @@ def test_broken_plans_are_found_out():
     fleet = q.Fleet(q.Grid(np.ones((1, 3))), [(0, 0), (2, 0)], [(2, 0), (0, 0)])
     plan = fleet.plan([[(0, 0), (1, 0), (2, 0)], [(2, 0), (1, 0), (0, 0)]])
     report = plan.verify()
-    assert not report and [v.kind for v in report.violations] == ["vertex"]
+    assert not report and [v.kind for v in report.violations] == ["vertex-conflict"]
     violation = report.violations[0]
     assert (violation.agent, violation.other, violation.time) == (0, 1, 1)
     assert "(1, 0)" in violation.message

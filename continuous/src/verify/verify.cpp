@@ -248,6 +248,30 @@ void check_pairs(const Instance& instance, const Plan& plan, const IdVector<Agen
 
 }  // namespace
 
+std::string_view to_string(Violation::Kind kind) noexcept {
+  switch (kind) {
+    case Kind::path_count:
+      return "path-count";
+    case Kind::empty_path:
+      return "empty-path";
+    case Kind::bad_vertex:
+      return "bad-vertex";
+    case Kind::bad_time:
+      return "bad-time";
+    case Kind::wrong_start:
+      return "wrong-start";
+    case Kind::wrong_goal:
+      return "wrong-goal";
+    case Kind::not_adjacent:
+      return "not-adjacent";
+    case Kind::duration:
+      return "duration";
+    case Kind::collision:
+      return "collision";
+  }
+  return "";
+}
+
 VerifyReport verify(const Instance& instance, const Plan& plan) {
   VerifyReport report;
   if (plan.paths.size() != instance.num_agents()) {

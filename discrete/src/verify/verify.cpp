@@ -195,6 +195,28 @@ class Replay {
 
 }  // namespace
 
+std::string_view to_string(Violation::Kind kind) noexcept {
+  switch (kind) {
+    case Violation::Kind::path_count:
+      return "path-count";
+    case Violation::Kind::empty_path:
+      return "empty-path";
+    case Violation::Kind::bad_vertex:
+      return "bad-vertex";
+    case Violation::Kind::wrong_start:
+      return "wrong-start";
+    case Violation::Kind::wrong_goal:
+      return "wrong-goal";
+    case Violation::Kind::not_adjacent:
+      return "not-adjacent";
+    case Violation::Kind::vertex:
+      return "vertex-conflict";
+    case Violation::Kind::swap:
+      return "swap-conflict";
+  }
+  return "";
+}
+
 VerifyReport verify(const Instance& instance, const Plan& plan) {
   return Replay(instance, plan).run();
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "quadrille/continuous/instance.hpp"
@@ -33,6 +34,8 @@ struct Violation {
   std::string message;           ///< One sentence that names agents, place and time.
 };
 
+[[nodiscard]] std::string_view to_string(
+    Violation::Kind kind) noexcept;  ///< "path-count" | ... | "collision"
 /// The free space between two agents over all time.
 struct Clearance {
   AgentId agent;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "quadrille/core/export.hpp"
@@ -33,6 +34,8 @@ struct Violation {
   std::string message;  ///< One sentence that names agents, place and timestep.
 };
 
+[[nodiscard]] std::string_view to_string(
+    Violation::Kind kind) noexcept;  ///< "path-count" | ... | "vertex-conflict" | ...
 struct VerifyReport {
   /// In order of timestep, then agent. Every agent that breaks a rule is named at every timestep at
   /// which its path does so; in a crowd, with one of the others instead of with each of them.
