@@ -38,7 +38,8 @@ void expect_thrown_at_each_call(const std::vector<Options>& systems, const Insta
   int num_thrown = 0, num_tried = 0;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     SCOPED_TRACE(i);
-    for (int k = 1; k <= 50; ++k) {
+    // Each of the first calls, which differ most, and some of the later ones.
+    for (int k = 1; k <= 50; k += k < 10 ? 1 : 8) {
       ++num_tried;
       if (!throws_at(hard, systems[i], k)) break;
       ++num_thrown;

@@ -46,7 +46,7 @@ def program(name):
     """Daemons are in sbin, which is not in everybody's path."""
     path = shutil.which(name, path=os.environ.get("PATH", "") + ":/usr/sbin:/sbin")
     if path is None:
-        raise RuntimeError(f"{name} is not installed: scripts/setup ci does it")
+        raise RuntimeError(f"{name} is not installed: scripts/setup does it")
     return path
 
 
