@@ -14,8 +14,9 @@ from ._core import __version__
 from ._errors import FileError, InputError, NoPlanError
 from .fleet import Fleet
 from .graphs import Graph, Grid, Roadmap
-from .plans import Plan, Report, StepPath, StepPlan, TimedPath, TimedPlan, Violation
+from .plans import Plan, StepPath, StepPlan, TimedPath, TimedPlan
 from .reading import read
+from .reports import Report, Violation
 from .solving import Progress, Result, Statistics, solve
 
 __all__ = [

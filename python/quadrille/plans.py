@@ -3,56 +3,23 @@
 
 from __future__ import annotations
 
+import html
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Iterator, Optional, Union, cast
+from typing import TYPE_CHECKING, Any, Iterator, Optional, Sequence, Union, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from .graphs import Graph, Grid, Roadmap
+from .reports import Report, Violation
 
 if TYPE_CHECKING:
     import networkx as nx
     import pandas as pd
 
     from .fleet import Fleet
-
-
-@dataclass(frozen=True)
-class Violation:
-    """One broken rule of a plan."""
-
-    kind: str
-    """"vertex-conflict", "swap-conflict", "collision", "wrong-goal", ..."""
-    agent: int
-    other: Optional[int]
-    """The other agent of a collision; larger than ``agent``."""
-    time: float
-    """Timestep, or time in your unit, when the step begins in which it happens."""
-    message: str
-    """One sentence that names agents, place and time."""
-
-
-@dataclass(frozen=True)
-class Report:
-    """What a replay of a plan says. True if the plan is valid."""
-
-    violations: list[Violation]
-    sum_of_costs: float
-    """In timesteps, or in your unit of time; meaningful for valid plans."""
-    makespan: float
-    clearances: Optional[npt.NDArray[Any]] = None
-    """On roadmaps, per pair of agents: (agent, other, gap, time), the least distance between the
-    bodies over all time, in your unit of length, and a moment at which it is that small."""
-
-    @property
-    def valid(self) -> bool:
-        return not self.violations
-
-    def __bool__(self) -> bool:
-        return self.valid
 
 
 class Plan:
@@ -165,6 +132,46 @@ class Plan:
         """
         self._plan.save(self._fleet._instance, os.fspath(file), format)  # type: ignore[arg-type]
 
+    def to_html(self, title: str = "") -> str:
+        """The page of ``quadrille view``, which plays the plan: one text, without other files.
+
+        Args:
+            title: By default "Plan of n agents".
+        """
+        return self._page(title)
+
+    def to_svg(
+        self, kind: str = "map", agents: Optional[Sequence[int]] = None, title: str = ""
+    ) -> str:
+        """A picture of the plan.
+
+        Args:
+            kind: "map", with paths, starts and goals; "space-time", along the path of the first of
+                the agents; "waits", a row per agent.
+            agents: Who is drawn; by default all.
+            title: Stands above the picture.
+
+        Raises:
+            InputError: for another kind.
+            IndexError: for an agent that there is not.
+        """
+        chosen = range(len(self)) if agents is None else agents
+        return self._picture(kind, title, [self._checked(agent) for agent in chosen])
+
+    def _repr_html_(self) -> str:
+        """The page, for notebooks. In a frame, because it has scripts and styles of its own."""
+        page, title = html.escape(self.to_html()), html.escape(repr(self))
+        return (
+            f'<iframe srcdoc="{page}" sandbox="allow-scripts" title="{title}" '
+            'style="width: 100%; height: 36em; border: 1px solid #8888"></iframe>'
+        )
+
+    def _page(self, title: str) -> str:
+        raise NotImplementedError
+
+    def _picture(self, kind: str, title: str, agents: list[int]) -> str:
+        raise NotImplementedError
+
     def _checked(self, agent: int) -> int:
         if not -len(self) <= agent < len(self):
             raise IndexError(f"there is no agent {agent} among {len(self)}")
@@ -247,6 +254,13 @@ class StepPlan(Plan):
 
     def _precedences(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
         return _core.step_precedences(cast(_core.StepInstance, self._fleet._instance), self._plan)
+
+    def _page(self, title: str) -> str:
+        return _core.step_page(cast(_core.StepInstance, self._fleet._instance), self._plan, title)
+
+    def _picture(self, kind: str, title: str, agents: list[int]) -> str:
+        instance = cast(_core.StepInstance, self._fleet._instance)
+        return _core.step_picture(instance, self._plan, kind, title, agents)
 
     def _content(self) -> list[bytes]:
         return [np.array(self.paths.shape).tobytes(), self.paths.tobytes()]
@@ -346,6 +360,13 @@ class TimedPlan(Plan):
 
     def _precedences(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
         return _core.timed_precedences(cast(_core.TimedInstance, self._fleet._instance), self._plan)
+
+    def _page(self, title: str) -> str:
+        return _core.timed_page(cast(_core.TimedInstance, self._fleet._instance), self._plan, title)
+
+    def _picture(self, kind: str, title: str, agents: list[int]) -> str:
+        instance = cast(_core.TimedInstance, self._fleet._instance)
+        return _core.timed_picture(instance, self._plan, kind, title, agents)
 
     def _content(self) -> list[bytes]:
         ticks = [self._plan.ticks(agent) for agent in range(len(self))]

@@ -10,6 +10,7 @@ namespace quadrille::python {
 void bind_steps(pybind11::module_& module);        ///< The discrete domain.
 void bind_timed(pybind11::module_& module);        ///< The continuous domain.
 void bind_precedences(pybind11::module_& module);  ///< Of plans of either.
+void bind_viewing(pybind11::module_& module);      ///< Pages and pictures of either.
 void bind_reading(pybind11::module_& module);      ///< Files of either.
 
 }  // namespace quadrille::python
