@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include "cli/process.hpp"
+#include "support/sanitizer.hpp"
 
 namespace quadrille::cli::test {
 namespace {
@@ -53,9 +54,8 @@ TEST_F(InfoTest, AMapAloneIsDescribedLikeItsGraph) {
 }
 
 TEST_F(InfoTest, TheLargestMapTakesSecondsAndLessThanAGigabyte) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer needs more address space than any limit leaves";
-#endif
+  if (support::kAddressSanitizer)
+    GTEST_SKIP() << "the sanitizer needs more address space than any limit leaves";
   constexpr std::size_t kSide = 8192;
   std::string text = "type octile\nheight 8192\nwidth 8192\nmap\n";
   for (std::size_t row = 0; row < kSide; ++row) {

@@ -7,6 +7,7 @@
 
 #include "cli/process.hpp"
 #include "exit_codes.hpp"
+#include "support/sanitizer.hpp"
 
 namespace quadrille::cli::test {
 namespace {
@@ -54,9 +55,8 @@ class MemoryTest : public CliTest {
 };
 
 TEST_F(MemoryTest, RunsOutOnGrids) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer needs more address space than any limit leaves";
-#endif
+  if (support::kAddressSanitizer)
+    GTEST_SKIP() << "the sanitizer needs more address space than any limit leaves";
   ASSERT_EQ(run({"generate", "--kind", "empty", "--width", "60", "--height", "60", "--map-output",
                  path("m.map"), "--scen-output", path("m.scen"), "--agents", "500"})
                 .code,
@@ -71,9 +71,8 @@ TEST_F(MemoryTest, RunsOutOnGrids) {
 }
 
 TEST_F(MemoryTest, RunsOutOnRoadmaps) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer needs more address space than any limit leaves";
-#endif
+  if (support::kAddressSanitizer)
+    GTEST_SKIP() << "the sanitizer needs more address space than any limit leaves";
   ASSERT_EQ(run({"generate", "--kind", "roadmap", "--vertices", "300", "--width", "40", "--height",
                  "40", "--agents", "100", "--mixed", "--instance-output", path("d.json")})
                 .code,

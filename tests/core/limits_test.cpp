@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/sanitizer.hpp"
+
 namespace quadrille {
 namespace {
 
@@ -81,9 +83,7 @@ TEST(Limits, MemoryIsWhatWasAddedSince) {
 }
 
 TEST(Limits, MemoryThatIsGivenBackDoesNotCount) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer keeps what is given back";
-#endif
+  if (support::kAddressSanitizer) GTEST_SKIP() << "the sanitizer keeps what is given back";
   LimitMonitor monitor(memory_limit(100));
   for (int round = 0; round < 5; ++round) {
     const Block block = hold(60);
@@ -102,9 +102,8 @@ TEST(Limits, MemoryOfOtherThreadsDoesNotCount) {
 
 // Both look all the time while both grow; the host takes and gives back.
 TEST(Limits, TwoSearchesAreChargedWithTheirOwnMemory) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer has memory of its own for each block";
-#endif
+  if (support::kAddressSanitizer)
+    GTEST_SKIP() << "the sanitizer has memory of its own for each block";
   double charged[2] = {0, 0};
   std::atomic<int> running{2};
   const auto grow = [&](int which, std::size_t mib) {

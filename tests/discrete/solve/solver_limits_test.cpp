@@ -15,6 +15,7 @@
 #include "quadrille/discrete/verify.hpp"
 #include "support/case_text.hpp"
 #include "support/environment.hpp"
+#include "support/sanitizer.hpp"
 #include "support/solver_cases.hpp"
 
 namespace quadrille::discrete::support {
@@ -196,11 +197,7 @@ TEST(SolverLimits, LongLinesTakeTimeAndMemoryInTheirLength) {
   const Instance instance = long_line(kLength);
   TunedOptions options;
   options.objective = Objective::makespan;
-#ifdef __SANITIZE_ADDRESS__
-  options.limits.memory_mib = 400;  // It keeps what was freed.
-#else
-  options.limits.memory_mib = 100;
-#endif
+  options.limits.memory_mib = quadrille::support::kAddressSanitizer ? 400 : 100;
   malloc_trim(0);
   const SolveOutcome outcome = run(instance, options).outcome;
   EXPECT_EQ(outcome.status, Status::optimal) << to_string(outcome.stop);
