@@ -13,6 +13,7 @@
 
 #include "arguments.hpp"
 #include "quadrille/continuous/instance_json.hpp"
+#include "quadrille/continuous/nav_graph.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/roadmap_xml.hpp"
 #include "quadrille/discrete/movingai.hpp"
@@ -29,9 +30,17 @@ using continuous::Roadmap;
 constexpr int kDefaultNeighbourhood = 3;
 
 bool is_movingai_map(const std::string& file) { return std::string_view(file).ends_with(".map"); }
+bool is_nav_graph(const std::string& file) {
+  return std::string_view(file).ends_with(".yaml") || std::string_view(file).ends_with(".yml");
+}
 
 Result<continuous::MapXml> read_map(const std::string& file, const discrete::MapOptions& letters,
-                                    double resolution) {
+                                    double resolution, continuous::Speed speed) {
+  if (is_nav_graph(file)) {
+    auto graph = continuous::read_nav_graph(std::filesystem::path(file), resolution, speed);
+    if (!graph) return graph.error();
+    return continuous::MapXml{std::move(graph->roadmap), graph->num_zero_length_edges};
+  }
   if (!is_movingai_map(file))
     return continuous::read_map_xml(std::filesystem::path(file), resolution);
   auto map = discrete::read_map(std::filesystem::path(file), letters);
@@ -123,7 +132,8 @@ std::string describe_bodies(const Instance& instance) {
 void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
   const std::string group = "Continuous time";
   add_input_file(app, "--roadmap", options.roadmap,
-                 "Roadmap: GraphML, a grid as XML, or a MovingAI .map file")
+                 "Roadmap: GraphML, a grid as XML, a MovingAI .map file, or a nav graph of\n"
+                 "Open-RMF as .yaml")
       ->group(group);
   add_input_file(app, "--task", options.task, "Its agents: a task as XML, or a MovingAI .scen file")
       ->group(group);
@@ -177,7 +187,7 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
   if (options.roadmap.empty()) return read_instance(input);
   const auto numbers = quantise(options);
   if (!numbers) return numbers.error();
-  auto map = read_map(options.roadmap, input.letters, numbers->resolution);
+  auto map = read_map(options.roadmap, input.letters, numbers->resolution, numbers->speed);
   if (!map) return map.error();
   const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
   continuous::TaskXml task;

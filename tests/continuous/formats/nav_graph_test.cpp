@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/nav_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace quadrille::continuous::test {
+namespace {
+
+constexpr Resolution kMillimetres{1e-3};
+
+Result<NavGraph> read(const std::string& text) {
+  std::istringstream in(text);
+  return read_nav_graph(in, "nav.yaml", kMillimetres, kUnitSpeed);
+}
+
+TEST(NavGraph, HasVerticesNamesAndLanes) {
+  const auto graph = read(
+      "building_name: b\n"
+      "levels:\n"
+      "  L1:\n"
+      "    vertices:\n"
+      "    - [10.5, -5.5, {name: c1, is_charger: true, is_parking_spot: true}]\n"
+      "    - [12.0, -5.5, {name: \"\"}]\n"
+      "    - [12, -2.5]\n"
+      "    lanes:\n"
+      "    - [0, 1, {speed_limit: 0.5, mutex: \"\", orientation_constraint: forward}]\n"
+      "    - [1, 0, {}]\n"
+      "    - [1, 2, {speed_limit: 2.0}]\n"
+      "    - [2, 1, {speed_limit: 0, door_name: d1}]\n"
+      "  L2: {vertices: [], lanes: []}\n");
+  ASSERT_TRUE(graph.has_value()) << graph.error().to_string();
+  EXPECT_EQ(graph->roadmap.positions(),
+            (std::vector<Point>{{10'500, -5'500}, {12'000, -5'500}, {12'000, -2'500}}));
+  EXPECT_EQ(graph->names, (std::vector<std::string>{"c1", "", ""}));
+  const VertexId a(0), b(1), c(2);
+  // 1.5 m at half a metre per second; faster limits than the agents' speed mean nothing.
+  EXPECT_EQ(
+      graph->roadmap.edges(),
+      (std::vector<Edge>{
+          {a, b, Ticks(3'000)}, {b, a, std::nullopt}, {b, c, std::nullopt}, {c, b, std::nullopt}}));
+  EXPECT_EQ(graph->num_zero_length_edges, 0u);
+}
+
+TEST(NavGraph, LanesOfLengthZeroTakeATick) {
+  const auto graph = read("levels: {L1: {vertices: [[0, 0], [0, 0]], lanes: [[0, 1]]}}\n");
+  ASSERT_TRUE(graph.has_value()) << graph.error().to_string();
+  EXPECT_EQ(graph->roadmap.edges().front().duration, Ticks(1));
+  EXPECT_EQ(graph->num_zero_length_edges, 1u);
+}
+
+TEST(NavGraph, SaysWhatIsWrongAndWhere) {
+  const auto refuses = [](const std::string& text, const std::string& why) {
+    const auto graph = read(text);
+    ASSERT_FALSE(graph.has_value()) << why;
+    EXPECT_EQ(graph.error().to_string(), why);
+  };
+  refuses("levels: [1\n", "nav.yaml:2: end of sequence flow not found");
+  refuses("a: 1\n", "nav.yaml:1: a nav graph of Open-RMF has the key 'levels'");
+  refuses("levels: {L1: {}}\n", "nav.yaml:1: a level has the key 'vertices'");
+  refuses("levels: {L1: {vertices: []}}\n", "nav.yaml:1: there are no vertices");
+  refuses("levels:\n  L1: {vertices: [[0, 0]]}\n  L2: {vertices: [[0, 0]]}\n",
+          "nav.yaml:3: a roadmap is of one level, and this is another");
+  refuses("levels:\n  L1:\n    vertices: [[0, 0], [1, x]]\n", "nav.yaml:3: y is a number");
+  refuses("levels:\n  L1:\n    vertices: [[0]]\n", "nav.yaml:3: a vertex is [x, y, {properties}]");
+  refuses("levels:\n  L1:\n    vertices: [[0, 1e300]]\n",
+          "nav.yaml:3: the coordinates are too large");
+  const std::string two = "levels:\n  L1:\n    vertices: [[0, 0], [1, 0]]\n    lanes:\n    - ";
+  refuses(two + "[0, 2]\n", "nav.yaml:5: there is no vertex 2 among 2");
+  refuses(two + "[0, -1]\n", "nav.yaml:5: the end of a lane is the number of a vertex");
+  refuses(two + "[1, 1]\n", "nav.yaml:5: a lane from a vertex to itself");
+  refuses(two + "[0, 1, {mutex: m1}]\n", "nav.yaml:5: mutex groups are not supported");
+  refuses(two + "[0, 1, {speed_limit: fast}]\n", "nav.yaml:5: speed_limit is a number");
+  refuses(two + "[0, 1, {speed_limit: -1}]\n", "nav.yaml:5: speed_limit is no speed");
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test
