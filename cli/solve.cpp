@@ -30,6 +30,11 @@ constexpr const char* kFooter =
     "SIGINT and SIGTERM end the search with what is known so far; a second one ends the program.\n"
     "\n";
 
+constexpr const char* kExplainFooter =
+    "Example:\n"
+    "  quadrille explain --map maze.map --scen maze.scen --agents 10\n"
+    "\n";
+
 std::optional<std::optional<System>> choose_system(std::string_view text) {
   const auto system = discrete::parse_system(text);
   if (!system) return std::nullopt;
@@ -147,6 +152,9 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
   add_picture_options(app, arguments.picture, group);
   app.add_flag("--quiet", arguments.quiet, "Print nothing but errors and what is asked for")
       ->group(group);
+  app.add_flag("--explain", arguments.options.explain,
+               "Say what the lower bound is made of: which agents, where and when")
+      ->group(group);
   app.add_flag("--audit", arguments.options.debug.audit,
                "Check every lemma against the rules; slow")
       ->group("Debugging");
@@ -179,6 +187,24 @@ std::string check_solve_outputs(const SolveArguments& arguments) {
   if (wrong.empty() && arguments.history && arguments.json.empty())
     wrong = "--history needs --json";
   return wrong;
+}
+
+Subcommand add_explain(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("explain", "Say why no plan is cheaper, or why none exists");
+  const auto arguments = std::make_shared<SolveArguments>();
+  arguments->options.explain = arguments->finds_reasons = true;
+  add_input_options(*app, arguments->input);
+  add_roadmap_options(*app, arguments->roadmap);
+  add_choice<Objective>(*app, "--objective", arguments->options.objective,
+                        "sum-of-costs or makespan", parse_objective,
+                        "sum-of-costs (default) or makespan");
+  add_integer(*app, "--seed", arguments->seed, 0, kMaxSeed,
+              "Seed of all random choices; default 0");
+  add_limit_options(*app, *arguments);
+  add_file(*app, "--json", arguments->json, "Write it as JSON; - is standard output");
+  app->footer(std::string(kExplainFooter) + kExitCodesHelp);
+  return {app, [app, arguments] { return run(*app, *arguments); }};
 }
 
 Subcommand add_solve(CLI::App& program) {

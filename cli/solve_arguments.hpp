@@ -16,7 +16,7 @@ namespace quadrille::cli {
 struct SolveArguments {
   InputOptions input;
   RoadmapOptions roadmap;
-  /// Roadmaps take the objective, the limits, the gap and `debug.audit` of these.
+  /// Roadmaps take the objective, the limits, the gap, `explain` and `debug.audit` of these.
   discrete::SolveOptions options;
   std::optional<discrete::System> system;
   std::optional<discrete::CheckSchedule> check;
@@ -28,6 +28,8 @@ struct SolveArguments {
   std::optional<double> plan_every;  ///< Seconds.
   bool history = false;
   bool quiet = false;
+  /// Instead of the plan, show why none is cheaper, by as few agents as are found (`explain`).
+  bool finds_reasons = false;
 };
 
 /// What is wrong with the options about outputs, in either domain; empty if nothing is.

@@ -8,6 +8,7 @@
 namespace quadrille::cli {
 
 [[nodiscard]] Subcommand add_solve(CLI::App& program);
+[[nodiscard]] Subcommand add_explain(CLI::App& program);
 [[nodiscard]] Subcommand add_verify(CLI::App& program);
 [[nodiscard]] Subcommand add_info(CLI::App& program);
 [[nodiscard]] Subcommand add_generate(CLI::App& program);

@@ -6,7 +6,7 @@ _quadrille() {
   local command=${COMP_WORDS[1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "solve verify info generate convert view execute-check simulate export campaign --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "solve explain verify info generate convert view execute-check simulate export campaign --help --version" -- "$word")
     return
   fi
 
@@ -52,7 +52,11 @@ _quadrille() {
       options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
         --backtracking --no-first-plan --initial-plan --threads --race --gap --seed --time-limit --cpu-limit
         --memory-limit --conflict-limit --plan --plan-format --plan-every --json --history --view --svg
-        --svg-kind --svg-agents --quiet --audit --known-plan"
+        --svg-kind --svg-agents --quiet --explain --audit --known-plan"
+      ;;
+    explain)
+      options="$instance --objective --seed --time-limit --cpu-limit --memory-limit --conflict-limit --gap
+        --json"
       ;;
     verify) options="$instance --plan-format --json --quiet" ;;
     info) options="$instance" ;;

@@ -36,6 +36,7 @@ Json options_json(const SolveArguments& arguments) {
   json["gap"] = or_null(options.gap_percent);
   json["threads"] = options.threads;
   json["race"] = options.race;
+  json["explain"] = options.explain;
   json["seed"] = options.seed;
   add_limits(json, options.limits);
   json["audit"] = options.debug.audit;
@@ -66,7 +67,7 @@ std::string break_lines(std::string_view text) {
 bool has_schedule(discrete::System system) noexcept { return system == discrete::System::dpll_mdd; }
 
 std::string result_json(const discrete::Instance& instance, const SolveArguments& arguments,
-                        const SolveOutcome& outcome, const History& history) {
+                        const SolveOutcome& outcome, const SearchNotes& notes) {
   const discrete::SolveOptions& options = arguments.options;
   const bool infeasible = outcome.status == Status::infeasible;
   ResultJson json(outcome.status, options.objective);
@@ -75,10 +76,25 @@ std::string result_json(const discrete::Instance& instance, const SolveArguments
   json.add_gap(outcome);
   json.add_end_of_search(outcome);
   json.add("agents", instance.num_agents());
-  if (arguments.history) json.add("history", history.json());
+  if (options.explain)
+    add_explanation(json, outcome.attribution, notes.reasons, names_of(instance));
+  if (arguments.history) json.add("history", notes.history.json());
   return json.finish(
       outcome.statistics, options.seed, options_json(arguments),
       outcome.plan ? break_lines(plan_to_json(instance.graph(), *outcome.plan)) : "null");
+}
+
+Names names_of(const discrete::Instance& instance) {
+  const discrete::Graph& graph = instance.graph();
+  Names names;
+  names.vertex = [&graph](VertexId v) { return vertex_name(graph, v); };
+  names.vertex_json = [&graph](VertexId v) {
+    if (!graph.layout()) return Json(v.index());
+    const discrete::Cell cell = graph.layout()->cell_of(v);
+    return Json{cell.x, cell.y};
+  };
+  names.cost = [](Cost cost) { return std::to_string(cost); };
+  return names;
 }
 
 std::string describe_check(const discrete::Plan& plan, const discrete::VerifyReport& check) {

@@ -3,9 +3,10 @@
 
 #include <string>
 
-#include "history.hpp"
+#include "explanation.hpp"
 #include "quadrille/discrete/solver.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "search_notes.hpp"
 #include "solve_arguments.hpp"
 
 namespace quadrille::cli {
@@ -14,10 +15,13 @@ namespace quadrille::cli {
 [[nodiscard]] bool has_schedule(discrete::System system) noexcept;
 
 /// The result as JSON, documented in docs/cli.md: one key per line, the plan one agent per line.
+/// `notes`: what else was asked for.
 [[nodiscard]] std::string result_json(const discrete::Instance& instance,
                                       const SolveArguments& arguments,
                                       const discrete::SolveOutcome& outcome,
-                                      const History& history);
+                                      const SearchNotes& notes);
+/// Of the vertices and timesteps of an instance, which outlives them.
+[[nodiscard]] Names names_of(const discrete::Instance& instance);
 
 /// The lines "result", "cost", "search" and "verified" of the human output. `check`: the replay of
 /// the outcome's plan, if it has one.

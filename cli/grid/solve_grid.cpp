@@ -7,12 +7,14 @@
 #include <functional>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "arguments.hpp"
 #include "grid/grid_input.hpp"
 #include "grid/grid_report.hpp"
 #include "grid/picture.hpp"
-#include "history.hpp"
+#include "grid/reason_map.hpp"
+#include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
@@ -43,6 +45,8 @@ std::string settle(SolveArguments& arguments) {
   }
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
   if (options.race && options.threads == 1) return "--race needs --threads";
+  if (options.explain && options.threads > 1) return "--explain needs one thread";
+  if (options.explain && options.system != System::dpll) return "--explain needs --system dpll";
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
   if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (!arguments.plan_format.discrete)
@@ -77,8 +81,12 @@ class GridSolve {
     }
     if (line.active())
       options.on_progress = [&line](const auto& progress) { line.show(progress_text(progress)); };
-    if (arguments_.history) keep_history<discrete::Progress>(options, history_);
-    return discrete::solve(instance(), options);
+    if (arguments_.history) keep_history<discrete::Progress>(options, notes_.history);
+    auto outcome = discrete::solve(instance(), options);
+    if (outcome && outcome->attribution)
+      notes_.reasons = find_reasons(*outcome->attribution,
+                                    arguments_.finds_reasons ? recheck() : Recheck(), kMaxRechecks);
+    return outcome;
   }
   [[nodiscard]] Result<std::string> plan_text(const discrete::Plan& plan) const {
     std::ostringstream text;
@@ -87,8 +95,8 @@ class GridSolve {
     return text.str();
   }
   [[nodiscard]] std::string json(const SolveOutcome& outcome, const discrete::VerifyReport&) const {
-    history_.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
-    return result_json(instance(), arguments_, outcome, history_);
+    notes_.history.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
+    return result_json(instance(), arguments_, outcome, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
     return view::page(instance(), *outcome.plan, page_options(input_.source, objective(), outcome));
@@ -98,16 +106,44 @@ class GridSolve {
   }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const discrete::VerifyReport& replay) const {
-    return describe_outcome(objective(), outcome, replay);
+    std::string text = describe_outcome(objective(), outcome, replay);
+    if (outcome.attribution)
+      text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
+                                   kMaxSites);
+    if (!arguments_.finds_reasons) return text;
+    if (outcome.attribution)
+      text += draw_reasons(instance(), *outcome.attribution, notes_.reasons, kMaxSites);
+    if (outcome.status == Status::infeasible)
+      text += draw_obstruction(instance(), check_feasibility(instance()));
+    return text;
   }
   [[nodiscard]] std::string picture(const discrete::Plan& plan) const {
-    return draw_plan(instance(), plan);
+    return arguments_.finds_reasons ? "" : draw_plan(instance(), plan);
   }
 
  private:
+  /// What some of the agents cost when they are alone.
+  [[nodiscard]] Recheck recheck() const {
+    return [this, left = RemainingLimits(arguments_.options.limits)](
+               const std::vector<AgentId>& agents) -> std::optional<Cost> {
+      const auto limits = left.next(kRecheckConflicts);
+      if (!limits) return std::nullopt;
+      std::vector<discrete::Agent> kept;
+      for (const AgentId i : agents) kept.push_back(instance().agents()[i]);
+      const auto part = discrete::Instance::make(instance().shared_graph(), std::move(kept));
+      discrete::SolveOptions options;
+      options.objective = objective();
+      options.seed = arguments_.options.seed;
+      options.limits = *limits;
+      const auto outcome = discrete::solve(part.value(), options);
+      if (outcome->internal_error || outcome->status == Status::infeasible) return std::nullopt;
+      return outcome->lower_bound;
+    };
+  }
+
   const SolveArguments& arguments_;
   const GridInput& input_;
-  mutable History history_;  // of the one solve
+  mutable SearchNotes notes_;  // of the one solve
 };
 
 }  // namespace

@@ -81,6 +81,7 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
   json["gap"] = or_null(options.gap_percent);
   json["threads"] = options.threads;
   json["race"] = options.race;
+  json["explain"] = options.explain;
   json["seed"] = options.seed;
   add_limits(json, options.limits);
   json["audit"] = options.debug.audit;
@@ -92,7 +93,7 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
 
 std::string result_json(const Instance* instance, const SolveArguments& arguments,
                         const continuous::SolveOptions& options, const SolveOutcome& outcome,
-                        const VerifyReport& check, const History& history) {
+                        const VerifyReport& check, const SearchNotes& notes) {
   const auto resolution = instance != nullptr ? instance->resolution() : continuous::Resolution(1);
   const bool has_bound = outcome.status != Status::infeasible;
   const auto time = [&](Cost ticks) { return Json(in_input_units(ticks, resolution)); };
@@ -106,6 +107,8 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   json.add("claim", claim(instance, " "));
   json.add_end_of_search(outcome);
   json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
+  if (options.explain && instance != nullptr)
+    add_explanation(json, outcome.attribution, notes.reasons, names_of(*instance));
   Json bodies;  // null
   if (instance != nullptr) {
     bodies = Json::array();
@@ -114,7 +117,7 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   }
   json.add("bodies", bodies);
   json.add("least_clearance", outcome.plan ? clearance_json(*instance, check) : Json(nullptr));
-  if (arguments.history) json.add("history", history.json());
+  if (arguments.history) json.add("history", notes.history.json());
   return json.finish(outcome.statistics, options.seed, options_json(arguments, options),
                      outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");
 }
@@ -122,6 +125,17 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
 Json clearance_json(const Instance& instance, const VerifyReport& check) {
   const auto least = least_clearance(check);
   return least ? Json(rounded(least->gap, instance.resolution().length)) : Json(nullptr);
+}
+
+Names names_of(const Instance& instance) {
+  Names names;
+  names.vertex = [](VertexId v) { return "vertex " + std::to_string(v.index()); };
+  names.vertex_json = [](VertexId v) { return Json(v.index()); };
+  names.cost = [&instance](Cost ticks) {
+    return fmt::format("{}", in_input_units(ticks, instance.resolution()));
+  };
+  names.has_timesteps = false;
+  return names;
 }
 
 std::string describe_clearance(const Instance& instance, const VerifyReport& check) {

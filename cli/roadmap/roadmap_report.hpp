@@ -3,22 +3,26 @@
 
 #include <string>
 
-#include "history.hpp"
+#include "explanation.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "report.hpp"
+#include "search_notes.hpp"
 #include "solve_arguments.hpp"
 
 namespace quadrille::cli {
 
 /// The result as JSON, documented in docs/cli.md. `instance`: null if it was refused, which takes
-/// an outcome without a plan. `check`: the replay of the plan, if there is one.
+/// an outcome without a plan. `check`: the replay of the plan, if there is one. `notes`: what
+/// else was asked for.
 [[nodiscard]] std::string result_json(const continuous::Instance* instance,
                                       const SolveArguments& arguments,
                                       const continuous::SolveOptions& options,
                                       const continuous::SolveOutcome& outcome,
                                       const continuous::VerifyReport& check,
-                                      const History& history);
+                                      const SearchNotes& notes);
+/// Of the vertices and ticks of an instance, which outlives them.
+[[nodiscard]] Names names_of(const continuous::Instance& instance);
 
 /// The lines "result", "cost", "search", "verified" and "claim" of the human output.
 [[nodiscard]] std::string describe_outcome(const continuous::Instance& instance,

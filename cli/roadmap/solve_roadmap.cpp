@@ -7,6 +7,7 @@
 #include <functional>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
@@ -27,12 +28,16 @@ using continuous::SolveOutcome;
 std::string check(const CLI::App& app, const SolveArguments& arguments) {
   for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
                              "--backtracking", "--no-first-plan"})
-    if (app.count(option) > 0) return std::string(option) + " does not apply to roadmaps";
+    if (const CLI::Option* const given = app.get_option_no_throw(option);  // not of every command
+        given != nullptr && given->count() > 0)
+      return std::string(option) + " does not apply to roadmaps";
   std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
   if (wrong.empty()) wrong = arguments.plan_format.why_not_continuous("--plan-format");
   if (wrong.empty()) wrong = check_solve_outputs(arguments);
   if (wrong.empty() && arguments.options.race && arguments.threads.value_or(1) == 1)
     wrong = "--race needs --threads";
+  if (wrong.empty() && arguments.options.explain && arguments.threads.value_or(1) > 1)
+    wrong = "--explain needs one thread";
   return wrong;
 }
 
@@ -50,6 +55,7 @@ std::optional<SolveOptions> options_of(const SolveArguments& arguments) {
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
   options.race = arguments.options.race;
+  options.explain = arguments.options.explain;
   options.debug.audit = arguments.options.debug.audit;
   return options;
 }
@@ -80,8 +86,13 @@ class RoadmapSolve {
       options.on_progress = [&](const continuous::Progress& progress) {
         line.show(progress_text(progress, instance().resolution()));
       };
-    if (arguments_.history) keep_history<continuous::Progress>(options, history_);
-    return continuous::solve(instance(), options);
+    if (arguments_.history) keep_history<continuous::Progress>(options, notes_.history);
+    auto outcome = continuous::solve(instance(), options);
+    if (outcome && arguments_.finds_reasons) trace_clauses(*outcome);
+    if (outcome && outcome->attribution)
+      notes_.reasons = find_reasons(*outcome->attribution,
+                                    arguments_.finds_reasons ? recheck() : Recheck(), kMaxRechecks);
+    return outcome;
   }
   [[nodiscard]] Result<std::string> plan_text(const continuous::Plan& plan) const {
     std::ostringstream text;
@@ -93,8 +104,8 @@ class RoadmapSolve {
   }
   [[nodiscard]] std::string json(const SolveOutcome& outcome,
                                  const continuous::VerifyReport& replay) const {
-    history_.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
-    return result_json(&instance(), arguments_, options_, outcome, replay, history_);
+    notes_.history.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
+    return result_json(&instance(), arguments_, options_, outcome, replay, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
     return view::page(instance(), *outcome.plan, page_options(input_.source, objective(), outcome),
@@ -105,17 +116,58 @@ class RoadmapSolve {
   }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const continuous::VerifyReport& replay) const {
-    return describe_outcome(instance(), objective(), outcome, replay);
+    std::string text = describe_outcome(instance(), objective(), outcome, replay);
+    if (outcome.attribution)
+      text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
+                                   kMaxSites);
+    return text;
   }
   [[nodiscard]] std::string picture(const continuous::Plan& plan) const {
-    return list_paths(instance(), plan);
+    return arguments_.finds_reasons ? "" : list_paths(instance(), plan);
   }
 
  private:
+  /// Searches that know no clauses do not say where agents collide: another one may. Its raises are
+  /// taken, too, if they prove as much.
+  void trace_clauses(SolveOutcome& outcome) const {
+    if (!outcome.attribution || !outcome.attribution->sites.empty()) return;
+    if (outcome.attribution->raises.empty()) return;
+    const auto limits = RemainingLimits(options_.limits).next(kRecheckConflicts);
+    if (!limits) return;
+    SolveOptions options = options_;
+    options.limits = *limits;
+    options.route_work = options.joint_work = 0;
+    const auto traced = continuous::solve(instance(), options);
+    if (!traced || !traced->attribution || traced->internal_error) return;
+    if (traced->lower_bound == outcome.lower_bound)
+      outcome.attribution->raises = traced->attribution->raises;
+    outcome.attribution->sites = traced->attribution->sites;
+  }
+
+  /// What some of the agents cost when they are alone.
+  [[nodiscard]] Recheck recheck() const {
+    return [this, left = RemainingLimits(options_.limits)](
+               const std::vector<AgentId>& agents) -> std::optional<Cost> {
+      const auto limits = left.next(kRecheckConflicts);
+      if (!limits) return std::nullopt;
+      std::vector<continuous::Agent> kept;
+      for (const AgentId i : agents) kept.push_back(instance().agent(i));
+      const auto part = continuous::Instance::make(instance().shared_roadmap(), std::move(kept),
+                                                   instance().resolution());
+      SolveOptions options;
+      options.objective = objective();
+      options.seed = options_.seed;
+      options.limits = *limits;
+      const auto outcome = continuous::solve(part.value(), options);
+      if (outcome->internal_error || outcome->status == Status::infeasible) return std::nullopt;
+      return outcome->lower_bound;
+    };
+  }
+
   const SolveArguments& arguments_;
   const SolveOptions& options_;
   const RoadmapInput& input_;
-  mutable History history_;  // of the one solve
+  mutable SearchNotes notes_;  // of the one solve
 };
 
 /// What cannot have a plan, as can be seen without a search.

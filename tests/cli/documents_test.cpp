@@ -13,8 +13,9 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kCommands[] = {"solve", "verify",        "info",     "generate", "convert",
-                                     "view",  "execute-check", "simulate", "export",   "campaign"};
+constexpr const char* kCommands[] = {"solve",    "explain", "verify",  "info",
+                                     "generate", "convert", "view",    "execute-check",
+                                     "simulate", "export",  "campaign"};
 
 class DocumentsTest : public CliTest {
  protected:

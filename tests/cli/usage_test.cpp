@@ -17,7 +17,8 @@ TEST_F(UsageTest, VersionAndHelpGoToStdout) {
   const Finished help = run({"--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_EQ(help.err, "");
-  for (const char* command : {"solve", "verify", "info", "generate", "convert", "view"}) {
+  for (const char* command :
+       {"solve", "explain", "verify", "info", "generate", "convert", "view"}) {
     SCOPED_TRACE(command);
     EXPECT_THAT(help.out, HasSubstr(command));
     const Finished own = run({command, "--help"});

@@ -10,7 +10,7 @@
 namespace quadrille::text {
 
 bool PlanHeader::read(std::initializer_list<Checker::Member> more, StatedOutcome& stated) {
-  std::optional<Node> unread[7];  // Of a result.
+  std::optional<Node> unread[9];  // Of a result.
   std::vector<Checker::Member> members = {{"quadrille", &kind_, false},
                                           {"version", &version_, false},
                                           {"objective", &objective_, false},
@@ -26,7 +26,9 @@ bool PlanHeader::read(std::initializer_list<Checker::Member> more, StatedOutcome
                                           {"stop_reason", &unread[3], false},
                                           {"internal_error", &unread[4], false},
                                           {"explanation", &unread[5], false},
-                                          {"history", &unread[6], false}};
+                                          {"history", &unread[6], false},
+                                          {"attribution", &unread[7], false},
+                                          {"reasons", &unread[8], false}};
   members.insert(members.end(), more);
   return check_.members(Document::kRoot, members) && read_kind(stated) && read_objective(stated) &&
          read_gap(stated);

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+
+#include "cli/process.hpp"
+#include "cli/roadmap_support.hpp"
+
+namespace quadrille::cli::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+using ExplainTest = RoadmapCliTest;
+
+std::vector<std::string> roundabout(const std::string& command,
+                                    const std::vector<std::string>& more = {}) {
+  const std::string maps = QUADRILLE_SOURCE_DIR "/examples/maps/roundabout";
+  return std::vector<std::string>{command,    "--map", maps + ".map", "--scen", maps + ".scen",
+                                  "--agents", "4"} +
+         more;
+}
+
+/// The sum of the raises, after a look at the parts.
+std::int64_t sum_of_raises(const json& attribution) {
+  std::int64_t sum = 0;
+  for (const json& raise : attribution["raises"]) {
+    sum += raise["amount"].get<std::int64_t>();
+    EXPECT_FALSE(raise["agents"].empty());
+  }
+  return sum;
+}
+
+TEST_F(ExplainTest, SolveSaysWhatTheBoundIsMadeOf) {
+  const Finished finished = run(roundabout("solve", {"--explain", "--json", path("result.json")}));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("bound      30 = 26 that the agents cost alone + 4\n"),
+                                  HasSubstr("because  1 +")));
+  const json result = json::parse(read("result.json"));
+  const json& attribution = result["attribution"];
+  EXPECT_EQ(attribution["lower_bound"], 30);
+  EXPECT_EQ(attribution["free_bound"].get<std::int64_t>() + sum_of_raises(attribution), 30);
+  EXPECT_EQ(attribution["agents"].size(), 4U);
+  EXPECT_FALSE(attribution["sites"].empty());
+  EXPECT_EQ(attribution["sites"][0]["place"]["from"].size(), 2U);  // a cell
+  EXPECT_FALSE(result["reasons"].empty());
+  EXPECT_EQ(result["options"]["explain"], true);
+  const json plain = json::parse(run(roundabout("solve", {"--json", "-", "--quiet"})).out);
+  EXPECT_FALSE(plain.contains("attribution"));
+  EXPECT_EQ(plain["plan"], result["plan"]);
+}
+
+TEST_F(ExplainTest, ReasonsAddUpAndAreCheckedAgain) {
+  const Finished finished = run(roundabout("explain", {"--json", path("result.json")}));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_THAT(finished.out,
+              AllOf(HasSubstr("because  1 +"), HasSubstr("as a search of these alone"),
+                    HasSubstr("# blocked, . free"), Not(HasSubstr("moves"))));
+  const json result = json::parse(read("result.json"));
+  std::int64_t sum = 0;
+  for (const json& reason : result["reasons"]) sum += reason["amount"].get<std::int64_t>();
+  EXPECT_EQ(sum, 4);
+}
+
+TEST_F(ExplainTest, TheMakespanHasOneReason) {
+  const Finished finished =
+      run(roundabout("explain", {"--objective", "makespan", "--json", path("result.json")}));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("cannot all arrive before"));
+  EXPECT_EQ(json::parse(read("result.json"))["reasons"].size(), 1U);
+}
+
+TEST_F(ExplainTest, InfeasibleNamesAgentsAndTheCorridor) {
+  write("corridor.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
+  write("corridor.scen",
+        "version 1\n0\tcorridor.map\t4\t1\t0\t0\t3\t0\t3\n0\tcorridor.map\t4\t1\t3\t0\t0\t0\t3\n");
+  const Finished finished = run(
+      {"explain", "--map", path("corridor.map"), "--scen", path("corridor.scen"), "--agents", "2"});
+  EXPECT_EQ(finished.code, 20) << finished.err;
+  EXPECT_THAT(finished.out,
+              AllOf(HasSubstr("agents 0 and 1 cannot pass each other"), HasSubstr("\na**b\n"),
+                    HasSubstr("a to A agent 0, b to B agent 1")));
+}
+
+TEST_F(ExplainTest, RoadmapsNameVerticesAndTimes) {
+  const Finished finished = run(discs("explain", {"--json", path("result.json")}));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("because  1 +"), HasSubstr("vertex ")));
+  const json attribution = json::parse(read("result.json"))["attribution"];
+  EXPECT_EQ(attribution["free_bound"].get<std::int64_t>() + sum_of_raises(attribution),
+            attribution["lower_bound"].get<std::int64_t>());
+}
+
+TEST_F(ExplainTest, InfeasibleRoadmapsNameWhatBothHaveToPass) {
+  const std::string discs_json = read("discs.json");
+  write("narrow.json", std::string(discs_json).replace(discs_json.find("0.8]"), 4, "0.54]"));
+  const Finished finished = run({"explain", "--instance", path("narrow.json")});
+  EXPECT_EQ(finished.code, 20) << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("agents 0 and 1 cannot both reach their goals: both "
+                                            "have to pass vertices"),
+                                  HasSubstr("in opposite directions")));
+}
+
+TEST_F(ExplainTest, WhatCannotBeExplainedIsRefused) {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--threads", "2"}, {"--system", "mdd-sat"}}) {
+    const Finished finished =
+        run(roundabout("solve", std::vector<std::string>{"--explain"} + more));
+    EXPECT_EQ(finished.code, 64);
+    EXPECT_THAT(finished.err, HasSubstr("--explain needs"));
+  }
+  EXPECT_EQ(run(discs("solve", {"--explain", "--threads", "2"})).code, 64);
+}
+
+}  // namespace
+}  // namespace quadrille::cli::test
