@@ -20,6 +20,11 @@ constexpr const char* kFooter =
     "'quadrille COMMAND --help' describes a command and gives an example.\n"
     "\n";
 
+constexpr const char* kVersion =
+    "quadrille " QUADRILLE_VERSION
+    " (MIT licence)\n"
+    "with the SAT solver CaDiCaL " QUADRILLE_CADICAL_VERSION " (MIT licence)";
+
 ExitCode print_stdout(const std::string& text) {
   Console console(false, false);
   console.print(text);
@@ -32,7 +37,7 @@ ExitCode run(int argc, char** argv) {
   reserve_standard_streams();
   ignore_broken_pipes();
   CLI::App program("Quadrille: exact multi-agent path finding", "quadrille");
-  program.set_version_flag("--version", "quadrille " QUADRILLE_VERSION);
+  program.set_version_flag("--version", kVersion);
   program.require_subcommand(1);
   program.footer(std::string(kFooter) + kExitCodesHelp);
   program.get_formatter()->column_width(28);

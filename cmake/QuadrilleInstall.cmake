@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Install rules and the package configuration for find_package(quadrille).
+# Install rules and the package configuration for find_package(quadrille). Components: library (shared
+# libraries), dev, program, python, and licences, for which Debian's packages have a form of their own.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -18,9 +19,9 @@ if(NOT BUILD_SHARED_LIBS)
   if(extension STREQUAL CMAKE_STATIC_LIBRARY_SUFFIX)
     cmake_path(GET CaDiCaL_LIBRARY FILENAME archive)
     set(quadrille_bundled_cadical "${CMAKE_INSTALL_LIBDIR}/quadrille/${archive}")
-    install(FILES "${CaDiCaL_LIBRARY}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/quadrille")
+    install(FILES "${CaDiCaL_LIBRARY}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/quadrille" COMPONENT dev)
   else()
-    install(FILES cmake/FindCaDiCaL.cmake DESTINATION "${quadrille_package_dir}")
+    install(FILES cmake/FindCaDiCaL.cmake DESTINATION "${quadrille_package_dir}" COMPONENT dev)
   endif()
   if(TARGET quadrille_glibc_shim)
     set(quadrille_link_glibc_shim ON)
@@ -35,9 +36,9 @@ find_file(QUADRILLE_CADICAL_NOTICE NAMES copyright LICENSE
 mark_as_advanced(QUADRILLE_CADICAL_NOTICE)
 if(QUADRILLE_CADICAL_NOTICE)
   install(FILES "${QUADRILLE_CADICAL_NOTICE}" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
-    RENAME copyright-cadical)
+    RENAME copyright-cadical COMPONENT licences)
 endif()
-install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT licences)
 
 # The installed program finds shared libraries wherever the prefix is.
 if(TARGET quadrille)
@@ -46,8 +47,11 @@ if(TARGET quadrille)
   set_target_properties(quadrille PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
 endif()
 
-install(TARGETS ${quadrille_targets} EXPORT quadrilleTargets)
-install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION "${quadrille_package_dir}")
+install(TARGETS ${quadrille_targets} EXPORT quadrilleTargets
+  LIBRARY COMPONENT library NAMELINK_COMPONENT dev
+  ARCHIVE COMPONENT dev)
+install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION "${quadrille_package_dir}"
+  COMPONENT dev)
 
 # For users without CMake. The libraries that others depend on come last.
 get_property(libraries GLOBAL PROPERTY QUADRILLE_LIBRARIES)
@@ -71,7 +75,7 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
   BASE_DIRECTORY "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" OUTPUT_VARIABLE quadrille_pc_prefix)
 configure_file(cmake/quadrille.pc.in quadrille.pc @ONLY)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/quadrille.pc"
-  DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
 
 configure_package_config_file(cmake/quadrilleConfig.cmake.in quadrilleConfig.cmake
   INSTALL_DESTINATION "${quadrille_package_dir}"
@@ -81,4 +85,4 @@ write_basic_package_version_file(quadrilleConfigVersion.cmake COMPATIBILITY Same
 install(FILES
   "${CMAKE_CURRENT_BINARY_DIR}/quadrilleConfig.cmake"
   "${CMAKE_CURRENT_BINARY_DIR}/quadrilleConfigVersion.cmake"
-  DESTINATION "${quadrille_package_dir}")
+  DESTINATION "${quadrille_package_dir}" COMPONENT dev)

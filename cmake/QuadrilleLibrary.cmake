@@ -72,7 +72,7 @@ function(quadrille_add_library folder)
     set_property(GLOBAL APPEND PROPERTY QUADRILLE_HEADERS "quadrille/${folder}/${header}")
     if(QUADRILLE_INSTALL)
       install(FILES "include/quadrille/${folder}/${header}"
-        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder}")
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder}" COMPONENT dev)
     endif()
   endforeach()
   set_property(GLOBAL APPEND PROPERTY QUADRILLE_LIBRARIES ${target})

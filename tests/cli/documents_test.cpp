@@ -63,6 +63,47 @@ TEST_F(DocumentsTest, TheManPageNamesEveryOptionOfEveryCommand) {
     EXPECT_THAT(man, HasSubstr(std::string("\n.B ") + code + "\n"));
 }
 
+TEST_F(DocumentsTest, EachCommandHasAManPageWithItsOptionsAndNoOthers) {
+  const auto page = [](const std::string& name) {
+    std::ifstream in(QUADRILLE_MAN_PAGES "/" + name + ".1");
+    std::ostringstream text;
+    text << in.rdbuf();
+    EXPECT_FALSE(text.str().empty()) << name;
+    return std::regex_replace(text.str(), std::regex(R"(\\-)"), "-");
+  };
+  EXPECT_THAT(page("quadrille"), HasSubstr("\"quadrille " QUADRILLE_VERSION "\""));
+  // The commands of the program, no matter which this file knows.
+  const std::string help = run({"--help"}).out, title = "\nSubcommands:\n";
+  const std::string list = section(help + "\n\n", title, "\n\n");
+  const std::regex name("\n  ([a-z-]+)"), option("\n\\.BI? (--[a-z-]+)");
+  int commands = 0;
+  for (std::sregex_iterator at(list.begin(), list.end(), name), end; at != end; ++at, ++commands) {
+    const std::string command = (*at)[1], man = page("quadrille-" + command);
+    SCOPED_TRACE(command);
+    std::set<std::string> named;
+    for (std::sregex_iterator in(man.begin(), man.end(), option); in != end; ++in)
+      named.insert((*in)[1]);
+    EXPECT_EQ(named, options_of(command));
+    EXPECT_THAT(man, HasSubstr("\"quadrille " QUADRILLE_VERSION "\""));
+    EXPECT_THAT(man, HasSubstr("\n.SH NAME\nquadrille-" + command + " - "));
+    EXPECT_THAT(man, HasSubstr("\n.SH SYNOPSIS\n.B quadrille " + command + "\n.RI [ options ]"));
+    EXPECT_THAT(man, HasSubstr("\n.SH DESCRIPTION\n"));
+    EXPECT_THAT(man, HasSubstr("\n.SH \"EXIT STATUS\"\n.TP\n.B 0\n"));
+  }
+  EXPECT_EQ(commands, static_cast<int>(std::size(kCommands)));
+}
+
+TEST_F(DocumentsTest, WhateverNamesTheVersionNamesThisOne) {
+  const std::string version = QUADRILLE_VERSION;
+  const std::string minor = version.substr(0, version.rfind('.'));
+  EXPECT_THAT(source("package.xml"), HasSubstr("<version>" + version + "</version>"));
+  EXPECT_THAT(source("CITATION.cff"), HasSubstr("\nversion: " + version + "\n"));
+  EXPECT_THAT(source("CHANGELOG.md"), HasSubstr("\n## " + version + "\n"));
+  for (const char* file : {"README.md", "docs/installing.md", "tests/consumer/CMakeLists.txt"})
+    EXPECT_THAT(source(file), HasSubstr("find_package(quadrille " + minor + " REQUIRED"));
+  EXPECT_THAT(source("docs/installing.md"), HasSubstr("`libquadrille" + minor + "`"));
+}
+
 TEST_F(DocumentsTest, TheManualNamesEveryOptionAndExitCode) {
   const std::string manual = source("docs/cli.md");
   for (const std::string command : kCommands)

@@ -13,7 +13,12 @@ using UsageTest = CliTest;
 TEST_F(UsageTest, VersionAndHelpGoToStdout) {
   const Finished version = run({"--version"});
   EXPECT_EQ(version.code, 0);
-  EXPECT_EQ(version.out, "quadrille " QUADRILLE_VERSION "\n");
+  // CaDiCaL is linked in: which one, and under which licence, is said too.
+  EXPECT_EQ(version.out,
+            "quadrille " QUADRILLE_VERSION
+            " (MIT licence)\n"
+            "with the SAT solver CaDiCaL " QUADRILLE_CADICAL_VERSION " (MIT licence)\n");
+  EXPECT_GE(std::string(QUADRILLE_CADICAL_VERSION).size(), 3u);
   const Finished help = run({"--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_EQ(help.err, "");
