@@ -203,6 +203,8 @@ Subcommand add_explain(CLI::App& program) {
               "Seed of all random choices; default 0");
   add_limit_options(*app, *arguments);
   add_file(*app, "--json", arguments->json, "Write it as JSON; - is standard output");
+  add_file(*app, "--view", arguments->view,
+           "Write a page that shows it on the map, for a browser; - is standard output");
   app->footer(std::string(kExplainFooter) + kExitCodesHelp);
   return {app, [app, arguments] { return run(*app, *arguments); }};
 }

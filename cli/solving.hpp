@@ -50,6 +50,7 @@ view::PageOptions page_options(const std::string& source, Objective objective,
   options.objective = objective;
   options.status = outcome.status;
   options.lower_bound = outcome.lower_bound;
+  options.attribution = outcome.attribution;
   return options;
 }
 

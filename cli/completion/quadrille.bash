@@ -56,7 +56,7 @@ _quadrille() {
       ;;
     explain)
       options="$instance --objective --seed --time-limit --cpu-limit --memory-limit --conflict-limit --gap
-        --json"
+        --json --view"
       ;;
     verify) options="$instance --plan-format --json --quiet" ;;
     info) options="$instance" ;;

@@ -2,14 +2,38 @@
 #include "grid/view_grid.hpp"
 
 #include <filesystem>
+#include <optional>
+#include <sstream>
 
 #include "arguments.hpp"
+#include "attribution_input.hpp"
 #include "grid/grid_input.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
 
 namespace quadrille::cli {
+
+namespace {
+
+ReadVertex reader_of_vertices(const discrete::Graph& graph) {
+  return [&graph](text::Checker& check, text::Document::Node node, VertexId& vertex) {
+    std::int64_t x = 0, y = 0;
+    if (graph.layout()) {
+      if (!check.pair(node, INT32_MAX, x, y)) return false;
+      const auto found =
+          graph.layout()->vertex_at({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)});
+      if (found) vertex = *found;
+      return found || check.fail(node, "there is no such cell, or it is blocked");
+    }
+    if (!check.integer(node, 0, static_cast<std::int64_t>(graph.num_vertices()) - 1, x))
+      return false;
+    vertex = VertexId(static_cast<std::size_t>(x));
+    return true;
+  };
+}
+
+}  // namespace
 
 ExitCode view_grid(const CLI::App& app, const ViewArguments& arguments) {
   std::string wrong = why_no_roadmap(arguments.roadmap);
@@ -18,13 +42,27 @@ ExitCode view_grid(const CLI::App& app, const ViewArguments& arguments) {
   if (wrong.empty()) wrong = check_view_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 
-  const auto read = [&](const GridInput& input) {
-    const std::filesystem::path path(arguments.plan);
-    return discrete::read_plan(path, input.instance.graph(), arguments.format.discrete);
+  std::optional<Attribution> attribution;
+  Objective objective = Objective::sum_of_costs;
+  const auto read = [&](const GridInput& input) -> Result<discrete::PlanFile> {
+    const discrete::Graph& graph = input.instance.graph();
+    const auto text = read_text(arguments.plan);
+    if (!text) return text.error();
+    std::istringstream in(*text);
+    auto file = discrete::read_plan(in, arguments.plan, graph, arguments.format.discrete);
+    if (!file) return file;
+    const auto found = read_attribution(*text, arguments.plan, input.instance.num_agents(),
+                                        reader_of_vertices(graph));
+    if (!found) return found.error();
+    attribution = *found;
+    objective = file->stated.objective;
+    return file;
   };
   const auto page = [&](const GridInput& input, const discrete::Plan& plan) {
     view::PageOptions options;
     options.title = std::filesystem::path(input.source).filename().string();
+    options.objective = objective;
+    options.attribution = attribution;
     return view::page(input.instance, plan, options);
   };
   const auto draw = [&](const GridInput& input, const discrete::Plan& plan) {

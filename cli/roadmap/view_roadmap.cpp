@@ -2,13 +2,30 @@
 #include "roadmap/view_roadmap.hpp"
 
 #include <filesystem>
+#include <optional>
+#include <sstream>
 
 #include "arguments.hpp"
+#include "attribution_input.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
 
 namespace quadrille::cli {
+
+namespace {
+
+ReadVertex reader_of_vertices(const continuous::Roadmap& roadmap) {
+  return [&roadmap](text::Checker& check, text::Document::Node node, VertexId& vertex) {
+    std::int64_t number = 0;
+    const auto last = static_cast<std::int64_t>(roadmap.num_vertices()) - 1;
+    if (!check.integer(node, 0, last, number)) return false;
+    vertex = VertexId(static_cast<std::size_t>(number));
+    return true;
+  };
+}
+
+}  // namespace
 
 ExitCode view_roadmap(const CLI::App& app, const ViewArguments& arguments) {
   std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
@@ -16,14 +33,27 @@ ExitCode view_roadmap(const CLI::App& app, const ViewArguments& arguments) {
   if (wrong.empty()) wrong = check_view_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 
-  const auto read = [&](const RoadmapInput& input) {
-    const std::filesystem::path path(arguments.plan);
-    return continuous::read_plan(path, input.instance, input.grid_or_null(),
-                                 arguments.format.continuous);
+  std::optional<Attribution> attribution;
+  Objective objective = Objective::sum_of_costs;
+  const auto read = [&](const RoadmapInput& input) -> Result<continuous::PlanFile> {
+    const auto text = read_text(arguments.plan);
+    if (!text) return text.error();
+    std::istringstream in(*text);
+    auto file = continuous::read_plan(in, arguments.plan, input.instance, input.grid_or_null(),
+                                      arguments.format.continuous);
+    if (!file) return file;
+    const auto found = read_attribution(*text, arguments.plan, input.instance.num_agents(),
+                                        reader_of_vertices(input.instance.roadmap()));
+    if (!found) return found.error();
+    attribution = *found;
+    objective = file->stated.objective;
+    return file;
   };
   const auto page = [&](const RoadmapInput& input, const continuous::Plan& plan) {
     view::PageOptions options;
     options.title = std::filesystem::path(input.source).filename().string();
+    options.objective = objective;
+    options.attribution = attribution;
     return view::page(input.instance, plan, options, input.grid_or_null());
   };
   const auto draw = [&](const RoadmapInput& input, const continuous::Plan& plan) {

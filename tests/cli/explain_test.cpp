@@ -102,6 +102,30 @@ TEST_F(ExplainTest, InfeasibleRoadmapsNameWhatBothHaveToPass) {
                                   HasSubstr("in opposite directions")));
 }
 
+TEST_F(ExplainTest, ThePageSaysItAndADamagedResultIsRefused) {
+  ASSERT_EQ(run(roundabout("explain", {"--json", path("r.json"), "--view", path("a.html")})).code,
+            0);
+  EXPECT_THAT(read("a.html"), HasSubstr("\"attribution\":{\"freeBound\":26"));
+  ASSERT_EQ(run(roundabout("view", {"--output", path("b.html"), path("r.json")})).code, 0);
+  EXPECT_THAT(read("b.html"), HasSubstr("\"attribution\":{\"freeBound\":26"));
+
+  const std::string good = read("r.json");
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    const auto at = good.find(from, good.find("\"attribution\""));
+    EXPECT_NE(at, std::string::npos) << from;
+    write("bad.json", std::string(good).replace(at, from.size(), to));
+    const Finished bad = run(roundabout("view", {"--output", path("c.html"), path("bad.json")}));
+    EXPECT_EQ(bad.code, 65);
+    return bad.err;
+  };
+  EXPECT_THAT(refused("\"free_bound\":26", "\"free_bound\":25"),
+              HasSubstr("/attribution/raises: the lower bound is 1 more"));
+  EXPECT_THAT(refused("\"kind\":\"core\"", "\"kind\":\"corn\""),
+              HasSubstr("there is no kind 'corn'"));
+  EXPECT_THAT(refused("\"agents\":[2,3]", "\"agents\":[2,4]"), HasSubstr("/attribution/raises/0"));
+  EXPECT_THAT(refused("\"from\":[4,2]", "\"from\":[1,1]"), HasSubstr("no such cell"));
+}
+
 TEST_F(ExplainTest, WhatCannotBeExplainedIsRefused) {
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--threads", "2"}, {"--system", "mdd-sat"}}) {

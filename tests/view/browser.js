@@ -14,6 +14,20 @@ const FLAGS = [
   "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ];
 
+/**
+ * Until the expression is true, for ten seconds at most. The page's policy forbids what
+ * waitForFunction does when it has to ask twice.
+ * @param {import("playwright-core").Page} page
+ * @param {string} expression
+ */
+export async function until(page, expression) {
+  const end = Date.now() + 10_000;
+  while (!(await page.evaluate(expression))) {
+    assert.ok(Date.now() < end, `it never came true: ${expression}`);
+    await page.waitForTimeout(10);
+  }
+}
+
 /** A folder for the files of one test program, and a browser. */
 export class Laboratory {
   static async open() {

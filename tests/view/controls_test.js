@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Laboratory } from "./browser.js";
+import { Laboratory, until } from "./browser.js";
 
 /** @type {Laboratory} */
 let laboratory;
@@ -73,20 +73,6 @@ test("keys: steps, ends, speed, selection, theme, help", async () => {
   assert.ok(await page.locator("#help").isHidden());
   await visit.leave();
 });
-
-/**
- * Until the expression is true, for ten seconds at most. The page's policy forbids what
- * waitForFunction does when it has to ask twice.
- * @param {import("playwright-core").Page} page
- * @param {string} expression
- */
-async function until(page, expression) {
-  const end = Date.now() + 10_000;
-  while (!(await page.evaluate(expression))) {
-    assert.ok(Date.now() < end, `it never came true: ${expression}`);
-    await page.waitForTimeout(10);
-  }
-}
 
 test("playing comes to the end and stops", async () => {
   const visit = await laboratory.visit(good);

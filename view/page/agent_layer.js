@@ -7,6 +7,7 @@ import { convexHull } from "./clearance.js";
 import { tracePath } from "./map_layer.js";
 import { frameAt, positionAt } from "./motion.js";
 import { agentColour, AGENT_COLOURS, labelColour } from "./palette.js";
+import { drawPrecedences } from "./precedences.js";
 
 /**
  * The bodies at the moment that is shown, and what belongs to the selected agent.
@@ -27,6 +28,7 @@ export function drawAgents(context, state) {
     context.fill();
   });
   outline(context, state, positions);
+  if (state.showOrder) drawPrecedences(context, state);
   drawLabels(context, state, positions);
 }
 

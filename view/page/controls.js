@@ -21,6 +21,8 @@ import { element } from "./state.js";
  * @property {() => void} paths
  * @property {() => void} goals
  * @property {() => void} swept
+ * @property {() => void} order
+ * @property {() => void} heat
  * @property {() => void} alongPath
  * @property {() => void} theme
  * @property {() => void} deselect
@@ -66,6 +68,8 @@ export function makeActions(state, jump) {
     paths: change(() => { state.showPaths = !state.showPaths; }),
     goals: change(() => { state.showGoals = !state.showGoals; }),
     swept: change(() => { state.showSwept = !state.showSwept; }),
+    order: change(() => { state.showOrder = !state.showOrder && scene.precedences.length > 0; }),
+    heat: change(() => { state.showHeat = !state.showHeat && scene.attribution !== null; }),
     alongPath: change(() => { state.alongPath = !state.alongPath && state.selected !== null; }),
     theme: () => state.setDark(!state.dark),
     deselect: () => state.select(null),
@@ -110,7 +114,8 @@ export function listenToControls(state, actions) {
     ["play", actions.toggle], ["back", () => actions.step(-1)], ["forward", () => actions.step(1)],
     ["to-start", () => actions.toEnd(-1)], ["to-end", () => actions.toEnd(1)], ["fit", actions.fit],
     ["follow", actions.follow], ["paths", actions.paths], ["goals", actions.goals],
-    ["swept", actions.swept], ["theme", actions.theme], ["strip-mode", actions.alongPath],
+    ["swept", actions.swept], ["order", actions.order], ["heat", actions.heat],
+    ["theme", actions.theme], ["strip-mode", actions.alongPath],
     ["deselect", actions.deselect], ["help-open", actions.help],
   ];
   for (const [id, act] of buttons) element(id, HTMLButtonElement).addEventListener("click", act);
@@ -174,7 +179,8 @@ export function updateControls(state) {
   /** @type {[string, boolean][]} */
   const pressed = [
     ["follow", state.following], ["paths", state.showPaths], ["goals", state.showGoals],
-    ["swept", state.showSwept], ["theme", state.dark], ["strip-mode", state.alongPath],
+    ["swept", state.showSwept], ["order", state.showOrder], ["heat", state.showHeat],
+    ["theme", state.dark], ["strip-mode", state.alongPath],
   ];
   for (const [id, on] of pressed) element(id, HTMLElement).setAttribute("aria-pressed", String(on));
   for (const id of ["follow", "swept", "strip-mode"])

@@ -32,6 +32,8 @@ function bindings(actions) {
     { keys: ["p"], name: "p", text: "show all paths", act: actions.paths },
     { keys: ["g"], name: "g", text: "show starts and goals", act: actions.goals },
     { keys: ["b"], name: "b", text: "show what the selected agent sweeps", act: actions.swept },
+    { keys: ["o"], name: "o", text: "show who goes before and after the selected agent", act: actions.order },
+    { keys: ["h"], name: "h", text: "show where agents are in each other's way", act: actions.heat },
     { keys: ["v"], name: "v", text: "strip: waits, or along the selected path", act: actions.alongPath },
     { keys: ["t"], name: "t", text: "dark or light", act: actions.theme },
     { keys: ["Escape"], name: "Esc", text: "select no agent", act: actions.deselect },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 import { drawAgents } from "./agent_layer.js";
+import { Reasons } from "./attribution.js";
 import { listenToControls, makeActions, updateControls } from "./controls.js";
 import { listenToKeys } from "./keys.js";
 import { followLink, updateLink } from "./link.js";
@@ -21,6 +22,7 @@ class Page {
     this.strip = new Strip(state, element("strip", HTMLCanvasElement));
     this.map = new MapLayer(state);
     this.panel = new Panel(state, (time, agents) => this.jump(time, agents));
+    this.reasons = new Reasons(state, (time, agents) => this.jump(time, agents));
     this.live = element("live", HTMLElement);
     this.said = "";
     this.waiting = false;
@@ -66,6 +68,7 @@ class Page {
     }
     this.strip.draw();
     this.panel.update();
+    this.reasons.draw();
     updateControls(state);
     updateLink(state);
     this.say();
@@ -134,6 +137,10 @@ function publicInterface(state, page) {
       const { x, y } = positionAt(scene.agents[agent], player.time);
       return [state.camera.toPixelX(x), state.camera.toPixelY(y)];
     },
+    /** Where a place is drawn now, in pixels of the map. @param {number} x @param {number} y */
+    pixelOf: (x, y) => [state.camera.toPixelX(x / length), state.camera.toPixelY(y / length)],
+    /** By how much each two agents raise the bound together, and how large that is drawn. */
+    matrix: () => page.reasons.table(),
     /** The free space between two agents. @param {number} a @param {number} b @param {number} time */
     clearance: (a, b, time) => state.clearances.between(a, b, time / scene.unit) * length,
     /** @param {number} time */

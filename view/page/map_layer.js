@@ -3,6 +3,7 @@
 /** @import {Camera} from "./camera.js" */
 /** @import {Agent, Cells} from "./scene.js" */
 /** @import {State} from "./state.js" */
+import { drawHeat } from "./attribution.js";
 import { agentColour, AGENT_COLOURS } from "./palette.js";
 
 /** What does not move: the map, and on demand starts, goals and paths. Drawn again only when the
@@ -25,7 +26,7 @@ export class MapLayer {
    */
   draw(target, width, height) {
     const { state } = this;
-    const key = [state.camera.key(), state.dark, state.showPaths, state.showGoals,
+    const key = [state.camera.key(), state.dark, state.showPaths, state.showGoals, state.showHeat,
       window.devicePixelRatio].join(" ");
     if (key !== this.key) {
       this.render(width, height);
@@ -39,7 +40,7 @@ export class MapLayer {
    * @param {number} height
    */
   render(width, height) {
-    const { scene, camera, theme, showPaths, showGoals } = this.state;
+    const { scene, camera, theme, showPaths, showGoals, showHeat } = this.state;
     const ratio = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round(height * ratio);
@@ -48,6 +49,7 @@ export class MapLayer {
     context.fillRect(0, 0, width, height);
     if (scene.cells) this.drawCells(context, scene.cells);
     else this.drawRoads(context);
+    if (showHeat) drawHeat(context, this.state);
     if (showPaths) this.drawPaths(context);
     if (showGoals) for (const agent of scene.agents) drawEnds(context, camera, agent, this.state);
   }

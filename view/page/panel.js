@@ -2,7 +2,9 @@
 
 /** @import {Agent, Point} from "./scene.js" */
 /** @import {State} from "./state.js" */
+import { agentsName } from "./attribution.js";
 import { activityAt, positionAt, totalWait } from "./motion.js";
+import { openPrecedences } from "./precedences.js";
 import { element } from "./state.js";
 
 /** A list longer than this helps nobody; the rest is counted. */
@@ -145,6 +147,7 @@ export class Panel {
       facts.push(["delay", state.show(agent.cost - agent.free)]);
     facts.push(["waits", state.show(totalWait(agent))]);
     if (scene.continuous) facts.push(["body", bodyName(state, agent)]);
+    facts.push(...orderFacts(state, agent));
     const activity = activityAt(agent, player.time);
     facts.push(["now", `${activity}, ${placeName(state, positionAt(agent, player.time))}`]);
     this.facts.replaceChildren(...facts.flatMap(([name, value]) => {
@@ -155,6 +158,24 @@ export class Panel {
       return [term, text];
     }));
   }
+}
+
+/**
+ * Whom the agent still has to let go first, and who has to wait for it.
+ * @param {State} state
+ * @param {Agent} agent
+ * @returns {[string, string][]}
+ */
+function orderFacts(state, agent) {
+  const open = openPrecedences(state.scene.precedences, agent.index, state.player.time);
+  const names = (/** @type {number[]} */ agents) => agentsName([...new Set(agents)]);
+  const before = open.filter(({ follower }) => follower === agent.index).map(({ leader }) => leader);
+  const after = open.filter(({ leader }) => leader === agent.index).map(({ follower }) => follower);
+  /** @type {[string, string][]} */
+  const facts = [];
+  if (before.length > 0) facts.push(["after", names(before)]);
+  if (after.length > 0) facts.push(["before", names(after)]);
+  return facts;
 }
 
 /**

@@ -21,6 +21,17 @@
  * @typedef {{agents: [number, number], gap: number, time: number}} Nearness
  * @typedef {{width: number, height: number, pitch: number, passable: Uint8Array}} Cells
  *
+ *
+ * Why no plan is cheaper: the lower bound is the free costs and all raises. Of a site, where two
+ * agents are in each other's way, each line is points of the map; end is null for ever.
+ * @typedef {{amount: number, agents: number[]}} Raise
+ * @typedef {{agents: number[], lines: Point[][], begin: number, end: number | null, lemmas: number}} Site
+ * @typedef {{freeBound: number, lowerBound: number, raises: Raise[], sites: Site[]}} Attribution
+ *
+ * The leader has ended its move before the follower gets further than the slack behind it.
+ * @typedef {{leader: number, leaderBegin: number, leaderEnd: number, follower: number,
+ *   followerBegin: number, followerEnd: number, slack: number}} Precedence
+ *
  * @typedef {object} Scene
  * @property {string} title
  * @property {boolean} continuous
@@ -43,6 +54,8 @@
  * @property {Agent[]} agents
  * @property {Violation[]} violations
  * @property {Nearness[]} nearest
+ * @property {Attribution | null} attribution
+ * @property {Precedence[]} precedences
  * @property {{left: number, top: number, right: number, bottom: number}} box
  */
 
@@ -72,6 +85,8 @@ export function readScene(text) {
     places: pairs(data.places ?? []), links: data.links ?? [], oneWay: data.oneWay ?? [],
     hiddenLinks: data.hiddenLinks ?? 0, bodies, agents, violations: data.violations ?? [],
     nearest: (data.nearest ?? []).map(readNearness),
+    attribution: data.attribution ? readAttribution(data.attribution) : null,
+    precedences: readPrecedences(data.precedences ?? []),
     box: { left: 0, top: 0, right: 1, bottom: 1 },
   };
   for (const agent of agents)
@@ -202,6 +217,28 @@ function framesOfStops(stops) {
  */
 function readNearness([agent, other, gap, time]) {
   return { agents: [agent, other], gap, time };
+}
+
+/**
+ * @param {any} data
+ * @returns {Attribution}
+ */
+function readAttribution(data) {
+  const sites = data.sites.map((/** @type {any} */ site) => ({ ...site, lines: site.lines.map(pairs) }));
+  return { ...data, sites };
+}
+
+/**
+ * @param {number[]} flat  seven numbers each
+ * @returns {Precedence[]}
+ */
+function readPrecedences(flat) {
+  const list = [];
+  for (let i = 0; i + 6 < flat.length; i += 7) {
+    const [leader, leaderBegin, leaderEnd, follower, followerBegin, followerEnd, slack] = flat.slice(i, i + 7);
+    list.push({ leader, leaderBegin, leaderEnd, follower, followerBegin, followerEnd, slack });
+  }
+  return list;
 }
 
 /**

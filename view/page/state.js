@@ -21,6 +21,8 @@ export class State {
     this.showPaths = false;
     this.showGoals = true;
     this.showSwept = false;
+    this.showHeat = false;
+    this.showOrder = false;
     this.alongPath = false;
     this.dark = false;
     /** @type {Theme} */

@@ -39,12 +39,18 @@ std::string fill(const Scene& scene, PageOptions options) {
 
 std::string page(const discrete::Instance& instance, const discrete::Plan& plan,
                  const PageOptions& options) {
-  return fill(make_scene(instance, plan), options);
+  Scene scene = make_scene(instance, plan);
+  if (options.attribution) add_attribution(instance, *options.attribution, scene);
+  add_precedences(instance, plan, scene);
+  return fill(scene, options);
 }
 
 std::string page(const continuous::Instance& instance, const continuous::Plan& plan,
                  const PageOptions& options, const continuous::GridRoadmap* grid) {
-  return fill(make_scene(instance, plan, grid), options);
+  Scene scene = make_scene(instance, plan, grid);
+  if (options.attribution) add_attribution(*options.attribution, scene);
+  add_precedences(instance, plan, scene);
+  return fill(scene, options);
 }
 
 }  // namespace quadrille::view

@@ -10,6 +10,7 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/attribution.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
@@ -61,6 +62,24 @@ struct Nearness {
   double gap, time;
 };
 
+/// Where two agents are in each other's way: lines through places, or single ones.
+struct SceneSite {
+  std::size_t agent, other;
+  std::vector<std::vector<Position>> lines;
+  std::int64_t begin;
+  std::optional<std::int64_t> end;  ///< Nullopt: for ever.
+  std::int64_t lemmas;
+};
+
+/// The leader ends its move before the follower gets further than `slack` behind it.
+struct ScenePrecedence {
+  std::size_t leader;
+  std::int64_t leader_begin, leader_end;
+  std::size_t follower;
+  std::int64_t follower_begin, follower_end;
+  std::int64_t slack;
+};
+
 /// All that pictures show, in either domain. Times are in timesteps or ticks.
 struct Scene {
   bool is_continuous = false;
@@ -76,11 +95,27 @@ struct Scene {
   std::vector<SceneViolation> violations;
   std::vector<Nearness> nearest;  ///< The pairs that come nearest, nearest first.
   std::int64_t sum_of_costs = 0, makespan = 0;
+  /// Why no plan is cheaper, if that is known.
+  bool has_attribution = false;
+  std::int64_t free_bound = 0, lower_bound = 0;
+  std::vector<Raise> raises;
+  std::vector<SceneSite> sites;  ///< Most lemmas first.
+  std::vector<ScenePrecedence> precedences;
 };
 
 [[nodiscard]] Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan);
 [[nodiscard]] Scene make_scene(const continuous::Instance& instance, const continuous::Plan& plan,
                                const continuous::GridRoadmap* grid);
+
+/// Of the instance that the scene was made of.
+void add_attribution(const discrete::Instance& instance, const Attribution& attribution,
+                     Scene& scene);
+void add_attribution(const Attribution& attribution, Scene& scene);  ///< On a roadmap.
+/// Who follows whom in the plan that the scene was made of; nothing of a plan with violations, or
+/// of one with too many moves to look at.
+void add_precedences(const discrete::Instance& instance, const discrete::Plan& plan, Scene& scene);
+void add_precedences(const continuous::Instance& instance, const continuous::Plan& plan,
+                     Scene& scene);
 
 /// Where the path is at a time. Requires a path.
 [[nodiscard]] Position position_at(const Scene& scene, const SceneAgent& agent, double time);

@@ -139,6 +139,54 @@ Json violation_json(const SceneViolation& violation) {
           {"message", violation.message}};
 }
 
+Json site_json(const SceneSite& site) {
+  Json json;
+  json["agents"] = {site.agent, site.other};
+  json["lines"] = Json::array();
+  for (const auto& line : site.lines) {
+    Json points = Json::array();
+    for (const Position& position : line) {
+      points.push_back(number(position.x));
+      points.push_back(number(position.y));
+    }
+    json["lines"].push_back(std::move(points));
+  }
+  json["begin"] = site.begin;
+  json["end"] = site.end ? Json(*site.end) : Json(nullptr);
+  json["lemmas"] = site.lemmas;
+  return json;
+}
+
+Json attribution_json(const Scene& scene) {
+  Json json;
+  json["freeBound"] = scene.free_bound;
+  json["lowerBound"] = scene.lower_bound;
+  json["raises"] = Json::array();
+  for (const Raise& raise : scene.raises) {
+    Json agents = Json::array();
+    for (const AgentId i : raise.agents) agents.push_back(i.index());
+    json["raises"].push_back({{"amount", raise.amount}, {"agents", std::move(agents)}});
+  }
+  json["sites"] = Json::array();
+  for (const SceneSite& site : scene.sites) json["sites"].push_back(site_json(site));
+  return json;
+}
+
+/// Seven numbers each, one after the other.
+Json precedences_json(const Scene& scene) {
+  Json list = Json::array();
+  for (const ScenePrecedence& p : scene.precedences) {
+    list.push_back(p.leader);
+    list.push_back(p.leader_begin);
+    list.push_back(p.leader_end);
+    list.push_back(p.follower);
+    list.push_back(p.follower_begin);
+    list.push_back(p.follower_end);
+    list.push_back(p.slack);
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string scene_json(const Scene& scene, const PageOptions& options) {
@@ -170,6 +218,9 @@ std::string scene_json(const Scene& scene, const PageOptions& options) {
   json["nearest"] = Json::array();
   for (const Nearness& near : scene.nearest)
     json["nearest"].push_back({near.agent, near.other, near.gap, near.time});
+
+  if (scene.has_attribution) json["attribution"] = attribution_json(scene);
+  json["precedences"] = precedences_json(scene);
 
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string safe;

@@ -7,6 +7,7 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/attribution.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/discrete/instance.hpp"
@@ -22,6 +23,8 @@ struct PageOptions {
   Objective objective = Objective::sum_of_costs;
   std::optional<Status> status;     ///< What is claimed about the plan.
   std::optional<Cost> lower_bound;  ///< Of the objective, in timesteps or ticks.
+  /// Why no plan is cheaper, of this instance; shown as places, pairs of agents and raises.
+  std::optional<Attribution> attribution;
 };
 
 /// One HTML page that plays the plan in a browser: a single text that needs no other file and no

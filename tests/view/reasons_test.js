@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// What a page says of why no plan is cheaper, and of who goes first.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { Laboratory, until } from "./browser.js";
+
+/** @type {Laboratory} */
+let laboratory;
+/** @type {any} */
+let result;
+let page_of_solve = "";
+let page_of_result = "";
+let discs = "";
+let plain = "";
+
+before(async () => {
+  laboratory = await Laboratory.open();
+  const maps = `${process.env.QUADRILLE_SOURCE_DIR}/examples/maps`;
+  const input = ["--map", `${maps}/meeting.map`, "--scen", `${maps}/meeting.scen`, "--agents", "6"];
+  const at = (/** @type {string} */ name) => `${laboratory.folder}/${name}`;
+  page_of_solve = at("solve.html");
+  page_of_result = at("result.html");
+  discs = at("discs.html");
+  plain = at("plain.html");
+  laboratory.run("solve", ...input, "--explain", "--quiet", "--json", at("r.json"), "--view", page_of_solve);
+  result = JSON.parse(readFileSync(at("r.json"), "utf8"));
+  laboratory.run("view", ...input, "--output", page_of_result, at("r.json"));
+  laboratory.run("solve", ...input, "--quiet", "--view", plain);
+  laboratory.run("explain", "--instance", `${maps}/siding.json`, "--view", discs);
+});
+after(() => laboratory.close());
+
+test("the bar and the list: free costs and raises make the bound", async () => {
+  for (const file of [page_of_solve, page_of_result]) {
+    const visit = await laboratory.visit(file);
+    const { page } = visit;
+    const { free_bound: free, lower_bound: bound, raises } = result.attribution;
+    assert.equal(await visit.text("bound-text"),
+      `Bound ${bound} = ${free} that the agents cost alone + ${bound - free}`);
+    const parts = await page.evaluate(
+      "[...document.querySelectorAll('#bound-bar span')].map((part) => Number(part.style.flexGrow))");
+    assert.deepEqual(parts, [free, ...raises.map((/** @type {any} */ raise) => raise.amount)]);
+    assert.equal(await page.locator("#raise-list button").count(), raises.length);
+    await visit.leave();
+  }
+});
+
+test("a page without an attribution shows nothing of it", async () => {
+  const visit = await laboratory.visit(plain);
+  const { page } = visit;
+  assert.ok(await page.locator("#reasons").isHidden());
+  assert.ok(await page.locator("#heat").isHidden());
+  await page.keyboard.press("h");
+  assert.equal(await page.locator("#heat").getAttribute("aria-pressed"), "false");
+  await visit.leave();
+});
+
+test("the matrix is red where two agents raise the bound together, and nowhere else", async () => {
+  const visit = await laboratory.visit(page_of_result);
+  const shown = await visit.page.evaluate("quadrille.matrix()");
+  const together = (/** @type {number} */ a, /** @type {number} */ b) => result.attribution.raises
+    .filter((/** @type {any} */ raise) => raise.agents.includes(a) && raise.agents.includes(b))
+    .reduce((/** @type {number} */ sum, /** @type {any} */ raise) => sum + raise.amount, 0);
+  assert.ok(shown.agents.length >= 2);
+  for (const [row, a] of shown.agents.entries())
+    {for (const [column, b] of shown.agents.entries()) {
+      const amount = a === b ? 0 : together(a, b);
+      assert.equal(shown.amounts[row][column], amount, `agents ${a} and ${b}`);
+      const [x, y] = [20 + (column + 0.4) * shown.size, 20 + (row + 0.4) * shown.size];
+      const colour = await pixel(visit.page, "matrix", x, y);
+      assert.equal(colour === "255 255 255", amount === 0, `agents ${a} and ${b}: ${colour}`);
+    }}
+  await visit.leave();
+});
+
+test("heat: the map is coloured at the places of the sites, on demand", async () => {
+  const visit = await laboratory.visit(page_of_result);
+  const { page } = visit;
+  await page.evaluate("quadrille.seek(quadrille.end)");  // agents are at their goals
+  const vertices = result.attribution.sites.map((/** @type {any} */ site) => site.place.from);
+  const taken = result.plan.map((/** @type {any} */ path) => String(path[path.length - 1]));
+  const free = vertices.find((/** @type {any} */ place) => !taken.includes(String(place)));
+  assert.ok(free);
+  const [x, y] = await page.evaluate(`quadrille.pixelOf(${free[0]}, ${free[1]})`);
+  const cold = await pixel(page, "map", x + 3, y + 3);
+  await page.keyboard.press("h");
+  await until(page, "document.getElementById('heat').getAttribute('aria-pressed') === 'true'");
+  await page.evaluate("quadrille.seek(quadrille.end)");
+  const hot = await pixel(page, "map", x + 3, y + 3);
+  assert.notEqual(hot, cold);
+  const [red, , blue] = hot.split(" ").map(Number);
+  assert.ok(red > blue + 40, `${hot} is not warm`);
+  await page.locator("#heat").click();
+  await until(page, "document.getElementById('heat').getAttribute('aria-pressed') === 'false'");
+  await page.evaluate("quadrille.seek(quadrille.end)");
+  assert.equal(await pixel(page, "map", x + 3, y + 3), cold);
+  await visit.leave();
+});
+
+test("an entry of the list leads to when its agents are in each other's way", async () => {
+  const visit = await laboratory.visit(page_of_result);
+  const { page } = visit;
+  const raises = [...result.attribution.raises].sort((a, b) => b.amount - a.amount);
+  await page.locator("#raise-list button").first().click();
+  assert.equal(await visit.selected(), raises[0].agents[0]);
+  const inside = result.attribution.sites.filter((/** @type {any} */ site) =>
+    site.agents.every((/** @type {number} */ agent) => raises[0].agents.includes(agent)));
+  const most = Math.max(...inside.map((/** @type {any} */ site) => site.lemmas));
+  const times = inside.filter((/** @type {any} */ site) => site.lemmas === most)
+    .map((/** @type {any} */ site) => site.begin);
+  assert.ok(inside.length === 0 || times.includes(await visit.time()));
+  await visit.leave();
+});
+
+test("order: who goes before the selected agent, as verify's replay has it", async () => {
+  const visit = await laboratory.visit(plain);
+  const { page } = visit;
+  for (let agent = 0; agent < 6; ++agent) {
+    await page.keyboard.press(".");
+    await until(page, `quadrille.selected() === ${agent}`);
+    await page.evaluate("quadrille.seek(0)");
+    const facts = (await page.locator("#agent-facts").innerText()).replace(/\s+/g, " ");
+    const listed = facts.match(/ after agents? ([\d, ]+) /)?.[1].split(", ").map(Number) ?? [];
+    assert.deepEqual(listed.sort(), leadersOf(result.plan, agent), `agent ${agent}: ${facts}`);
+  }
+  await page.keyboard.press("o");
+  await until(page, "document.getElementById('order').getAttribute('aria-pressed') === 'true'");
+  await visit.leave();
+});
+
+test("continuous time: the bound in the unit of the input, and heat on the roadmap", async () => {
+  const visit = await laboratory.visit(discs);
+  const { page } = visit;
+  assert.match(await visit.text("bound-text"), /^Bound 5\.015 = [\d.]+ that the agents cost alone \+ [\d.]+$/);
+  await page.keyboard.press("h");
+  await until(page, "document.getElementById('heat').getAttribute('aria-pressed') === 'true'");
+  await visit.leave();
+});
+
+/**
+ * The colour of a pixel of a canvas.
+ * @param {import("playwright-core").Page} page
+ * @param {string} id
+ * @param {number} x
+ * @param {number} y
+ * @returns {Promise<string>}
+ */
+function pixel(page, id, x, y) {
+  return page.evaluate(`(() => {
+    const copy = document.createElement("canvas");
+    copy.width = copy.height = 1;
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(document.getElementById("${id}"), Math.round(${x}), Math.round(${y}), 1, 1, 0, 0, 1, 1);
+    return [...context.getImageData(0, 0, 1, 1).data].slice(0, 3).join(" ");
+  })()`);
+}
+
+/**
+ * Those who leave a vertex last before the agent comes to it.
+ * @param {[number, number][][]} plan
+ * @param {number} agent
+ * @returns {number[]}
+ */
+function leadersOf(plan, agent) {
+  const leaders = new Set();
+  const at = (/** @type {number} */ i, /** @type {number} */ t) =>
+    String(plan[i][Math.min(t, plan[i].length - 1)]);
+  for (let t = 1; t < plan[agent].length; ++t) {
+    if (at(agent, t) === at(agent, t - 1)) continue;
+    for (let earlier = t - 1, found = false; earlier >= 0 && !found; --earlier) {
+      for (let i = 0; i < plan.length && !found; ++i) {
+        if (at(i, earlier) !== at(agent, t)) continue;
+        found = true;
+        if (i !== agent) leaders.add(i);
+      }
+    }
+  }
+  return [...leaders].sort();
+}
