@@ -54,7 +54,7 @@ std::string describe_agents(const Instance& instance) {
   }
   const continuous::Resolution& resolution = instance.resolution();
   return fmt::format(
-      "classes    {} of agents with equal body and speed\n"
+      "classes    {} of agents with equal body, speed and open edges\n"
       "distances  sum {}, largest {} (lower bounds of sum of costs, makespan)\n",
       instance.num_classes(), in_input_units(sum, resolution), in_input_units(largest, resolution));
 }

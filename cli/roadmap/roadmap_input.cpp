@@ -98,8 +98,8 @@ Result<RoadmapInput> read_instance(const InputOptions& input) {
   if (input.agents) {
     std::vector<continuous::Agent> agents(instance->agents().begin(), instance->agents().end());
     agents.resize(static_cast<std::size_t>(*input.agents));
-    instance =
-        Instance::make(instance->shared_roadmap(), std::move(agents), instance->resolution());
+    instance = Instance::make(instance->shared_roadmap(), std::move(agents), instance->resolution(),
+                              {}, instance->obstacles());
   }
   const std::size_t count = instance->num_agents();
   return RoadmapInput{
@@ -125,6 +125,22 @@ std::string describe_bodies(const Instance& instance) {
   if (polygons == 0) return fmt::format("radius {}", radii);
   return fmt::format("{} polygon{}, all in discs of radius {}", polygons, polygons == 1 ? "" : "s",
                      radii);
+}
+
+/// A line about agents with rules of their own; empty if there are none.
+std::string describe_rules(const Instance& instance) {
+  std::string text;
+  const auto add = [&](const char* what, bool (*has)(const continuous::Agent&)) {
+    const auto count = std::count_if(instance.agents().begin(), instance.agents().end(), has);
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  };
+  add("released later", [](const continuous::Agent& a) { return a.release > 0; });
+  add("with a deadline", [](const continuous::Agent& a) { return a.deadline.has_value(); });
+  add("that leave at their goal", [](const continuous::Agent& a) { return a.leaves; });
+  if (!text.empty()) text = "           " + text + "\n";
+  if (!instance.obstacles().empty())
+    text += fmt::format("obstacles  {} on paths of their own\n", instance.obstacles().size());
+  return text;
 }
 
 }  // namespace
@@ -246,6 +262,11 @@ std::string describe_input(const RoadmapInput& input) {
   if (input.num_zero_length_edges > 0)
     text += fmt::format("           {} edges of length zero, which take one tick\n",
                         input.num_zero_length_edges);
+  if (const auto closed = std::count_if(
+          instance.roadmap().edges().begin(), instance.roadmap().edges().end(),
+          [](const continuous::Edge& e) { return !(e.open_to == continuous::Groups::all()); });
+      closed > 0)
+    text += fmt::format("           {} of the edges open to some groups of agents only\n", closed);
   if (!input.task_source.empty()) {
     text += fmt::format("agents     {} from {}", instance.num_agents(), input.task_source);
     if (input.rows != instance.num_agents()) text += fmt::format(" (of {})", input.rows);
@@ -257,7 +278,7 @@ std::string describe_input(const RoadmapInput& input) {
                           range(continuous::speed_in_input_units(slow->speed, resolution),
                                 continuous::speed_in_input_units(fast->speed, resolution)));
     }
-    text += "\n";
+    text += "\n" + describe_rules(instance);
   }
   if (!resolution.is_uniform())
     return text + fmt::format("units      one tick is {}, one length unit is {}\n", resolution.time,

@@ -26,7 +26,11 @@ bool is_disc(const geometry::Body& body) { return std::holds_alternative<geometr
 }  // namespace
 
 ClearanceWatch::ClearanceWatch(const continuous::Instance& instance, const continuous::Plan& plan)
-    : instance_(instance), plan_(plan), stops_(plan.paths.size(), 0), ways_(plan.paths.size()) {
+    : instance_(instance),
+      plan_(plan),
+      stops_(plan.paths.size(), 0),
+      ways_(plan.paths.size()),
+      gone_(plan.paths.size(), 2) {
   double size = 1;
   for (const geometry::Point& p : instance.roadmap().positions())
     size = std::max({size, std::abs(real(p.x)), std::abs(real(p.y))});
@@ -57,6 +61,13 @@ void ClearanceWatch::lay_out(AgentId agent, Ticks before, Ticks after) {
         if (before < tick && tick < after)
           way.push_back({real(tick - before) / real(after - before), place(agent, real(tick))});
   way.push_back({1, place(agent, real(after))});
+  gone_[agent] = 2;
+  if (!instance_.agent(agent).leaves) return;
+  const Ticks end = path.back().arrive;
+  if (before >= end)
+    gone_[agent] = 0;
+  else if (after > end)
+    gone_[agent] = real(end - before) / real(after - before);
 }
 
 double ClearanceWatch::gap(AgentId i, AgentId j, const Vector& offset) const {
@@ -127,7 +138,7 @@ void ClearanceWatch::look_at(AgentId i, AgentId j) {
   };
   std::size_t m = 0, n = 0;
   double share = 0;
-  while (true) {
+  while (share < std::min(gone_[i], gone_[j])) {
     const double next = std::min(a[m + 1].share, b[n + 1].share);
     const Vector p0 = between(a, m, share), p1 = between(a, m, next);
     const Vector q0 = between(b, n, share), q1 = between(b, n, next);

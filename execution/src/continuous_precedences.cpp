@@ -137,6 +137,10 @@ class Finder {
 }  // namespace
 
 Result<Precedences> precedences(const Instance& instance, const continuous::Plan& plan) {
+  if (!instance.obstacles().empty())
+    return Error{ErrorCode::invalid_instance,
+                 "moving obstacles wait for nobody: no order of moves keeps clear of them",
+                 {}};
   const auto report = continuous::verify(instance, plan);
   if (!report.valid()) return Error{ErrorCode::invalid_plan, report.violations.front().message, {}};
   return Finder(instance, plan).run();

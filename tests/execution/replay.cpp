@@ -122,9 +122,15 @@ Real Replay::separation(AgentId i, Real x0, Real x1, AgentId j, Real y0, Real y1
     const Vector a = place(i, x0 + (x1 - x0) * share), b = place(j, y0 + (y1 - y0) * share);
     return Vector{b.x - a.x, b.y - a.y};
   };
+  const auto is_gone = [&](AgentId a, Real clock) {
+    return instance_.agent(a).leaves && clock >= real(plan_.paths[a].back().arrive);
+  };
   Real least = std::numeric_limits<Real>::infinity();
-  for (std::size_t k = 0; k + 1 < shares.size(); ++k)
-    least = std::min(least, straight(i, j, offset(shares[k]), offset(shares[k + 1])));
+  for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
+    const Real middle = (shares[k] + shares[k + 1]) / 2;
+    if (!is_gone(i, x0 + (x1 - x0) * middle) && !is_gone(j, y0 + (y1 - y0) * middle))
+      least = std::min(least, straight(i, j, offset(shares[k]), offset(shares[k + 1])));
+  }
   return least;
 }
 

@@ -215,6 +215,8 @@ void make_continuous(const std::string& name, std::uint32_t seed) {
   random.num_agents = 2 + seed % 4;
   random.num_vertices = 8;
   random.polygon_percent = 40;
+  random.leaves_percent = 0;  // a page shows agents for ever
+  random.obstacles_percent = 0;
   const auto drawn = continuous::test::random_instance(seed, random);
   const auto instance =
       continuous::Instance::make(drawn.shared_roadmap(), drawn.agents().items(),

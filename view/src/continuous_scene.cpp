@@ -34,10 +34,18 @@ std::string name_of(Violation::Kind kind) {
       return "wrong goal";
     case Violation::Kind::not_adjacent:
       return "jump";
+    case Violation::Kind::too_early:
+      return "before its release";
+    case Violation::Kind::too_late:
+      return "after its deadline";
+    case Violation::Kind::closed_edge:
+      return "closed edge";
     case Violation::Kind::duration:
       return "wrong duration";
     case Violation::Kind::collision:
       return "collision";
+    case Violation::Kind::obstacle:
+      return "collision with an obstacle";
   }
   return "violation";
 }

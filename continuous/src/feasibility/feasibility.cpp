@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "feasibility/feasibility.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "joint/joint_search.hpp"
+#include "quadrille/continuous/verify.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -43,10 +46,28 @@ class PartSearch {
       return false;
     }
     if (report.end == JointReport::End::found && part.size() == scene_.instance().num_agents()) {
-      found_.plan = Plan{IdVector<AgentId, Path>(std::move(report.paths))};
+      found_.plan = released(Plan{IdVector<AgentId, Path>(std::move(report.paths))});
       return false;
     }
     return true;
+  }
+
+  /// The plan, put off until everybody is released. Nullopt if it breaks rules that the joint
+  /// search does not know.
+  [[nodiscard]] std::optional<Plan> released(Plan plan) const {
+    const Instance& instance = scene_.instance();
+    if (joint_scope(instance) == JointScope::exact) return plan;
+    Ticks release = 0;
+    for (const Agent& agent : instance.agents()) release = std::max(release, agent.release);
+    for (Path& path : plan.paths) {
+      if (path.size() == 1) continue;  // it stays
+      for (Stop& stop : path) {
+        if (&stop != &path.front()) stop.arrive += release;
+        stop.depart += release;
+      }
+    }
+    if (verify(instance, plan).valid()) return plan;
+    return std::nullopt;
   }
 
   Scene& scene_;
@@ -58,6 +79,7 @@ class PartSearch {
 }  // namespace
 
 Feasibility check_feasibility(Scene& scene, std::int64_t work) {
+  if (joint_scope(scene.instance()) == JointScope::none) return {};
   const std::size_t num_agents = scene.instance().num_agents();
   PartSearch search(scene, work);
   // One agent alone reaches its goal: seen when the instance was made.

@@ -4,10 +4,8 @@
 #include <fstream>
 #include <istream>
 #include <memory>
-#include <ostream>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "formats/json_numbers.hpp"
@@ -26,22 +24,25 @@ class InstanceReader {
   explicit InstanceReader(const Document& document) : document_(document), check_(document) {}
 
   Result<Instance> run() {
-    std::optional<Node> kind, version, resolution, roadmap, agents;
+    std::optional<Node> kind, version, resolution, roadmap, agents, obstacles;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"resolution", &resolution, false},
                                           {"roadmap", &roadmap},
-                                          {"agents", &agents}}) ||
+                                          {"agents", &agents},
+                                          {"obstacles", &obstacles, false}}) ||
         !read_version(*kind, *version) ||
         (resolution && !read_resolution(document_, check_, *resolution, resolution_)) ||
-        !read_roadmap(*roadmap) || !read_agents(*agents))
+        !read_roadmap(*roadmap) || !read_agents(*agents) ||
+        (obstacles && !read_obstacles(*obstacles)))
       return check_.error();
     auto made = Roadmap::make(std::move(positions_), std::move(edges_));
     if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
-    auto instance =
-        Instance::make(std::move(made).value(), std::move(agents_), resolution_, places_);
+    auto instance = Instance::make(std::move(made).value(), std::move(agents_), resolution_,
+                                   places_, std::move(obstacles_));
     if (!instance && instance.error().where.file.empty())
-      return document_.error(*roadmap, instance.error().code, instance.error().message);
+      return document_.error(obstacles ? *obstacles : *roadmap, instance.error().code,
+                             instance.error().message);
     return instance;
   }
 
@@ -67,13 +68,12 @@ class InstanceReader {
     return true;
   }
 
-  bool read_vertex(Node node) {
+  bool read_vertex(Node node) { return read_point(node, positions_.emplace_back()); }
+
+  bool read_point(Node node, Point& point) {
     if (!check_.array(node, "coordinates", 2)) return false;
     const Node x = document_.first(node);
-    Point point;
-    if (!read_coordinate(x, point.x) || !read_coordinate(document_.next(x), point.y)) return false;
-    positions_.push_back(point);
-    return true;
+    return read_coordinate(x, point.x) && read_coordinate(document_.next(x), point.y);
   }
 
   bool read_coordinate(Node node, Length& length) {
@@ -92,29 +92,64 @@ class InstanceReader {
     return true;
   }
 
+  /// A list of two or three, or an object.
   bool read_edge(Node node) {
+    if (document_.kind(node) == Document::Kind::object) {
+      std::optional<Node> from, to, duration, groups;
+      return check_.members(node, {{"from", &from},
+                                   {"to", &to},
+                                   {"duration", &duration, false},
+                                   {"groups", &groups, false}}) &&
+             read_edge(node, *from, *to, duration, groups);
+    }
     if (!check_.array(node, "vertices")) return false;
     const Node from = document_.first(node), end = document_.next(node);
     const Node to = from < end ? document_.next(from) : end;
     const Node duration = to < end ? document_.next(to) : end;
     if (to == end || (duration != end && document_.next(duration) != end))
       return check_.fail(node, "expected [from, to] or [from, to, duration]");
+    return read_edge(node, from, to, duration == end ? std::nullopt : std::optional(duration), {});
+  }
+
+  bool read_edge(Node node, Node from, Node to, std::optional<Node> duration,
+                 std::optional<Node> groups) {
     Edge edge;
     if (!read_vertex_number(from, edge.from) || !read_vertex_number(to, edge.to)) return false;
     if (edge.from == edge.to)
       return check_.fail(node, ErrorCode::invalid_instance, "the edge is a loop");
-    if (duration != end) {
+    if (groups && !read_groups(*groups, edge.open_to)) return false;
+    if (duration) {
       double value = 0;
-      if (!check_.number(duration, value)) return false;
+      if (!check_.number(*duration, value)) return false;
       edge.duration = quantise_duration(value, resolution_);
       if (!edge.duration)
-        return check_.fail(duration, ErrorCode::out_of_range,
+        return check_.fail(*duration, ErrorCode::out_of_range,
                            "the duration is less than one tick, or too long");
     } else if (positions_[edge.from.index()] == positions_[edge.to.index()]) {
       return check_.fail(node, ErrorCode::invalid_instance,
                          "the edge has length zero and no duration");
     }
     edges_.push_back(edge);
+    return true;
+  }
+
+  bool read_groups(Node node, Groups& groups) {
+    if (!check_.array(node, "groups")) return false;
+    groups = {};
+    for (Node g = document_.first(node); g < document_.next(node); g = document_.next(g)) {
+      GroupId group;
+      if (!read_group(g, group)) return false;
+      if (groups.contains(group)) return check_.fail(g, "this group is named twice");
+      groups.insert(group);
+    }
+    if (!groups.is_empty()) return true;
+    return check_.fail(node, ErrorCode::invalid_instance, "the edge is open to no group");
+  }
+
+  bool read_group(Node node, GroupId& group) {
+    std::int64_t number = 0;
+    if (!check_.integer(node, 0, kMaxGroups - 1, number)) return false;
+    group = GroupId(static_cast<std::size_t>(number));
     return true;
   }
 
@@ -132,19 +167,77 @@ class InstanceReader {
   bool read_agents(Node agents) {
     if (!check_.array(agents, "agents")) return false;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, goal, radius, polygon, speed;
+      std::optional<Node> start, goal, radius, polygon, speed, group, release, deadline, at_goal;
       Agent agent;
       if (!check_.members(a, {{"start", &start},
                               {"goal", &goal},
                               {"radius", &radius, false},
                               {"polygon", &polygon, false},
-                              {"speed", &speed, false}}) ||
+                              {"speed", &speed, false},
+                              {"group", &group, false},
+                              {"release", &release, false},
+                              {"deadline", &deadline, false},
+                              {"at_goal", &at_goal, false}}) ||
           !read_vertex_number(*start, agent.start) || !read_vertex_number(*goal, agent.goal) ||
-          !read_body(a, radius, polygon, agent.body) || !read_speed(a, speed, agent.speed))
+          !read_body(a, radius, polygon, agent.body) || !read_speed(a, speed, agent.speed) ||
+          (group && !read_group(*group, agent.group)) ||
+          (release && !read_time(*release, agent.release)) ||
+          (deadline && !read_time(*deadline, agent.deadline.emplace())) ||
+          (at_goal && !read_at_goal(*at_goal, agent.leaves)))
         return false;
       agents_.push_back(agent);
       places_.push_back({document_.file(), document_.line(a)});
     }
+    return true;
+  }
+
+  bool read_obstacles(Node obstacles) {
+    if (!check_.array(obstacles, "obstacles")) return false;
+    for (Node o = document_.first(obstacles); o < document_.next(obstacles);
+         o = document_.next(o)) {
+      std::optional<Node> radius, polygon, path, at_end;
+      MovingObstacle& obstacle = obstacles_.emplace_back();
+      if (!check_.members(o, {{"radius", &radius, false},
+                              {"polygon", &polygon, false},
+                              {"path", &path},
+                              {"at_end", &at_end, false}}) ||
+          !read_body(o, radius, polygon, obstacle.body) || !check_.array(*path, "stops") ||
+          (at_end && !read_at_goal(*at_end, obstacle.leaves)))
+        return false;
+      for (Node s = document_.first(*path); s < document_.next(*path); s = document_.next(s))
+        if (!read_obstacle_stop(s, obstacle.path)) return false;
+      if (obstacle.path.empty()) return check_.fail(*path, "the path is empty");
+    }
+    return true;
+  }
+
+  bool read_obstacle_stop(Node node, std::vector<MovingObstacle::Stop>& path) {
+    std::optional<Node> vertex, at, arrive, depart;
+    MovingObstacle::Stop stop;
+    if (!check_.members(node, {{"vertex", &vertex, false},
+                               {"at", &at, false},
+                               {"arrive", &arrive},
+                               {"depart", &depart, false}}))
+      return false;
+    if (vertex.has_value() == at.has_value())
+      return check_.fail(node, "expected one of the keys 'vertex' and 'at'");
+    if (vertex) {
+      VertexId v;
+      if (!read_vertex_number(*vertex, v)) return false;
+      stop.at = positions_[v.index()];
+    } else if (!read_point(*at, stop.at)) {
+      return false;
+    }
+    if (!read_time(*arrive, stop.arrive)) return false;
+    stop.depart = stop.arrive;
+    if (depart && !read_time(*depart, stop.depart)) return false;
+    if (stop.depart < stop.arrive)
+      return check_.fail(*depart, ErrorCode::invalid_instance,
+                         "the departure is before the arrival");
+    if (!path.empty() && stop.arrive <= path.back().depart)
+      return check_.fail(*arrive, ErrorCode::invalid_instance,
+                         "the arrival is not after the last departure");
+    path.push_back(stop);
     return true;
   }
 
@@ -190,6 +283,24 @@ class InstanceReader {
     return true;
   }
 
+  bool read_at_goal(Node node, bool& leaves) {
+    std::string_view what;
+    if (!check_.text(node, what)) return false;
+    leaves = what == "leave";
+    if (leaves || what == "stay") return true;
+    return check_.fail(node, "expected 'stay' or 'leave', found " + text::in_quotes(what));
+  }
+
+  bool read_time(Node node, Ticks& ticks) {
+    double value = 0;
+    if (!check_.number(node, value)) return false;
+    const auto time = quantise_time(value, resolution_);
+    if (!time)
+      return check_.fail(node, ErrorCode::out_of_range, "the time is negative, or too late");
+    ticks = *time;
+    return true;
+  }
+
   /// 1 if it is missing.
   bool read_speed(Node agent, std::optional<Node> given, Speed& speed) {
     const Node node = given.value_or(agent);
@@ -210,22 +321,8 @@ class InstanceReader {
   std::vector<Edge> edges_;
   std::vector<Agent> agents_;
   std::vector<SourcePlace> places_;
+  std::vector<MovingObstacle> obstacles_;
 };
-
-/// The member of an agent that says what it looks like.
-std::string body_json(const Body& body, const Resolution& resolution) {
-  if (const auto* disc = std::get_if<Disc>(&body))
-    return "\"radius\": " + json_number(radius_in_input_units(disc->radius, resolution));
-  std::string text = "\"polygon\": [";
-  const char* separator = "";
-  for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) {
-    text += std::string(separator) + "[" +
-            json_number(corner_in_input_units(corner.x, resolution)) + ", " +
-            json_number(corner_in_input_units(corner.y, resolution)) + "]";
-    separator = ", ";
-  }
-  return text + "]";
-}
 
 }  // namespace
 
@@ -253,38 +350,6 @@ bool is_roadmap_json(const std::string& text) {
        key = document->next(document->first(key)))
     if (document->text(key) == "roadmap") return true;
   return false;
-}
-
-std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
-                                         const Instance& instance) {
-  const Resolution& resolution = instance.resolution();
-  const auto number = [&](auto units) { return json_number(in_input_units(units, resolution)); };
-  out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
-      << ",\n  \"resolution\": " << resolution_json(resolution)
-      << ",\n  \"roadmap\": {\n    \"vertices\": [";
-  const char* separator = "\n";
-  for (const Point& point : instance.roadmap().positions()) {
-    out << separator << "      [" << number(point.x) << ", " << number(point.y) << "]";
-    separator = ",\n";
-  }
-  out << (*separator == ',' ? "\n    ],\n" : "],\n") << "    \"edges\": [";
-  separator = "\n";
-  for (const Edge& edge : instance.roadmap().edges()) {
-    out << separator << "      [" << edge.from.index() << ", " << edge.to.index();
-    if (edge.duration) out << ", " << number(*edge.duration);
-    out << "]";
-    separator = ",\n";
-  }
-  out << (*separator == ',' ? "\n    ]\n" : "]\n") << "  },\n  \"agents\": [";
-  separator = "\n";
-  for (const Agent& agent : instance.agents()) {
-    out << separator << "    {\"start\": " << agent.start.index()
-        << ", \"goal\": " << agent.goal.index() << ", " << body_json(agent.body, resolution)
-        << ", \"speed\": " << json_number(speed_in_input_units(agent.speed, resolution)) << "}";
-    separator = ",\n";
-  }
-  out << (*separator == ',' ? "\n  ]\n}\n" : "]\n}\n");
-  return text::finish_output(out, file);
 }
 
 }  // namespace quadrille::continuous

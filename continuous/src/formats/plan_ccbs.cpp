@@ -143,9 +143,10 @@ class LogReader {
   }
 
   [[nodiscard]] Ticks move_duration(AgentId agent, VertexId from, VertexId to, Ticks ticks) const {
-    for (const EdgeId e : instance_.roadmap().out_edges(from)) {
+    const ClassId c = instance_.class_of(agent);
+    for (const EdgeId e : instance_.out_edges(c, from)) {
       if (instance_.roadmap().edge(e).to != to) continue;
-      const Ticks exact = instance_.duration(instance_.class_of(agent), e);
+      const Ticks exact = instance_.duration(c, e);
       if (abs(exact - ticks) <= kMoveTolerance) return exact;
     }
     return ticks;

@@ -250,6 +250,16 @@ class JointSearch {
 
 }  // namespace
 
+JointScope joint_scope(const Instance& instance) {
+  const auto& agents = instance.agents();
+  if (std::any_of(agents.begin(), agents.end(), [](const Agent& a) { return a.leaves; }))
+    return JointScope::none;
+  const bool is_relaxed = !instance.obstacles().empty() ||
+                          std::any_of(agents.begin(), agents.end(),
+                                      [](const Agent& a) { return a.release > 0 || a.deadline; });
+  return is_relaxed ? JointScope::relaxed : JointScope::exact;
+}
+
 JointReport find_joint_plan(Scene& scene, const std::vector<AgentId>& agents, std::int64_t& work) {
   return JointSearch(scene, Aim::any_plan, agents, kAnyCost, work).run();
 }

@@ -10,6 +10,15 @@
 
 namespace quadrille::continuous {
 
+/// What a joint search of an instance is worth. It knows of edges that are closed to some, but not
+/// of releases, deadlines and moving obstacles.
+enum class JointScope {
+  exact,    ///< It knows all rules.
+  relaxed,  ///< Without the others: what it cannot do cannot be done, but its plans may break them.
+  none,     ///< Some agents leave at their goals: what it finds says nothing.
+};
+[[nodiscard]] JointScope joint_scope(const Instance& instance);
+
 /// What a joint search found out.
 struct JointReport {
   enum class End {

@@ -60,7 +60,7 @@ void JointSpace::list_steps(const JointPlaces& places, std::vector<JointStep>& s
       add_variants(places, {k, places.place[k], false, 0}, steps);
       continue;
     }
-    for (const EdgeId e : instance_.roadmap().out_edges(vertex(places, k))) {
+    for (const EdgeId e : instance_.out_edges(class_of(k), vertex(places, k))) {
       bool can_begin = true;
       for (std::size_t j = 0; j < size() && can_begin; ++j) {
         if (j == k || is_moving(places, j)) continue;

@@ -22,13 +22,15 @@ std::optional<Ticks> free_cost(const Instance& instance, AgentId agent) {
     arrival[v.index()] = then;
     open.emplace(then, v);
   };
-  reach(instance.agent(agent).start, 0);
+  const VertexId start = instance.agent(agent).start;
+  if (start == goal) return Ticks{0};
+  reach(start, instance.agent(agent).release);
   while (!open.empty()) {
     const auto [tick, v] = open.top();
     open.pop();
     if (v == goal) return tick;
     if (tick > arrival[v.index()]) continue;
-    for (const EdgeId e : roadmap.out_edges(v))
+    for (const EdgeId e : instance.out_edges(kind, v))
       reach(roadmap.edge(e).to, tick + instance.duration(kind, e));
   }
   return std::nullopt;

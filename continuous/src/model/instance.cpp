@@ -6,11 +6,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "model/areas.hpp"
+#include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
@@ -40,6 +42,21 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
         ErrorCode::out_of_range,
         name(index) + " has a speed outside (0, " + std::to_string(kMaxSpeed / kUnitSpeed) + "]",
         {}};
+  if (agent.group.index() >= kMaxGroups)
+    return Error{ErrorCode::out_of_range,
+                 name(index) + " is of group " + std::to_string(agent.group.index()) +
+                     ", not 0 .. " + std::to_string(kMaxGroups - 1),
+                 {}};
+  const auto out_of_range = [&](const std::string& what, Ticks tick) {
+    return Error{ErrorCode::out_of_range,
+                 name(index) + what + std::to_string(tick.count()) + ", not 0 .. " +
+                     std::to_string(geometry::kMaxDuration.count()),
+                 {}};
+  };
+  const auto is_good = [](Ticks tick) { return 0 <= tick && tick <= geometry::kMaxDuration; };
+  if (!is_good(agent.release)) return out_of_range(" is released at tick ", agent.release);
+  if (agent.deadline && !is_good(*agent.deadline))
+    return out_of_range(" has its deadline at tick ", *agent.deadline);
   return std::nullopt;
 }
 
@@ -51,6 +68,7 @@ std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent
   for (std::size_t j = 0; j < agents.size(); ++j) {
     const Point& q = roadmap.position(agents[j].*place);
     for (std::size_t i = 0; i < j; ++i) {
+      if (place == &Agent::goal && (agents[i].leaves || agents[j].leaves)) continue;
       const Point& p = roadmap.position(agents[i].*place);
       if (squared_distance(p, q) >= square(reaches[i] + reaches[j]) ||
           !geometry::bodies_overlap(agents[i].body, p, agents[j].body, q))
@@ -63,7 +81,8 @@ std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent
   return std::nullopt;
 }
 
-bool can_reach(const Roadmap& roadmap, VertexId start, VertexId goal) {
+bool can_reach(const Roadmap& roadmap, const Agent& agent) {
+  const VertexId start = agent.start, goal = agent.goal;
   std::vector<bool> seen(roadmap.num_vertices(), false);
   std::vector<VertexId> stack{start};
   seen[start.index()] = true;
@@ -72,7 +91,7 @@ bool can_reach(const Roadmap& roadmap, VertexId start, VertexId goal) {
     stack.pop_back();
     for (const EdgeId e : roadmap.out_edges(v)) {
       const VertexId w = roadmap.edge(e).to;
-      if (seen[w.index()]) continue;
+      if (seen[w.index()] || !roadmap.edge(e).open_to.contains(agent.group)) continue;
       seen[w.index()] = true;
       stack.push_back(w);
     }
@@ -82,10 +101,43 @@ bool can_reach(const Roadmap& roadmap, VertexId start, VertexId goal) {
 
 std::optional<Error> check_reachable(const Roadmap& roadmap, const Agent& agent,
                                      std::size_t index) {
-  if (can_reach(roadmap, agent.start, agent.goal)) return std::nullopt;
+  if (can_reach(roadmap, agent)) return std::nullopt;
   return no_plan(name(index) + " cannot reach its goal: there is no way from vertex " +
                  std::to_string(agent.start.index()) + " to vertex " +
                  std::to_string(agent.goal.index()));
+}
+
+std::optional<Error> check_obstacle(const MovingObstacle& obstacle, std::size_t index) {
+  const std::string who = "obstacle " + std::to_string(index);
+  const Length reach = geometry::enclosing_radius(obstacle.body);
+  if (reach < 1 || reach > geometry::kMaxLength)
+    return Error{ErrorCode::out_of_range, who + " has a radius that is not supported", {}};
+  if (obstacle.path.empty()) return invalid(who + " has no stops");
+  Ticks now = 0;
+  for (const MovingObstacle::Stop& stop : obstacle.path) {
+    if (!geometry::in_range(stop.at) || stop.arrive < 0 || stop.depart > geometry::kMaxDuration)
+      return Error{ErrorCode::out_of_range, who + " has a place or a time out of range", {}};
+    const bool is_first = &stop == &obstacle.path.front();
+    const Ticks least = is_first ? Ticks{0} : now + 1;
+    if (stop.depart < stop.arrive || stop.arrive < least)
+      return invalid(who + " has times that do not increase");
+    now = stop.depart;
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> check_obstacles(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                     const std::vector<MovingObstacle>& obstacles) {
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    if (auto error = check_obstacle(obstacles[o], o)) return error;
+    const MovingObstacle::Stop& first = obstacles[o].path.front();
+    if (first.arrive > 0) continue;
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      if (geometry::bodies_overlap(agents[i].body, roadmap.position(agents[i].start),
+                                   obstacles[o].body, first.at))
+        return no_plan("obstacle " + std::to_string(o) + " is at the start of " + name(i));
+  }
+  return std::nullopt;
 }
 
 /// What is wrong with the agents; then `at` is the one to blame.
@@ -98,6 +150,25 @@ std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>&
   for (at = 0; at < agents.size(); ++at)
     if (auto error = check_reachable(roadmap, agents[at], at)) return error;
   return std::nullopt;
+}
+
+/// An agent with a deadline that is too early, however free its way is.
+std::optional<Error> check_deadlines(const Instance& instance, std::size_t& at) {
+  for (const AgentId i : instance.agent_ids()) {
+    const Agent& agent = instance.agent(i);
+    if (!agent.deadline) continue;
+    const Ticks arrival = free_cost(instance, i).value();
+    if (arrival <= *agent.deadline) continue;
+    at = i.index();
+    return no_plan(name(at) + " cannot arrive before tick " + std::to_string(arrival.count()) +
+                   ", and its deadline is tick " + std::to_string(agent.deadline->count()));
+  }
+  return std::nullopt;
+}
+
+bool is_all_open(const Roadmap& roadmap, GroupId group) {
+  return std::all_of(roadmap.edges().begin(), roadmap.edges().end(),
+                     [&](const Edge& edge) { return edge.open_to.contains(group); });
 }
 
 /// Equal for equal bodies; radii and corners, in order.
@@ -136,7 +207,8 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std
 }  // namespace
 
 Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vector<Agent> agents,
-                                Resolution resolution, std::span<const SourcePlace> places) {
+                                Resolution resolution, std::span<const SourcePlace> places,
+                                std::vector<MovingObstacle> obstacles) {
   QUADRILLE_REQUIRE(roadmap != nullptr, "an instance has a roadmap");
   QUADRILLE_REQUIRE(places.empty() || places.size() == agents.size(), "one place per agent");
   if (!resolution.is_valid())
@@ -147,9 +219,12 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
     return *error;
   }
 
+  if (auto error = check_obstacles(*roadmap, agents, obstacles)) return *error;
+
   Instance instance;
   std::map<Speed, std::size_t> speeds;
-  std::map<std::pair<std::vector<Length>, Speed>, ClassId> classes;
+  std::map<std::tuple<std::vector<Length>, Speed, std::size_t>, ClassId> classes;
+  std::map<GroupId, std::shared_ptr<const Ways>> ways;  // null: all edges
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const Agent& agent = agents[i];
     const auto [speed, is_new] = speeds.try_emplace(agent.speed, instance.durations_.size());
@@ -162,23 +237,36 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
       }
       instance.durations_.push_back(std::move(durations).value());
     }
-    const auto key = std::make_pair(numbers_of(agent.body), agent.speed);
+    const auto [open, is_new_group] = ways.try_emplace(agent.group);
+    if (is_new_group && !is_all_open(*roadmap, agent.group))
+      open->second = std::make_shared<const Ways>(
+          Ways{EdgeLists(roadmap->num_vertices(), roadmap->edges(), &Edge::from, agent.group),
+               EdgeLists(roadmap->num_vertices(), roadmap->edges(), &Edge::to, agent.group)});
+    // All to whom every edge is open are alike.
+    const std::size_t group = open->second == nullptr ? kMaxGroups : agent.group.index();
+    const auto key = std::make_tuple(numbers_of(agent.body), agent.speed, group);
     const auto [known, is_new_class] = classes.try_emplace(key, instance.classes_.next_id());
     if (is_new_class)
-      instance.classes_.push_back(
-          {agent.body, geometry::enclosing_radius(agent.body), agent.speed, speed->second});
+      instance.classes_.push_back({agent.body, geometry::enclosing_radius(agent.body), agent.speed,
+                                   speed->second, agent.group, open->second});
     instance.class_of_.push_back(known->second);
   }
   instance.roadmap_ = std::move(roadmap);
   instance.agents_ = IdVector<AgentId, Agent>(std::move(agents));
   instance.resolution_ = resolution;
+  instance.obstacles_ = std::move(obstacles);
+  if (auto error = check_deadlines(instance, at)) {
+    if (!places.empty()) error->where = places[at];
+    return *error;
+  }
   return instance;
 }
 
 Result<Instance> Instance::make(Roadmap roadmap, std::vector<Agent> agents, Resolution resolution,
-                                std::span<const SourcePlace> places) {
+                                std::span<const SourcePlace> places,
+                                std::vector<MovingObstacle> obstacles) {
   return make(std::make_shared<const Roadmap>(std::move(roadmap)), std::move(agents), resolution,
-              places);
+              places, std::move(obstacles));
 }
 
 }  // namespace quadrille::continuous

@@ -61,6 +61,12 @@ std::optional<Ticks> quantise_duration(double value, const Resolution& resolutio
   return Ticks(static_cast<std::int64_t>(std::round(*units)));
 }
 
+std::optional<Ticks> quantise_time(double value, const Resolution& resolution) {
+  const auto units = in_units(value, resolution.time, geometry::kMaxDuration.count());
+  if (!units || *units < 0) return std::nullopt;
+  return Ticks(static_cast<std::int64_t>(std::round(*units)));
+}
+
 std::optional<Speed> quantise_speed(double value, const Resolution& resolution) {
   if (!resolution.is_valid()) return std::nullopt;
   // Length units per tick.

@@ -22,6 +22,8 @@ std::optional<Error> check(const std::vector<Point>& positions, const Edge& edge
                  name + " from vertex " + std::to_string(edge.from.index()) + " to vertex " +
                      std::to_string(edge.to.index()) + " has length zero",
                  {}};
+  if (edge.open_to.is_empty())
+    return Error{ErrorCode::invalid_instance, name + " is open to no group", {}};
   if (edge.duration && (*edge.duration < 1 || *edge.duration > geometry::kMaxDuration))
     return Error{ErrorCode::out_of_range,
                  name + " takes " + std::to_string(edge.duration->count()) + " ticks, not 1 .. " +
@@ -48,18 +50,20 @@ Result<Roadmap> Roadmap::make(std::vector<Point> vertices, std::vector<Edge> edg
 Roadmap::Roadmap(std::vector<Point> positions, std::vector<Edge> edges)
     : positions_(std::move(positions)),
       edges_(std::move(edges)),
-      out_(incidence(&Edge::from)),
-      in_(incidence(&Edge::to)) {}
+      out_(positions_.size(), edges_, &Edge::from, std::nullopt),
+      in_(positions_.size(), edges_, &Edge::to, std::nullopt) {}
 
-Roadmap::Incidence Roadmap::incidence(VertexId Edge::*end) const {
-  Incidence result{std::vector<std::size_t>(positions_.size() + 1, 0),
-                   std::vector<EdgeId>(edges_.size())};
-  for (const Edge& edge : edges_) ++result.begin[(edge.*end).index() + 1];
-  for (std::size_t v = 0; v < positions_.size(); ++v) result.begin[v + 1] += result.begin[v];
-  std::vector<std::size_t> next = result.begin;
-  for (std::size_t e = 0; e < edges_.size(); ++e)
-    result.edges[next[(edges_[e].*end).index()]++] = EdgeId(e);
-  return result;
+EdgeLists::EdgeLists(std::size_t num_vertices, const std::vector<Edge>& edges, VertexId Edge::*end,
+                     const std::optional<GroupId>& group)
+    : begin_(num_vertices + 1, 0) {
+  const auto is_open = [&](const Edge& edge) { return !group || edge.open_to.contains(*group); };
+  for (const Edge& edge : edges)
+    if (is_open(edge)) ++begin_[(edge.*end).index() + 1];
+  for (std::size_t v = 0; v < num_vertices; ++v) begin_[v + 1] += begin_[v];
+  edges_.resize(begin_.back());
+  std::vector<std::size_t> next = begin_;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (is_open(edges[e])) edges_[next[(edges[e].*end).index()]++] = EdgeId(e);
 }
 
 }  // namespace quadrille::continuous

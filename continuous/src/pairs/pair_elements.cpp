@@ -55,19 +55,26 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
     known = ticks;
     queue.emplace(ticks, v);
   };
-  reach(instance.agent(party.agent).start, 0);
+  const Agent& agent = instance.agent(party.agent);
+  side.release = agent.start == agent.goal ? Ticks{0} : agent.release;
+  reach(agent.start, agent.release);
   while (!queue.empty()) {
     const auto [ticks, v] = queue.top();
     queue.pop();
     if (ticks > side.from_start[v.index()]) continue;
-    side.first_edge[v.index()] = static_cast<std::uint32_t>(side.edges.size());
-    for (const EdgeId e : roadmap.out_edges(v)) {
+    side.first_edge[v.index()] = side.end_edge[v.index()] =
+        static_cast<std::uint32_t>(side.edges.size());
+    if (agent.leaves && v == agent.goal) continue;
+    for (const EdgeId e : instance.out_edges(side.c, v)) {
       const Ticks rest = distances[roadmap.edge(e).to], duration = instance.duration(side.c, e);
       if (rest >= kForever) continue;
       const Ticks by_cap = party.cap - rest - duration;
       TimedEdge edge{e, ticks, by_cap + raise, by_cap, false};
-      // From its cap on at the latest the other one stands at its goal.
-      if (const auto w = window(side.c, e, other_class, other_goal, reach_of_bodies)) {
+      // From its cap on at the latest the other one stands at its goal, unless it leaves.
+      const auto w = instance.agent(other.agent).leaves
+                         ? std::nullopt
+                         : window(side.c, e, other_class, other_goal, reach_of_bodies);
+      if (w) {
         const Ticks by_goal = other.cap - w->end;
         edge.last = std::min(edge.last, by_goal + other_raise);
         edge.last_without_raise = std::min(edge.last_without_raise, by_goal);
@@ -83,7 +90,8 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
 }
 
 Ticks PairSearch::leave_by(const Side& side, VertexId v) const {
-  if (v == scene_.instance().agent(side.agent).goal) return kForever;
+  const Agent& agent = scene_.instance().agent(side.agent);
+  if (v == agent.goal) return agent.leaves ? Ticks{-1} : kForever;
   Ticks last = -1;
   for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k)
     last = std::max(last, side.edges[k].last);
@@ -111,7 +119,8 @@ void PairSearch::find_contacts(Side& x, Side& y) {
       }
     }
     for (const VertexId v : near.vertices) {
-      const Ticks arrive = y.from_start[v.index()];
+      // Released late or not, it is at its start from tick 0 on.
+      const Ticks arrive = v == instance.agent(y.agent).start ? Ticks{0} : y.from_start[v.index()];
       if (arrive > e.last + duration) continue;
       const auto w = scene_.contacts().window(x.c, e.edge, y.c, v);
       if (w && arrive < e.last + w->end && leave_by(y, v) > e.first + w->begin) {
@@ -205,7 +214,7 @@ void PairSearch::make_elements(Side& side) {
   while (!stack_.empty()) {
     const VertexId v(stack_.back());
     stack_.pop_back();
-    for (const EdgeId e : roadmap.in_edges(v)) {
+    for (const EdgeId e : instance.in_edges(side.c, v)) {
       const VertexId u = roadmap.edge(e).from;
       if (side.from_start[u.index()] >= kForever || side.may_matter_later[u.index()] != 0) continue;
       side.may_matter_later[u.index()] = 1;
@@ -266,7 +275,8 @@ const PairSearch::Next& PairSearch::next_of(Side& side, VertexId from) {
 Ticks PairSearch::raise_for_done(const Side& side, const Element& element, Ticks start,
                                  const Next& next) {
   if (next.done >= kForever) return kForever;
-  return std::max<Ticks>(0, start + element.duration + next.done - side.cap);
+  const Ticks wait = element.is_move ? Ticks{0} : side.release;
+  return std::max<Ticks>(0, start + element.duration + wait + next.done - side.cap);
 }
 
 Ticks PairSearch::raise_to_wait(Side& side, const Element& element, Ticks start, Ticks tick) {

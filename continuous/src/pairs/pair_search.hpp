@@ -87,6 +87,7 @@ class PairSearch {
     std::vector<Element> elements;
     std::vector<Next> next;  // by vertex
     Ticks cap = 0;           // without raise
+    Ticks release = 0;       // before which it cannot set out to a goal elsewhere
     // By vertex:
     std::vector<Ticks> from_start;                    // kForever: not reached within the cap
     std::vector<std::uint32_t> first_edge, end_edge;  // that leave it

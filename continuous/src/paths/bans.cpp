@@ -19,7 +19,7 @@ void PathUses::assign(const Instance& instance, AgentId agent, const TimedPath& 
     at = instance.roadmap().edge(move.edge).to;
     since = move.start + instance.duration(c, move.edge);
   }
-  stays_.push_back({at.value(), since, kForever});
+  stays_.push_back({at.value(), since, instance.agent(agent).leaves ? since : kForever});
   edges_.reset();
   vertices_.reset();
   for (const Start& start : starts_) edges_.set(start.edge % kBits);
@@ -50,7 +50,7 @@ BanTable::BanTable(const Roadmap& roadmap)
     : num_edges_(roadmap.num_edges()),
       index_(roadmap.num_edges() + roadmap.num_vertices(), kFree) {}
 
-void BanTable::clear() {
+void BanTable::clear(std::span<const Ban> standing) {
   for (std::size_t p = 0; p < num_used_; ++p) {
     index_[places_[p].resource] = kFree;
     places_[p].entries.clear();
@@ -60,6 +60,7 @@ void BanTable::clear() {
   enabled_.clear();
   ++version_;
   source_ = nullptr;
+  for (const Ban& ban : standing) put(ban, kStanding);
 }
 
 void BanTable::ask(BanSource& source) {
@@ -102,10 +103,12 @@ void BanTable::add(std::span<const Ban> bans) {
   const auto slot = static_cast<std::uint32_t>(enabled_.size());
   enabled_.push_back(1);
   ++version_;
-  for (const Ban& ban : bans) {
-    const std::size_t resource = ban.kind == Ban::Kind::start ? ban.place : num_edges_ + ban.place;
-    place_of(resource).entries.push_back({ban.when, slot});
-  }
+  for (const Ban& ban : bans) put(ban, slot);
+}
+
+void BanTable::put(const Ban& ban, std::uint32_t slot) {
+  const std::size_t resource = ban.kind == Ban::Kind::start ? ban.place : num_edges_ + ban.place;
+  place_of(resource).entries.push_back({ban.when, slot});
 }
 
 void BanTable::enable(std::size_t slot, bool on) {
@@ -132,7 +135,7 @@ const std::vector<TickInterval>& BanTable::forbidden_starts(std::uint32_t index)
   Place& place = places_[index];
   if (!refresh(place)) return place.forbidden;
   for (const auto& [when, slot] : place.entries) {
-    if (enabled_[slot] == 0) continue;
+    if (!is_enabled(slot)) continue;
     if (!place.forbidden.empty() && when.begin <= place.forbidden.back().end)
       place.forbidden.back().end = std::max(place.forbidden.back().end, when.end);
     else
@@ -149,7 +152,7 @@ const std::vector<BanTable::SafeStay>& BanTable::safe_stays(std::uint32_t index)
   if (!refresh(place)) return place.safe;
   Ticks free_from = 0;
   for (const auto& [when, slot] : place.entries) {
-    if (enabled_[slot] == 0 || when.end <= free_from) continue;
+    if (!is_enabled(slot) || when.end <= free_from) continue;
     if (when.begin >= free_from) place.safe.push_back({free_from, when.begin});
     free_from = when.end;
   }

@@ -74,7 +74,8 @@ class BanTable {
  public:
   explicit BanTable(const Roadmap& roadmap);
 
-  void clear();
+  /// Leaves nothing but the bans in `standing`, which belong to no slot and hold always.
+  void clear(std::span<const Ban> standing = {});
   /// Clears the table. From now on, until it is cleared, it has the bans that `source` names, which
   /// is asked for those of a place when they are first looked for; they are one slot, and none can
   /// be added.
@@ -107,6 +108,8 @@ class BanTable {
   /// last may be until kForever.
   [[nodiscard]] const std::vector<SafeStay>& safe_stays(std::uint32_t place);
 
+  /// The slot of bans that stand.
+  static constexpr std::uint32_t kStanding = 0xffffffffu;
   struct Entry {
     TickInterval when;
     std::uint32_t slot;
@@ -115,7 +118,9 @@ class BanTable {
   [[nodiscard]] const std::vector<Entry>& entries(std::uint32_t place) const {
     return places_[place].entries;
   }
-  [[nodiscard]] bool is_enabled(std::size_t slot) const { return enabled_[slot] != 0; }
+  [[nodiscard]] bool is_enabled(std::size_t slot) const {
+    return slot == kStanding || enabled_[slot] != 0;
+  }
 
  private:
   struct Place {
@@ -127,6 +132,7 @@ class BanTable {
     bool is_sorted = false;
   };
   [[nodiscard]] bool refresh(Place& place);
+  void put(const Ban& ban, std::uint32_t slot);
   [[nodiscard]] Place& place_of(std::size_t resource);
   void ask_for(std::size_t resource);
 

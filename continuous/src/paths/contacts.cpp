@@ -92,7 +92,7 @@ const Contacts::Neighbours& Contacts::near(
         const std::size_t begin = segment_begins_[index];
         if (bodies.can_meet(motion, instance_.motion(b, segment_edges_[begin])))
           for (std::size_t k = begin; k < segment_begins_[index + 1]; ++k)
-            made->edges.push_back(segment_edges_[k]);
+            if (instance_.may_use(b, segment_edges_[k])) made->edges.push_back(segment_edges_[k]);
       } else {
         const VertexId v(index - num_segments);
         if (bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))

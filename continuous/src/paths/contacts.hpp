@@ -103,7 +103,7 @@ class Contacts {
   [[nodiscard]] bool overlap(ClassId a, VertexId v, ClassId b, VertexId w) const;
 
   /// Edges and vertices at which an agent of class b may collide with one of class a on edge e
-  /// (at vertex v), ascending; none that can is missing.
+  /// (at vertex v), ascending; none that can is missing. Edges are open to class b.
   struct Neighbours {
     std::vector<EdgeId> edges;
     std::vector<VertexId> vertices;

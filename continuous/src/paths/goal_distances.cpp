@@ -19,7 +19,7 @@ GoalDistances::GoalDistances(const Instance& instance, AgentId agent)
     const auto [ticks, v] = queue.top();
     queue.pop();
     if (ticks > ticks_[v.index()]) continue;
-    for (const EdgeId e : instance.roadmap().in_edges(v)) {
+    for (const EdgeId e : instance.in_edges(c, v)) {
       const VertexId u = instance.roadmap().edge(e).from;
       const Ticks via = ticks + instance.duration(c, e);
       if (via >= ticks_[u.index()]) continue;
@@ -39,7 +39,7 @@ std::span<const Detours::Detour> Detours::from(VertexId v) {
   if (range.begin == kUnknown) {
     const ClassId c = instance_.class_of(agent_);
     range.begin = static_cast<std::uint32_t>(detours_.size());
-    for (const EdgeId e : roadmap.out_edges(v)) {
+    for (const EdgeId e : instance_.out_edges(c, v)) {
       const VertexId w = roadmap.edge(e).to;
       const Ticks duration = instance_.duration(c, e);
       if (distances_[w] >= kForever) continue;

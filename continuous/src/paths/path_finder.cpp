@@ -75,30 +75,35 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
                                       TimedPath* path, std::vector<char>* relevant) {
   begin(task);
   const Agent& agent = instance_.agent(task.agent);
-  if (task.distances[agent.start] >= bound) return std::nullopt;
+  bound = std::min(bound, arrival_bound(instance_, task.agent));
+  const bool is_goal = agent.start == agent.goal;
+  // Who leaves where it starts is gone at once.
+  const Ticks release = is_goal && agent.leaves ? Ticks{0} : agent.release;
+  const Ticks least = is_goal ? Ticks{0} : release + task.distances[agent.start];
+  if (least >= bound) return std::nullopt;
   const std::uint32_t start_place = bans.stays_of(agent.start);
   const auto& stays = start_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(start_place);
-  if (stays.empty() || stays.front().from > 0) {
-    // Only the bans that cover tick 0 are to blame, and one of them is enough.
-    if (relevant != nullptr)
-      for (const BanTable::Entry& entry : bans.entries(start_place))
-        if (bans.is_enabled(entry.slot) && entry.when.meets(0, 0)) {
-          (*relevant)[entry.slot] = 1;
-          break;
-        }
+  if (stays.empty() || stays.front().from > 0 || stays.front().until < release) {
+    if (relevant != nullptr) blame_start(bans, start_place, release, *relevant);
     return std::nullopt;
   }
+  if (is_goal && release > 0 && stays.front().until == kForever) {
+    if (path != nullptr) *path = {{}, 0};
+    return Ticks{0};
+  }
+  // Whoever is not released need not be looked at before it is.
   const std::size_t first = state(bans, agent.start, 0);
-  best_[first] = 0;
+  best_[first] = release;
   stamp_[first] = run_;
-  visit({agent.start, 0, 0, stays.front().until, kNoParent, {}}, task.distances[agent.start]);
+  visit({agent.start, 0, release, stays.front().until, kNoParent, {}},
+        release + task.distances[agent.start]);
   while (!heap_.empty()) {
     std::pop_heap(heap_.begin(), heap_.end(), is_later);
     const auto [estimate, arrive, index] = heap_.back();
     heap_.pop_back();
     const Node node = nodes_[index];
     if (best_[state(bans, node.vertex, node.stay)] < node.arrive) continue;
-    if (node.vertex == agent.goal && node.leave_by == kForever) {
+    if (node.vertex == agent.goal && (node.leave_by == kForever || agent.leaves)) {
       if (path != nullptr) trace(index, *path);
       return node.arrive;
     }
@@ -107,6 +112,18 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
     expand(task, bans, index, estimate, bound);
   }
   return std::nullopt;
+}
+
+// Only the bans of the time before the release are to blame, and one of them is enough.
+void PathFinder::blame_start(BanTable& bans, std::uint32_t place, Ticks release,
+                             std::vector<char>& relevant) {
+  std::optional<std::uint32_t> blamed;
+  for (const BanTable::Entry& entry : bans.entries(place)) {
+    if (!bans.is_enabled(entry.slot) || !entry.when.meets(0, release)) continue;
+    if (entry.slot == BanTable::kStanding) return;
+    if (!blamed) blamed = entry.slot;
+  }
+  if (blamed) relevant[*blamed] = 1;
 }
 
 void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t index, Ticks estimate,
@@ -154,7 +171,8 @@ void PathFinder::mark(const PathTask& task, BanTable& bans, const Node& node, Ti
   const auto mark_entries = [&](std::uint32_t place, Ticks from, Ticks to) {
     if (place == BanTable::kFree) return;
     for (const BanTable::Entry& entry : bans.entries(place))
-      if (bans.is_enabled(entry.slot) && entry.when.begin <= to && entry.when.end >= from)
+      if (entry.slot != BanTable::kStanding && bans.is_enabled(entry.slot) &&
+          entry.when.begin <= to && entry.when.end >= from)
         relevant[entry.slot] = 1;
   };
   // What ends this stay, unless it is too late to go on then. At the goal an agent could stay.

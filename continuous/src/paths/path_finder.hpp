@@ -29,7 +29,8 @@ class PathFinder {
   explicit PathFinder(const Instance& instance, LimitMonitor* limits = nullptr)
       : instance_(instance), limits_(limits) {}
 
-  /// Arrival of the cheapest path that arrives before `bound`; nullopt if there is none. `path`,
+  /// Arrival of the cheapest path that arrives before `bound` and by the agent's deadline; nullopt
+  /// if there is none. `path`,
   /// unless null, receives it. `relevant`, unless null, is marked by slot: no path arrives before
   /// `bound` even if only the marked slots are switched on. Without result only.
   [[nodiscard]] std::optional<Ticks> find(const PathTask& task, BanTable& bans, Ticks bound,
@@ -57,6 +58,8 @@ class PathFinder {
   };
   static bool is_later(const Entry& a, const Entry& b);
 
+  static void blame_start(BanTable& bans, std::uint32_t place, Ticks release,
+                          std::vector<char>& relevant);
   void begin(const PathTask& task);
   /// Takes the moves with which the way is no longer than `estimate`.
   void expand(const PathTask& task, BanTable& bans, std::uint32_t node, Ticks estimate,

@@ -11,9 +11,16 @@ constexpr std::size_t kMaxSlotsPerPath = 2, kFewSlots = 16;
 
 }  // namespace
 
-ReadyTraffic::ReadyTraffic(Scene& scene) : bans_around_(scene) {
+ReadyTraffic::ReadyTraffic(Scene& scene) : scene_(scene), bans_around_(scene) {
   while (tables_.size() < scene.instance().num_classes())
     tables_.emplace_back(scene.instance().roadmap());
+  clear_tables();
+}
+
+void ReadyTraffic::clear_tables() {
+  for (std::size_t a = 0; a < tables_.size(); ++a)
+    tables_[a].clear(scene_.standing_bans(ClassId(a)));
+  num_slots_ = 0;
 }
 
 Traffic::Handle ReadyTraffic::put(ClassId c, const std::vector<Step>& steps) {
@@ -45,8 +52,7 @@ void ReadyTraffic::add_slot(Entry& entry) {
 }
 
 void ReadyTraffic::drop_old_slots() {
-  for (BanTable& table : tables_) table.clear();
-  num_slots_ = 0;
+  clear_tables();
   for (Entry& entry : entries_) {
     if (!entry.is_in) continue;
     add_slot(entry);
@@ -66,8 +72,7 @@ void ReadyTraffic::take_out(Handle path) {
 }
 
 void ReadyTraffic::clear() {
-  for (BanTable& table : tables_) table.clear();
-  num_slots_ = 0;
+  clear_tables();
   entries_.clear();
   free_.clear();
 }

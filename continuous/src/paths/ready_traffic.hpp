@@ -27,9 +27,11 @@ class ReadyTraffic final : public Traffic {
     bool is_in = false;
     bool is_shown = false;
   };
+  void clear_tables();
   void add_slot(Entry& entry);
   void drop_old_slots();
 
+  Scene& scene_;
   BansAround bans_around_;
   std::vector<BanTable> tables_;  // by class
   std::vector<Entry> entries_;    // by handle

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "paths/scene.hpp"
 
+#include "paths/obstacle_bans.hpp"
+
 namespace quadrille::continuous {
 
 Scene::Scene(const Instance& instance, LimitMonitor& limits)
@@ -12,6 +14,25 @@ Scene::Scene(const Instance& instance, LimitMonitor& limits)
     distances_.emplace_back(instance, i);
     detours_.emplace_back(instance, i, distances_.back());
   }
+  standing_.resize(instance.num_classes());
+  is_complete_ = instance.obstacles().empty() || avoid_obstacles();
+}
+
+bool Scene::avoid_obstacles() {
+  for (const ClassId c : IdRange<ClassId>(instance_.num_classes())) {
+    if (limits_.exhausted_now()) return false;
+    standing_[c.index()] = bans_around_obstacles(instance_, c, limits_);
+  }
+  PathFinder finder(instance_, &limits_);
+  BanTable bans(instance_.roadmap());
+  std::vector<Cost> costs;
+  for (const AgentId i : instance_.agent_ids()) {
+    bans.clear(standing_bans(i));
+    const auto arrival = finder.find(task(i), bans, kForever, nullptr);
+    costs.push_back(arrival ? as_cost(*arrival) : kAnyCost);
+  }
+  free_costs_ = std::move(costs);
+  return true;
 }
 
 }  // namespace quadrille::continuous

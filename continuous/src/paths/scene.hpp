@@ -13,25 +13,44 @@ namespace quadrille::continuous {
 /// and the limits. Nothing here knows of literals.
 class Scene {
  public:
-  /// Computes the distances to all goals; both arguments outlive the scene. If `limits` end that
+  /// Computes the distances to all goals and the bans around moving obstacles, the latter with as
+  /// many contacts as there are edges and vertices for each of their steps, per class; both
+  /// arguments outlive the scene. If `limits` end that
   /// early, the scene is not complete and of no use.
   Scene(const Instance& instance, LimitMonitor& limits);
-  [[nodiscard]] bool is_complete() const { return distances_.size() == instance_.num_agents(); }
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] LimitMonitor& limits() noexcept { return limits_; }
   [[nodiscard]] Contacts& contacts() noexcept { return contacts_; }
   [[nodiscard]] PathTask task(AgentId i) { return {i, distances_[i.index()], detours_[i.index()]}; }
-  /// Cost of the cheapest path of an agent that is alone.
+  /// What keeps agents of the class clear of the moving obstacles, sorted.
+  [[nodiscard]] const std::vector<Ban>& standing_bans(ClassId c) const {
+    return standing_[c.index()];
+  }
+  [[nodiscard]] const std::vector<Ban>& standing_bans(AgentId i) const {
+    return standing_bans(instance_.class_of(i));
+  }
+  /// Cost of the cheapest path of an agent that is alone with the moving obstacles; kAnyCost if
+  /// these leave it none.
   [[nodiscard]] Cost free_cost(AgentId i) const {
-    return as_cost(distances_[i.index()][instance_.agent(i).start]);
+    if (!free_costs_.empty()) return free_costs_[i.index()];
+    const Agent& agent = instance_.agent(i);
+    if (agent.start == agent.goal) return 0;
+    return as_cost(agent.release + distances_[i.index()][agent.start]);
   }
 
  private:
+  /// False: the limits ended it.
+  bool avoid_obstacles();
+
   const Instance& instance_;
   LimitMonitor& limits_;
+  bool is_complete_ = false;
   std::vector<GoalDistances> distances_;
   std::vector<Detours> detours_;
+  std::vector<std::vector<Ban>> standing_;  // by class
+  std::vector<Cost> free_costs_;            // none: distances say it
   Contacts contacts_;
 };
 

@@ -7,6 +7,9 @@
 namespace quadrille::continuous {
 namespace {
 
+/// Before all others in the order of bans.
+constexpr TickInterval kFirst{-kForever, -kForever};
+
 /// What one look at a contact counts: most are in a hash table, some have to be computed.
 constexpr std::int64_t kEffortOfContact = 4;
 
@@ -134,9 +137,17 @@ BanTable& SpatialTraffic::bans(ClassId c) {
   return table_;
 }
 
+void SpatialTraffic::list_standing(const Ban& least, std::vector<TickInterval>& bans) const {
+  const std::vector<Ban>& standing = scene_.standing_bans(asking_);
+  auto at = std::lower_bound(standing.begin(), standing.end(), least);
+  for (; at != standing.end() && at->kind == least.kind && at->place == least.place; ++at)
+    bans.push_back(at->when);
+}
+
 // As BansAround, seen from the place instead of from the path.
 void SpatialTraffic::list_starts(EdgeId e, std::vector<TickInterval>& bans) {
   const Instance& instance = scene_.instance();
+  list_standing(Ban::start(e, kFirst), bans);
   const Edge& edge = instance.roadmap().edge(e);
   const Box box = box_of(instance.roadmap().position(edge.from),
                          instance.roadmap().position(edge.to), instance.reach(asking_));
@@ -154,6 +165,7 @@ void SpatialTraffic::list_starts(EdgeId e, std::vector<TickInterval>& bans) {
 
 void SpatialTraffic::list_stays(VertexId v, std::vector<TickInterval>& bans) {
   const Instance& instance = scene_.instance();
+  list_standing(Ban::stay(v, kFirst), bans);
   const Point at = instance.roadmap().position(v);
   for_each_near(box_of(at, at, instance.reach(asking_)), [&](const Passage& passage) {
     if (!passage.step.is_move) return;  // who came later collides on its way

@@ -41,6 +41,8 @@ class SpatialTraffic final : public Traffic, private BanSource {
     bool is_shown = false;
   };
 
+  /// Those of moving obstacles at the place of `least`, which is before all of them.
+  void list_standing(const Ban& least, std::vector<TickInterval>& bans) const;
   void list_starts(EdgeId e, std::vector<TickInterval>& bans) override;
   void list_stays(VertexId v, std::vector<TickInterval>& bans) override;
 

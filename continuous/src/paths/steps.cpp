@@ -55,7 +55,7 @@ void list_steps(const Instance& instance, AgentId agent, const TimedPath& path,
     steps.push_back({true, move.edge, VertexId(), move.start, now});
     at = instance.roadmap().edge(move.edge).to;
   }
-  steps.push_back({false, EdgeId(), at, now, kForever});
+  if (!instance.agent(agent).leaves) steps.push_back({false, EdgeId(), at, now, kForever});
 }
 
 std::optional<Encounter> first_encounter(Scene& scene, AgentId i, const std::vector<Step>& steps_i,

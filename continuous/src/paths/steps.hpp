@@ -8,7 +8,8 @@
 
 namespace quadrille::continuous {
 
-/// A move along an edge, or a stay at a vertex that ends with kForever at the goal.
+/// A move along an edge, or a stay at a vertex. The one at the goal, unless the agent leaves, ends
+/// with kForever.
 struct Step {
   bool is_move = false;
   EdgeId edge;      // moves

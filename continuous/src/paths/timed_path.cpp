@@ -9,13 +9,13 @@ namespace quadrille::continuous {
 
 TimedPath without_stops(const Instance& instance, AgentId agent, const Path& stops) {
   TimedPath path;
+  const ClassId c = instance.class_of(agent);
   path.arrival = as_ticks(cost(stops));
   for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
-    const auto& edges = instance.roadmap().out_edges(stops[k].vertex);
+    const auto& edges = instance.out_edges(c, stops[k].vertex);
     const auto at = std::find_if(edges.begin(), edges.end(), [&](EdgeId e) {
       return instance.roadmap().edge(e).to == stops[k + 1].vertex &&
-             instance.duration(instance.class_of(agent), e) ==
-                 stops[k + 1].arrive - stops[k].depart;
+             instance.duration(c, e) == stops[k + 1].arrive - stops[k].depart;
     });
     QUADRILLE_REQUIRE(at != edges.end(), "plans move along edges");
     path.moves.push_back({*at, stops[k].depart});

@@ -15,6 +15,12 @@ inline constexpr Ticks kForever{std::numeric_limits<std::int64_t>::max() / 4};
 /// More than any plan costs.
 inline constexpr Cost kAnyCost = as_cost(kForever);
 
+/// An agent's arrivals have to be before this: after its deadline, or kForever.
+[[nodiscard]] inline Ticks arrival_bound(const Instance& instance, AgentId agent) {
+  const auto& deadline = instance.agent(agent).deadline;
+  return deadline ? *deadline + 1 : kForever;
+}
+
 /// One move of a path.
 struct Move {
   EdgeId edge;

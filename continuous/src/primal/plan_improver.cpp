@@ -111,9 +111,10 @@ std::vector<AgentId> PlanImprover::choose() {
   const AgentId late = chosen.front();
   std::vector<Step>& steps = free_steps_[late];
   if (steps.empty()) {
-    BanTable nothing(instance.roadmap());
+    BanTable bans(instance.roadmap());
+    bans.clear(scene_.standing_bans(late));
     TimedPath path;
-    static_cast<void>(finder_.find(scene_.task(late), nothing, kForever, &path));
+    static_cast<void>(finder_.find(scene_.task(late), bans, kForever, &path));
     list_steps(instance, late, path, steps);
   }
   std::vector<AgentId> others, in_way;

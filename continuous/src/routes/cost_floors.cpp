@@ -9,9 +9,10 @@
 namespace quadrille::continuous {
 namespace {
 
-/// When an agent that is alone can be at each vertex, by index; kForever if never.
+/// When an agent that is alone can set out from each vertex, by index; kForever if never.
 std::vector<Ticks> earliest_visits(const Instance& instance, AgentId agent) {
   const Roadmap& roadmap = instance.roadmap();
+  const ClassId c = instance.class_of(agent);
   std::vector<Ticks> ticks(roadmap.num_vertices(), kForever);
   using Entry = std::pair<Ticks, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -20,13 +21,13 @@ std::vector<Ticks> earliest_visits(const Instance& instance, AgentId agent) {
     ticks[v.index()] = tick;
     open.emplace(tick, v.index());
   };
-  visit(instance.agent(agent).start, 0);
+  visit(instance.agent(agent).start, instance.agent(agent).release);
   while (!open.empty()) {
     const auto [tick, v] = open.top();
     open.pop();
     if (tick > ticks[v]) continue;
-    for (const EdgeId e : roadmap.out_edges(VertexId(v)))
-      visit(roadmap.edge(e).to, tick + instance.duration(instance.class_of(agent), e));
+    for (const EdgeId e : instance.out_edges(c, VertexId(v)))
+      visit(roadmap.edge(e).to, tick + instance.duration(c, e));
   }
   return ticks;
 }
@@ -55,7 +56,7 @@ Ticks last_pass(Scene& scene, AgentId resident, AgentId passer, const std::vecto
   while (!stack.empty()) {
     const VertexId v = stack.back();
     stack.pop_back();
-    for (const EdgeId e : roadmap.in_edges(v)) {
+    for (const EdgeId e : instance.in_edges(mover, v)) {
       const VertexId from = roadmap.edge(e).from;
       if (is_past[from.index()] || touches(e)) continue;
       is_past[from.index()] = true;
@@ -78,7 +79,7 @@ std::vector<Cost> cost_floors(Scene& scene) {
   for (const AgentId passer : scene.instance().agent_ids()) {
     const std::vector<Ticks> visits = earliest_visits(scene.instance(), passer);
     for (const AgentId resident : scene.instance().agent_ids())
-      if (resident != passer)
+      if (resident != passer && !scene.instance().agent(resident).leaves)
         floors[resident.index()] =
             std::max(floors[resident.index()], as_cost(last_pass(scene, resident, passer, visits)));
   }

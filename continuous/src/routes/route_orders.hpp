@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "paths/contacts.hpp"
+#include "paths/scene.hpp"
 #include "paths/timed_path.hpp"
 
 namespace quadrille::continuous {
@@ -13,7 +13,7 @@ namespace quadrille::continuous {
 /// The moves of one agent, whenever they begin.
 struct Route {
   std::vector<EdgeId> edges;
-  Ticks duration = 0;  ///< Of the moves, without waits.
+  Ticks duration = 0;  ///< When it ends if nobody is in the way; 0 without moves.
 };
 
 /// All ways in which some agents can follow given routes, by the order in which moves and stays
@@ -22,8 +22,12 @@ struct Route {
 class RouteOrders {
  public:
   /// `work` counts down comparisons; when it is below 0 the search ends early.
-  RouteOrders(Contacts& contacts, const Instance& instance, Objective objective, std::int64_t& work)
-      : contacts_(contacts), instance_(instance), objective_(objective), work_(work) {}
+  RouteOrders(Scene& scene, Objective objective, std::int64_t& work)
+      : scene_(scene),
+        contacts_(scene.contacts()),
+        instance_(scene.instance()),
+        objective_(objective),
+        work_(work) {}
 
   /// Without agents again.
   void clear();
@@ -56,18 +60,27 @@ class RouteOrders {
   [[nodiscard]] Ticks duration(const Traveller& t, std::size_t move) const {
     return instance_.duration(class_of(t), t.route->edges[move]);
   }
+  [[nodiscard]] bool leaves(const Traveller& t) const { return instance_.agent(t.agent).leaves; }
   void add_moves(const Traveller& i, const Traveller& j);
   void add_stays(const Traveller& mover, const Traveller& stander);
+  /// The choices that moving obstacles leave.
+  void add_bans(const Traveller& t);
+  void add_start_ban(std::size_t move, const TickInterval& starts);
+  void add_stay_ban(const Traveller& t, std::size_t stay, const TickInterval& stretch);
   bool enforce(const Constraint& added, Times& times);
+  /// Whether somebody misses its deadline.
+  [[nodiscard]] bool is_late(const Times& times) const;
   void branch(std::size_t depth);
   [[nodiscard]] Cost cost_of(const Times& times) const;
 
+  Scene& scene_;
   Contacts& contacts_;
   const Instance& instance_;
   const Objective objective_;
   std::int64_t& work_;
   std::vector<Traveller> travellers_;
   std::vector<Ticks> chain_{0};  // by variable: how long its move takes; 0: it is an agent's last
+  std::vector<Ticks> earliest_{0};  // by variable: not before this
   std::vector<Choice> choices_;
   std::vector<Constraint> chosen_;
   std::vector<Times> stack_;            // by number of chosen constraints

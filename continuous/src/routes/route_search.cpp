@@ -56,7 +56,7 @@ class RouteSearch {
         all_(agents),
         bounds_(bounds),
         work_(work),
-        orders_(scene.contacts(), scene.instance(), objective, work) {
+        orders_(scene, objective, work) {
     for (std::size_t i = 0; i < instance_.num_agents(); ++i)
       if ((agents >> i & 1) != 0) agents_.push_back(AgentId(i));
   }
@@ -147,12 +147,15 @@ class RouteSearch {
       t.routes.push_back(route);
       work_ -= kWorkPerMove * static_cast<std::int64_t>(route.edges.size());
     }
-    for (const EdgeId e : instance_.roadmap().out_edges(v)) {
+    for (const EdgeId e : instance_.out_edges(instance_.class_of(t.agent), v)) {
       work_ -= kWorkPerMove;
       const VertexId to = instance_.roadmap().edge(e).to;
-      const Ticks duration = instance_.duration(instance_.class_of(t.agent), e);
+      const Ticks wait = route.edges.empty() ? instance_.agent(t.agent).release : Ticks{0};
+      const Ticks duration = wait + instance_.duration(instance_.class_of(t.agent), e);
       const Ticks to_go = scene_.task(t.agent).distances[to];
-      if (to_go >= kForever || as_cost(route.duration + duration + to_go) >= share) continue;
+      if (to_go >= kForever) continue;
+      const Ticks arrival = route.duration + duration + to_go;
+      if (as_cost(arrival) >= share || arrival >= arrival_bound(instance_, t.agent)) continue;
       route.edges.push_back(e);
       route.duration += duration;
       extend(t, share, to, route);

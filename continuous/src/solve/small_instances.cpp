@@ -17,7 +17,8 @@ constexpr std::int64_t kFeasibilityWork = 300'000'000;
 }  // namespace
 
 bool is_small(const Instance& instance) {
-  return instance.num_agents() <= kMaxAgents && instance.roadmap().num_vertices() <= kMaxVertices &&
+  return joint_scope(instance) == JointScope::exact && instance.num_agents() <= kMaxAgents &&
+         instance.roadmap().num_vertices() <= kMaxVertices &&
          instance.roadmap().num_edges() <= kMaxEdges;
 }
 

@@ -10,9 +10,9 @@
 
 namespace quadrille::continuous {
 
-/// Whether the joint search comes first: a matter of sizes alone. On such instances it mostly needs
-/// a few milliseconds, however congested they are; what it needs grows exponentially with the
-/// agents, and with the room that they have.
+/// Whether the joint search comes first: a matter of sizes alone, where it knows all rules. On such
+/// instances it mostly needs a few milliseconds, however congested they are; what it needs grows
+/// exponentially with the agents, and with the room that they have.
 [[nodiscard]] bool is_small(const Instance& instance);
 
 struct SmallReport {

@@ -105,6 +105,17 @@ void complete(Attribution& attribution, const SolveOutcome& outcome) {
   fit_to_bound(attribution);
 }
 
+/// What a plan costs at most, by the deadlines.
+Cost most_cost(const Instance& instance, Objective objective) {
+  Cost most = 0;
+  for (const AgentId i : instance.agent_ids()) {
+    const Cost own = as_cost(arrival_bound(instance, i) - 1);
+    most =
+        objective == Objective::sum_of_costs ? std::min(most + own, kAnyCost) : std::max(most, own);
+  }
+  return most;
+}
+
 void find_plan(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
                const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome) {
   std::optional<Plan> some_plan = outcome.plan = options.initial_plan;
@@ -117,6 +128,13 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     outcome.explanation = blocked_text(instance, blocked);
     return true;
   };
+  for (const AgentId i : instance.agent_ids()) {
+    if (scene.free_cost(i) < kAnyCost) continue;
+    outcome.status = Status::infeasible;
+    outcome.explanation = "agent " + std::to_string(i.index()) +
+                          " cannot get past the moving obstacles, even without other agents";
+    return;
+  }
   Cost floor = outcome.lower_bound = free_bound(scene, options.objective);
   if (options.explain) outcome.attribution = free_charges(scene, options.objective);
   /// Whether that is all.
@@ -125,6 +143,11 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
     if (outcome.attribution) charge_search(*outcome.attribution, floor);
     keep_cheaper(some_plan, std::move(plan), options.objective);
     outcome.plan = some_plan;  // the answer if a limit is met
+    if (floor > most_cost(instance, options.objective)) {
+      outcome.status = Status::infeasible;
+      outcome.explanation = "no plan keeps all deadlines";
+      return true;
+    }
     if (!some_plan || cost(*some_plan, options.objective) != floor) return false;
     outcome.status = Status::optimal;
     return true;

@@ -119,7 +119,7 @@ void EncounterClauses::add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
 // The path lemma whose only usage is this one.
 void EncounterClauses::add_price(ObstacleId id, FormulaWriter& writer) {
   const AgentId i = model_.obstacles()[id].agent;
-  bans_.clear();
+  bans_.clear(model_.standing_bans(i));
   bans_.add(model_.obstacles()[id].bans);
   const auto arrival = finder_.find(model_.task(i), bans_, kForever, nullptr);
   if (arrival && as_cost(*arrival) <= model_.free_cost(i)) return;

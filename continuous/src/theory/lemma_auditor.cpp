@@ -112,6 +112,7 @@ std::string LemmaAuditor::audit_goal_bans(const Obstacle& o, AgentId resident, T
   const Instance& instance = model_.instance();
   const VertexId goal = instance.agent(resident).goal;
   const geometry::BodyPair pair = bodies(o.agent, resident);
+  if (instance.agent(resident).leaves) return "an agent that leaves is said to stay at its goal";
   for (const Ban& ban : o.bans) {
     bool holds = false;
     if (ban.kind == Ban::Kind::stay) {
@@ -147,6 +148,8 @@ std::string LemmaAuditor::audit_path(const sat::Lemma& lemma) const {
     if (meaning.kind == Kind::cost && meaning.agent == i && lit.positive())
       bound = std::min(bound, as_ticks(meaning.cost));
   }
+  const std::vector<Ban>& standing = model_.standing_bans(i);
+  bans.insert(bans.end(), standing.begin(), standing.end());
   return has_path(i, bans, bound) ? "some path breaks a path lemma" : "";
 }
 
@@ -163,6 +166,7 @@ bool LemmaAuditor::has_path(AgentId i, const std::vector<Ban>& bans, Ticks bound
     stays[v][k].arrival = arrival;
     queue.emplace_back(v, k);
   };
+  if (const auto& deadline = instance.agent(i).deadline) bound = std::min(bound, *deadline + 1);
   const VertexId start = instance.agent(i).start;
   for (std::size_t k = 0; k < stays[start].size(); ++k)
     if (stays[start][k].from == 0) reach(start, k, 0);
@@ -170,12 +174,16 @@ bool LemmaAuditor::has_path(AgentId i, const std::vector<Ban>& bans, Ticks bound
     const auto [v, k] = queue.front();
     queue.pop_front();
     const SafeStay stay = stays[v][k];
-    if (v == instance.agent(i).goal && stay.until >= kForever) return true;
+    if (v == instance.agent(i).goal && (instance.agent(i).leaves || stay.until >= kForever))
+      return true;
     for (const EdgeId e : roadmap.out_edges(v)) {
+      if (!roadmap.edge(e).open_to.contains(instance.agent(i).group)) continue;
       const Ticks duration = instance.duration(c, e);
       const VertexId w = roadmap.edge(e).to;
       for (std::size_t l = 0; l < stays[w].size(); ++l) {
-        const Ticks s = next_start(bans, e, std::max(stay.arrival, stays[w][l].from - duration));
+        const Ticks s = next_start(
+            bans, e,
+            std::max({stay.arrival, stays[w][l].from - duration, instance.agent(i).release}));
         if (s <= stay.until && s < kForever && s + duration <= stays[w][l].until)
           reach(w, l, s + duration);
       }
@@ -242,7 +250,7 @@ std::string LemmaAuditor::audit_pair(const sat::Lemma& lemma) {
         side < lemma.clause.size() ? model_.variable(lemma.clause[side]) : Model::Variable{};
     if (meaning.kind != Kind::cost || !lemma.clause[side].positive())
       return "a lemma of a pair begins with two costs";
-    parties[side] = {meaning.agent, as_ticks(meaning.cost), {}};
+    parties[side] = {meaning.agent, as_ticks(meaning.cost), model_.standing_bans(meaning.agent)};
   }
   if (parties[0].agent == parties[1].agent) return "a pair has two agents";
   for (const sat::Usage& usage : lemma.usages) {
@@ -259,6 +267,13 @@ std::string LemmaAuditor::audit_pair(const sat::Lemma& lemma) {
 }
 
 std::string LemmaAuditor::audit_order(const sat::Lemma& lemma) const {
+  if (lemma.clause.size() == 1) {
+    const auto late = model_.variable(lemma.clause[0]);
+    const auto deadline = late.kind == Kind::cost && !lemma.clause[0].positive()
+                              ? model_.instance().agent(late.agent).deadline
+                              : std::nullopt;
+    return deadline && as_ticks(late.cost) > *deadline ? "" : "a cost that is not too late";
+  }
   if (lemma.clause.size() != 2) return "an order has two sides";
   const auto stronger = model_.variable(lemma.clause[0]), weaker = model_.variable(lemma.clause[1]);
   const bool holds = stronger.kind == weaker.kind && stronger.agent == weaker.agent &&

@@ -26,7 +26,10 @@ Place on_edge(Place::Kind kind, const Edge& edge) {
 }  // namespace
 
 LemmaRecorder::LemmaRecorder(const Model& model, sat::ClauseObserver* next)
-    : model_(model), next_(next), is_unconditional_(model.instance().num_agents(), false) {}
+    : model_(model),
+      next_(next),
+      is_unconditional_(model.instance().num_agents(), false),
+      must_be_in_time_(model.instance().num_agents(), false) {}
 
 void LemmaRecorder::on_lemma(const sat::Lemma& lemma) {
   if (next_ != nullptr) next_->on_lemma(lemma);
@@ -39,6 +42,8 @@ void LemmaRecorder::on_lemma(const sat::Lemma& lemma) {
   } else if (lemma.kind == sat::LemmaKind::path && !lemma.usages.empty()) {
     const AgentId agent = lemma.usages.front().agent;
     if (!has_cost_literal(agent, lemma.clause)) is_unconditional_[agent] = true;
+  } else if (lemma.kind == sat::LemmaKind::order && lemma.clause.size() == 1) {
+    must_be_in_time_[model_.variable(lemma.clause[0]).agent] = true;
   }
 }
 
@@ -118,14 +123,17 @@ void LemmaRecorder::set_crossing(const Obstacle& one, const Obstacle& other,
 
 sat::Dependence LemmaRecorder::dependence(bool has_plan) const {
   sat::Dependence dependence(is_unconditional_.size());
-  std::vector<AgentId> unconditional;
+  std::vector<AgentId> unconditional, in_time;
   for (const AgentId i : model_.instance().agent_ids()) {
+    if (must_be_in_time_[i]) in_time.push_back(i);
     if (!is_unconditional_[i]) continue;
     dependence.set_unconditional(i);
     unconditional.push_back(i);
   }
   // Otherwise nobody knows whether they can all do what they have to.
   if (!has_plan) dependence.imply({}, unconditional);
+  // It cannot be assumed that they cost more.
+  dependence.imply({}, in_time);
   for (const auto& [a, b] : collisions_)
     dependence.link(model_.obstacles()[a].agent, model_.obstacles()[b].agent);
   for (const auto& [i, j] : pairs_) dependence.link(i, j);

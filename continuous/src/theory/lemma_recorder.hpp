@@ -41,6 +41,7 @@ class LemmaRecorder final : public sat::ClauseObserver {
   std::vector<std::pair<ObstacleId, ObstacleId>> collisions_;
   std::vector<std::pair<AgentId, AgentId>> pairs_;  // that were searched together
   IdVector<AgentId, bool> is_unconditional_;
+  IdVector<AgentId, bool> must_be_in_time_;  // clauses say that their costs are not too high
 };
 
 }  // namespace quadrille::continuous

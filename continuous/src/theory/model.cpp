@@ -52,6 +52,10 @@ Model::Threshold& Model::threshold(AgentId agent, Cost cost, FormulaWriter& writ
     const Lit clause[] = {~stronger, weaker};
     writer.add({sat::LemmaKind::order, clause, {}, false});
   };
+  if (as_ticks(cost) >= arrival_bound(instance(), agent)) {
+    const Lit clause[] = {~made};
+    writer.add({sat::LemmaKind::order, clause, {}, false});
+  }
   if (index > 0) order(made, known[index - 1].at_least);
   if (index + 1 < known.size()) order(known[index + 1].at_least, made);
   return known[index];

@@ -57,6 +57,9 @@ class Model {
   [[nodiscard]] LimitMonitor& limits() noexcept { return scene_.limits(); }
   [[nodiscard]] Contacts& contacts() noexcept { return scene_.contacts(); }
   [[nodiscard]] PathTask task(AgentId i) const { return scene_.task(i); }
+  [[nodiscard]] const std::vector<Ban>& standing_bans(AgentId i) const {
+    return scene_.standing_bans(i);
+  }
   [[nodiscard]] Cost free_cost(AgentId i) const { return scene_.free_cost(i); }
   [[nodiscard]] const IdVector<ObstacleId, Obstacle>& obstacles() const noexcept {
     return obstacles_;

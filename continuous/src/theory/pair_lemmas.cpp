@@ -26,11 +26,17 @@ PairSearch::Party searched(const PairLemmas::Party& party) {
 }  // namespace
 
 bool PairLemmas::note_collision(const Party& i, const Party& j, FormulaWriter& writer) {
-  return note(collisions_[{i.agent, j.agent}], i, j, writer);
+  return note(collisions_[{i.agent, j.agent}], in_time(i), in_time(j), writer);
 }
 
 bool PairLemmas::note_explanation(const Party& i, const Party& j, FormulaWriter& writer) {
-  return note(explanations_[{i.agent, j.agent}], i, j, writer);
+  return note(explanations_[{i.agent, j.agent}], in_time(i), in_time(j), writer);
+}
+
+PairLemmas::Party PairLemmas::in_time(Party party) const {
+  if (const auto& deadline = model_.instance().agent(party.agent).deadline)
+    party.cap = std::min(party.cap, as_cost(*deadline));
+  return party;
 }
 
 bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
@@ -48,7 +54,7 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
 
 bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
   for (const std::size_t side : {0U, 1U}) {
-    search_.bans(side).clear();
+    search_.bans(side).clear(model_.standing_bans((side == 0 ? i : j).agent));
     loaded_[side].clear();
   }
   const bool is_open = std::any_of(record.open.begin(), record.open.end(), [&](const auto& caps) {
@@ -145,7 +151,7 @@ void PairLemmas::add_clause(const PairSearch::Party& i, const PairSearch::Party&
 Ticks PairLemmas::max_raise(AgentId i) const {
   const Instance& instance = model_.instance();
   Ticks longest = 1;
-  for (const EdgeId e : instance.roadmap().out_edges(instance.agent(i).start))
+  for (const EdgeId e : instance.out_edges(instance.class_of(i), instance.agent(i).start))
     longest = std::max(longest, instance.duration(instance.class_of(i), e));
   return longest;
 }

@@ -38,6 +38,8 @@ class PairLemmas {
     int next_try = 0;
     std::vector<std::pair<Cost, Cost>> open;  // caps that other agents have to join in to refute
   };
+  /// With a cap that is not after the deadline.
+  [[nodiscard]] Party in_time(Party party) const;
   bool note(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
   bool try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
   [[nodiscard]] bool is_refuted(const Party& i, const Party& j);

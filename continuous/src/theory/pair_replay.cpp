@@ -18,6 +18,9 @@ PairReplay::PairReplay(const Instance& instance, Party first, Party second)
       second_(std::move(second)),
       bodies_(bodies_of(instance, first_.agent, second_.agent)),
       swapped_(bodies_.swapped()) {
+  for (Party* party : {&first_, &second_})
+    if (const auto& deadline = instance.agent(party->agent).deadline)
+      party->bound = std::min(party->bound, *deadline + 1);
   fill_rest(first_);
   fill_rest(second_);
 }
@@ -29,6 +32,7 @@ void PairReplay::fill_rest(Party& party) const {
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
     for (std::uint32_t e = 0; e < roadmap.num_edges(); ++e) {
+      if (!may_use(party, e)) continue;
       const Edge& edge = roadmap.edge(EdgeId(e));
       const Ticks via = party.rest[edge.to.index()] + duration(party, e);
       if (via >= party.rest[edge.from.index()]) continue;
@@ -84,12 +88,17 @@ std::vector<PairReplay::Step> PairReplay::steps(const Party& party, const State&
     return result;
   }
   if (now + party.rest[state.place] >= party.bound) return result;
+  const Agent& agent = instance_.agent(party.agent);
+  const State parked{Kind::parks, state.place, 0};
+  if (state.place == agent.goal.value() && agent.leaves) return {{parked, parked}};
   if (may_be_at(party, state.place, now, now + 1)) result.push_back({state, state});
-  if (state.place == instance_.agent(party.agent).goal.value() &&
-      may_be_at(party, state.place, now, kForever))
-    result.push_back({state, {Kind::parks, state.place, 0}});
+  if (state.place == agent.goal.value() && may_be_at(party, state.place, now, kForever))
+    result.push_back({state, parked});
+  if (now < instance_.agent(party.agent).release) return result;
+  // On purpose without the lists of open edges that the searches use.
   for (const EdgeId e : instance_.roadmap().out_edges(VertexId(state.place)))
-    if (std::none_of(party.bans.begin(), party.bans.end(), [&](const Ban& ban) {
+    if (may_use(party, e.value()) &&
+        std::none_of(party.bans.begin(), party.bans.end(), [&](const Ban& ban) {
           return ban.kind == Ban::Kind::start && ban.place == e.value() && ban.when.contains(now);
         }))
       go_on(e.value(), 0);
@@ -110,6 +119,10 @@ bool PairReplay::collide(const State& a, const State& b) const {
   const auto motion = [&](const Party& party, const State& s) {
     return instance_.motion(instance_.class_of(party.agent), EdgeId(s.place));
   };
+  const auto is_gone = [&](const Party& party, const State& s) {
+    return s.kind == Kind::parks && instance_.agent(party.agent).leaves;
+  };
+  if (is_gone(first_, a) || is_gone(second_, b)) return false;
   const bool a_moves = a.kind == Kind::moves, b_moves = b.kind == Kind::moves;
   if (a_moves && b_moves)
     return bodies_.collide(motion(first_, a), motion(second_, b), a.progress - b.progress);
@@ -118,6 +131,12 @@ bool PairReplay::collide(const State& a, const State& b) const {
   if (b_moves)
     return swapped_.collide(motion(second_, b), geometry::rest(position(a), 1), b.progress);
   return bodies_.overlap(position(a), position(b));
+}
+
+bool PairReplay::may_use(const Party& party, std::uint32_t edge) const {
+  return instance_.roadmap()
+      .edge(EdgeId(edge))
+      .open_to.contains(instance_.agent(party.agent).group);
 }
 
 Ticks PairReplay::duration(const Party& party, std::uint32_t edge) const {

@@ -30,7 +30,8 @@ class PairReplay {
  private:
   enum class Kind : std::uint8_t { stands, moves, parks };
   /// What an agent does at a tick: it stands at a vertex, or moves along an edge for `progress`
-  /// ticks, or has parked at its goal for good.
+  /// ticks, or has parked at its goal for good, where it is no more if it
+  /// leaves.
   struct State {
     Kind kind = Kind::stands;
     std::uint32_t place = 0;
@@ -47,6 +48,7 @@ class PairReplay {
                                Ticks to) const;
   void fill_rest(Party& party) const;
   [[nodiscard]] bool collide(const State& a, const State& b) const;
+  [[nodiscard]] bool may_use(const Party& party, std::uint32_t edge) const;
   [[nodiscard]] Ticks duration(const Party& party, std::uint32_t edge) const;
 
   const Instance& instance_;

@@ -13,7 +13,7 @@ PathSearch::Cheapest PathSearch::find(AgentId agent, std::span<const ObstacleId>
                                       Cost bound) {
   ++num_searches_;
   loaded_.assign(obstacles.begin(), obstacles.end());
-  bans_.clear();
+  bans_.clear(model_.standing_bans(agent));
   for (const ObstacleId id : obstacles) bans_.add(model_.obstacles()[id].bans);
   const auto arrival = finder_.find(model_.task(agent), bans_, as_ticks(bound), &path_);
   return {*this, agent, arrival.has_value()};

@@ -49,6 +49,10 @@ class PathCheck {
                   "ends at vertex " + std::to_string(path.back().vertex.index()) + " at tick " +
                       std::to_string(path.back().arrive.count()) + ", but its goal is vertex " +
                       std::to_string(agent.goal.index()));
+    if (agent.deadline && path.back().arrive > *agent.deadline)
+      good = fail(Kind::too_late, path.back().arrive,
+                  "arrives at its goal at tick " + std::to_string(path.back().arrive.count()) +
+                      ", after its deadline at tick " + std::to_string(agent.deadline->count()));
     for (std::size_t k = 0; k + 1 < path.size(); ++k) good &= check_move(path[k], path[k + 1]);
     return good;
   }
@@ -80,17 +84,25 @@ class PathCheck {
   }
 
   bool check_move(const Stop& a, const Stop& b) {
-    bool is_adjacent = false;
+    if (a.depart < instance_.agent(i_).release)
+      return fail(Kind::too_early, a.depart,
+                  move_name(a.vertex, b.vertex, a.depart) + ", before its release at tick " +
+                      std::to_string(instance_.agent(i_).release.count()));
+    bool is_adjacent = false, is_open = false;
     Ticks takes = 0;
     const ClassId c = instance_.class_of(i_);
     for (const EdgeId e : instance_.roadmap().out_edges(a.vertex)) {
       if (instance_.roadmap().edge(e).to != b.vertex) continue;
       is_adjacent = true;
+      if (!instance_.roadmap().edge(e).open_to.contains(instance_.agent(i_).group)) continue;
+      is_open = true;
       takes = instance_.duration(c, e);
       if (takes == b.arrive - a.depart) return true;
     }
     const std::string name = move_name(a.vertex, b.vertex, a.depart);
     if (!is_adjacent) return fail(Kind::not_adjacent, a.depart, name + ", but there is no edge");
+    if (!is_open)
+      return fail(Kind::closed_edge, a.depart, name + ", but that edge is not open to it");
     return fail(Kind::duration, a.depart,
                 name + " and takes " + std::to_string((b.arrive - a.depart).count()) +
                     " ticks, but the edge takes " + std::to_string(takes.count()));
@@ -101,13 +113,14 @@ class PathCheck {
   std::vector<Violation>& violations_;
 };
 
-/// The path as pieces without gaps; the last one ends at `horizon`, which is after every arrival.
-std::vector<Piece> pieces(const Roadmap& roadmap, const Path& path, Ticks horizon) {
+/// The path as pieces without gaps; the last one ends at `horizon`, which is after every arrival,
+/// or with the path if the agent leaves.
+std::vector<Piece> pieces(const Roadmap& roadmap, const Path& path, bool leaves, Ticks horizon) {
   std::vector<Piece> result;
   for (std::size_t k = 0; k < path.size(); ++k) {
     const Point at = roadmap.position(path[k].vertex);
     const bool is_last = k + 1 == path.size();
-    const Ticks depart = is_last ? horizon : path[k].depart;
+    const Ticks depart = is_last && !leaves ? horizon : path[k].depart;
     if (depart > path[k].arrive)
       result.push_back({path[k].arrive, depart, at, at, path[k].vertex, path[k].vertex});
     if (!is_last)
@@ -187,7 +200,7 @@ class PairCheck {
     std::optional<Collision> collision;
     for (std::size_t k = 0, l = 0; k < a.size() && l < b.size();) {
       const Ticks begin = std::max(a[k].begin, b[l].begin), end = std::min(a[k].end, b[l].end);
-      const auto found = look(a[k], b[l], begin, end);
+      const auto found = begin <= end ? look(a[k], b[l], begin, end) : std::nullopt;
       if (found && !collision) collision = Collision{a[k], b[l], begin, end, *found};
       if (a[k].end < b[l].end)
         ++k;
@@ -221,18 +234,55 @@ class PairCheck {
   Clearance& clearance_;
 };
 
+/// As pieces() of a path.
+std::vector<Piece> pieces(const MovingObstacle& obstacle, Ticks horizon) {
+  std::vector<Piece> result;
+  for (std::size_t k = 0; k < obstacle.path.size(); ++k) {
+    const MovingObstacle::Stop& stop = obstacle.path[k];
+    const bool is_last = k + 1 == obstacle.path.size();
+    const Ticks depart = is_last && !obstacle.leaves ? horizon : stop.depart;
+    if (depart > stop.arrive)
+      result.push_back({stop.arrive, depart, stop.at, stop.at, VertexId(), VertexId()});
+    if (!is_last)
+      result.push_back({stop.depart, obstacle.path[k + 1].arrive, stop.at, obstacle.path[k + 1].at,
+                        VertexId(), VertexId()});
+  }
+  return result;
+}
+
+/// Collisions of agent i, whose path has these pieces, with obstacles.
+void check_obstacles(const Instance& instance, AgentId i, const std::vector<Piece>& trip,
+                     Ticks horizon, std::vector<Violation>& collisions) {
+  for (std::size_t o = 0; o < instance.obstacles().size(); ++o) {
+    const MovingObstacle& obstacle = instance.obstacles()[o];
+    Clearance clearance{i, i};
+    const auto found = PairCheck(instance.agent(i).body, obstacle.body, clearance)
+                           .check(trip, pieces(obstacle, horizon));
+    if (!found) continue;
+    collisions.push_back({Kind::obstacle, i, std::nullopt, found->begin,
+                          agent_name(i) + " collides with obstacle " + std::to_string(o) +
+                              " between ticks " + std::to_string(found->begin.count()) + " and " +
+                              std::to_string(found->end.count()) + ", while it " +
+                              describe(found->a)});
+  }
+}
+
 void check_pairs(const Instance& instance, const Plan& plan, const IdVector<AgentId, bool>& sound,
                  VerifyReport& report) {
   Ticks horizon = 1;
+  for (const MovingObstacle& obstacle : instance.obstacles())
+    horizon = std::max(horizon, obstacle.path.back().depart + 1);
   for (const AgentId i : instance.agent_ids())
     if (sound[i]) horizon = std::max(horizon, plan.paths[i].back().arrive + 1);
   IdVector<AgentId, std::vector<Piece>> trips(plan.paths.size());
   for (const AgentId i : instance.agent_ids())
-    if (sound[i]) trips[i] = pieces(instance.roadmap(), plan.paths[i], horizon);
+    if (sound[i])
+      trips[i] = pieces(instance.roadmap(), plan.paths[i], instance.agent(i).leaves, horizon);
   std::vector<Violation> collisions;
   for (const AgentId i : instance.agent_ids()) {
+    check_obstacles(instance, i, trips[i], horizon, collisions);
     for (const AgentId j : instance.agent_ids()) {
-      if (!(i < j && sound[i] && sound[j])) continue;
+      if (!(i < j && sound[i] && sound[j]) || trips[i].empty() || trips[j].empty()) continue;
       Clearance clearance{i, j};
       const auto found = PairCheck(instance.agent(i).body, instance.agent(j).body, clearance)
                              .check(trips[i], trips[j]);
@@ -264,10 +314,18 @@ std::string_view to_string(Violation::Kind kind) noexcept {
       return "wrong-goal";
     case Kind::not_adjacent:
       return "not-adjacent";
+    case Kind::too_early:
+      return "too-early";
+    case Kind::too_late:
+      return "too-late";
+    case Kind::closed_edge:
+      return "closed-edge";
     case Kind::duration:
       return "duration";
     case Kind::collision:
       return "collision";
+    case Kind::obstacle:
+      return "obstacle";
   }
   return "";
 }

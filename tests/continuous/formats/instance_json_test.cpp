@@ -16,7 +16,7 @@ namespace {
 bool equal(const Instance& a, const Instance& b) {
   return a.roadmap().positions() == b.roadmap().positions() &&
          a.roadmap().edges() == b.roadmap().edges() && a.agents() == b.agents() &&
-         a.resolution() == b.resolution();
+         a.obstacles() == b.obstacles() && a.resolution() == b.resolution();
 }
 
 TEST(RoadmapJson, ReadsTheExample) {
@@ -31,6 +31,72 @@ TEST(RoadmapJson, ReadsTheExample) {
   EXPECT_EQ(instance.agent(AgentId(0)), (Agent{VertexId(0), VertexId(2), Disc{300}, kUnitSpeed}));
   EXPECT_EQ(instance.agent(AgentId(1)),
             (Agent{VertexId(2), VertexId(0), Disc{250}, 2 * kUnitSpeed}));
+}
+
+TEST(RoadmapJson, ReadsWhatFleetsNeed) {
+  const Instance instance = read_instance_json(test::data("fleet.json")).value();
+  ASSERT_EQ(instance.roadmap().num_edges(), 6u);
+  EXPECT_EQ(instance.roadmap().edge(EdgeId(3)), (Edge{VertexId(2), VertexId(1), std::nullopt}));
+  EXPECT_EQ(instance.roadmap().edge(EdgeId(4)),
+            (Edge{VertexId(1), VertexId(3), std::nullopt, {GroupId(1), GroupId(2)}}));
+  EXPECT_EQ(instance.roadmap().edge(EdgeId(5)),
+            (Edge{VertexId(3), VertexId(1), Ticks{150}, {GroupId(1)}}));
+  ASSERT_EQ(instance.num_agents(), 2u);
+  EXPECT_EQ(instance.agent(AgentId(0)).group, GroupId(0));
+  EXPECT_EQ(instance.agent(AgentId(0)).deadline, std::nullopt);
+  EXPECT_EQ(instance.agent(AgentId(1)).group, GroupId(1));
+  EXPECT_EQ(instance.agent(AgentId(1)).release, Ticks{150});
+  EXPECT_EQ(instance.agent(AgentId(1)).deadline, Ticks{1200});
+  EXPECT_FALSE(instance.agent(AgentId(0)).leaves);
+  EXPECT_TRUE(instance.agent(AgentId(1)).leaves);
+  ASSERT_EQ(instance.obstacles().size(), 1u);
+  EXPECT_EQ(instance.obstacles()[0],
+            (MovingObstacle{Disc{20}, {{{100, 100}, 0, 200}, {{100, 300}, 450, 450}}, true}));
+}
+
+TEST(RoadmapJson, RefusesWhatIsWrongWithTheRulesOfFleets) {
+  const std::vector<test::Fault> faults = {
+      {"[1, 2]}", "[1, 64]}", "f:9: /roadmap/edges/4/groups/1: 64 is not between 0 and 63"},
+      {"[1, 2]}", "[1, 1]}", "f:9: /roadmap/edges/4/groups/1: this group is named twice"},
+      {"[1, 2]}", "[]}", "f:9: /roadmap/edges/4/groups: the edge is open to no group"},
+      {"[1, 2]}", "1}", "f:9: /roadmap/edges/4/groups: expected a list of groups"},
+      {"[1, 2]}", "[\"a\"]}", "f:9: /roadmap/edges/4/groups/0: expected an integer"},
+      {"{\"from\": 1, ", "{", "f:9: /roadmap/edges/4: the key 'from' is missing"},
+      {"\"to\": 3", "\"too\": 3", "f:9: /roadmap/edges/4/too: this key is not known here"},
+      {"\"to\": 3", "\"to\": 1", "f:9: /roadmap/edges/4: the edge is a loop"},
+      {"\"duration\": 1.5", "\"duration\": 0",
+       "f:10: /roadmap/edges/5/duration: the duration is less than one tick"},
+      {"\"group\": 1", "\"group\": 64", "f:15: /agents/1/group: 64 is not between 0 and 63"},
+      {"\"group\": 1", "\"group\": -1", "f:15: /agents/1/group: -1 is not between 0 and 63"},
+      {"1.5, \"deadline", "-1, \"deadline", "f:15: /agents/1/release: the time is negative"},
+      {"1.5, \"deadline", "1e300, \"deadline", "f:15: /agents/1/release: the time is negative, or"},
+      {"1.5, \"deadline", "true, \"deadline", "f:15: /agents/1/release: expected a number"},
+      {"12", "-12", "f:15: /agents/1/deadline: the time is negative, or too late"},
+      {"12", "null", "f:15: /agents/1/deadline: expected a number"},
+      {"12", "3.49", "f:15: agent 1 cannot arrive before tick 350, and its deadline is tick 349"},
+      {"\"radius\": 0.2, ", "",
+       "f:18: /obstacles/0: one of the keys 'radius' and 'polygon' is missing"},
+      {"\"path\"", "\"way\"", "f:18: /obstacles/0/way: this key is not known here"},
+      {"\"vertex\": 3", "\"vertex\": 4", "f:18: /obstacles/0/path/0/vertex: there is no vertex 4"},
+      {"\"vertex\": 3, ", "", "f:18: /obstacles/0/path/0: expected one of the keys 'vertex'"},
+      {"\"vertex\": 3, ", "\"vertex\": 3, \"at\": [0, 0], ",
+       "f:18: /obstacles/0/path/0: expected one of the keys 'vertex'"},
+      {"\"at\": [1, 3]", "\"at\": [1]", "f:18: /obstacles/0/path/1/at: expected 2 coordinates"},
+      {"4.5", "2", "f:18: /obstacles/0/path/1/arrive: the arrival is not after the last departure"},
+      {"4.5", "-4.5", "f:18: /obstacles/0/path/1/arrive: the time is negative"},
+      {"\"arrive\": 0,", "\"arrive\": 3,",
+       "f:18: /obstacles/0/path/0/depart: the departure is before the arrival"},
+      {"\"at_end\": \"leave\"", "\"at_end\": \"go\"",
+       "f:18: /obstacles/0/at_end: expected 'stay' or 'leave', found 'go'"},
+      {"\"vertex\": 3", "\"vertex\": 2", "f:17: /obstacles: obstacle 0 is at the start of agent 1"},
+      {"\"at_goal\": \"leave\"", "\"at_goal\": \"vanish\"",
+       "f:15: /agents/1/at_goal: expected 'stay' or 'leave', found 'vanish'"},
+      {"\"at_goal\": \"leave\"", "\"at_goal\": true", "f:15: /agents/1/at_goal: expected a string"},
+      {"\"goal\": 2", "\"goal\": 3",
+       "f:14: agent 0 cannot reach its goal: there is no way from vertex 0 to vertex 3"},
+  };
+  test::expect_refused(test::contents(test::data("fleet.json")), faults,
+                       [](std::istream& in) { return read_instance_json(in, "f"); });
 }
 
 TEST(RoadmapJson, IsToldFromOtherInstances) {
@@ -125,12 +191,15 @@ TEST(RoadmapJson, DeepAndHugeFilesAreRefused) {
 TEST(RoadmapJson, WhatIsWrittenIsReadBack) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
-    const Instance drawn = test::random_instance(seed, {});
+    test::RandomOptions random;
+    random.obstacles_percent = 30;
+    const Instance drawn = test::random_instance(seed, random);
     // Other resolutions, where decimals are not exact.
     const Resolution resolutions[] = {1e-6, 1, 0.001, 0.3, 7, 1.0 / 3, {0.001, 0.01}, {0.3, 7}};
-    const Instance instance = Instance::make(drawn.shared_roadmap(), drawn.agents().items(),
-                                             resolutions[seed % std::size(resolutions)])
-                                  .value();
+    const Instance instance =
+        Instance::make(drawn.shared_roadmap(), drawn.agents().items(),
+                       resolutions[seed % std::size(resolutions)], {}, drawn.obstacles())
+            .value();
     std::stringstream file;
     ASSERT_EQ(write_instance_json(file, "out", instance), std::nullopt);
     const auto again = read_instance_json(file, "out");

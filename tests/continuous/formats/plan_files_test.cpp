@@ -172,7 +172,7 @@ TEST(TimedPlanFiles, WhatIsWrittenIsReadBack) {
       // Any walk along edges, with waits.
       Path path{{instance.agent(i).start, 0, 0}};
       for (std::size_t moves = random() % 5; moves > 0; --moves) {
-        const auto edges = instance.roadmap().out_edges(path.back().vertex);
+        const auto edges = instance.out_edges(instance.class_of(i), path.back().vertex);
         if (edges.empty()) break;
         const EdgeId e = edges[random() % edges.size()];
         path.back().depart += static_cast<Ticks>(random() % 3 * 1000);

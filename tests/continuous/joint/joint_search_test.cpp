@@ -23,8 +23,10 @@ constexpr std::int64_t kWork = 1'000'000'000;
 /// Two to four agents, `max_vertices` at most, mixed radii and speeds, one-way edges, moves of a
 /// few ticks, some of other durations than their lengths say.
 Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64_t max_agents) {
-  Draw draw(seed);
+  Draw draw(seed), more(seed + 77);
   while (true) {
+    const bool has_groups = more.chance(25);
+    const auto group = [&] { return GroupId(static_cast<std::size_t>(more.number(0, 1))); };
     const Length size = draw.length(3, 9);
     const bool is_grid = draw.chance(30);
     const int density = static_cast<int>(draw.number(25, 60));
@@ -44,6 +46,9 @@ Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64
         if (!draw.chance(one_way / 2)) edges.push_back({VertexId(u), VertexId(v), duration()});
         if (!draw.chance(one_way)) edges.push_back({VertexId(v), VertexId(u), duration()});
       }
+    if (has_groups)
+      for (Edge& edge : edges)
+        if (more.chance(20)) edge.open_to = {group()};
     auto roadmap = Roadmap::make(points, edges);
     if (!roadmap) continue;
     const auto map = std::make_shared<const Roadmap>(std::move(roadmap).value());
@@ -55,6 +60,8 @@ Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64
       agents.push_back(agent(start, goal, draw.length(1, 2),
                              draw.chance(60) ? kUnitSpeed : kUnitSpeed * draw.number(1, 6) / 3));
     }
+    if (has_groups)
+      for (Agent& a : agents) a.group = group();
     auto instance = Instance::make(map, std::move(agents));
     if (instance) return std::move(instance).value();
   }

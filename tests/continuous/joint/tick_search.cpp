@@ -67,6 +67,7 @@ class Search {
       decide(next, k + 1);
     }
     for (const EdgeId e : instance_.roadmap().out_edges(VertexId(p.place))) {
+      if (!is_open(instance_, i, e)) continue;
       next[k] = {true, false, e.index(), 0};
       decide(next, k + 1);
     }

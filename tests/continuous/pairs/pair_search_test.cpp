@@ -19,7 +19,7 @@ constexpr std::int64_t kManySteps = 1'000'000;
 TimedPath moves_of(const Instance& instance, AgentId agent, const Path& path) {
   TimedPath moves{{}, as_ticks(cost(path))};
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
-    for (const EdgeId e : instance.roadmap().out_edges(path[k].vertex))
+    for (const EdgeId e : instance.out_edges(instance.class_of(agent), path[k].vertex))
       if (instance.roadmap().edge(e).to == path[k + 1].vertex &&
           path[k].depart + instance.duration(instance.class_of(agent), e) == path[k + 1].arrive) {
         moves.moves.push_back({e, path[k].depart});
@@ -62,8 +62,8 @@ void check(Scene& scene, const Plan& plan, bool has_bans, Draw& draw, Count& cou
     if (cost_i == scene.free_cost(i) && !has_bans) continue;  // nothing may be refuted
     for (int round = 0; round < 3; ++round) {
       for (const std::size_t side : {0U, 1U}) {
-        search.bans(side).clear();
         const AgentId agent = side == 0 ? i : j;
+        search.bans(side).clear(scene.standing_bans(agent));
         if (has_bans) add_bans(instance, agent, plan.paths[agent], draw, search.bans(side));
       }
       const Cost cap_i = draw.number(scene.free_cost(i), cost_i);

@@ -20,12 +20,19 @@ struct Trial {
   explicit Trial(std::uint32_t seed) : instance(small_instance(seed)) {
     Draw draw(seed);
     slots = random_slots(draw, instance.roadmap(), 16, 40);
+    if (draw.chance(40) && !slots.empty()) {
+      standing = slots.back();
+      slots.pop_back();
+    }
+    bans.clear(standing);
     for (const auto& slot : slots) bans.add(slot);
     arrival = least([](std::size_t) { return true; });
   }
   template <class Choice>
   [[nodiscard]] std::optional<Ticks> least(const Choice& is_on) const {
-    return least_arrival(instance, kAgent, bans_of(slots, is_on));
+    std::vector<Ban> all = bans_of(slots, is_on);
+    all.insert(all.end(), standing.begin(), standing.end());
+    return least_arrival(instance, kAgent, all);
   }
   /// Some bounds on the arrival.
   [[nodiscard]] std::vector<Ticks> bounds() const {
@@ -40,6 +47,7 @@ struct Trial {
   LimitMonitor limits{Limits{}};
   Scene scene{instance, limits};
   Slots slots;
+  std::vector<Ban> standing;  // belong to no slot
   BanTable bans{instance.roadmap()};
   std::optional<Ticks> arrival;
 };
@@ -50,15 +58,17 @@ void expect_good_path(const Trial& trial, const TimedPath& path) {
   Ticks since = 0;
   for (const Move& move : path.moves) {
     ASSERT_EQ(instance.roadmap().edge(move.edge).from, at);
-    ASSERT_GE(move.start, since);
+    ASSERT_GE(move.start, std::max(since, instance.agent(kAgent).release));
     at = instance.roadmap().edge(move.edge).to;
     since = move.start + instance.duration(instance.class_of(kAgent), move.edge);
   }
   EXPECT_EQ(at, instance.agent(kAgent).goal);
   EXPECT_EQ(since, path.arrival);
+  EXPECT_LE(since, instance.agent(kAgent).deadline.value_or(since));
   PathUses uses;
   uses.assign(instance, kAgent, path);
   for (const auto& bans : trial.slots) EXPECT_FALSE(uses.breaks(bans));
+  EXPECT_FALSE(uses.breaks(trial.standing));
 }
 
 TEST(PathFinder, FindsTheLeastArrivalOrSaysWhichSlotsPreventIt) {

@@ -32,7 +32,7 @@ std::vector<Step> draw_steps(Draw& draw, const Instance& instance, AgentId i) {
   VertexId at = instance.agent(i).start;
   Ticks now = 0;
   for (std::int64_t k = draw.number(0, 6); k > 0; --k) {
-    const auto edges = instance.roadmap().out_edges(at);
+    const auto edges = instance.out_edges(instance.class_of(i), at);
     if (edges.empty()) break;
     const EdgeId e = edges[static_cast<std::size_t>(draw.number(0, std::ssize(edges) - 1))];
     now += draw.chance(50) ? Ticks{0} : draw.ticks(1, 40);
@@ -46,11 +46,12 @@ std::vector<Step> draw_steps(Draw& draw, const Instance& instance, AgentId i) {
   return steps;
 }
 
-/// What a table says of all places.
-std::string contents(const Instance& instance, BanTable& table) {
+/// What a table says of all places to which agents of the class can come.
+std::string contents(const Instance& instance, ClassId c, BanTable& table) {
   std::string text;
   const auto number = [](Ticks tick) { return std::to_string(tick.count()) + " "; };
   for (const EdgeId e : IdRange<EdgeId>(instance.roadmap().num_edges())) {
+    if (!instance.may_use(c, e)) continue;
     const std::uint32_t place = table.starts_of(e);
     if (place == BanTable::kFree || table.forbidden_starts(place).empty()) continue;
     text += "e" + std::to_string(e.value()) + ": ";
@@ -110,15 +111,16 @@ class Traffics {
     BansAround around(scene_);
     for (const ClassId c : IdRange<ClassId>(instance_.num_classes())) {
       BanTable expected(instance_.roadmap());
+      expected.clear(scene_.standing_bans(c));
       for (const Path& path : paths_) {
         if (!path.is_shown) continue;
         std::vector<Ban> bans;
         around.add(c, path.c, path.steps, bans);
         expected.add(bans);
       }
-      const std::string text = contents(instance_, expected);
+      const std::string text = contents(instance_, c, expected);
       for (auto& traffic : traffics_)
-        if (contents(instance_, traffic->bans(c)) != text) return std::nullopt;
+        if (contents(instance_, c, traffic->bans(c)) != text) return std::nullopt;
       length += text.size();
     }
     return length;

@@ -13,9 +13,11 @@ namespace quadrille::continuous::test {
 namespace {
 
 constexpr std::size_t kSomePlans = 10;
+/// Later than all that happens: the end of stays for ever.
+constexpr Ticks kNever = 1'000'000;
 constexpr Cost kNoLimit = std::numeric_limits<Cost>::max() / 8;
 
-/// The edges that an agent follows, and how long that takes without waits.
+/// The edges that an agent follows, and when that ends at the earliest.
 struct Walk {
   std::vector<EdgeId> edges;
   std::vector<VertexId> places;  // one more
@@ -31,11 +33,13 @@ std::vector<Walk> walks(const Instance& instance, AgentId i, std::size_t max_mov
     for (const Walk& walk : some) {
       if (walk.places.back() == instance.agent(i).goal) found.push_back(walk);
       for (const EdgeId e : instance.roadmap().out_edges(walk.places.back())) {
+        if (!is_open(instance, i, e)) continue;
         longer.push_back(walk);
         longer.back().edges.push_back(e);
         longer.back().places.push_back(instance.roadmap().edge(e).to);
         longer.back().durations.push_back(instance.duration(instance.class_of(i), e));
         longer.back().total += longer.back().durations.back();
+        if (longer.back().edges.size() == 1) longer.back().total += instance.agent(i).release;
       }
     }
     some = std::move(longer);
@@ -52,6 +56,13 @@ struct Order {
 
 /// One of the orders has to be kept; there may be none, or one, to choose from.
 using Question = std::vector<Order>;
+
+/// A move begins at the tick or later, or at the tick or before.
+struct Limit {
+  bool is_least = false;
+  std::size_t move = 0;
+  Ticks tick = 0;
+};
 
 /// A way in which two agents get past each other: an answer to each question.
 struct Passing {
@@ -105,14 +116,19 @@ class Oracle {
       if (from != i && from != j) cost = joined(cost, least_[from]);
     return cost;
   }
-  static Cost arrival(const Differences& times, const Walk& walk,
-                      const std::vector<std::size_t>& starts) {
-    return starts.empty() ? 0 : as_cost(times.earliest(starts.back()) + walk.durations.back());
+  /// kNoLimit: too late.
+  [[nodiscard]] Cost arrival(const Differences& times, std::size_t agent, const Walk& walk,
+                             const std::vector<std::size_t>& starts) const {
+    if (starts.empty()) return 0;
+    const Ticks tick = times.earliest(starts.back()) + walk.durations.back();
+    return tick <= instance_.agent(AgentId(agent)).deadline.value_or(tick) ? as_cost(tick)
+                                                                           : kNoLimit;
   }
-  static std::vector<std::size_t> append(Differences& times, const Walk& walk) {
+  std::vector<std::size_t> append(Differences& times, std::size_t agent, const Walk& walk) const {
+    const Ticks release = instance_.agent(AgentId(agent)).release;
     std::vector<std::size_t> starts;
     for (std::size_t k = 0; k < walk.edges.size(); ++k)
-      starts.push_back(k == 0 ? times.append(0, 0)
+      starts.push_back(k == 0 ? times.append(0, release)
                               : times.append(starts.back(), walk.durations[k - 1]));
     return starts;
   }
@@ -130,9 +146,80 @@ class Oracle {
       if (!is_possible) continue;
       Partial next = partial;
       next.walks.push_back(w);
-      next.starts.push_back(append(next.times, walk(agent, w)));
-      pass(next, 0);
+      next.starts.push_back(append(next.times, agent, walk(agent, w)));
+      avoid(next, obstacle_questions(agent, walk(agent, w)), 0);
     }
+  }
+
+  /// The agent added last keeps clear of the obstacles, in each way.
+  void avoid(const Partial& partial, const std::vector<std::vector<Limit>>& questions,
+             std::size_t question) {
+    if (question == questions.size()) return pass(partial, 0);
+    for (const Limit& limit : questions[question]) {
+      Partial next = partial;
+      const std::size_t start = next.starts.back()[limit.move];
+      const bool is_possible = limit.is_least ? next.times.ask(0, start, limit.tick)
+                                              : next.times.ask(start, 0, -limit.tick);
+      if (is_possible) avoid(next, questions, question + 1);
+    }
+  }
+
+  /// Each step of each obstacle against each move and each stay of the walk.
+  [[nodiscard]] std::vector<std::vector<Limit>> obstacle_questions(std::size_t agent,
+                                                                   const Walk& taken) const {
+    std::vector<std::vector<Limit>> questions;
+    const Body& body = instance_.agent(AgentId(agent)).body;
+    const bool leaves = instance_.agent(AgentId(agent)).leaves;
+    const auto ask_stay = [&](std::size_t l, Ticks until, Ticks from) {
+      // Gone by `until`, or not there before `from`.
+      questions.emplace_back();
+      if (l > 0 && from < kNever)
+        questions.back().push_back({true, l - 1, from - taken.durations[l - 1]});
+      if (l < taken.edges.size()) questions.back().push_back({false, l, until});
+    };
+    for (const MovingObstacle& obstacle : instance_.obstacles())
+      for (const Element& step : steps_of(obstacle)) {
+        const bool is_rest = step.from == step.to;
+        for (std::size_t k = 0; k < taken.edges.size(); ++k) {
+          const Edge& edge = instance_.roadmap().edge(taken.edges[k]);
+          const Element move{instance_.roadmap().position(edge.from),
+                             instance_.roadmap().position(edge.to), 0, taken.durations[k]};
+          if (is_rest) {
+            const auto clear = clearance(move, body, step.from, obstacle.body);
+            if (!clear) continue;
+            questions.push_back({{false, k, step.begin - clear->before_arrival}});
+            if (step.end < kNever)
+              questions.back().push_back({true, k, step.end + clear->after_leaving});
+          } else if (const auto run = meeting_starts(step, obstacle.body, move, body)) {
+            questions.push_back({{true, k, run->last + 1}, {false, k, run->first - 1}});
+          }
+        }
+        for (std::size_t l = 0; l < taken.places.size(); ++l) {
+          if (l == taken.edges.size() && leaves) continue;  // no stay
+          const Point& at = instance_.roadmap().position(taken.places[l]);
+          if (!is_rest) {
+            if (const auto clear = clearance(step, obstacle.body, at, body))
+              ask_stay(l, step.begin - clear->after_leaving, step.begin + clear->before_arrival);
+          } else if (meet({at, at, 0, 1}, body, {step.from, step.from, 0, 1}, obstacle.body)) {
+            ask_stay(l, step.begin, step.end);
+          }
+        }
+      }
+    return questions;
+  }
+
+  static std::vector<Element> steps_of(const MovingObstacle& obstacle) {
+    std::vector<Element> steps;
+    for (std::size_t k = 0; k < obstacle.path.size(); ++k) {
+      const auto& stop = obstacle.path[k];
+      const bool is_last = k + 1 == obstacle.path.size();
+      const Ticks until = is_last && !obstacle.leaves ? kNever : stop.depart;
+      if (until > stop.arrive) steps.push_back({stop.at, stop.at, stop.arrive, until});
+      if (!is_last)
+        steps.push_back(
+            {stop.at, obstacle.path[k + 1].at, stop.depart, obstacle.path[k + 1].arrive});
+    }
+    return steps;
   }
 
   /// The agent added last passes `other` and those after it.
@@ -168,7 +255,7 @@ class Oracle {
   [[nodiscard]] Cost cost_of(const Partial& partial) const {
     Cost cost = 0;
     for (std::size_t i = 0; i < partial.walks.size(); ++i)
-      cost = joined(cost, arrival(partial.times, walk(i, partial.walks[i]), partial.starts[i]));
+      cost = joined(cost, arrival(partial.times, i, walk(i, partial.walks[i]), partial.starts[i]));
     return cost;
   }
 
@@ -179,8 +266,8 @@ class Oracle {
     std::vector<Passing>& ways = place->second;
     if (!is_new) return ways;
     Differences times(walk(i, walk_i).edges.size() + walk(j, walk_j).edges.size() + 1);
-    const std::vector<std::size_t> starts_i = append(times, walk(i, walk_i));
-    const std::vector<std::size_t> starts_j = append(times, walk(j, walk_j));
+    const std::vector<std::size_t> starts_i = append(times, i, walk(i, walk_i));
+    const std::vector<std::size_t> starts_j = append(times, j, walk(j, walk_j));
     std::vector<Question> questions;
     ask_moves(i, walk(i, walk_i), j, walk(j, walk_j), questions);
     ask_stays(i, walk(i, walk_i), j, walk(j, walk_j), true, questions);
@@ -188,8 +275,8 @@ class Oracle {
     Passing way;
     const std::function<void(std::size_t, const Differences&)> answer =
         [&](std::size_t question, const Differences& known) {
-          way.cost = joined(arrival(known, walk(i, walk_i), starts_i),
-                            arrival(known, walk(j, walk_j), starts_j));
+          way.cost = joined(arrival(known, i, walk(i, walk_i), starts_i),
+                            arrival(known, j, walk(j, walk_j), starts_j));
           if (with_others(way.cost, 0, i, j) >= limit_) return;
           if (question == questions.size()) return ways.push_back(way);
           for (const Order& order : questions[question]) {
@@ -222,6 +309,7 @@ class Oracle {
                  bool stander_is_second, std::vector<Question>& questions) {
     for (std::size_t k = 0; k < moves.edges.size(); ++k)
       for (std::size_t l = 0; l < stays.places.size(); ++l) {
+        if (l == stays.edges.size() && instance_.agent(AgentId(stander)).leaves) continue;
         const auto& clear =
             meetings_.stay(class_of(mover), moves.edges[k], class_of(stander), stays.places[l]);
         if (!clear) continue;

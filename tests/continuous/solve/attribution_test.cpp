@@ -22,7 +22,9 @@ using support::scaled;
 Instance restricted(const Instance& instance, const std::vector<AgentId>& agents) {
   std::vector<Agent> kept;
   for (const AgentId i : agents) kept.push_back(instance.agent(i));
-  return Instance::make(instance.shared_roadmap(), std::move(kept), instance.resolution()).value();
+  return Instance::make(instance.shared_roadmap(), std::move(kept), instance.resolution(), {},
+                        instance.obstacles())
+      .value();
 }
 
 /// Two oracles: the joint search over places and times, without clauses, and orders of routes.

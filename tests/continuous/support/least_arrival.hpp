@@ -17,7 +17,8 @@ namespace quadrille::continuous::test {
   const Roadmap& roadmap = instance.roadmap();
   const ClassId c = instance.class_of(agent);
   const VertexId goal = instance.agent(agent).goal;
-  Ticks end = 1;  // by then, no ban begins or ends any more, and there is time for any way
+  // By then, no ban begins or ends any more, and there is time for any way.
+  Ticks end = instance.agent(agent).release + 1;
   for (const Ban& ban : bans)
     for (const Ticks tick : {ban.when.begin, ban.when.end})
       if (tick < kForever) end = std::max(end, tick + 1);
@@ -37,7 +38,8 @@ namespace quadrille::continuous::test {
                       [&](const Ban& ban) { return ban.when.begin < t + 1 && t < ban.when.end; });
   };
   const auto may_rest = [&](Ticks t) {
-    return !is_banned(Ban::Kind::stay, goal.value(),
+    return instance.agent(agent).leaves ||
+           !is_banned(Ban::Kind::stay, goal.value(),
                       [&](const Ban& ban) { return t < ban.when.end; });
   };
   std::vector<std::vector<bool>> is_at(
@@ -48,12 +50,16 @@ namespace quadrille::continuous::test {
   arrive(instance.agent(agent).start, 0);
   for (Ticks t = 0; t <= end; ++t) {
     // Who waits at the goal from t - 1 on has arrived then, and was found already if it may rest.
-    if (is_at[goal.index()][static_cast<std::size_t>(t.count())] && may_rest(t)) return t;
+    if (is_at[goal.index()][static_cast<std::size_t>(t.count())] && may_rest(t))
+      return t <= instance.agent(agent).deadline.value_or(t) ? std::optional(t) : std::nullopt;
     for (const VertexId v : IdRange<VertexId>(roadmap.num_vertices()))
       if (is_at[v.index()][static_cast<std::size_t>(t.count())] && may_wait(v, t)) arrive(v, t + 1);
+    if (t < instance.agent(agent).release) continue;  // no moves yet
     for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
       const Edge& edge = roadmap.edge(EdgeId(e));
-      if (!is_at[edge.from.index()][static_cast<std::size_t>(t.count())]) continue;
+      if (!is_at[edge.from.index()][static_cast<std::size_t>(t.count())] ||
+          !edge.open_to.contains(instance.agent(agent).group))
+        continue;
       if (is_banned(Ban::Kind::start, static_cast<std::uint32_t>(e),
                     [&](const Ban& ban) { return ban.when.begin <= t && t < ban.when.end; }))
         continue;

@@ -38,6 +38,11 @@ struct Clearance {
 [[nodiscard]] std::optional<Clearance> clearance(const Element& move, const Body& mover,
                                                  Point place, const Body& resident);
 
+/// Whether the agent may use the edge.
+[[nodiscard]] inline bool is_open(const Instance& instance, AgentId i, EdgeId e) {
+  return instance.roadmap().edge(e).open_to.contains(instance.agent(i).group);
+}
+
 /// The answers for an instance, each computed when it is first asked for.
 class Meetings {
  public:

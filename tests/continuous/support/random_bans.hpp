@@ -48,6 +48,7 @@ template <class Choice>
   options.num_vertices = 4 + seed % 3;
   options.num_agents = num_agents;
   options.size = 25;
+  options.obstacles_percent = 0;  // there are bans enough
   return random_instance(seed, options);
 }
 

@@ -9,7 +9,24 @@
 namespace quadrille::continuous::test {
 namespace {
 
-Result<Roadmap> draw_roadmap(Draw& draw, const RandomOptions& options) {
+constexpr std::int64_t kGroups = 3;
+
+GroupId draw_group(Draw& draw) {
+  return GroupId(static_cast<std::size_t>(draw.number(0, kGroups - 1)));
+}
+
+/// Closes some edges to some groups, or to all but one.
+void close_edges(Draw& draw, std::vector<Edge>& edges) {
+  for (Edge& edge : edges) {
+    if (!draw.chance(25)) continue;
+    edge.open_to = {draw_group(draw)};
+    if (draw.chance(60)) edge.open_to.insert(draw_group(draw));
+  }
+}
+
+/// `draw` says what there was before there were groups, `more` all else.
+Result<Roadmap> draw_roadmap(Draw& draw, Draw& more, bool has_groups,
+                             const RandomOptions& options) {
   std::vector<Point> points;
   const bool is_grid = draw.chance(30);  // right angles, equal lengths
   for (std::size_t v = 0; v < options.num_vertices; ++v) {
@@ -29,6 +46,7 @@ Result<Roadmap> draw_roadmap(Draw& draw, const RandomOptions& options) {
       std::swap(edge.from, edge.to);
       edges.push_back(edge);
     }
+  if (has_groups) close_edges(more, edges);
   return Roadmap::make(std::move(points), std::move(edges));
 }
 
@@ -50,6 +68,28 @@ Body draw_polygon(Draw& draw, Length max_radius) {
   }
 }
 
+/// Up to three stops, at vertices or anywhere.
+MovingObstacle draw_obstacle(Draw& draw, const Roadmap& roadmap, const RandomOptions& options) {
+  MovingObstacle obstacle;
+  obstacle.body = draw.chance(options.polygon_percent)
+                      ? draw_polygon(draw, options.max_radius)
+                      : Body(Disc{draw.length(1, options.max_radius)});
+  obstacle.leaves = draw.chance(60);
+  Ticks now = draw.chance(50) ? Ticks{0} : draw.ticks(1, 40);
+  for (std::int64_t k = draw.number(1, 3); k > 0; --k) {
+    const auto vertex = static_cast<std::size_t>(
+        draw.number(0, static_cast<std::int64_t>(roadmap.num_vertices()) - 1));
+    MovingObstacle::Stop stop{
+        draw.chance(50) ? roadmap.position(VertexId(vertex))
+                        : Point{draw.length(0, options.size), draw.length(0, options.size)},
+        now, now};
+    if (draw.chance(50)) stop.depart += draw.ticks(1, 40);
+    now = stop.depart + draw.ticks(1, 60);
+    obstacle.path.push_back(stop);
+  }
+  return obstacle;
+}
+
 std::string describe(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body))
     return "r" + std::to_string(disc->radius.count());
@@ -62,9 +102,10 @@ std::string describe(const Body& body) {
 }  // namespace
 
 Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
-  Draw draw(seed);
+  Draw draw(seed), more(seed ^ 0x9e3779b9u);
   while (true) {
-    auto roadmap = draw_roadmap(draw, options);
+    const bool has_groups = more.chance(options.groups_percent);
+    auto roadmap = draw_roadmap(draw, more, has_groups, options);
     if (!roadmap) continue;
     const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
     std::vector<Agent> agents;
@@ -84,7 +125,22 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
       else
         agents.push_back({start, goal, std::move(body), speed});
     }
-    auto instance = Instance::make(shared, std::move(agents));
+    if (has_groups)
+      for (Agent& agent : agents) agent.group = draw_group(more);
+    if (more.chance(options.release_percent))
+      for (Agent& agent : agents)
+        if (more.chance(50)) agent.release = more.ticks(1, 60);
+    if (more.chance(options.deadline_percent))
+      for (Agent& agent : agents)
+        if (more.chance(50)) agent.deadline = agent.release + more.ticks(10, 120);
+    if (more.chance(options.leaves_percent))
+      for (Agent& agent : agents) agent.leaves = more.chance(60);
+    std::vector<MovingObstacle> obstacles;
+    if (more.chance(options.obstacles_percent))
+      for (std::int64_t k = more.number(1, 2); k > 0; --k)
+        obstacles.push_back(draw_obstacle(more, *shared, options));
+    auto instance =
+        Instance::make(shared, std::move(agents), kDefaultResolution, {}, std::move(obstacles));
     if (instance) return std::move(instance).value();
   }
 }
@@ -105,11 +161,28 @@ std::string describe(const Instance& instance) {
   for (const Edge& e : instance.roadmap().edges()) {
     text += " " + std::to_string(e.from.index()) + ">" + std::to_string(e.to.index());
     if (e.duration) text += ":" + std::to_string(e.duration->count());
+    if (e.open_to == Groups::all()) continue;
+    text += "{";
+    for (std::size_t g = 0; g < kMaxGroups; ++g)
+      if (e.open_to.contains(GroupId(g))) text += " " + std::to_string(g);
+    text += " }";
   }
   text += "; agents";
   for (const Agent& a : instance.agents())
     text += " " + std::to_string(a.start.index()) + "->" + std::to_string(a.goal.index()) + " " +
-            describe(a.body) + " v" + std::to_string(a.speed.count());
+            describe(a.body) + " v" + std::to_string(a.speed.count()) +
+            (a.group == GroupId() ? "" : " g" + std::to_string(a.group.index())) +
+            (a.release == 0 ? "" : " from " + std::to_string(a.release.count())) +
+            (a.deadline ? " by " + std::to_string(a.deadline->count()) : "") +
+            (a.leaves ? " leaves" : "");
+  if (!instance.obstacles().empty()) text += "; obstacles";
+  for (const MovingObstacle& o : instance.obstacles()) {
+    text += " " + describe(o.body);
+    for (const MovingObstacle::Stop& s : o.path)
+      text += " (" + std::to_string(s.at.x.count()) + "," + std::to_string(s.at.y.count()) + ")@" +
+              std::to_string(s.arrive.count()) + "-" + std::to_string(s.depart.count());
+    if (o.leaves) text += " leaves";
+  }
   return text;
 }
 

@@ -36,6 +36,16 @@ struct RandomOptions {
   int one_way_percent = 10;  ///< Of the edges.
   int polygon_percent = 20;  ///< Of the agents.
   bool equal_agents = false;
+  /// Of the instances: agents of three groups, and edges that are closed to some of these.
+  int groups_percent = 20;
+  /// Of the instances: some agents are released late.
+  int release_percent = 15;
+  /// Of the instances: some agents have deadlines.
+  int deadline_percent = 15;
+  /// Of the instances: some agents leave at their goals.
+  int leaves_percent = 15;
+  /// Of the instances: moving obstacles, one or two.
+  int obstacles_percent = 15;
 };
 
 /// The same for the same seed. Tries until the instance is valid.

@@ -79,7 +79,11 @@ class Excluded {
   explicit Excluded(const Instance& instance) : instance_(instance), judge_(instance) {
     for (const AgentId i : instance.agent_ids()) {
       TimedPath path;
-      static_cast<void>(finder_.find(scene_.task(i), bans_, kForever, &path));
+      bans_.clear(scene_.standing_bans(i));
+      if (!finder_.find(scene_.task(i), bans_, kForever, &path)) {
+        sides_.clear();  // obstacles leave no way
+        return;
+      }
       Side side{i, {}, {}, path.arrival};
       list_steps(instance, i, path, side.steps);
       side.uses.assign(instance, i, path);

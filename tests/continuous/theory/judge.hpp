@@ -56,9 +56,9 @@ class Situation {
   [[nodiscard]] bool is_refuted(const std::vector<sat::Lit>& clause) const {
     return std::all_of(clause.begin(), clause.end(), [&](sat::Lit lit) { return is_refuted(lit); });
   }
-  /// Of all obstacles that are active.
+  /// Of all obstacles that are active, and those that hold always.
   [[nodiscard]] std::vector<Ban> bans(AgentId i) const {
-    std::vector<Ban> bans;
+    std::vector<Ban> bans = model_.standing_bans(i);
     for (const Obstacle& o : model_.obstacles())
       if (o.agent == i && is_false(o.allowed))
         bans.insert(bans.end(), o.bans.begin(), o.bans.end());
@@ -87,6 +87,7 @@ class Situation {
     };
     for (const Move& move : path.moves) {
       if (instance.roadmap().edge(move.edge).from != at || move.start < since) return "jumps";
+      if (move.start < instance.agent(i).release) return "sets out before its release";
       if (!may_stay(move.start)) return "stays where it must not";
       if (std::any_of(all.begin(), all.end(), [&](const Ban& ban) {
             return ban.kind == Ban::Kind::start && ban.place == move.edge.value() &&
@@ -97,7 +98,8 @@ class Situation {
       since = move.start + instance.duration(instance.class_of(i), move.edge);
     }
     if (at != instance.agent(i).goal || since != path.arrival) return "does not end at the goal";
-    if (!may_stay(kForever)) return "rests where it must not";
+    if (!may_stay(instance.agent(i).leaves ? since : kForever)) return "rests where it must not";
+    if (path.arrival > instance.agent(i).deadline.value_or(kForever)) return "is late";
     return as_cost(path.arrival) > cap(i) ? "costs more than the cap" : "";
   }
 

@@ -57,7 +57,8 @@ class Encounters {
     std::vector<Ticks> arrivals;
     for (const AgentId i : instance.agent_ids()) {
       TimedPath path;
-      static_cast<void>(finder_.find(scene_.task(i), bans_, kForever, &path));
+      bans_.clear(scene_.standing_bans(i));
+      if (!finder_.find(scene_.task(i), bans_, kForever, &path)) return;  // obstacles leave no way
       list_steps(instance, i, path, steps[i.index()]);
       arrivals.push_back(path.arrival);
     }

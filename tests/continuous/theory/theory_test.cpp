@@ -90,6 +90,8 @@ class Auditor {
       bound = meaning.cost;
     }
     ASSERT_TRUE(agent);
+    const std::vector<Ban>& standing = model_.standing_bans(*agent);
+    bans.insert(bans.end(), standing.begin(), standing.end());
     EXPECT_GE(least_arrival(model_.instance(), *agent, bans).value_or(kForever), as_ticks(bound));
   }
   void derive_budget_lemma(const sat::Lemma& lemma) const {

@@ -158,6 +158,113 @@ TEST(ContinuousVerify, NamesEachBrokenRule) {
   EXPECT_EQ(kinds(verify(instance, short_plan)), Kinds{Kind::path_count});
 }
 
+TEST(ContinuousVerify, EdgesThatAreNotOpenAreRefused) {
+  const Groups only_two{GroupId(2)};
+  for (const bool has_way_for_all : {false, true}) {
+    std::vector<Edge> edges{{VertexId(0), VertexId(1), Ticks{100}, only_two},
+                            {VertexId(0), VertexId(2), std::nullopt},
+                            {VertexId(2), VertexId(1), std::nullopt}};
+    if (has_way_for_all) edges.push_back({VertexId(0), VertexId(1), Ticks{130}});
+    const auto roadmap = std::make_shared<const Roadmap>(
+        Roadmap::make({{0, 0}, {100, 0}, {50, 50}}, std::move(edges)).value());
+    for (const std::size_t group : {0U, 2U}) {
+      Agent agent{VertexId(0), VertexId(1), Disc{10}, kUnitSpeed};
+      agent.group = GroupId(group);
+      const Instance instance = Instance::make(roadmap, {agent}).value();
+      Plan plan;
+      plan.paths.push_back({{VertexId(0), 0, 0}, {VertexId(1), 100, 100}});
+      std::vector<Kind> expected;
+      if (group == 0) expected = {has_way_for_all ? Kind::duration : Kind::closed_edge};
+      EXPECT_EQ(kinds(verify(instance, plan)), expected);
+      plan.paths[AgentId(0)][1] = {VertexId(1), 130, 130};
+      EXPECT_EQ(verify(instance, plan).valid(), has_way_for_all) << group;
+    }
+  }
+}
+
+TEST(ContinuousVerify, NobodySetsOutBeforeItsRelease) {
+  Instance instance = crossing(10, 10);
+  std::vector<Agent> agents = instance.agents().items();
+  agents[0].release = 300;
+  instance = Instance::make(instance.shared_roadmap(), agents).value();
+  EXPECT_EQ(kinds(verify(instance, crossing_plan(299, 0))), std::vector<Kind>{Kind::too_early});
+  const auto report = verify(instance, crossing_plan(300, 0));
+  EXPECT_TRUE(report.valid());
+  EXPECT_EQ(report.sum_of_costs, 700);  // from tick 0 on
+}
+
+TEST(ContinuousVerify, ArrivalsAfterTheDeadlineAreRefused) {
+  Instance instance = crossing(10, 10);
+  std::vector<Agent> agents = instance.agents().items();
+  agents[1].deadline = Ticks{700};
+  instance = Instance::make(instance.shared_roadmap(), agents).value();
+  EXPECT_TRUE(verify(instance, crossing_plan(900, 500)).valid());
+  EXPECT_EQ(kinds(verify(instance, crossing_plan(900, 501))), std::vector<Kind>{Kind::too_late});
+}
+
+TEST(ContinuousVerify, WhoLeavesIsInNobodysWayAfterwards) {
+  // Both go to vertex 1, the second one from the other side, and need 200 ticks.
+  const auto roadmap = test::roadmap({{0, 0}, {200, 0}, {400, 0}}, {{0, 1}, {2, 1}});
+  std::vector<Agent> agents{test::agent(0, 1, 10), test::agent(2, 1, 10)};
+  EXPECT_EQ(Instance::make(roadmap, agents).error().code, ErrorCode::no_plan);
+  agents[0].leaves = true;
+  const Instance instance = Instance::make(roadmap, agents).value();
+  const auto both = [](Ticks first, Ticks second) {
+    Plan plan;
+    plan.paths.push_back({{VertexId(0), 0, first}, {VertexId(1), first + 200, first + 200}});
+    plan.paths.push_back({{VertexId(2), 0, second}, {VertexId(1), second + 200, second + 200}});
+    return plan;
+  };
+  // The first one has to be gone when the other one is 20 away.
+  EXPECT_TRUE(verify(instance, both(0, 20)).valid());
+  EXPECT_EQ(kinds(verify(instance, both(0, 19))), std::vector<Kind>{Kind::collision});
+  EXPECT_EQ(kinds(verify(instance, both(300, 0))), std::vector<Kind>{Kind::collision});
+  // Who leaves where it starts is nowhere for no time at all.
+  agents[0] = test::agent(0, 0, 10);
+  agents[0].leaves = true;
+  const Instance gone = Instance::make(roadmap, agents).value();
+  Plan empty = both(0, 0);
+  empty.paths[AgentId(0)] = {{VertexId(0), 0, 0}};
+  EXPECT_TRUE(verify(gone, empty).valid());
+  EXPECT_TRUE(verify(gone, empty).clearances.empty());
+}
+
+TEST(ContinuousVerify, ObstaclesAreHitExactly) {
+  // One that crosses the first agent's road at right angles, as fast, where it is at tick 100, and
+  // one that comes from nowhere later and stays there.
+  const Instance agents = crossing(10, 10);
+  const auto with = [&](MovingObstacle obstacle) {
+    return Instance::make(agents.shared_roadmap(), agents.agents().items(), kDefaultResolution, {},
+                          {std::move(obstacle)})
+        .value();
+  };
+  const auto kinds_of = [](const Instance& instance, Ticks first) {
+    return kinds(verify(instance, crossing_plan(first, 2000)));
+  };
+  using Kinds = std::vector<Kind>;
+  // Reach 20 needs 29 ticks: 20 * sqrt(2) = 28.3.
+  const Instance crossed = with({Disc{10}, {{{0, -80}, 1020, 1020}, {{0, 80}, 1180, 1180}}, true});
+  EXPECT_EQ(kinds_of(crossed, 1000), Kinds{Kind::obstacle});
+  EXPECT_EQ(kinds_of(crossed, 1028), Kinds{Kind::obstacle});
+  EXPECT_EQ(kinds_of(crossed, 1029), Kinds{});
+  EXPECT_EQ(kinds_of(crossed, 972), Kinds{Kind::obstacle});
+  EXPECT_EQ(kinds_of(crossed, 971), Kinds{});
+  // The agent passes it at 80 after the begin of its move, until 120.
+  const Instance stood = with({Disc{10}, {{{0, 0}, 1000, 1100}}, true});
+  EXPECT_EQ(kinds_of(stood, 880), Kinds{});
+  EXPECT_EQ(kinds_of(stood, 881), Kinds{Kind::obstacle});
+  EXPECT_EQ(kinds_of(stood, 1019), Kinds{Kind::obstacle});
+  EXPECT_EQ(kinds_of(stood, 1020), Kinds{});
+  const Instance blocked = with({Disc{10}, {{{0, 0}, 1000, 1100}}, false});
+  EXPECT_EQ(kinds_of(blocked, 880).size(), 1u);  // the other agent, which comes later
+  EXPECT_EQ(kinds_of(blocked, 1020), (Kinds{Kind::obstacle, Kind::obstacle}));
+  // At the goal, for ever.
+  const Instance at_goal = with({Disc{10}, {{{100, 0}, 9000, 9000}}, false});
+  EXPECT_EQ(kinds_of(at_goal, 0), Kinds{Kind::obstacle});
+  const Instance gone = with({Disc{10}, {{{100, 0}, 9000, 9000}}, true});
+  EXPECT_EQ(kinds_of(gone, 0), Kinds{});
+}
+
 TEST(Verify, SumsOfCostsThatDoNotFitAreRefused) {
   constexpr Ticks kLate = kMaxTick;
   for (const std::size_t num_agents : {7U, 8U, 9U}) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "quadrille/continuous/resolution.hpp"
@@ -32,10 +33,38 @@ struct Agent {
   /// the disc around all its orientations.
   Body body = Disc{};
   Speed speed = kUnitSpeed;
+  GroupId group = {};  ///< It may use the edges that are open to this one.
+  /// It begins no move before this tick. At its start it is from tick 0 on all the same, and its
+  /// cost counts from there.
+  Ticks release = 0;
+  /// It arrives at its goal for the last time by this tick.
+  std::optional<Ticks> deadline = {};
+  /// It vanishes when it arrives at its goal, where the goals of others may be, too. Otherwise it
+  /// stays there for ever.
+  bool leaves = false;
   friend bool operator==(const Agent&, const Agent&) = default;
 };
 
-/// Agents of the same body and speed are alike.
+/// A body on a timed path that is known, for which nobody plans: one of another fleet. Agents keep
+/// clear of it, as of each other.
+struct MovingObstacle {
+  /// At `at` from `arrive` to `depart`, both included.
+  struct Stop {
+    Point at;
+    Ticks arrive = 0;
+    Ticks depart = 0;
+    friend bool operator==(const Stop&, const Stop&) = default;
+  };
+  Body body = Disc{};
+  /// From each stop to the next it goes straight and at constant speed. It is nowhere before the
+  /// first arrival.
+  std::vector<Stop> path;
+  /// It vanishes at its last departure. Otherwise it stays at its last stop for ever.
+  bool leaves = false;
+  friend bool operator==(const MovingObstacle&, const MovingObstacle&) = default;
+};
+
+/// Agents of the same body and speed, to whom the same edges are open, are alike.
 using ClassId = StrongId<struct ClassTag>;
 
 /// A MAPF_R instance: a roadmap and one body with a task per agent, all in whole ticks and length
@@ -46,17 +75,22 @@ class Instance {
  public:
   /// Durations that the roadmap does not give are length / speed, rounded to the nearest tick.
   /// Errors: out_of_range for a radius outside [1, geometry::kMaxLength], a polygon with a corner
-  /// further than that from the agent's position, a speed outside
-  /// [1, kMaxSpeed], a duration outside [1, geometry::kMaxDuration], a resolution that is not
-  /// positive and finite; invalid_instance for vertices that do not exist; no_plan for overlapping
-  /// starts, overlapping goals (interiors) and goals that cannot be reached. Agents are named by
-  /// index. `places`: where each agent comes from, for errors about it; none, or one per agent.
+  /// further than that from the agent's position, a speed outside [1, kMaxSpeed], a group outside
+  /// [0, kMaxGroups), a release or a deadline outside [0, geometry::kMaxDuration], a duration
+  /// outside [1, geometry::kMaxDuration], a resolution that is not positive and finite, likewise
+  /// for bodies, places and times of obstacles; invalid_instance for vertices that do not exist,
+  /// and obstacles without stops or whose times go back; no_plan for overlapping starts, also with
+  /// an obstacle at tick 0, overlapping goals (interiors) of agents that stay there, and goals that
+  /// cannot be reached, or not by the deadline. Agents are named by index. `places`: where each
+  /// agent comes from, for errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents, Resolution resolution = {},
-                                             std::span<const SourcePlace> places = {});
+                                             std::span<const SourcePlace> places = {},
+                                             std::vector<MovingObstacle> obstacles = {});
   [[nodiscard]] static Result<Instance> make(Roadmap roadmap, std::vector<Agent> agents,
                                              Resolution resolution = {},
-                                             std::span<const SourcePlace> places = {});
+                                             std::span<const SourcePlace> places = {},
+                                             std::vector<MovingObstacle> obstacles = {});
 
   [[nodiscard]] const Roadmap& roadmap() const noexcept { return *roadmap_; }
   [[nodiscard]] std::shared_ptr<const Roadmap> shared_roadmap() const noexcept { return roadmap_; }
@@ -68,6 +102,8 @@ class Instance {
   [[nodiscard]] const IdVector<AgentId, Agent>& agents() const noexcept { return agents_; }
   [[nodiscard]] const Agent& agent(AgentId i) const { return agents_[i]; }
 
+  [[nodiscard]] const std::vector<MovingObstacle>& obstacles() const noexcept { return obstacles_; }
+
   [[nodiscard]] std::size_t num_classes() const noexcept { return classes_.size(); }
   [[nodiscard]] ClassId class_of(AgentId i) const { return class_of_[i]; }
   [[nodiscard]] const Body& body(ClassId c) const { return classes_[c].body; }
@@ -76,22 +112,42 @@ class Instance {
   [[nodiscard]] Ticks duration(ClassId c, EdgeId e) const {
     return durations_[classes_[c].durations][e.index()];
   }
+  /// Whether the edge is open to the agents of the class.
+  [[nodiscard]] bool may_use(ClassId c, EdgeId e) const {
+    return roadmap_->edge(e).open_to.contains(classes_[c].group);
+  }
+  /// Those that are open to the class, by edge id.
+  [[nodiscard]] std::span<const EdgeId> out_edges(ClassId c, VertexId v) const {
+    const auto& ways = classes_[c].ways;
+    return ways == nullptr ? roadmap_->out_edges(v) : ways->out.of(v);
+  }
+  [[nodiscard]] std::span<const EdgeId> in_edges(ClassId c, VertexId v) const {
+    const auto& ways = classes_[c].ways;
+    return ways == nullptr ? roadmap_->in_edges(v) : ways->in.of(v);
+  }
   [[nodiscard]] geometry::Motion motion(ClassId c, EdgeId e) const {
     const Edge& edge = roadmap_->edge(e);
     return {roadmap_->position(edge.from), roadmap_->position(edge.to), duration(c, e)};
   }
 
  private:
+  /// The edges that are open to a group.
+  struct Ways {
+    EdgeLists out, in;
+  };
   struct Class {
     Body body;
     Length reach = 1;
     Speed speed = kUnitSpeed;
-    std::size_t durations = 0;  // into durations_, one per speed
+    std::size_t durations = 0;              // into durations_, one per speed
+    GroupId group;                          // of an agent of this class
+    std::shared_ptr<const Ways> ways = {};  // null: all edges
   };
   Instance() = default;
 
   std::shared_ptr<const Roadmap> roadmap_;
   IdVector<AgentId, Agent> agents_;
+  std::vector<MovingObstacle> obstacles_;
   Resolution resolution_;
   IdVector<ClassId, Class> classes_;
   IdVector<AgentId, ClassId> class_of_;

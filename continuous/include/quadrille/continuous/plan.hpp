@@ -25,7 +25,8 @@ struct Stop {
 };
 
 /// Where one agent is: it moves from each stop to the next, from its departure to the next arrival.
-/// The first arrival is at tick 0. The last stop is for ever, its `depart` equals its `arrive`.
+/// The first arrival is at tick 0. The last stop is for ever, unless the agent leaves; its `depart`
+/// equals its `arrive`.
 using Path = std::vector<Stop>;
 
 /// One path per agent.

@@ -23,6 +23,8 @@ namespace quadrille::continuous {
 [[nodiscard]] std::optional<Length> quantise_corner(double value, const Resolution& resolution);
 /// A duration, to the nearest tick. nullopt if that is none.
 [[nodiscard]] std::optional<Ticks> quantise_duration(double value, const Resolution& resolution);
+/// A moment from tick 0 on, to the nearest tick. nullopt after geometry::kMaxDuration.
+[[nodiscard]] std::optional<Ticks> quantise_time(double value, const Resolution& resolution);
 /// A speed, to the nearest Speed. nullopt if that is 0. A uniform resolution cancels out.
 [[nodiscard]] std::optional<Speed> quantise_speed(double value, const Resolution& resolution);
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "quadrille/core/contract.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
@@ -20,13 +23,63 @@ using geometry::Point;
 using geometry::Ticks;  ///< Whole ticks.
 using EdgeId = StrongId<struct EdgeTag>;
 
+/// A kind of agents, to which edges can be open or closed. Numbers are below kMaxGroups.
+using GroupId = StrongId<struct GroupTag>;
+inline constexpr std::size_t kMaxGroups = 64;
+
+/// A set of groups.
+class Groups {
+ public:
+  constexpr Groups() = default;  ///< None.
+  /// Requires numbers below kMaxGroups.
+  constexpr Groups(std::initializer_list<GroupId> groups) {
+    for (const GroupId group : groups) insert(group);
+  }
+  [[nodiscard]] static constexpr Groups all() {
+    Groups groups;
+    groups.bits_ = ~std::uint64_t{0};
+    return groups;
+  }
+  constexpr void insert(GroupId group) {
+    QUADRILLE_REQUIRE(group.index() < kMaxGroups, "there are 64 groups");
+    bits_ |= std::uint64_t{1} << group.index();
+  }
+  [[nodiscard]] constexpr bool contains(GroupId group) const noexcept {
+    return group.index() < kMaxGroups && (bits_ >> group.index() & 1) != 0;
+  }
+  [[nodiscard]] constexpr bool is_empty() const noexcept { return bits_ == 0; }
+  friend constexpr bool operator==(const Groups&, const Groups&) = default;
+
+ private:
+  std::uint64_t bits_ = 0;
+};
+
 /// A straight move from one vertex to another.
 struct Edge {
   VertexId from;
   VertexId to;
   /// How long the move takes, whoever makes it; absent: its length at the speed of the agent.
   std::optional<Ticks> duration;
+  /// Only agents of these groups may make the move.
+  Groups open_to = Groups::all();
   friend bool operator==(const Edge&, const Edge&) = default;
+};
+
+/// The edges at each vertex, by id: those that leave it, or those that lead to it.
+class EdgeLists {
+ public:
+  EdgeLists() = default;
+  /// Of the edges that are open to `group`, or of all, by their end `end`. Requires ends below
+  /// `num_vertices`. Linear.
+  EdgeLists(std::size_t num_vertices, const std::vector<Edge>& edges, VertexId Edge::*end,
+            const std::optional<GroupId>& group);
+  [[nodiscard]] std::span<const EdgeId> of(VertexId v) const {
+    return {edges_.data() + begin_[v.index()], edges_.data() + begin_[v.index() + 1]};
+  }
+
+ private:
+  std::vector<std::size_t> begin_;
+  std::vector<EdgeId> edges_;
 };
 
 /// Vertices in the plane and directed edges. Immutable.
@@ -34,15 +87,16 @@ class Roadmap {
  public:
   /// Errors: out_of_range for coordinates beyond geometry::kMaxLength or durations outside
   /// [1, geometry::kMaxDuration]; invalid_instance for an edge with an end that does not exist,
-  /// from a vertex to itself, or of length zero without a duration. Vertices and edges are named by
-  /// their index. Parallel edges are allowed, and several vertices in the same place.
+  /// from a vertex to itself, of length zero without a duration, or open to nobody. Vertices and
+  /// edges are named by their index. Parallel edges are allowed, and several vertices in the same
+  /// place.
   [[nodiscard]] static Result<Roadmap> make(std::vector<Point> vertices, std::vector<Edge> edges);
 
   [[nodiscard]] std::size_t num_vertices() const noexcept { return positions_.size(); }
   [[nodiscard]] std::size_t num_edges() const noexcept { return edges_.size(); }
   [[nodiscard]] const Point& position(VertexId v) const { return positions_[v.index()]; }
   [[nodiscard]] const Edge& edge(EdgeId e) const { return edges_[e.index()]; }
-  /// By edge id.
+  /// Whoever they are open to, by edge id.
   [[nodiscard]] std::span<const EdgeId> out_edges(VertexId v) const { return out_.of(v); }
   [[nodiscard]] std::span<const EdgeId> in_edges(VertexId v) const { return in_.of(v); }
 
@@ -50,20 +104,11 @@ class Roadmap {
   [[nodiscard]] const std::vector<Edge>& edges() const noexcept { return edges_; }
 
  private:
-  /// The edges at each vertex, one after the other.
-  struct Incidence {
-    std::vector<std::size_t> begin;
-    std::vector<EdgeId> edges;
-    [[nodiscard]] std::span<const EdgeId> of(VertexId v) const {
-      return {edges.data() + begin[v.index()], edges.data() + begin[v.index() + 1]};
-    }
-  };
   Roadmap(std::vector<Point> positions, std::vector<Edge> edges);
-  [[nodiscard]] Incidence incidence(VertexId Edge::*end) const;
 
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
-  Incidence out_, in_;
+  EdgeLists out_, in_;
 };
 
 }  // namespace quadrille::continuous

@@ -24,8 +24,12 @@ struct Violation {
     wrong_start,   ///< The path begins elsewhere.
     wrong_goal,    ///< The path ends elsewhere.
     not_adjacent,  ///< A move along no edge.
+    too_early,     ///< A move that begins before the agent's release.
+    too_late,      ///< An arrival after the agent's deadline.
+    closed_edge,   ///< A move along an edge that is not open to the agent's group.
     duration,      ///< A move that takes longer or shorter than its edge does.
-    collision,     ///< The interiors of two discs meet.
+    collision,     ///< The interiors of two agents' bodies meet.
+    obstacle,      ///< Those of an agent and of a moving obstacle meet.
   };
   Kind kind;
   AgentId agent;
@@ -35,7 +39,7 @@ struct Violation {
 };
 
 [[nodiscard]] std::string_view to_string(
-    Violation::Kind kind) noexcept;  ///< "path-count" | ... | "collision"
+    Violation::Kind kind) noexcept;  ///< "path-count" | ... | "obstacle"
 /// The free space between two agents over all time.
 struct Clearance {
   AgentId agent;
@@ -47,8 +51,8 @@ struct Clearance {
 struct VerifyReport {
   /// Broken rules of the paths first, then collisions, one per pair of agents, by tick.
   std::vector<Violation> violations;
-  /// Of every pair of agents with sound paths, by agent, then other. For the reader's information:
-  /// collisions are decided in exact arithmetic.
+  /// Of every pair of agents with sound paths that take some time, by agent, then other. For the
+  /// reader's information: collisions are decided in exact arithmetic.
   std::vector<Clearance> clearances;
   Cost sum_of_costs = 0;  ///< Meaningful when there are no violations.
   Cost makespan = 0;

@@ -56,6 +56,8 @@ class ClearanceWatch {
   const continuous::Plan& plan_;
   IdVector<AgentId, std::size_t> stops_;  // The last one reached.
   IdVector<AgentId, std::vector<Knot>> ways_;
+  IdVector<AgentId, double>
+      gone_;  // the share from which on it is nowhere, more than 1: it is there
   double least_ = std::numeric_limits<double>::infinity();
   double touch_ = 0;
   std::set<std::pair<AgentId, AgentId>> contacts_;

@@ -72,8 +72,9 @@ struct Precedences {
 
 /// Of a plan on a roadmap. The slack of two moves is what is left between their offset in the plan
 /// and the nearest offset at which they collide (geometry::BodyPair::unsafe_offsets). Errors:
-/// invalid_plan, with the first violation, if `verify` finds any. Time: quadratic in the number of
-/// different moves near each other, and in how often each is made.
+/// invalid_plan, with the first violation, if `verify` finds any; invalid_instance if there are
+/// moving obstacles, which wait for nobody. Releases and deadlines are not looked at. Time:
+/// quadratic in the number of different moves near each other, and in how often each is made.
 [[nodiscard]] Result<Precedences> precedences(const continuous::Instance& instance,
                                               const continuous::Plan& plan);
 

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <ostream>
+#include <string>
+#include <variant>
+
+#include "formats/json_numbers.hpp"
+#include "quadrille/continuous/instance_json.hpp"
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/text/text_input.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+std::string edge_json(const Edge& edge, const Resolution& resolution) {
+  const std::string from = std::to_string(edge.from.index()), to = std::to_string(edge.to.index());
+  const std::string duration =
+      edge.duration ? json_number(in_input_units(*edge.duration, resolution)) : "";
+  if (edge.open_to == Groups::all())
+    return "[" + from + ", " + to + (edge.duration ? ", " + duration : "") + "]";
+  std::string text = "{\"from\": " + from + ", \"to\": " + to;
+  if (edge.duration) text += ", \"duration\": " + duration;
+  const char* separator = ", \"groups\": [";
+  for (std::size_t g = 0; g < kMaxGroups; ++g) {
+    if (!edge.open_to.contains(GroupId(g))) continue;
+    text += separator + std::to_string(g);
+    separator = ", ";
+  }
+  return text + "]}";
+}
+
+/// The member of an agent that says what it looks like.
+std::string body_json(const Body& body, const Resolution& resolution) {
+  if (const auto* disc = std::get_if<Disc>(&body))
+    return "\"radius\": " + json_number(radius_in_input_units(disc->radius, resolution));
+  std::string text = "\"polygon\": [";
+  const char* separator = "";
+  for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) {
+    text += std::string(separator) + "[" +
+            json_number(corner_in_input_units(corner.x, resolution)) + ", " +
+            json_number(corner_in_input_units(corner.y, resolution)) + "]";
+    separator = ", ";
+  }
+  return text + "]";
+}
+
+/// The member of an instance, if there are any.
+std::string obstacles_json(const Instance& instance) {
+  if (instance.obstacles().empty()) return "";
+  const auto number = [&](auto units) {
+    return json_number(in_input_units(units, instance.resolution()));
+  };
+  std::string text = ",\n  \"obstacles\": [";
+  const char* separator = "\n    {";
+  for (const MovingObstacle& obstacle : instance.obstacles()) {
+    text += separator + body_json(obstacle.body, instance.resolution());
+    if (obstacle.leaves) text += ", \"at_end\": \"leave\"";
+    const char* between = ", \"path\": [";
+    for (const MovingObstacle::Stop& stop : obstacle.path) {
+      text += std::string(between) + "{\"at\": [" + number(stop.at.x) + ", " + number(stop.at.y) +
+              "], \"arrive\": " + number(stop.arrive);
+      if (stop.depart > stop.arrive) text += ", \"depart\": " + number(stop.depart);
+      text += "}";
+      between = ", ";
+    }
+    text += "]}";
+    separator = ",\n    {";
+  }
+  return text + "\n  ]";
+}
+
+}  // namespace
+
+std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
+                                         const Instance& instance) {
+  const Resolution& resolution = instance.resolution();
+  const auto number = [&](auto units) { return json_number(in_input_units(units, resolution)); };
+  out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
+      << ",\n  \"resolution\": " << resolution_json(resolution)
+      << ",\n  \"roadmap\": {\n    \"vertices\": [";
+  const char* separator = "\n";
+  for (const Point& point : instance.roadmap().positions()) {
+    out << separator << "      [" << number(point.x) << ", " << number(point.y) << "]";
+    separator = ",\n";
+  }
+  out << (*separator == ',' ? "\n    ],\n" : "],\n") << "    \"edges\": [";
+  separator = "\n";
+  for (const Edge& edge : instance.roadmap().edges()) {
+    out << separator << "      " << edge_json(edge, resolution);
+    separator = ",\n";
+  }
+  out << (*separator == ',' ? "\n    ]\n" : "]\n") << "  },\n  \"agents\": [";
+  separator = "\n";
+  for (const Agent& agent : instance.agents()) {
+    out << separator << "    {\"start\": " << agent.start.index()
+        << ", \"goal\": " << agent.goal.index() << ", " << body_json(agent.body, resolution)
+        << ", \"speed\": " << json_number(speed_in_input_units(agent.speed, resolution));
+    if (agent.group != GroupId()) out << ", \"group\": " << agent.group.index();
+    if (agent.release > 0) out << ", \"release\": " << number(agent.release);
+    if (agent.deadline) out << ", \"deadline\": " << number(*agent.deadline);
+    if (agent.leaves) out << ", \"at_goal\": \"leave\"";
+    out << "}";
+    separator = ",\n";
+  }
+  out << (*separator == ',' ? "\n  ]" : "]") << obstacles_json(instance) << "\n}\n";
+  return text::finish_output(out, file);
+}
+
+}  // namespace quadrille::continuous
