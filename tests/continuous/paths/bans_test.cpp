@@ -128,7 +128,7 @@ TEST(PathUses, BreakABanIfTheyDoWhatItForbids) {
       at = roadmap.edge(e).to;
       since = start + instance.duration(instance.class_of(AgentId(0)), e);
     }
-    stays.push_back({at, since, kForever});
+    stays.push_back({at, since, instance.agent(AgentId(0)).leaves ? since : kForever});
     path.arrival = since;
     PathUses uses;
     uses.assign(instance, AgentId(0), path);

@@ -41,7 +41,7 @@ void compare_with_edge(Case& c, EdgeId e, Count& count) {
     if (!run) continue;
     EXPECT_EQ(offsets->first(), run->first);
     EXPECT_EQ(offsets->last(), run->last);
-    EXPECT_TRUE(has(near.edges, f)) << e.value() << ' ' << f.value();
+    EXPECT_EQ(has(near.edges, f), c.instance.may_use(c.b, f)) << e.value() << ' ' << f.value();
   }
   for (const VertexId v : IdRange<VertexId>(c.instance.roadmap().num_vertices())) {
     const auto& window = c.contacts.window(c.a, e, c.b, v);
@@ -52,7 +52,7 @@ void compare_with_edge(Case& c, EdgeId e, Count& count) {
     EXPECT_EQ(window->begin, -clear->after_leaving);
     EXPECT_EQ(window->end, clear->before_arrival);
     EXPECT_TRUE(has(near.vertices, v)) << e.value() << ' ' << v.value();
-    EXPECT_TRUE(has(c.contacts.near_vertex(c.b, v, c.a).edges, e));
+    EXPECT_EQ(has(c.contacts.near_vertex(c.b, v, c.a).edges, e), c.instance.may_use(c.a, e));
   }
 }
 

@@ -45,8 +45,8 @@ std::vector<Case> cases(std::size_t count) {
 }
 
 TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
-  constexpr std::int64_t kLooks = 200;
-  const std::int64_t stride = kLooks / static_cast<std::int64_t>(support::scaled(kLooks));
+  constexpr std::int64_t kLooks = 400;
+  const std::int64_t stride = kLooks / static_cast<std::int64_t>(support::scaled(kLooks / 2));
   int num_cut = 0, num_plans = 0;
   for (const Case& c : cases(12))
     for (std::int64_t looks = 1; looks <= kLooks; looks += stride) {
@@ -73,7 +73,7 @@ TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
     }
   EXPECT_GT(num_cut, kLooks / stride);
   // Scaled down, for slow builds, there are fewer and other cases: too few to count on chance.
-  if (stride == 1) {
+  if (stride <= 2) {
     EXPECT_GT(num_plans, 0);
   }
 }
