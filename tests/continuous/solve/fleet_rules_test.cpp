@@ -138,6 +138,22 @@ TEST_P(FleetRules, ObstaclesAreAvoided) {
             ErrorCode::no_plan);
 }
 
+TEST_P(FleetRules, WhoMustLeaveBeforeAnObstacleMayLeaveAtTheLastTick) {
+  // Agent 0 is released when the obstacle behind it, just as fast, is 200 away: it touches, and
+  // agent 1, which crosses the road ahead, has to wait for it.
+  const auto map = roadmap({{0, 0}, {1000, 0}, {2000, 0}, {1000, 1000}, {1000, -1000}},
+                           {{0, 1}, {1, 2}, {3, 1}, {1, 4}});
+  const MovingObstacle behind{Disc{100}, {{{-1000, 0}, 0, 0}, {{0, 0}, 1000, 1000}}};
+  std::vector<Agent> agents{agent(0, 2, 100), agent(3, 4, 100)};
+  agents[0].release = agents[1].release = 800;
+  const auto instance = [&] {
+    return Instance::make(map, agents, kDefaultResolution, {}, {behind}).value();
+  };
+  EXPECT_EQ(least_cost(instance(), system(), objective()), is_sum() ? 5883 : 3083);
+  agents[0].release = 801;
+  EXPECT_EQ(answer(instance()).status, Status::infeasible);
+}
+
 TEST_P(FleetRules, AgreeWithTheOracle) {
   const auto count = static_cast<std::uint32_t>(support::scaled(60));
   const std::uint32_t part = 2 * static_cast<std::uint32_t>(!is_sum()) +
