@@ -48,7 +48,7 @@ TEST(InstanceYaml, WhatTheParserHasToKeepIsLimited) {
     return read_instance_yaml(in, "f");
   };
   std::string pairs;
-  while (pairs.size() < 3 * kMaxYamlLookahead) pairs += "[1,1],";
+  while (pairs.size() < 3 * text::kMaxYamlLookahead) pairs += "[1,1],";
   pairs += "[0,0]";
   const std::string head = "dimensions: [4, 4]";
   // As the value of a key, a list is read as it comes.
@@ -56,8 +56,9 @@ TEST(InstanceYaml, WhatTheParserHasToKeepIsLimited) {
   for (const std::string& text :
        {"{map: {" + head + ", obstacles: [" + pairs + "]}, agents: []}",
         "map:\n  " + head + "\n  obstacles:\n  - [" + pairs + "]\nagents: []\n",
-        "# " + std::string(2 * kMaxYamlLookahead, 'x') + "\nmap:\n  " + head + "\nagents: []\n",
-        "[" + std::string(2 * kMaxYamlLookahead, ',') + "]"}) {
+        "# " + std::string(2 * text::kMaxYamlLookahead, 'x') + "\nmap:\n  " + head +
+            "\nagents: []\n",
+        "[" + std::string(2 * text::kMaxYamlLookahead, ',') + "]"}) {
     const auto refused = read(text);
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, ErrorCode::out_of_range);
@@ -65,7 +66,7 @@ TEST(InstanceYaml, WhatTheParserHasToKeepIsLimited) {
         << refused.error().to_string();
   }
   // Below the limit all is well.
-  pairs.resize(kMaxYamlLookahead / 2 / 6 * 6);
+  pairs.resize(text::kMaxYamlLookahead / 2 / 6 * 6);
   EXPECT_TRUE(
       read("{map: {" + head + ", obstacles: [" + pairs + "[0,0]]}, agents: []}").has_value());
 }

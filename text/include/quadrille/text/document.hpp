@@ -99,6 +99,16 @@ class DocumentBuilder {
 /// Parses a whole text. Errors: syntax; out_of_range for numbers beyond double, more than kMaxNodes
 /// values or nesting deeper than kMaxDepth. Repeated keys are found by Checker::members.
 [[nodiscard]] Result<Document> parse_json(std::string_view text, const std::string& file);
+
+/// In YAML, a value, key or comment, and a flow collection in a place where it could be a key
+/// (above all one that is the whole document), has at most this many bytes.
+inline constexpr std::size_t kMaxYamlLookahead = std::size_t{1} << 20;
+
+/// One YAML document without anchors, aliases and tags other than `!!python/tuple`. Plain scalars
+/// that look like decimal integers are integers, null ones are null, all others are strings.
+/// Errors as those of parse_json, and out_of_range above kMaxYamlLookahead.
+[[nodiscard]] Result<Document> parse_yaml(std::string_view text, const std::string& file);
+
 /// Looks for values in a document and remembers the first thing that is wrong. Each function
 /// returns whether all is well; calls can be chained with &&.
 class Checker {

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "formats/document.hpp"
-#include "formats/text_input.hpp"
+#include "quadrille/text/document.hpp"
+#include "quadrille/text/text_input.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille::text {
 namespace {
 
 constexpr std::string_view kTupleTag = "tag:yaml.org,2002:python/tuple";
@@ -168,7 +168,7 @@ bool has_too_many_open_brackets(std::string_view text) {
 
 }  // namespace
 
-Result<Document> parse_yaml(const std::string& text, const std::string& file) {
+Result<Document> parse_yaml(std::string_view text, const std::string& file) {
   if (has_too_many_open_brackets(text))
     return Error{ErrorCode::out_of_range, "too many brackets are open at the same time", {file, 0}};
   LimitedInput input(text);
@@ -195,4 +195,4 @@ Result<Document> parse_yaml(const std::string& text, const std::string& file) {
   return std::move(handler.builder()).take();
 }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::text
