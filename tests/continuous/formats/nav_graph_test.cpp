@@ -56,23 +56,34 @@ TEST(NavGraph, SaysWhatIsWrongAndWhere) {
     ASSERT_FALSE(graph.has_value()) << why;
     EXPECT_EQ(graph.error().to_string(), why);
   };
-  refuses("levels: [1\n", "nav.yaml:2: end of sequence flow not found");
+  refuses("levels: [1\n", "nav.yaml:2: not valid YAML: end of sequence flow not found");
   refuses("a: 1\n", "nav.yaml:1: a nav graph of Open-RMF has the key 'levels'");
-  refuses("levels: {L1: {}}\n", "nav.yaml:1: a level has the key 'vertices'");
-  refuses("levels: {L1: {vertices: []}}\n", "nav.yaml:1: there are no vertices");
+  refuses("levels: {L1: {}}\n", "nav.yaml:1: /levels/L1: a level has the key 'vertices'");
+  refuses("levels: {L1: {vertices: []}}\n", "nav.yaml:1: /levels: there are no vertices");
   refuses("levels:\n  L1: {vertices: [[0, 0]]}\n  L2: {vertices: [[0, 0]]}\n",
-          "nav.yaml:3: a roadmap is of one level, and this is another");
-  refuses("levels:\n  L1:\n    vertices: [[0, 0], [1, x]]\n", "nav.yaml:3: y is a number");
-  refuses("levels:\n  L1:\n    vertices: [[0]]\n", "nav.yaml:3: a vertex is [x, y, {properties}]");
+          "nav.yaml:3: /levels/L2: a roadmap is of one level, and this is another");
+  refuses("levels:\n  L1:\n    vertices: [[0, 0], [1, x]]\n",
+          "nav.yaml:3: /levels/L1/vertices/1/1: expected a number, found 'x'");
+  refuses("levels:\n  L1:\n    vertices: [[0]]\n",
+          "nav.yaml:3: /levels/L1/vertices/0: expected [x, y, {properties}]");
   refuses("levels:\n  L1:\n    vertices: [[0, 1e300]]\n",
-          "nav.yaml:3: the coordinates are too large");
+          "nav.yaml:3: /levels/L1/vertices/0/1: the coordinate is too large");
   const std::string two = "levels:\n  L1:\n    vertices: [[0, 0], [1, 0]]\n    lanes:\n    - ";
-  refuses(two + "[0, 2]\n", "nav.yaml:5: there is no vertex 2 among 2");
-  refuses(two + "[0, -1]\n", "nav.yaml:5: the end of a lane is the number of a vertex");
-  refuses(two + "[1, 1]\n", "nav.yaml:5: a lane from a vertex to itself");
-  refuses(two + "[0, 1, {mutex: m1}]\n", "nav.yaml:5: mutex groups are not supported");
-  refuses(two + "[0, 1, {speed_limit: fast}]\n", "nav.yaml:5: speed_limit is a number");
-  refuses(two + "[0, 1, {speed_limit: -1}]\n", "nav.yaml:5: speed_limit is no speed");
+  refuses(two + "[0, 2]\n", "nav.yaml:5: /levels/L1/lanes/0/1: there is no vertex 2 among 2");
+  refuses(two + "[0, -1]\n",
+          "nav.yaml:5: /levels/L1/lanes/0/1: -1 is not between 0 and 9223372036854775807");
+  refuses(two + "[1, 1]\n", "nav.yaml:5: /levels/L1/lanes/0: the lane is a loop");
+  refuses(two + "[0, 1, {mutex: m1}]\n",
+          "nav.yaml:5: /levels/L1/lanes/0/2/mutex: mutex groups are not supported");
+  refuses(two + "[0, 1, {speed_limit: fast}]\n",
+          "nav.yaml:5: /levels/L1/lanes/0/2/speed_limit: expected a number, found 'fast'");
+  refuses(two + "[0, 1, {speed_limit: -1}]\n",
+          "nav.yaml:5: /levels/L1/lanes/0/2/speed_limit: the speed is not supported");
+  refuses(two + "[0, 1, {speed_limit: nan}]\n",
+          "nav.yaml:5: /levels/L1/lanes/0/2/speed_limit: expected a number, found 'nan'");
+  refuses(two + "[0, 1, {speed_limit: 1, speed_limit: 2}]\n",
+          "nav.yaml:5: /levels/L1/lanes/0/2/speed_limit: the key is there twice");
+  refuses("levels:\n  L1: &a {vertices: [[0, 0]]}\n", "nav.yaml:2: anchors are not accepted");
 }
 
 }  // namespace

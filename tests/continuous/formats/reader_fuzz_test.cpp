@@ -9,6 +9,7 @@
 
 #include "continuous/formats/file_support.hpp"
 #include "quadrille/continuous/instance_json.hpp"
+#include "quadrille/continuous/nav_graph.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/roadmap_xml.hpp"
 #include "quadrille/continuous/verify.hpp"
@@ -82,6 +83,11 @@ TEST(RoadmapReaderFuzz, Maps) {
       }
       return error_of(map);
     });
+}
+
+TEST(RoadmapReaderFuzz, NavGraphs) {
+  survive("nav.yaml",
+          [](std::istream& in) { return error_of(read_nav_graph(in, "f", 1e-3, kUnitSpeed)); });
 }
 
 TEST(RoadmapReaderFuzz, Tasks) {
