@@ -30,7 +30,8 @@ inline constexpr std::int64_t kRecheckConflicts = 3000;
 inline constexpr std::size_t kMaxRechecks = 100;
 inline constexpr std::size_t kMaxSites = 2;
 
-/// What is left of limits, of which the wall and CPU times began when this was made.
+/// What is left of limits, of which the wall and CPU times began when this was made: before the
+/// first search.
 class RemainingLimits {
  public:
   explicit RemainingLimits(const Limits& limits) : limits_(limits) {}
@@ -51,7 +52,7 @@ class RemainingLimits {
                                                const std::vector<Reason>& reasons,
                                                const Names& names, std::size_t max_sites);
 
-/// The keys "attribution" and "reasons" of a result, documented in docs/cli.md.
+/// The keys "attribution" and "reasons" of a result, documented in docs/formats.md.
 void add_explanation(ResultJson& result, const std::optional<Attribution>& attribution,
                      const std::vector<Reason>& reasons, const Names& names);
 

@@ -82,10 +82,12 @@ class GridSolve {
     if (line.active())
       options.on_progress = [&line](const auto& progress) { line.show(progress_text(progress)); };
     if (arguments_.history) keep_history<discrete::Progress>(options, notes_.history);
+    const RemainingLimits left(options.limits);
     auto outcome = discrete::solve(instance(), options);
     if (outcome && outcome->attribution)
-      notes_.reasons = find_reasons(*outcome->attribution,
-                                    arguments_.finds_reasons ? recheck() : Recheck(), kMaxRechecks);
+      notes_.reasons =
+          find_reasons(*outcome->attribution, arguments_.finds_reasons ? recheck(left) : Recheck(),
+                       kMaxRechecks);
     return outcome;
   }
   [[nodiscard]] Result<std::string> plan_text(const discrete::Plan& plan) const {
@@ -122,10 +124,9 @@ class GridSolve {
   }
 
  private:
-  /// What some of the agents cost when they are alone.
-  [[nodiscard]] Recheck recheck() const {
-    return [this, left = RemainingLimits(arguments_.options.limits)](
-               const std::vector<AgentId>& agents) -> std::optional<Cost> {
+  /// What some of the agents cost when they are alone. `left` outlives it.
+  [[nodiscard]] Recheck recheck(const RemainingLimits& left) const {
+    return [this, &left](const std::vector<AgentId>& agents) -> std::optional<Cost> {
       const auto limits = left.next(kRecheckConflicts);
       if (!limits) return std::nullopt;
       std::vector<discrete::Agent> kept;

@@ -87,11 +87,13 @@ class RoadmapSolve {
         line.show(progress_text(progress, instance().resolution()));
       };
     if (arguments_.history) keep_history<continuous::Progress>(options, notes_.history);
+    const RemainingLimits left(options.limits);
     auto outcome = continuous::solve(instance(), options);
-    if (outcome && arguments_.finds_reasons) trace_clauses(*outcome);
+    if (outcome && arguments_.finds_reasons) trace_clauses(left, *outcome);
     if (outcome && outcome->attribution)
-      notes_.reasons = find_reasons(*outcome->attribution,
-                                    arguments_.finds_reasons ? recheck() : Recheck(), kMaxRechecks);
+      notes_.reasons =
+          find_reasons(*outcome->attribution, arguments_.finds_reasons ? recheck(left) : Recheck(),
+                       kMaxRechecks);
     return outcome;
   }
   [[nodiscard]] Result<std::string> plan_text(const continuous::Plan& plan) const {
@@ -129,10 +131,10 @@ class RoadmapSolve {
  private:
   /// Searches that know no clauses do not say where agents collide: another one may. Its raises are
   /// taken, too, if they prove as much.
-  void trace_clauses(SolveOutcome& outcome) const {
+  void trace_clauses(const RemainingLimits& left, SolveOutcome& outcome) const {
     if (!outcome.attribution || !outcome.attribution->sites.empty()) return;
     if (outcome.attribution->raises.empty()) return;
-    const auto limits = RemainingLimits(options_.limits).next(kRecheckConflicts);
+    const auto limits = left.next(kRecheckConflicts);
     if (!limits) return;
     SolveOptions options = options_;
     options.limits = *limits;
@@ -144,16 +146,16 @@ class RoadmapSolve {
     outcome.attribution->sites = traced->attribution->sites;
   }
 
-  /// What some of the agents cost when they are alone.
-  [[nodiscard]] Recheck recheck() const {
-    return [this, left = RemainingLimits(options_.limits)](
-               const std::vector<AgentId>& agents) -> std::optional<Cost> {
+  /// What some of the agents cost when they are alone with the obstacles. `left` outlives it.
+  [[nodiscard]] Recheck recheck(const RemainingLimits& left) const {
+    return [this, &left](const std::vector<AgentId>& agents) -> std::optional<Cost> {
       const auto limits = left.next(kRecheckConflicts);
       if (!limits) return std::nullopt;
       std::vector<continuous::Agent> kept;
       for (const AgentId i : agents) kept.push_back(instance().agent(i));
-      const auto part = continuous::Instance::make(instance().shared_roadmap(), std::move(kept),
-                                                   instance().resolution());
+      const auto part =
+          continuous::Instance::make(instance().shared_roadmap(), std::move(kept),
+                                     instance().resolution(), {}, instance().obstacles());
       SolveOptions options;
       options.objective = objective();
       options.seed = options_.seed;

@@ -92,6 +92,38 @@ TEST_F(ExplainTest, RoadmapsNameVerticesAndTimes) {
             attribution["lower_bound"].get<std::int64_t>());
 }
 
+TEST_F(ExplainTest, ReasonsAreCheckedAmongTheObstacles) {
+  // Alone each has to wait until the obstacle at the crossing has left; then one of them waits
+  // more.
+  write("crossing.json", R"({"quadrille": "instance", "version": 1, "resolution": 0.001,
+    "roadmap": {"vertices": [[0, 0], [1, 0], [2, 0], [1, 1], [1, -1]],
+                "edges": [[0, 1], [1, 2], [3, 1], [1, 4]]},
+    "agents": [{"start": 0, "goal": 2, "radius": 0.1}, {"start": 3, "goal": 4, "radius": 0.1}],
+    "obstacles": [{"radius": 0.1, "at_end": "leave",
+                   "path": [{"vertex": 1, "arrive": 0, "depart": 5}]}]})");
+  const Finished finished =
+      run({"explain", "--instance", path("crossing.json"), "--json", path("result.json")});
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const json reasons = json::parse(read("result.json"))["reasons"];
+  ASSERT_EQ(reasons.size(), 1U) << finished.out;
+  EXPECT_EQ(reasons[0]["checked"], true) << finished.out;
+}
+
+TEST_F(ExplainTest, NothingIsSearchedWhenTimeIsUp) {
+  // Far too hard: the limit ends the search, and there is no time left to look at reasons.
+  const std::string map = path("m.map"), scen = path("m.scen");
+  ASSERT_EQ(run({"generate", "--kind", "empty", "--width", "24", "--height", "24", "--agents",
+                 "250", "--map-output", map, "--scen-output", scen})
+                .code,
+            0);
+  const Finished finished = run({"explain", "--map", map, "--scen", scen, "--agents", "250",
+                                 "--time-limit", "1", "--json", path("result.json")});
+  const json result = json::parse(read("result.json"));
+  ASSERT_EQ(result["stop_reason"], "wall-time") << finished.out;
+  ASSERT_FALSE(result["reasons"].empty());
+  for (const json& reason : result["reasons"]) EXPECT_EQ(reason["checked"], false);
+}
+
 TEST_F(ExplainTest, InfeasibleRoadmapsNameWhatBothHaveToPass) {
   const std::string discs_json = read("discs.json");
   write("narrow.json", std::string(discs_json).replace(discs_json.find("0.8]"), 4, "0.54]"));
