@@ -91,9 +91,8 @@ export function pairWeights(attribution) {
   };
   for (const { amount, agents } of attribution.raises) {
     if (agents.length > MOST_IN_MATRIX) continue;
-    for (const a of agents)
-      {for (const b of agents)
-        if (a !== b) add(a, b, amount);}
+    const pairs = agents.flatMap((a) => agents.filter((b) => b !== a).map((b) => [a, b]));
+    for (const [a, b] of pairs) add(a, b, amount);
   }
   const total = (/** @type {number} */ agent) => totals.get(agent) ?? 0;
   const agents = [...totals.keys()].sort((a, b) => total(b) - total(a) || a - b);

@@ -21,7 +21,6 @@
  * @typedef {{agents: [number, number], gap: number, time: number}} Nearness
  * @typedef {{width: number, height: number, pitch: number, passable: Uint8Array}} Cells
  *
- *
  * Why no plan is cheaper: the lower bound is the free costs and all raises. Of a site, where two
  * agents are in each other's way, each line is points of the map; end is null for ever.
  * @typedef {{amount: number, agents: number[]}} Raise

@@ -23,10 +23,10 @@ struct Feasibility {
 };
 
 /// Looks for agents that block each other: every two, then every three of four, then all, if they
-/// are few enough for a joint search; nothing if that does not know the rules (JointScope). Exact
-/// both ways: if neither blocked agents nor a plan are
-/// found, the work was too much, the agents too many, or the limits of the scene were met.
-/// `work`, as in find_joint_plan, bounds the effort for the parts of each size.
+/// are few enough for a joint search; nothing if that says nothing (JointScope::none). Exact both
+/// ways: if neither blocked agents nor a plan are found, the work was too much, the agents too
+/// many, the rules more than a joint search knows, or the limits of the scene were met. `work`, as
+/// in find_joint_plan, bounds the effort for the parts of each size.
 [[nodiscard]] Feasibility check_feasibility(Scene& scene,
                                             std::int64_t work = kUsualFeasibilityWork);
 

@@ -30,9 +30,9 @@ class PathFinder {
       : instance_(instance), limits_(limits) {}
 
   /// Arrival of the cheapest path that arrives before `bound` and by the agent's deadline; nullopt
-  /// if there is none. `path`,
-  /// unless null, receives it. `relevant`, unless null, is marked by slot: no path arrives before
-  /// `bound` even if only the marked slots are switched on. Without result only.
+  /// if there is none. `path`, unless null, receives it. `relevant`, unless null, is marked by
+  /// slot: no path arrives before `bound` even if only the marked slots are switched on. Without
+  /// result only.
   [[nodiscard]] std::optional<Ticks> find(const PathTask& task, BanTable& bans, Ticks bound,
                                           TimedPath* path, std::vector<char>* relevant = nullptr);
 

@@ -15,8 +15,8 @@ class Scene {
  public:
   /// Computes the distances to all goals and the bans around moving obstacles, the latter with as
   /// many contacts as there are edges and vertices for each of their steps, per class; both
-  /// arguments outlive the scene. If `limits` end that
-  /// early, the scene is not complete and of no use.
+  /// arguments outlive the scene. If `limits` end that early, the scene is not complete and of no
+  /// use.
   Scene(const Instance& instance, LimitMonitor& limits);
   [[nodiscard]] bool is_complete() const { return is_complete_; }
 

@@ -131,8 +131,9 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   for (const AgentId i : instance.agent_ids()) {
     if (scene.free_cost(i) < kAnyCost) continue;
     outcome.status = Status::infeasible;
-    outcome.explanation = "agent " + std::to_string(i.index()) +
-                          " cannot get past the moving obstacles, even without other agents";
+    outcome.explanation =
+        "agent " + std::to_string(i.index()) + " cannot get past the moving obstacles" +
+        (instance.agent(i).deadline ? " by its deadline" : "") + ", even without other agents";
     return;
   }
   Cost floor = outcome.lower_bound = free_bound(scene, options.objective);

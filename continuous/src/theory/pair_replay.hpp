@@ -30,8 +30,7 @@ class PairReplay {
  private:
   enum class Kind : std::uint8_t { stands, moves, parks };
   /// What an agent does at a tick: it stands at a vertex, or moves along an edge for `progress`
-  /// ticks, or has parked at its goal for good, where it is no more if it
-  /// leaves.
+  /// ticks, or has parked at its goal for good, where it is no more if it leaves.
   struct State {
     Kind kind = Kind::stands;
     std::uint32_t place = 0;

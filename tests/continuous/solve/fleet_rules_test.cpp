@@ -133,6 +133,18 @@ TEST_P(FleetRules, ObstaclesAreAvoided) {
   crossing.leaves = false;
   const Instance blocked = Instance::make(map, agents, kDefaultResolution, {}, {crossing}).value();
   EXPECT_EQ(answer(blocked).status, Status::infeasible);
+  EXPECT_EQ(answer(blocked).explanation,
+            "agent 0 cannot get past the moving obstacles, even without other agents");
+  // It leaves, but too late for the agent's deadline.
+  crossing.leaves = true;
+  std::vector<Agent> hurried = agents;
+  hurried[0].deadline = Ticks{4199};
+  const SolveOutcome late =
+      answer(Instance::make(map, hurried, kDefaultResolution, {}, {crossing}).value());
+  EXPECT_EQ(late.status, Status::infeasible);
+  EXPECT_EQ(late.explanation,
+            "agent 0 cannot get past the moving obstacles by its deadline, even without other "
+            "agents");
   crossing.path = {{{150, 0}, 0, 50}};
   EXPECT_EQ(Instance::make(map, agents, kDefaultResolution, {}, {crossing}).error().code,
             ErrorCode::no_plan);
