@@ -25,6 +25,7 @@ constexpr const char* kFooter =
     "  list    print the jobs: name, map, scenario, agents, system, seed\n"
     "  run     run the jobs that have no result yet, here\n"
     "  resume  the same with the jobs of the last run or submit, whatever the manifest says now\n"
+    "  reopen  make the jobs that failed open again; run, resume or submit does them\n"
     "  submit  hand them to Slurm, and the merge after them\n"
     "  task    what a task on the cluster does\n"
     "  status  what is done, what is left\n"
@@ -35,9 +36,9 @@ constexpr const char* kFooter =
 
 std::optional<Action> parse_action(std::string_view text) {
   constexpr std::pair<std::string_view, Action> kActions[] = {
-      {"list", Action::list},  {"run", Action::run},       {"resume", Action::resume},
-      {"task", Action::task},  {"submit", Action::submit}, {"status", Action::status},
-      {"merge", Action::merge}};
+      {"list", Action::list},     {"run", Action::run},    {"resume", Action::resume},
+      {"reopen", Action::reopen}, {"task", Action::task},  {"submit", Action::submit},
+      {"status", Action::status}, {"merge", Action::merge}};
   for (const auto& [name, action] : kActions)
     if (name == text) return action;
   return std::nullopt;
@@ -53,6 +54,8 @@ ExitCode run(const CLI::App& app, const CampaignArguments& arguments) {
     case Action::run:
     case Action::resume:
       return campaign::run_campaign(arguments);
+    case Action::reopen:
+      return campaign::reopen(arguments);
     case Action::task:
       return campaign::run_task(arguments);
     case Action::submit:
@@ -71,7 +74,7 @@ Subcommand add_campaign(CLI::App& program) {
   CLI::App* app = program.add_subcommand("campaign", "Run many instances, here or on a cluster");
   const auto arguments = std::make_shared<CampaignArguments>();
   add_choice<Action>(*app, "ACTION", arguments->action,
-                     "list, run, resume, submit, task, status or merge", parse_action,
+                     "list, run, resume, reopen, submit, task, status or merge", parse_action,
                      "What to do; see below")
       ->required();
   add_file(*app, "MANIFEST", arguments->manifest, "What is asked: a YAML file")->required();

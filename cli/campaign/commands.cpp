@@ -6,7 +6,9 @@
 #include <array>
 #include <csignal>
 #include <map>
+#include <set>
 #include <system_error>
+#include <vector>
 
 #include "campaign/runner.hpp"
 #include "output.hpp"
@@ -122,6 +124,44 @@ ExitCode run_task(const CampaignArguments& arguments) {
   return run_ladders(arguments, *list, Schedule(*list, *ladders), false);
 }
 
+ExitCode reopen(const CampaignArguments& arguments) {
+  const auto list = prepared(arguments);
+  if (!list) return ExitCode::bad_input;
+  auto store = Store::open(arguments.files().results());
+  auto error = store ? std::nullopt : std::optional<Error>(store.error());
+  std::size_t opened = 0;
+  if (store) {
+    Schedule schedule(*list);
+    Follower follower(*list, *store, schedule);
+    std::set<std::size_t> failed;
+    const auto update = [&] {
+      return follower.update([&](std::size_t job, const Row& row) {
+        if (row.status == "failed")
+          failed.insert(job);
+        else
+          failed.erase(job);
+      });
+    };
+    error = update();
+    // Another one may be at it, too: who has the claim looks once more.
+    for (const std::size_t job : std::set<std::size_t>(failed)) {
+      if (error || !store->try_claim(list->jobs[job].name)) continue;
+      if (error = update(); !error && failed.contains(job)) {
+        error = store->append(to_line(open_row(list->jobs[job])));
+        if (!error) ++opened;
+      }
+      store->release(list->jobs[job].name);
+    }
+  }
+  if (error) {
+    report_error(*error);
+    return ExitCode::output;
+  }
+  Console(arguments.quiet, false)
+      .print(fmt::format("{} {} open again\n", opened, opened == 1 ? "job is" : "jobs are"));
+  return ExitCode::success;
+}
+
 ExitCode show_status(const CampaignArguments& arguments) {
   const auto list = prepared(arguments);
   if (!list) return ExitCode::bad_input;
@@ -132,9 +172,13 @@ ExitCode show_status(const CampaignArguments& arguments) {
   }
   Schedule schedule(*list);
   Follower follower(*list, *store, schedule);
-  std::map<std::string, std::array<std::size_t, 3>> systems;  // solved, not, failed
+  enum Verdict { none, solved, not_solved, failed };
+  std::vector<Verdict> verdicts(list->jobs.size(), none);
   const auto error = follower.update([&](std::size_t job, const Row& row) {
-    ++systems[list->jobs[job].system][row.solved() ? 0 : row.status == "failed" ? 2 : 1];
+    verdicts[job] = row.opens()              ? none
+                    : row.solved()           ? solved
+                    : row.status == "failed" ? failed
+                                             : not_solved;
   });
   if (error) {
     report_error(*error);
@@ -154,9 +198,12 @@ ExitCode show_status(const CampaignArguments& arguments) {
   if (counts.left > 0 && rest)
     text += fmt::format("time left  about {} with {} at a time\n", duration_text(*rest),
                         std::max<std::size_t>(1, running));
+  std::map<std::string, std::array<std::size_t, 4>> systems;  // by verdict
+  for (std::size_t job = 0; job < verdicts.size(); ++job)
+    if (verdicts[job] != none) ++systems[list->jobs[job].system][verdicts[job]];
   for (const auto& [name, sum] : systems)
-    text +=
-        fmt::format("system     {}: {} solved, {} not, {} failed\n", name, sum[0], sum[1], sum[2]);
+    text += fmt::format("system     {}: {} solved, {} not, {} failed\n", name, sum[solved],
+                        sum[not_solved], sum[failed]);
   if (follower.damaged() > 0)
     text += fmt::format("damaged    {} lines of the results; their jobs are run again\n",
                         follower.damaged());

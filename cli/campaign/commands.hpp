@@ -10,7 +10,7 @@
 
 namespace quadrille::cli::campaign {
 
-enum class Action { list, run, resume, task, submit, status, merge };
+enum class Action { list, run, resume, reopen, task, submit, status, merge };
 
 struct CampaignArguments {
   Action action = Action::list;
@@ -31,6 +31,7 @@ struct CampaignArguments {
 /// Each does what `quadrille campaign ACTION` says, prints, and returns the exit code.
 ExitCode list_jobs(const CampaignArguments& arguments);
 ExitCode run_campaign(const CampaignArguments& arguments);
+ExitCode reopen(const CampaignArguments& arguments);
 ExitCode run_task(const CampaignArguments& arguments);
 ExitCode submit(const CampaignArguments& arguments);
 ExitCode show_status(const CampaignArguments& arguments);

@@ -60,6 +60,11 @@ class Collector {
     }
     const std::size_t number = found->second;
     const Job& job = merged_.list.jobs[number];
+    if (row->opens()) {
+      if (merged_.rows[number] && merged_.rows[number]->status == "failed")
+        merged_.rows[number].reset();
+      return;
+    }
     if (merged_.rows[number]) {
       wrong_.push_back(describe(job) + " has two rows");
       return;

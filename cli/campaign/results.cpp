@@ -24,6 +24,11 @@ std::optional<Error> Follower::update(const std::function<void(std::size_t, cons
       ++foreign_;
       return;
     }
+    if (row->opens()) {
+      schedule_.reopen(job->second);
+      if (take) take(job->second, *row);
+      return;
+    }
     (row->solved() ? times_.solved_s : times_.unsolved_s) += row->wall_s;
     ++(row->solved() ? times_.solved : times_.unsolved);
     schedule_.finish(job->second, row->solved());

@@ -30,7 +30,8 @@ class Follower {
   /// All three have to outlive it.
   Follower(const JobList& list, Store& store, Schedule& schedule);
 
-  /// Reads what is new. `take` hears of each row of the list's jobs, and its job.
+  /// Reads what is new. `take` hears of each row of the list's jobs, and its job; also of those
+  /// that open a job again.
   std::optional<Error> update(const std::function<void(std::size_t, const Row&)>& take = {});
 
   /// Lines that are no rows. Their jobs are run again.

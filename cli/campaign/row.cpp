@@ -114,6 +114,15 @@ Row failed_row(const Job& job, const Ended& ended, const std::string& why) {
   return row;
 }
 
+Row open_row(const Job& job) {
+  Row row;
+  row.job = job.name;
+  row.status = "open";
+  row.stop_reason = "none";
+  row.host = host_name();
+  return row;
+}
+
 std::optional<Row> make_row(const Job& job, const Ended& ended) {
   if (const auto status = status_of(ended.code)) {
     try {

@@ -16,7 +16,8 @@ namespace quadrille::cli::campaign {
 /// What a job has found: one line of the file of results. docs/campaign.md describes its keys.
 struct Row {
   std::string job;
-  /// As in a result, or "failed": no result at all; `explanation` says why.
+  /// As in a result; or "failed": no result at all; `explanation` says why; or "open": the failed
+  /// row before it counts no more, and the job is to be run again.
   std::string status;
   std::string stop_reason;
   bool enforced = false;  ///< The limit had to be enforced from outside.
@@ -33,6 +34,7 @@ struct Row {
   /// On grids a list of texts (plan_text.hpp); else the result that has the plan; or null.
   nlohmann::ordered_json plan;
 
+  [[nodiscard]] bool opens() const { return status == "open"; }
   [[nodiscard]] bool solved() const { return status == "optimal" || status == "infeasible"; }
 };
 
@@ -46,5 +48,7 @@ struct Row {
 [[nodiscard]] std::optional<Row> make_row(const Job& job, const Ended& ended);
 /// The row of a job that is not tried again.
 [[nodiscard]] Row failed_row(const Job& job, const Ended& ended, const std::string& why);
+/// The row that makes a failed job open again.
+[[nodiscard]] Row open_row(const Job& job);
 
 }  // namespace quadrille::cli::campaign

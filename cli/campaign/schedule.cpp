@@ -34,6 +34,14 @@ void Schedule::finish(std::size_t job, bool solved) {
   if (climb_of_[job] < climbs_.size()) advance(climbs_[climb_of_[job]]);
 }
 
+void Schedule::reopen(std::size_t job) {
+  states_[job] = State::open;
+  if (climb_of_[job] == climbs_.size()) return;
+  Climb& climb = climbs_[climb_of_[job]];
+  climb = {climb.ladder};
+  advance(climb);
+}
+
 /// As far as the finished jobs say. Rows may come in any order.
 void Schedule::advance(Climb& climb) const {
   const Ladder& ladder = list_->ladders[climb.ladder];

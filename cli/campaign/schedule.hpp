@@ -20,6 +20,9 @@ class Schedule {
   /// A job has its row. Jobs of other ladders do not count; a second row of a job changes nothing.
   void finish(std::size_t job, bool solved);
 
+  /// A finished job is to be run again: its ladder goes on from there, if it did not get beyond.
+  void reopen(std::size_t job);
+
   /// The next job, but none of `busy`: lower rungs first, then as in the list.
   [[nodiscard]] std::optional<std::size_t> next(const std::set<std::size_t>& busy) const;
   /// Whether a job is among those that may be run now.

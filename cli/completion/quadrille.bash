@@ -71,7 +71,7 @@ _quadrille() {
     campaign)
       options="--folder --data --jobs --dry-run --submission --task --quiet"
       if ((COMP_CWORD == 2)) && [[ $word != -* ]]; then
-        mapfile -t COMPREPLY < <(compgen -W "list run resume submit task status merge" -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W "list run resume reopen submit task status merge" -- "$word")
         return
       fi
       ;;

@@ -283,6 +283,38 @@ limits: {{{limits}}}
         self.assertIn("cannot start /no/such/program", self.campaign("run", manifest, code=74))
         self.assertEqual(self.rows("none.campaign"), {})
 
+    def test_failed_jobs_are_opened_again_and_others_are_not(self):
+        calm = self.fake("nap").replace("fake:", "calm:").replace("starts", "others")
+        systems = self.fake("crash-at-first") + "\n  " + calm
+        manifest = self.manifest("1-3", "never", systems)
+        self.campaign("run", manifest, "--jobs", "4")
+        self.assertIn("fake: 0 solved, 0 not, 12 failed", self.campaign("status", manifest))
+        self.assertIn("12 jobs are open", self.campaign("reopen", manifest))
+        self.assertIn("0 jobs are open", self.campaign("reopen", manifest))
+        status = self.campaign("status", manifest, code=30)
+        self.assertIn("left       at most 12", status)
+        self.assertNotIn("fake:", status)
+        self.campaign("merge", manifest, code=30)
+        self.assertEqual(len(self.table()), 12)
+        self.campaign("resume", manifest, "--jobs", "4")
+        self.assertEqual(set(self.starts().values()), {2})
+        status = self.campaign("status", manifest)
+        self.assertIn("calm: 12 solved, 0 not, 0 failed", status)
+        self.assertIn("fake: 12 solved, 0 not, 0 failed", status)
+        self.campaign("merge", manifest)
+        self.assertEqual([row["status"] for row in self.table() if row["system"] == "fake"],
+                         ["infeasible"] * 12)
+
+    def test_a_ladder_that_ended_with_a_failure_goes_on(self):
+        manifest = self.manifest("1-3", "first", self.fake("crash-at-first"))
+        for rung in range(3):
+            self.campaign("run", manifest, "--jobs", "4")
+            self.assertEqual(len(self.starts()), 4 * (rung + 1))
+            self.assertIn("4 jobs are open", self.campaign("reopen", manifest))
+        self.campaign("run", manifest)
+        self.assertEqual({row["status"] for row in
+                          [json.loads(line) for line in self.lines()][-4:]}, {"infeasible"})
+
     def test_a_full_disk_ends_the_run_and_leaves_whole_rows(self):
         manifest = self.manifest("1:8:1")
         self.campaign("run", manifest, "--jobs", "2")

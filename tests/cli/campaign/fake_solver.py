@@ -39,7 +39,10 @@ def main():
             file.flush()
             file.seek(0)
             tries = file.read().count(f"{scenario} {agents}\n")
-    if behaviour == "sleep-at-first" and tries == 1:
+    if behaviour == "crash-at-first" and tries == 1:
+        print("bad luck", file=sys.stderr)
+        sys.exit(70)
+    elif behaviour == "sleep-at-first" and tries == 1:
         time.sleep(60)
     elif behaviour == "sleep":
         time.sleep(60)

@@ -72,6 +72,23 @@ class Slurm(CampaignCase):
         self.campaign("status", manifest)
         self.assertIn("nothing is left", self.campaign("submit", manifest))
 
+    def test_a_requeued_task_doubles_nothing(self):
+        manifest = self.sixty_jobs(chunk=20)
+        with Cluster() as cluster:
+            self.campaign("submit", manifest, env=cluster.environment)
+            self.wait(cluster, lambda: len(self.lines()) >= 6)
+            tasks = [line.split()[0] for line in cluster.queue() if line.endswith("RUNNING")]
+            self.assertTrue(tasks)
+            requeued = cluster.call("scontrol", "requeue", tasks[0])
+            self.assertEqual(requeued.returncode, 0, requeued.stderr)
+            self.assertLess(len(self.lines()), 60)
+            # It starts again when its old credential has expired: cred_expire of the cluster.
+            self.wait(cluster, lambda: cluster.queue() == [])
+        self.assertEqual(len(self.rows()), 60)
+        # Those of the requeued task that ran just then may have been begun twice, none more often.
+        self.assertLessEqual(len(self.read("starts").splitlines()), 61)
+        self.campaign("status", manifest)
+
     def test_without_slurm(self):
         manifest = self.manifest("2")
         out = self.campaign("submit", manifest, code=74, env={"PATH": self.folder})
