@@ -32,6 +32,18 @@ namespace quadrille::fleet {
   return exact >= value || value - exact <= 1e-9 * value ? *nearest : *nearest + 1;
 }
 
+/// Up or down to a whole tick; a number that differs from one by a billionth is meant to be that.
+[[nodiscard]] inline std::optional<continuous::Ticks> time_to_units(
+    Seconds time, bool is_up, const continuous::Resolution& resolution) {
+  const double value = time.value();
+  const auto nearest = continuous::quantise_time(value, resolution);
+  if (!nearest) return std::nullopt;
+  const double exact = continuous::in_input_units(*nearest, resolution);
+  if (std::abs(value - exact) <= 1e-9 * value) return *nearest;
+  if (is_up) return exact >= value ? *nearest : *nearest + 1;
+  return exact <= value ? *nearest : *nearest - 1;
+}
+
 [[nodiscard]] inline Point in_metres(const continuous::Point& point,
                                      const continuous::Resolution& resolution) {
   return {Metres(continuous::in_input_units(point.x, resolution)),

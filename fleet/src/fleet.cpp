@@ -4,6 +4,7 @@
 #include <set>
 
 #include "conversions.hpp"
+#include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::fleet {
@@ -51,8 +52,25 @@ Robot Robot::to(VertexId goal) const {
   return *this;
 }
 
+Robot Robot::release(Seconds time) const {
+  fleet_->robots_[id_].release = time;
+  return *this;
+}
+
+Robot Robot::deadline(std::optional<Seconds> time) const {
+  fleet_->robots_[id_].deadline = time;
+  return *this;
+}
+
+Robot Robot::leaves(bool does) const {
+  fleet_->robots_[id_].leaves = does;
+  return *this;
+}
+
 Robot Fleet::robot(RobotSpec spec) {
-  robots_.push_back({std::move(spec), std::nullopt, std::nullopt});
+  Entry entry;
+  entry.spec = std::move(spec);
+  robots_.push_back(std::move(entry));
   return {*this, AgentId(robots_.size() - 1)};
 }
 
@@ -77,44 +95,142 @@ std::optional<AgentId> Fleet::find(std::string_view name) const {
   return std::nullopt;
 }
 
-Result<std::vector<continuous::Agent>> Fleet::agents() const {
+std::string Fleet::obstacle_name(std::size_t index) const {
+  QUADRILLE_REQUIRE(index < obstacles_.size(), "an obstacle of this fleet");
+  const std::string& name = obstacles_[index].name;
+  return name.empty() ? "obstacle " + std::to_string(index) : name;
+}
+
+Result<continuous::Agent> Fleet::agent(AgentId id) const {
   const continuous::Resolution resolution = roadmap_.unit_sizes();
+  const Entry& entry = robots_[id];
+  const std::string name = "'" + this->name(id) + "' ";
+  if (!entry.start || !entry.goal)
+    return invalid(name + "has no " + (entry.start ? "goal" : "start"));
+  const auto body =
+      std::visit([&](const auto& shape) { return to_units(shape, resolution); }, entry.spec.body);
+  if (!body) return Error{body.error().code, name + body.error().message, {}};
+  const auto speed = continuous::quantise_speed(entry.spec.speed.value(), resolution);
+  if (!speed)
+    return out_of_range(name + "has a speed of " + to_string(entry.spec.speed) +
+                        ", which is not supported");
+  continuous::Agent agent{*entry.start, *entry.goal, *body, *speed};
+  if (entry.spec.group) {
+    if (entry.spec.group->index() < 1 || entry.spec.group->index() > roadmap_.num_groups())
+      return invalid(name + "is of a group that the roadmap does not have");
+    agent.group = *entry.spec.group;
+  }
+  const auto release = time_to_units(entry.release, true, resolution);
+  if (!release)
+    return out_of_range(name + "is released at " + to_string(entry.release) +
+                        ", which is negative, or too late");
+  agent.release = *release;
+  if (entry.deadline) {
+    agent.deadline = time_to_units(*entry.deadline, false, resolution);
+    if (!agent.deadline)
+      return out_of_range(name + "has its deadline at " + to_string(*entry.deadline) +
+                          ", which is negative, or too late");
+  }
+  agent.leaves = entry.leaves;
+  return agent;
+}
+
+Result<std::vector<continuous::Agent>> Fleet::agents() const {
   std::vector<continuous::Agent> agents;
   std::set<std::string> names;
   for (const AgentId id : robot_ids()) {
-    const Entry& entry = robots_[id];
-    const std::string quoted = "'" + this->name(id) + "'", name = quoted + " ";
-    if (!names.insert(name).second) return invalid("two robots are called " + quoted);
-    if (!entry.start || !entry.goal)
-      return invalid(name + "has no " + (entry.start ? "goal" : "start"));
-    const auto body =
-        std::visit([&](const auto& shape) { return to_units(shape, resolution); }, entry.spec.body);
-    if (!body) return Error{body.error().code, name + body.error().message, {}};
-    const auto speed = continuous::quantise_speed(entry.spec.speed.value(), resolution);
-    if (!speed)
-      return out_of_range(name + "has a speed of " + to_string(entry.spec.speed) +
-                          ", which is not supported");
-    agents.push_back({*entry.start, *entry.goal, *body, *speed});
+    const std::string name = "'" + this->name(id) + "'";
+    if (!names.insert(name).second) return invalid("two robots are called " + name);
+    auto agent = this->agent(id);
+    if (!agent) return agent.error();
+    agents.push_back(std::move(agent).value());
   }
   return agents;
 }
 
+Result<std::vector<continuous::MovingObstacle>> Fleet::obstacles_in_units() const {
+  const continuous::Resolution resolution = roadmap_.unit_sizes();
+  std::vector<continuous::MovingObstacle> obstacles;
+  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+    const MovingObstacle& obstacle = obstacles_[o];
+    const std::string name = "'" + obstacle_name(o) + "' ";
+    const auto body =
+        std::visit([&](const auto& shape) { return to_units(shape, resolution); }, obstacle.body);
+    if (!body) return Error{body.error().code, name + body.error().message, {}};
+    if (obstacle.path.empty()) return invalid(name + "has no stops");
+    continuous::MovingObstacle made{*body, {}, obstacle.leaves};
+    for (const MovingObstacle::Stop& stop : obstacle.path) {
+      const auto place = to_units(stop.place, resolution);
+      const auto arrive = continuous::quantise_time(stop.arrive.value(), resolution);
+      const auto depart = continuous::quantise_time(stop.depart.value(), resolution);
+      if (!place || !arrive || !depart)
+        return out_of_range(name +
+                            "has a stop that is too far away, negative in time, or too late");
+      if (*depart < *arrive || (!made.path.empty() && *arrive <= made.path.back().depart))
+        return invalid(name + "has times that do not increase at a resolution of " +
+                       to_string(roadmap_.resolution().time));
+      made.path.push_back({*place, *arrive, *depart});
+    }
+    obstacles.push_back(std::move(made));
+  }
+  return obstacles;
+}
+
 // Agents and edges are numbers in the errors of the layer below. What can still be wrong there is
 // found again here, in the words of the fleet.
-Error Fleet::in_words(const Error& error, const std::vector<continuous::Agent>& agents) const {
+Error Fleet::in_words(const Error& error, const std::vector<continuous::Agent>& agents,
+                      const std::vector<continuous::MovingObstacle>& obstacles) const {
   if (auto found = find_unsupported(agents)) return *found;
   if (auto found = find_overlap(agents, &continuous::Agent::start, "starts")) return *found;
   if (auto found = find_overlap(agents, &continuous::Agent::goal, "goals")) return *found;
-  for (std::size_t i = 0; i < agents.size(); ++i) {
-    const auto alone =
-        continuous::Instance::make(roadmap_.in_units(), {agents[i]}, roadmap_.unit_sizes());
-    if (alone) continue;
-    return {alone.error().code,
-            "'" + name(AgentId(i)) + "' cannot get from " + roadmap_.name(agents[i].start) +
-                " to " + roadmap_.name(agents[i].goal),
-            {}};
-  }
+  if (auto found = find_blocked_start(agents, obstacles)) return *found;
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    if (auto found = find_alone(agents[i], AgentId(i))) return *found;
   return error;
+}
+
+// What stands in the way of a robot that is alone.
+std::optional<Error> Fleet::find_alone(const continuous::Agent& agent, AgentId id) const {
+  const auto make = [&](const continuous::Agent& one) {
+    return continuous::Instance::make(roadmap_.in_units(), {one}, roadmap_.unit_sizes());
+  };
+  const auto alone = make(agent);
+  if (alone) return std::nullopt;
+  continuous::Agent patient = agent;
+  patient.deadline.reset();
+  const auto late = make(patient);
+  const std::string name = "'" + this->name(id) + "' cannot ";
+  if (!late)
+    return Error{
+        late.error().code,
+        name + "get from " + roadmap_.name(agent.start) + " to " + roadmap_.name(agent.goal),
+        {}};
+  const continuous::Ticks arrival = continuous::free_cost(*late, AgentId(0)).value();
+  return Error{alone.error().code,
+               name + "arrive before " + to_string(in_seconds(arrival, roadmap_.unit_sizes())) +
+                   ", and its deadline is " +
+                   to_string(in_seconds(*agent.deadline, roadmap_.unit_sizes())),
+               {}};
+}
+
+std::optional<Error> Fleet::find_blocked_start(
+    const std::vector<continuous::Agent>& agents,
+    const std::vector<continuous::MovingObstacle>& obstacles) const {
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    const continuous::MovingObstacle& obstacle = obstacles[o];
+    const std::string name = "'" + obstacle_name(o) + "'";
+    if (geometry::enclosing_radius(obstacle.body) > geometry::kMaxLength)
+      return out_of_range(name + " is too large");
+    if (obstacle.path.front().arrive > 0) continue;
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      if (geometry::bodies_overlap(agents[i].body, roadmap_.in_units()->position(agents[i].start),
+                                   obstacle.body, obstacle.path.front().at))
+        return Error{ErrorCode::no_plan,
+                     name + " is at the start of '" + this->name(AgentId(i)) + "' at " +
+                         roadmap_.name(agents[i].start),
+                     {}};
+  }
+  return std::nullopt;
 }
 
 std::optional<Error> Fleet::find_unsupported(const std::vector<continuous::Agent>& agents) const {
@@ -140,6 +256,7 @@ std::optional<Error> Fleet::find_overlap(const std::vector<continuous::Agent>& a
   const continuous::Roadmap& roads = *roadmap_.in_units();
   for (std::size_t j = 0; j < agents.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
+      if (end == &continuous::Agent::goal && (agents[i].leaves || agents[j].leaves)) continue;
       const VertexId v = agents[i].*end, w = agents[j].*end;
       if (geometry::bodies_overlap(agents[i].body, roads.position(v), agents[j].body,
                                    roads.position(w)))
@@ -154,8 +271,11 @@ std::optional<Error> Fleet::find_overlap(const std::vector<continuous::Agent>& a
 Result<continuous::Instance> Fleet::instance() const {
   auto agents = this->agents();
   if (!agents) return agents.error();
-  auto instance = continuous::Instance::make(roadmap_.in_units(), *agents, roadmap_.unit_sizes());
-  if (!instance) return in_words(instance.error(), *agents);
+  auto obstacles = obstacles_in_units();
+  if (!obstacles) return obstacles.error();
+  auto instance = continuous::Instance::make(roadmap_.in_units(), *agents, roadmap_.unit_sizes(),
+                                             {}, *obstacles);
+  if (!instance) return in_words(instance.error(), *agents, *obstacles);
   return instance;
 }
 

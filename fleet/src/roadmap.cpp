@@ -2,7 +2,8 @@
 #include "quadrille/fleet/roadmap.hpp"
 
 #include <cmath>
-#include <set>
+#include <map>
+#include <utility>
 
 #include "conversions.hpp"
 
@@ -54,16 +55,19 @@ VertexId RoadmapBuilder::vertex(Metres x, Metres y, std::string name) {
   return VertexId(places_.size() - 1);
 }
 
-RoadmapBuilder& RoadmapBuilder::road(VertexId a, VertexId b) { return lane(a, b).lane(b, a); }
+RoadmapBuilder& RoadmapBuilder::road(VertexId a, VertexId b, LaneSpec spec) {
+  return lane(a, b, spec).lane(b, a, std::move(spec));
+}
 
-RoadmapBuilder& RoadmapBuilder::lane(VertexId from, VertexId to) {
-  lanes_.emplace_back(from, to);
+RoadmapBuilder& RoadmapBuilder::lane(VertexId from, VertexId to, LaneSpec spec) {
+  lanes_.push_back({from, to, std::move(spec)});
   return *this;
 }
 
 RoadmapBuilder& RoadmapBuilder::close(VertexId a, VertexId b) {
-  std::erase_if(
-      lanes_, [&](const auto& lane) { return lane == std::pair(a, b) || lane == std::pair(b, a); });
+  std::erase_if(lanes_, [&](const Lane& lane) {
+    return (lane.from == a && lane.to == b) || (lane.from == b && lane.to == a);
+  });
   return *this;
 }
 
@@ -94,7 +98,41 @@ Result<std::vector<continuous::Point>> RoadmapBuilder::rounded_places() const {
   return points;
 }
 
+Result<std::vector<continuous::Edge>> RoadmapBuilder::edges(
+    const std::vector<continuous::Point>& points) const {
+  std::vector<continuous::Edge> edges;
+  std::map<std::pair<VertexId, VertexId>, continuous::Groups> known;
+  for (const Lane& lane : lanes_) {
+    const VertexId from = lane.from, to = lane.to;
+    const std::string what = "a lane from " + name_of(from) + " to " + name_of(to);
+    for (const VertexId end : {from, to})
+      if (end.index() >= places_.size())
+        return invalid(what + ": there are only " + std::to_string(places_.size()) + " vertices");
+    if (points[from.index()] == points[to.index()])
+      return invalid(what + ": both are in the same place" +
+                     (from == to ? "" : " at a resolution of " + to_string(resolution_.length)));
+    continuous::Groups open_to =
+        lane.spec.only.empty() ? continuous::Groups::all() : continuous::Groups{};
+    for (const Group group : lane.spec.only) {
+      if (group.index() < 1 || group.index() > num_groups_)
+        return invalid(what + ": it is for a group that this builder has not made");
+      open_to.insert(group);
+    }
+    const auto [at, is_new] = known.try_emplace({from, to}, open_to);
+    if (is_new)
+      edges.push_back({from, to, std::nullopt, open_to});
+    else if (at->second != open_to)
+      return invalid(what + ": it is given twice, to different groups");
+  }
+  return edges;
+}
+
 Result<Roadmap> RoadmapBuilder::build() const {
+  if (num_groups_ >= continuous::kMaxGroups)
+    return Error{ErrorCode::out_of_range,
+                 "there are " + std::to_string(num_groups_) + " groups, not at most " +
+                     std::to_string(continuous::kMaxGroups - 1),
+                 {}};
   auto points = rounded_places();
   if (!points) return points.error();
   std::map<std::string, VertexId, std::less<>> by_name;
@@ -102,23 +140,13 @@ Result<Roadmap> RoadmapBuilder::build() const {
     if (!names_[v].empty() && !by_name.emplace(names_[v], VertexId(v)).second)
       return invalid("two vertices are called '" + names_[v] + "'");
 
-  std::vector<continuous::Edge> edges;
-  std::set<std::pair<VertexId, VertexId>> known;
-  for (const auto& lane : lanes_) {
-    const VertexId from = lane.first, to = lane.second;
-    const std::string what = "a lane from " + name_of(from) + " to " + name_of(to);
-    for (const VertexId end : {from, to})
-      if (end.index() >= places_.size())
-        return invalid(what + ": there are only " + std::to_string(places_.size()) + " vertices");
-    if ((*points)[from.index()] == (*points)[to.index()])
-      return invalid(what + ": both are in the same place" +
-                     (from == to ? "" : " at a resolution of " + to_string(resolution_.length)));
-    if (known.insert(lane).second) edges.push_back({from, to, std::nullopt});
-  }
-  auto roads = continuous::Roadmap::make(std::move(points).value(), std::move(edges));
+  auto edges = this->edges(*points);
+  if (!edges) return edges.error();
+  auto roads = continuous::Roadmap::make(std::move(points).value(), std::move(edges).value());
   if (!roads) return roads.error();
   Roadmap roadmap;
   roadmap.resolution_ = resolution_;
+  roadmap.num_groups_ = num_groups_;
   roadmap.roads_ = std::make_shared<const continuous::Roadmap>(std::move(roads).value());
   roadmap.names_ = std::make_shared<const std::vector<std::string>>(names_);
   roadmap.by_name_ =

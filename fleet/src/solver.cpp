@@ -26,6 +26,7 @@ continuous::SolveOptions in_units(const Fleet& fleet, const continuous::Resoluti
   result.limits.conflicts = options.limits.conflicts;
   result.limits.interrupt = options.limits.interrupt;
   result.gap_percent = options.gap_percent;
+  if (options.initial_plan) result.initial_plan = options.initial_plan->in_units();
   result.seed = options.seed;
   result.threads = options.threads;
   result.progress_interval_s = options.progress_interval.value();
@@ -47,6 +48,21 @@ continuous::SolveOptions in_units(const Fleet& fleet, const continuous::Resoluti
   return result;
 }
 
+/// In the words of the fleet; the layer below would have agents and ticks.
+std::optional<Error> refuse_initial_plan(const Fleet& fleet, const SolveOptions& options) {
+  if (!options.initial_plan) return std::nullopt;
+  const continuous::Resolution given = options.initial_plan->instance().resolution();
+  const continuous::Resolution own = fleet.roadmap().unit_sizes();
+  if (given.length != own.length || given.time != own.time)
+    return Error{ErrorCode::invalid_plan, "the initial plan has another resolution", {}};
+  const auto report = verify(fleet, options.initial_plan->in_units());
+  if (!report) return report.error();
+  if (report->valid()) return std::nullopt;
+  return Error{ErrorCode::invalid_plan,
+               "the initial plan is none: " + report->violations.front().message,
+               {}};
+}
+
 }  // namespace
 
 Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
@@ -58,6 +74,7 @@ Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
     return outcome;
   }
   if (!instance) return instance.error();
+  if (auto error = refuse_initial_plan(fleet, options)) return *std::move(error);
   const continuous::Resolution resolution = instance->resolution();
   auto solved = continuous::solve(*instance, in_units(fleet, resolution, options));
   if (!solved) return solved.error();

@@ -94,6 +94,13 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
   return TimedPlan(std::make_shared<const State>(std::move(state)));
 }
 
+MovingObstacle as_obstacle(const Fleet& fleet, const TimedPlan& plan, AgentId robot) {
+  MovingObstacle obstacle{plan[robot].name(), fleet.spec(robot).body, {}, fleet.leaves(robot)};
+  for (const Stop& stop : plan[robot].stops())
+    obstacle.path.push_back({stop.place, stop.arrive, stop.depart});
+  return obstacle;
+}
+
 std::string TimedPlan::summary() const {
   std::string text;
   for (const TimedPath& path : state_->paths) {

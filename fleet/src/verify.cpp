@@ -34,6 +34,16 @@ std::string message(const Fleet& fleet, const continuous::Violation& violation,
       return robot + "moves along no lane at " + when;
     case Kind::duration:
       return robot + "takes longer or shorter for a lane than it does at its speed, at " + when;
+    case Kind::too_early:
+      return robot + "begins a move at " + when + ", before its release at " +
+             to_string(fleet.release(violation.agent));
+    case Kind::too_late:
+      return robot + "arrives at " + when + ", after its deadline at " +
+             to_string(fleet.deadline(violation.agent).value_or(Seconds(0)));
+    case Kind::closed_edge:
+      return robot + "moves along a lane that is not for it, at " + when;
+    case Kind::obstacle:
+      return robot + "and an obstacle collide in the move or wait that begins at " + when;
     case Kind::collision:
       return robot + "and '" + fleet.name(violation.other.value_or(violation.agent)) +
              "' collide in the move or wait that begins at " + when;

@@ -44,7 +44,29 @@ struct RobotSpec {
   /// On all lanes. How long a lane takes is rounded to the nearest multiple of the resolution of
   /// time, so that a robot may be faster or slower by up to half of that per lane.
   MetresPerSecond speed = {};
+  /// It may use lanes for all, and those that are reserved for this group.
+  std::optional<Group> group = {};
   friend bool operator==(const RobotSpec&, const RobotSpec&) = default;
+};
+
+/// Something that moves as is known, and for which nobody plans: a robot of another fleet, say. The
+/// robots keep clear of it as of each other.
+struct MovingObstacle {
+  /// At `place` from `arrive` to `depart`.
+  struct Stop {
+    Point place;
+    Seconds arrive;
+    Seconds depart;
+    friend bool operator==(const Stop&, const Stop&) = default;
+  };
+  std::string name = {};        ///< Without one it is called "obstacle 3", by its number.
+  Body body = Disc(Metres(0));  ///< Has to be given.
+  /// It goes straight and at constant speed from each stop to the next, which it reaches later. It
+  /// is nowhere before the first one. Places and times are rounded to the nearest multiples of the
+  /// resolution.
+  std::vector<Stop> path = {};
+  bool leaves = false;  ///< It vanishes at its last departure, and does not stay for ever.
+  friend bool operator==(const MovingObstacle&, const MovingObstacle&) = default;
 };
 
 class Fleet;
@@ -57,6 +79,15 @@ class Robot {
   Robot from(VertexId start) const;  // NOLINT: part of a chain
   /// Where it goes, and stays. Requires a vertex of the roadmap.
   Robot to(VertexId goal) const;  // NOLINT: part of a chain
+
+  /// It begins no move before this time, rounded up. At its start it is from the beginning all the
+  /// same, in the way of others, and its cost counts from there.
+  Robot release(Seconds time) const;  // NOLINT: part of a chain
+  /// It arrives at its goal for good by this time, rounded down; a plan in which it does not is
+  /// none. nullopt: whenever.
+  Robot deadline(std::optional<Seconds> time) const;  // NOLINT: part of a chain
+  /// It vanishes when it arrives at its goal, and does not stay there.
+  Robot leaves(bool does = true) const;  // NOLINT: part of a chain
 
   [[nodiscard]] AgentId id() const noexcept { return id_; }
   operator AgentId() const noexcept { return id_; }  // NOLINT: an id is all that others need
@@ -90,22 +121,43 @@ class Fleet {
   /// nullopt as long as it has not been told.
   [[nodiscard]] std::optional<VertexId> start(AgentId id) const { return robots_[id].start; }
   [[nodiscard]] std::optional<VertexId> goal(AgentId id) const { return robots_[id].goal; }
+  [[nodiscard]] Seconds release(AgentId id) const { return robots_[id].release; }
+  [[nodiscard]] std::optional<Seconds> deadline(AgentId id) const { return robots_[id].deadline; }
+  [[nodiscard]] bool leaves(AgentId id) const { return robots_[id].leaves; }
+
+  /// Another obstacle. Whether it makes sense is checked by `instance`.
+  void obstacle(MovingObstacle obstacle) { obstacles_.push_back(std::move(obstacle)); }
+  void clear_obstacles() { obstacles_.clear(); }
+  [[nodiscard]] const std::vector<MovingObstacle>& obstacles() const noexcept { return obstacles_; }
+  /// Its name, for one that has none "obstacle 3". Requires an obstacle of this fleet.
+  [[nodiscard]] std::string obstacle_name(std::size_t index) const;
 
   /// The same in whole units, as the solver takes it. Errors name robots and vertices:
   /// invalid_instance for a robot without body, start or goal, a name given twice, a polygon that
-  /// is not convex; out_of_range for sizes and speeds that are not supported at this resolution;
-  /// no_plan for starts or goals that overlap and goals that cannot be reached.
+  /// is not convex, a group that the roadmap does not have, an obstacle without stops or whose
+  /// times do not increase; out_of_range for sizes, speeds and times that are not supported at this
+  /// resolution; no_plan for starts that overlap, also with an obstacle, goals that overlap and
+  /// goals that cannot be reached, or not by the deadline.
   [[nodiscard]] Result<continuous::Instance> instance() const;
 
  private:
   friend class Robot;
   struct Entry {
     RobotSpec spec;
-    std::optional<VertexId> start, goal;
+    std::optional<VertexId> start = {}, goal = {};
+    Seconds release = {};
+    std::optional<Seconds> deadline = {};
+    bool leaves = false;
   };
   [[nodiscard]] Result<std::vector<continuous::Agent>> agents() const;
-  [[nodiscard]] Error in_words(const Error& error,
-                               const std::vector<continuous::Agent>& agents) const;
+  [[nodiscard]] Result<continuous::Agent> agent(AgentId id) const;
+  [[nodiscard]] Result<std::vector<continuous::MovingObstacle>> obstacles_in_units() const;
+  [[nodiscard]] Error in_words(const Error& error, const std::vector<continuous::Agent>& agents,
+                               const std::vector<continuous::MovingObstacle>& obstacles) const;
+  [[nodiscard]] std::optional<Error> find_alone(const continuous::Agent& agent, AgentId id) const;
+  [[nodiscard]] std::optional<Error> find_blocked_start(
+      const std::vector<continuous::Agent>& agents,
+      const std::vector<continuous::MovingObstacle>& obstacles) const;
   [[nodiscard]] std::optional<Error> find_unsupported(
       const std::vector<continuous::Agent>& agents) const;
   [[nodiscard]] std::optional<Error> find_overlap(const std::vector<continuous::Agent>& agents,
@@ -114,6 +166,7 @@ class Fleet {
 
   Roadmap roadmap_;
   IdVector<AgentId, Entry> robots_;
+  std::vector<MovingObstacle> obstacles_;
 };
 
 }  // namespace quadrille::fleet

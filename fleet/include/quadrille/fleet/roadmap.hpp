@@ -43,6 +43,15 @@ struct Resolution {
   friend constexpr bool operator==(const Resolution&, const Resolution&) = default;
 };
 
+/// A kind of robots, for which lanes can be reserved. Made by RoadmapBuilder::group.
+using Group = continuous::GroupId;
+
+/// Who may use a lane.
+struct LaneSpec {
+  std::vector<Group> only = {};  ///< Robots of these groups; none: all robots.
+  friend bool operator==(const LaneSpec&, const LaneSpec&) = default;
+};
+
 /// Vertices in the plane, joined by straight lanes. Immutable; cheap to copy.
 class Roadmap {
  public:
@@ -51,6 +60,8 @@ class Roadmap {
   /// Lanes go one way; a road is two of them.
   [[nodiscard]] std::size_t num_lanes() const noexcept { return roads_->num_edges(); }
   [[nodiscard]] IdRange<VertexId> vertex_ids() const { return IdRange<VertexId>(num_vertices()); }
+  /// That RoadmapBuilder::group has made.
+  [[nodiscard]] std::size_t num_groups() const noexcept { return num_groups_; }
 
   /// Where the vertex is, rounded to the resolution. Requires a vertex of this roadmap.
   [[nodiscard]] Point position(VertexId v) const;
@@ -74,6 +85,7 @@ class Roadmap {
   friend class RoadmapBuilder;
   Roadmap() = default;
   Resolution resolution_;
+  std::size_t num_groups_ = 0;
   std::shared_ptr<const continuous::Roadmap> roads_;
   std::shared_ptr<const std::vector<std::string>> names_;  // By vertex; empty for none.
   std::shared_ptr<const std::map<std::string, VertexId, std::less<>>> by_name_;
@@ -89,10 +101,12 @@ class RoadmapBuilder {
   VertexId vertex(const Point& place, std::string name = {}) {
     return vertex(place.x, place.y, std::move(name));
   }
+  /// A new group of robots: RobotSpec::group. At most continuous::kMaxGroups - 1.
+  Group group() { return Group(++num_groups_); }
   /// A road for both directions, or a lane for one. The roads of a roadmap are a set: one that is
-  /// there already stays as it is.
-  RoadmapBuilder& road(VertexId a, VertexId b);
-  RoadmapBuilder& lane(VertexId from, VertexId to);
+  /// there already may be given again, to the same groups.
+  RoadmapBuilder& road(VertexId a, VertexId b, LaneSpec spec = {});
+  RoadmapBuilder& lane(VertexId from, VertexId to, LaneSpec spec = {});
   /// Takes out what joins the two vertices, in both directions. Vertices keep their ids.
   RoadmapBuilder& close(VertexId a, VertexId b);
 
@@ -103,17 +117,25 @@ class RoadmapBuilder {
 
   /// Errors: out_of_range for a resolution that is not positive and for coordinates beyond 2^40
   /// times the resolution; invalid_instance for a name given twice, a lane from a vertex to itself,
-  /// between vertices in the same place once they are rounded, or with an end that does not exist.
+  /// between vertices in the same place once they are rounded, with an end that does not exist, for
+  /// a group that this builder has not made, or given twice to different groups.
   [[nodiscard]] Result<Roadmap> build() const;
 
  private:
+  struct Lane {
+    VertexId from, to;
+    LaneSpec spec;
+  };
   [[nodiscard]] std::string name_of(VertexId v) const;
   [[nodiscard]] Result<std::vector<continuous::Point>> rounded_places() const;
+  [[nodiscard]] Result<std::vector<continuous::Edge>> edges(
+      const std::vector<continuous::Point>& points) const;
 
   Resolution resolution_;
   std::vector<Point> places_;
   std::vector<std::string> names_;
-  std::vector<std::pair<VertexId, VertexId>> lanes_;
+  std::vector<Lane> lanes_;
+  std::size_t num_groups_ = 0;
 };
 
 }  // namespace quadrille::fleet

@@ -42,6 +42,10 @@ struct SolveOptions {
   Limits limits = {};
   /// Stop when the plan costs at most this many per cent more than the proven lower bound.
   std::optional<double> gap_percent = {};
+  /// A plan to begin with, so that no first one is looked for: the answer costs no more, whenever a
+  /// limit ends the search. It is verified first. One that was made for other roads or tasks will
+  /// do if it is a plan of this fleet, too; one in whole units becomes one by TimedPlan::make.
+  std::optional<TimedPlan> initial_plan = {};
   std::uint32_t seed = 0;   ///< 0 .. 2'000'000'000
   std::size_t threads = 1;  ///< 1 .. kMaxThreads
   /// Both are called on the solving thread, at most once in so many seconds; what they throw ends
@@ -72,7 +76,9 @@ struct SolveOutcome {
 /// Finds a plan of least cost among those whose departures are at multiples of the resolution of
 /// time. That there is no plan is an outcome, `infeasible`, and never an error: also where it can
 /// be seen at once, because starts or goals overlap or a goal cannot be reached. Errors: those of
-/// `fleet.instance()` but no_plan; out_of_range (an option). Otherwise as continuous::solve.
+/// `fleet.instance()` but no_plan; out_of_range (an option); invalid_plan (`initial_plan` is no
+/// plan of this fleet, with the first violation, or has another resolution). Otherwise as
+/// continuous::solve.
 [[nodiscard]] Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options = {});
 
 }  // namespace quadrille::fleet

@@ -124,6 +124,10 @@ class TimedPlan {
   std::shared_ptr<const State> state_;
 };
 
+/// What another fleet has to keep clear of, when the robot does what the plan says. `fleet`: whose
+/// plan it is. Requires a robot of the plan.
+[[nodiscard]] MovingObstacle as_obstacle(const Fleet& fleet, const TimedPlan& plan, AgentId robot);
+
 }  // namespace quadrille::fleet
 
 QUADRILLE_API_END

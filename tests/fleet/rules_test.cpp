@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+//
+// What fleets need: reserved lanes, releases, deadlines, robots that leave, moving obstacles, and
+// plans to begin with. That the layer below keeps the rules is tested there; here, that they
+// arrive.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fleet/support.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "quadrille/fleet/solver.hpp"
+#include "support/environment.hpp"
+#include "support/random.hpp"
+
+namespace quadrille::fleet {
+namespace {
+
+using namespace quadrille::units;
+
+const VertexId kA(0), kB(1), kC(2), kD(3);
+
+RobotSpec disc(std::string name) {
+  return {.name = std::move(name), .body = Disc(0.2_m), .speed = 1_mps};
+}
+
+TEST(FleetRules, LanesForSomeAreNotTakenByOthers) {
+  RoadmapBuilder roads;
+  const VertexId a = roads.vertex(0_m, 0_m), b = roads.vertex(1_m, 0_m);
+  const VertexId around = roads.vertex(0.5_m, 1.2_m);
+  const Group small = roads.group(), wide = roads.group();
+  roads.road(a, b, {.only = {small}}).road(a, around).road(around, b);
+  const Roadmap built = roads.build().value();
+  EXPECT_EQ(built.num_groups(), 2U);
+  const auto cost = [&](std::optional<Group> group) {
+    Fleet fleet(built);
+    RobotSpec spec = disc("p");
+    spec.group = group;
+    fleet.robot(spec).from(a).to(b);
+    return solve(fleet).value().cost.value();
+  };
+  EXPECT_EQ(cost(small), 1_s);
+  EXPECT_EQ(cost(wide), 2.6_s);
+  EXPECT_EQ(cost(std::nullopt), 2.6_s);
+}
+
+TEST(FleetRules, GroupsHaveToExistAndLanesToBeClear) {
+  RoadmapBuilder roads;
+  roads.vertex(0_m, 0_m, "a");
+  roads.vertex(1_m, 0_m, "b");
+  const Group small = roads.group();
+  RoadmapBuilder other = roads, twice = roads;
+  const Group unknown = other.group();
+  EXPECT_EQ(roads.lane(kA, kB, {.only = {unknown}}).build().error().message,
+            "a lane from 'a' to 'b': it is for a group that this builder has not made");
+  twice.lane(kA, kB, {.only = {small}}).lane(kA, kB, {.only = {small}});
+  EXPECT_EQ(twice.build().value().num_lanes(), 1U);
+  EXPECT_EQ(twice.lane(kA, kB).build().error().message,
+            "a lane from 'a' to 'b': it is given twice, to different groups");
+  EXPECT_EQ(twice.close(kA, kB).lane(kA, kB).build().value().num_lanes(), 1U);
+  Fleet fleet(twice.build().value());
+  RobotSpec spec = disc("p");
+  spec.group = unknown;
+  fleet.robot(spec).from(kA).to(kB);
+  EXPECT_EQ(fleet.instance().error().message, "'p' is of a group that the roadmap does not have");
+  for (int i = 0; i < 62; ++i) static_cast<void>(twice.group());
+  EXPECT_TRUE(twice.build().has_value());
+  static_cast<void>(twice.group());
+  EXPECT_EQ(twice.build().error().code, ErrorCode::out_of_range);
+}
+
+TEST(FleetRules, ReleasesAreRoundedUpAndDeadlinesDown) {
+  Fleet fleet(test::line(3, {.length = 1_mm, .time = 100_ms}));
+  const Robot robot = fleet.robot(disc("p")).from(kA).to(kC);
+  EXPECT_EQ(fleet.instance().value().agent(robot).deadline, std::nullopt);
+  robot.release(0.31_s).deadline(2.49_s).leaves();
+  const continuous::Agent agent = fleet.instance().value().agent(robot);
+  EXPECT_EQ(agent.release, continuous::Ticks{4});
+  EXPECT_EQ(agent.deadline, continuous::Ticks{24});
+  EXPECT_TRUE(agent.leaves);
+  EXPECT_EQ(solve(fleet).value().cost, 2.4_s);
+  // What is meant to be a multiple is one.
+  robot.release(3 * 0.1_s).deadline(24 * 0.1_s).leaves(false);
+  EXPECT_EQ(fleet.instance().value().agent(robot).release, continuous::Ticks{3});
+  EXPECT_EQ(fleet.instance().value().agent(robot).deadline, continuous::Ticks{24});
+  EXPECT_FALSE(fleet.leaves(robot));
+  robot.release(0.41_s);
+  EXPECT_EQ(solve(fleet).value().summary(),
+            "infeasible: 'p' cannot arrive before 2.5 s, and its deadline is 2.4 s");
+  robot.deadline(std::nullopt);
+  EXPECT_EQ(solve(fleet).value().cost, 2.5_s);
+  robot.release(-1_s);
+  EXPECT_EQ(solve(fleet).error().message,
+            "'p' is released at -1 s, which is negative, or too late");
+  robot.release(0_s).deadline(-1_s);
+  EXPECT_EQ(solve(fleet).error().code, ErrorCode::out_of_range);
+}
+
+TEST(FleetRules, WhoLeavesMakesRoom) {
+  Fleet fleet(test::line(4));
+  const Robot first = fleet.robot(disc("p")).from(kB).to(kC);
+  const Robot second = fleet.robot(disc("q")).from(kA).to(kD);
+  EXPECT_EQ(solve(fleet).value().status, Status::infeasible);
+  first.leaves();
+  EXPECT_EQ(solve(fleet).value().cost, 4_s);
+  second.to(kC);
+  EXPECT_EQ(solve(fleet).value().cost, 3_s);
+  first.leaves(false);
+  EXPECT_EQ(solve(fleet).value().summary(),
+            "infeasible: the goals of 'p' at c and 'q' at c overlap");
+}
+
+TEST(FleetRules, ObstaclesAreAvoided) {
+  Fleet fleet(test::line(3));
+  fleet.robot(disc("p")).from(kA).to(kC);
+  MovingObstacle cart{"cart", Disc(0.2_m), {{{1_m, 0_m}, 0.1_s, 3_s}}, true};
+  fleet.obstacle(cart);
+  EXPECT_EQ(solve(fleet).value().cost, 4.4_s);
+  fleet.clear_obstacles();
+  cart.path[0].place = {0.3_m, 0_m};
+  cart.path[0].arrive = 0_s;
+  fleet.obstacle(cart);
+  EXPECT_EQ(solve(fleet).value().summary(), "infeasible: 'cart' is at the start of 'p' at a");
+  cart.leaves = false;
+  cart.path = {{{1_m, 0_m}, 0.1_s, 0.1_s}};
+  fleet.clear_obstacles();
+  fleet.obstacle(cart);
+  EXPECT_EQ(solve(fleet).value().status, Status::infeasible);
+  cart.path.push_back({{1_m, 1_m}, 0.104_s, 1_s});
+  cart.name.clear();
+  fleet.obstacle(cart);
+  EXPECT_EQ(solve(fleet).error().message,
+            "'obstacle 1' has times that do not increase at a resolution of 0.01 s");
+  fleet.clear_obstacles();
+  fleet.obstacle({"cart", Disc(0.2_m), {}});
+  EXPECT_EQ(solve(fleet).error().message, "'cart' has no stops");
+}
+
+// Each robot of one fleet, planned one after the other around those before it: together they are a
+// plan of all.
+TEST(FleetRules, RobotsOfAnotherFleetAreObstacles) {
+  int num_solved = 0;
+  for (std::uint32_t seed = 0; seed < support::scaled(30); ++seed) {
+    SCOPED_TRACE(seed);
+    Fleet all = test::random_fleet(seed, 3);
+    for (const AgentId i : all.robot_ids()) all[i].leaves(i.index() % 2 == 0);
+    continuous::Plan together;
+    std::vector<MovingObstacle> known;
+    for (const AgentId i : all.robot_ids()) {
+      Fleet one(all.roadmap());
+      one.robot(all.spec(i)).from(*all.start(i)).to(*all.goal(i)).leaves(all.leaves(i));
+      for (const MovingObstacle& obstacle : known) one.obstacle(obstacle);
+      const SolveOutcome outcome = solve(one, {.limits = {.wall = 5_s}}).value();
+      if (!outcome.plan) break;
+      together.paths.push_back(outcome.plan->in_units().paths[AgentId(0)]);
+      known.push_back(as_obstacle(one, *outcome.plan, AgentId(0)));
+    }
+    if (together.paths.size() < all.num_robots() || !all.instance()) continue;
+    ++num_solved;
+    const VerifyReport report = verify(all, together).value();
+    EXPECT_TRUE(report.valid()) << report.violations.front().message;
+  }
+  EXPECT_GE(num_solved, static_cast<int>(support::scaled(30)) / 3);
+}
+
+TEST(FleetRules, ViolationsAreSaidInWords) {
+  Fleet fleet(test::line(3));
+  const Robot robot = fleet.robot(disc("p")).from(kA).to(kC);
+  const continuous::Plan plan = solve(fleet).value().plan->in_units();
+  const auto complaint = [&] { return verify(fleet, plan).value().violations.at(0).message; };
+  robot.release(0.5_s);
+  EXPECT_EQ(complaint(), "'p' begins a move at 0 s, before its release at 0.5 s");
+  robot.release(0_s);
+  fleet.obstacle({"cart", Disc(0.2_m), {{{1_m, 0_m}, 0.5_s, 3_s}}, true});
+  EXPECT_EQ(complaint().substr(0, 51), "'p' and an obstacle collide in the move or wait tha");
+}
+
+TEST(FleetRules, APlanToBeginWithIsHeldAgainstTheRules) {
+  Fleet fleet = test::random_fleet(4, 6);
+  ASSERT_TRUE(fleet.instance().has_value());
+  SolveOptions options;
+  options.gap_percent = 1000;
+  const SolveOutcome some = solve(fleet, options).value();
+  ASSERT_TRUE(some.plan.has_value());
+  options = {};
+  options.initial_plan = some.plan;
+  options.limits.wall = 0_s;
+  const SolveOutcome kept = solve(fleet, options).value();
+  ASSERT_TRUE(kept.plan.has_value());
+  EXPECT_EQ(kept.plan->in_units(), some.plan->in_units());
+  const AgentId robot(0);
+  fleet[robot].release(some.plan->makespan() + 1_s);
+  const Result<SolveOutcome> refused = solve(fleet, options);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::invalid_plan);
+  EXPECT_EQ(refused.error().message.substr(0, 49),
+            "the initial plan is none: 'robot 0' begins a move");
+  Fleet coarse(test::line(2, {.length = 1_cm, .time = 1_s}));
+  coarse.robot(disc("p")).from(kA).to(kB);
+  EXPECT_EQ(solve(coarse, options).error().message, "the initial plan has another resolution");
+}
+
+}  // namespace
+}  // namespace quadrille::fleet
