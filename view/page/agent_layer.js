@@ -22,14 +22,30 @@ export function drawAgents(context, state) {
   if (selected !== null) drawSelectedPath(context, state, selected);
   AGENT_COLOURS.forEach((colour, kind) => {
     context.fillStyle = colour;
-    context.beginPath();
+    // One by one: browsers fill many small paths sooner than one that covers the whole map.
     for (let i = kind; i < positions.length; i += AGENT_COLOURS.length)
-      traceBody(context, state.camera, scene.bodies[scene.agents[i].body], positions[i]);
-    context.fill();
+      fillBody(context, state.camera, scene.bodies[scene.agents[i].body], positions[i]);
   });
   outline(context, state, positions);
   if (state.showOrder) drawPrecedences(context, state);
   drawLabels(context, state, positions);
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Camera} camera
+ * @param {Body} body
+ * @param {Point} at
+ */
+function fillBody(context, camera, body, at) {
+  if (body.radius * camera.scale < 2) {
+    // As large as its dot would be; nobody sees that it is square.
+    context.fillRect(camera.toPixelX(at.x) - 1.75, camera.toPixelY(at.y) - 1.75, 3.5, 3.5);
+    return;
+  }
+  context.beginPath();
+  traceBody(context, camera, body, at);
+  context.fill();
 }
 
 /**

@@ -168,10 +168,10 @@ export function find(state, text) {
 export function updateControls(state) {
   const { player, scene } = state;
   const play = element("play", HTMLButtonElement);
-  play.textContent = player.playing ? "||" : "▶";
-  play.setAttribute("aria-label", player.playing ? "Pause" : "Play");
+  writeText(play, player.playing ? "||" : "▶");
+  writeAttribute(play, "aria-label", player.playing ? "Pause" : "Play");
   const time = element("time", HTMLInputElement);
-  time.max = String(scene.end);
+  writeAttribute(time, "max", String(scene.end));
   time.value = String(player.time);
   time.setAttribute("aria-valuetext", `${state.show(player.time)} of ${state.show(scene.end)}`);
   element("clock", HTMLElement).textContent = `${state.show(player.time)} / ${state.show(scene.end)}`;
@@ -182,7 +182,26 @@ export function updateControls(state) {
     ["swept", state.showSwept], ["order", state.showOrder], ["heat", state.showHeat],
     ["theme", state.dark], ["strip-mode", state.alongPath],
   ];
-  for (const [id, on] of pressed) element(id, HTMLElement).setAttribute("aria-pressed", String(on));
+  for (const [id, on] of pressed) writeAttribute(element(id, HTMLElement), "aria-pressed", String(on));
   for (const id of ["follow", "swept", "strip-mode"])
     element(id, HTMLButtonElement).disabled = state.selected === null;
+}
+
+// What is written again costs the browser a look at the whole page, even if nothing is different.
+
+/**
+ * @param {HTMLElement} target
+ * @param {string} text
+ */
+function writeText(target, text) {
+  if (target.textContent !== text) target.textContent = text;
+}
+
+/**
+ * @param {HTMLElement} target
+ * @param {string} name
+ * @param {string} value
+ */
+function writeAttribute(target, name, value) {
+  if (target.getAttribute(name) !== value) target.setAttribute(name, value);
 }

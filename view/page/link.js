@@ -40,16 +40,26 @@ export function followLink(state) {
   state.changed();
 }
 
+/** Browsers refuse a page that changes its address all the time, and it is slow. In milliseconds. */
+const LINK_PAUSE = 200;
+let linkIsDue = false;
+
 /**
- * Makes the page's address a link to what is shown. A page inside of another one may have no address.
+ * Makes the page's address a link to what is shown, soon. A page inside of another one may have no
+ * address.
  * @param {State} state
  */
 export function updateLink(state) {
-  const link = linkOf(state);
-  if (state.player.playing || window.location.hash === link) return;
-  try {
-    window.history.replaceState(null, "", link);
-  } catch {
-    // No address, no link.
-  }
+  if (state.player.playing || linkIsDue) return;
+  linkIsDue = true;
+  window.setTimeout(() => {
+    linkIsDue = false;
+    const link = linkOf(state);
+    if (state.player.playing || window.location.hash === link) return;
+    try {
+      window.history.replaceState(null, "", link);
+    } catch {
+      // No address, no link.
+    }
+  }, LINK_PAUSE);
 }
