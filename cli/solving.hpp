@@ -51,6 +51,8 @@ view::PageOptions page_options(const std::string& source, Objective objective,
   options.status = outcome.status;
   options.lower_bound = outcome.lower_bound;
   options.attribution = outcome.attribution;
+  if (outcome.status == Status::infeasible)
+    options.obstruction = view::Obstruction{outcome.explanation, {}, {}};
   return options;
 }
 
@@ -96,7 +98,9 @@ ExitCode solve_and_deliver(const Domain& domain, const SolveArguments& arguments
   delivery.write_plan(plan);
   if (delivery.has_json_file()) delivery.write_json(domain.json(outcome, replay));
   if (delivery.has_view_file())
-    delivery.write_view(outcome.plan ? std::optional(domain.page(outcome)) : std::nullopt);
+    delivery.write_view(outcome.plan || outcome.status == Status::infeasible
+                            ? std::optional(domain.page(outcome))
+                            : std::nullopt);
   if (delivery.has_svg_file())
     delivery.write_svg(outcome.plan ? std::optional(domain.drawing(*outcome.plan)) : std::nullopt);
   const bool draw = outcome.plan && !delivery.has_plan_file();

@@ -101,7 +101,12 @@ class GridSolve {
     return result_json(instance(), arguments_, outcome, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
-    return view::page(instance(), *outcome.plan, page_options(input_.source, objective(), outcome));
+    view::PageOptions options = page_options(input_.source, objective(), outcome);
+    if (options.obstruction) {
+      discrete::Feasibility found = check_feasibility(instance());
+      options.obstruction = {found.reason, std::move(found.agents), std::move(found.vertices)};
+    }
+    return view::page(instance(), outcome.plan.value_or(discrete::Plan{}), options);
   }
   [[nodiscard]] Result<std::string> drawing(const discrete::Plan& plan) const {
     return view::picture(instance(), plan, arguments_.picture.options);

@@ -2,7 +2,7 @@
 // What a page says of why no plan is cheaper, and of who goes first.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { Laboratory, until } from "./browser.js";
 
@@ -45,6 +45,31 @@ test("the bar and the list: free costs and raises make the bound", async () => {
     assert.equal(await page.locator("#raise-list button").count(), raises.length);
     await visit.leave();
   }
+});
+
+test("without a plan: the sentence, the agents, and the place in red", async () => {
+  const at = (/** @type {string} */ name) => `${laboratory.folder}/${name}`;
+  writeFileSync(at("corridor.map"), "type octile\nheight 1\nwidth 9\nmap\n.........\n");
+  const entry = (/** @type {number} */ from, /** @type {number} */ to) => `0\tm\t9\t1\t${from}\t0\t${to}\t0\t0\n`;
+  writeFileSync(at("corridor.scen"), `version 1\n${entry(1, 6)}${entry(5, 2)}${entry(8, 8)}`);
+  const input = ["--map", at("corridor.map"), "--scen", at("corridor.scen"), "--agents", "3"];
+  const outputs = ["--quiet", "--json", at("no.json"), "--view", at("no.html")];
+  assert.throws(() => laboratory.run("solve", ...input, ...outputs), { status: 20 });
+  const { explanation, status } = JSON.parse(readFileSync(at("no.json"), "utf8"));
+  assert.equal(status, "infeasible");
+  const visit = await laboratory.visit(at("no.html"));
+  const { page } = visit;
+  assert.equal(await visit.text("obstruction-text"), `${explanation}.`);
+  assert.match(await visit.text("summary"), /no plan exists · infeasible$/);
+  assert.ok(await page.locator("#violations").isHidden());
+  assert.deepEqual(await page.locator("#obstruction-list button").allTextContents(),
+    ["agent 0: (1, 0) to (6, 0)", "agent 1: (5, 0) to (2, 0)"]);
+  const [x, y] = await page.evaluate("quadrille.pixelOf(4, 0)");
+  const [r, g] = (await pixel(page, "map", x, y + 8)).split(" ").map(Number);
+  assert.ok(r > g + 40, `${r} ${g}`);
+  await page.locator("#obstruction-list button").nth(1).click();
+  assert.equal(await page.evaluate("quadrille.selected()"), 1);
+  await visit.leave();
 });
 
 test("a page without an attribution shows nothing of it", async () => {

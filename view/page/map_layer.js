@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 /** @import {Camera} from "./camera.js" */
-/** @import {Agent, Cells} from "./scene.js" */
+/** @import {Agent, Cells, Obstruction} from "./scene.js" */
 /** @import {State} from "./state.js" */
 import { drawHeat } from "./attribution.js";
 import { agentColour, AGENT_COLOURS } from "./palette.js";
@@ -51,6 +51,7 @@ export class MapLayer {
     else this.drawRoads(context);
     if (showHeat) drawHeat(context, this.state);
     if (showPaths) this.drawPaths(context);
+    if (scene.obstruction !== null) drawObstruction(context, this.state, scene.obstruction);
     if (showGoals) for (const agent of scene.agents) drawEnds(context, camera, agent, this.state);
   }
 
@@ -211,4 +212,34 @@ function drawEnds(context, camera, agent, state) {
   context.beginPath();
   context.arc(camera.toPixelX(agent.start.x), camera.toPixelY(agent.start.y), size, 0, 2 * Math.PI);
   context.stroke();
+}
+
+/**
+ * The place where no two can pass, and where the agents want to go that the reason names.
+ * @param {CanvasRenderingContext2D} context
+ * @param {State} state
+ * @param {Obstruction} obstruction
+ */
+function drawObstruction(context, state, { agents, points }) {
+  const { scene, camera, theme } = state;
+  const unit = scene.cells === null ? camera.smallest() : 0.5 * scene.cells.pitch;
+  const width = Math.max(6, unit * camera.scale);
+  context.globalAlpha = 0.5;
+  context.fillStyle = theme.alarm;
+  for (const { x, y } of points) {
+    context.beginPath();
+    context.arc(camera.toPixelX(x), camera.toPixelY(y), width / 2, 0, 2 * Math.PI);
+    context.fill();
+  }
+  context.globalAlpha = 1;
+  context.setLineDash([6, 4]);
+  context.lineWidth = 2;
+  for (const { index, start, goal } of agents.map((agent) => scene.agents[agent])) {
+    context.strokeStyle = agentColour(index);
+    context.beginPath();
+    context.moveTo(camera.toPixelX(start.x), camera.toPixelY(start.y));
+    context.lineTo(camera.toPixelX(goal.x), camera.toPixelY(goal.y));
+    context.stroke();
+  }
+  context.setLineDash([]);
 }

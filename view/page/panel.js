@@ -32,12 +32,13 @@ export function placeName(state, point) {
 export function summaryOf(state) {
   const { scene } = state;
   const parts = [`${scene.agents.length} ${scene.agents.length === 1 ? "agent" : "agents"}`];
-  if (scene.violations.length > 0)
+  if (scene.obstruction !== null) parts.push("no plan exists");
+  else if (scene.violations.length > 0)
     parts.push(`${scene.violations.length} ${scene.violations.length === 1 ? "violation" : "violations"}`);
   else
     parts.push(`sum of costs ${state.show(scene.sumOfCosts)}`, `makespan ${state.show(scene.makespan)}`);
   if (scene.status !== null) parts.push(scene.status);
-  if (scene.lowerBound !== null && scene.status !== "optimal")
+  if (scene.obstruction === null && scene.lowerBound !== null && scene.status !== "optimal")
     parts.push(`lower bound ${state.show(scene.lowerBound)} (${scene.objective})`);
   if (!scene.hasLayout) parts.push("positions are made up");
   if (scene.hiddenLinks > 0) parts.push(`${scene.hiddenLinks} edges not shown`);
@@ -58,6 +59,7 @@ export class Panel {
     this.agentTitle = element("agent-title", HTMLElement);
     this.clearance = element("clearance-now", HTMLElement);
     element("summary", HTMLElement).textContent = summaryOf(state);
+    this.showObstruction();
     this.listViolations();
     this.listNearest();
     this.listDelays();
@@ -83,6 +85,18 @@ export class Panel {
     const rest = document.createElement("li");
     rest.textContent = `and ${entries.length - MOST_LISTED} more`;
     parent.append(rest);
+  }
+
+  showObstruction() {
+    const { state } = this;
+    const { obstruction, agents } = state.scene;
+    if (obstruction === null) return;
+    element("obstruction-text", HTMLElement).textContent = `${obstruction.reason}.`;
+    this.fill("obstruction", "obstruction-list", obstruction.agents.map((index) => ({
+      text: `agent ${index}: ${placeName(state, agents[index].start)} to ${placeName(state, agents[index].goal)}`,
+      time: 0, agents: [index],
+    })));
+    element("obstruction", HTMLElement).hidden = false;
   }
 
   listViolations() {

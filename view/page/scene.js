@@ -27,6 +27,9 @@
  * @typedef {{agents: number[], lines: Point[][], begin: number, end: number | null, lemmas: number}} Site
  * @typedef {{freeBound: number, lowerBound: number, raises: Raise[], sites: Site[]}} Attribution
  *
+ * Why there is no plan: the agents that the reason names, and the place, in the order of the way.
+ * @typedef {{reason: string, agents: number[], points: Point[]}} Obstruction
+ *
  * The leader has ended its move before the follower gets further than the slack behind it.
  * @typedef {{leader: number, leaderBegin: number, leaderEnd: number, follower: number,
  *   followerBegin: number, followerEnd: number, slack: number}} Precedence
@@ -54,6 +57,7 @@
  * @property {Violation[]} violations
  * @property {Nearness[]} nearest
  * @property {Attribution | null} attribution
+ * @property {Obstruction | null} obstruction
  * @property {Precedence[]} precedences
  * @property {{left: number, top: number, right: number, bottom: number}} box
  */
@@ -85,6 +89,8 @@ export function readScene(text) {
     hiddenLinks: data.hiddenLinks ?? 0, bodies, agents, violations: data.violations ?? [],
     nearest: (data.nearest ?? []).map(readNearness),
     attribution: data.attribution ? readAttribution(data.attribution) : null,
+    obstruction: data.obstruction
+      ? { ...data.obstruction, points: pairs(data.obstruction.points) } : null,
     precedences: readPrecedences(data.precedences ?? []),
     box: { left: 0, top: 0, right: 1, bottom: 1 },
   };

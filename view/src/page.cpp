@@ -15,7 +15,8 @@ namespace {
 std::string fill(const Scene& scene, PageOptions options) {
   if (options.title.empty()) {
     const std::size_t count = scene.agents.size();
-    options.title = "Plan of " + std::to_string(count) + (count == 1 ? " agent" : " agents");
+    options.title = (options.obstruction ? "No plan for " : "Plan of ") + std::to_string(count) +
+                    (count == 1 ? " agent" : " agents");
   }
   const PageParts parts = page_parts();
   std::string html;
@@ -42,6 +43,7 @@ std::string page(const discrete::Instance& instance, const discrete::Plan& plan,
   Scene scene = make_scene(instance, plan);
   if (options.attribution) add_attribution(instance, *options.attribution, scene);
   add_precedences(instance, plan, scene);
+  if (options.obstruction) scene.violations.clear();
   return fill(scene, options);
 }
 
@@ -50,6 +52,7 @@ std::string page(const continuous::Instance& instance, const continuous::Plan& p
   Scene scene = make_scene(instance, plan, grid);
   if (options.attribution) add_attribution(*options.attribution, scene);
   add_precedences(instance, plan, scene);
+  if (options.obstruction) scene.violations.clear();
   return fill(scene, options);
 }
 

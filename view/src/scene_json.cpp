@@ -172,6 +172,19 @@ Json attribution_json(const Scene& scene) {
   return json;
 }
 
+Json obstruction_json(const Scene& scene, const Obstruction& obstruction) {
+  Json json;
+  json["reason"] = obstruction.reason;
+  json["agents"] = Json::array();
+  for (const AgentId i : obstruction.agents) json["agents"].push_back(i.index());
+  json["points"] = Json::array();
+  for (const VertexId v : obstruction.vertices) {
+    json["points"].push_back(number(scene.places[v.index()].x));
+    json["points"].push_back(number(scene.places[v.index()].y));
+  }
+  return json;
+}
+
 /// Seven numbers each, one after the other.
 Json precedences_json(const Scene& scene) {
   Json list = Json::array();
@@ -220,6 +233,7 @@ std::string scene_json(const Scene& scene, const PageOptions& options) {
     json["nearest"].push_back({near.agent, near.other, near.gap, near.time});
 
   if (scene.has_attribution) json["attribution"] = attribution_json(scene);
+  if (options.obstruction) json["obstruction"] = obstruction_json(scene, *options.obstruction);
   json["precedences"] = precedences_json(scene);
 
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

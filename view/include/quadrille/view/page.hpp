@@ -3,12 +3,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/core/export.hpp"
+#include "quadrille/core/ids.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
@@ -16,6 +18,14 @@
 QUADRILLE_API_BEGIN
 
 namespace quadrille::view {
+
+/// Why an instance has no plan at all, such as `discrete::check_feasibility` finds it.
+struct Obstruction {
+  std::string reason;           ///< One sentence, UTF-8.
+  std::vector<AgentId> agents;  ///< Whom it names.
+  std::vector<VertexId>
+      vertices;  ///< And the place, in the order of the way through it; may be empty.
+};
 
 /// What is shown of a plan besides the plan.
 struct PageOptions {
@@ -25,6 +35,8 @@ struct PageOptions {
   std::optional<Cost> lower_bound;  ///< Of the objective, in timesteps or ticks.
   /// Why no plan is cheaper, of this instance; shown as places, pairs of agents and raises.
   std::optional<Attribution> attribution;
+  /// Shown instead of a plan and of what `verify` says: the plan should have no paths.
+  std::optional<Obstruction> obstruction;
 };
 
 /// One HTML page that plays the plan in a browser: a single text that needs no other file and no
