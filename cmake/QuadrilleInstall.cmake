@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Install rules and the package configuration for find_package(quadrille). Components: library (shared
-# libraries), dev, program, python, and licences, for which Debian's packages have a form of their own.
+# libraries), dev, ompl, program, python, and licences, for which Debian's packages have a form of their own.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -52,6 +52,14 @@ install(TARGETS ${quadrille_targets} EXPORT quadrilleTargets
   ARCHIVE COMPONENT dev)
 install(EXPORT quadrilleTargets NAMESPACE quadrille:: DESTINATION "${quadrille_package_dir}"
   COMPONENT dev)
+
+# What needs packages that most users do not have, as a component of its own.
+if(TARGET quadrille_ompl)
+  install(TARGETS quadrille_ompl EXPORT quadrilleOmplTargets ARCHIVE COMPONENT ompl)
+  install(EXPORT quadrilleOmplTargets NAMESPACE quadrille::
+    DESTINATION "${quadrille_package_dir}" COMPONENT ompl)
+  install(FILES cmake/FindQuadrilleOmpl.cmake DESTINATION "${quadrille_package_dir}" COMPONENT ompl)
+endif()
 
 # For users without CMake. The libraries that others depend on come last.
 get_property(libraries GLOBAL PROPERTY QUADRILLE_LIBRARIES)

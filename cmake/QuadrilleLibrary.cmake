@@ -26,23 +26,34 @@ function(quadrille_precompile target)
   endif()
 endfunction()
 
-# quadrille_add_library(<folder> HEADERS ... SOURCES ... [LINK folder...] [PRIVATE_LINK target...])
+# quadrille_add_library(<folder> [OPTIONAL] HEADERS ... SOURCES ... [LINK folder...]
+#   [PUBLIC_LINK target...] [PRIVATE_LINK target...])
 # Headers are relative to include/quadrille/<folder>, sources to src. LINK names folders of this
 # project, PRIVATE_LINK libraries from outside; one that consists of headers only has no business
-# with users of an installed package: name it as $<BUILD_INTERFACE:target>.
+# with users of an installed package: name it as $<BUILD_INTERFACE:target>. PUBLIC_LINK are those
+# that public headers name. An OPTIONAL library is no part of quadrille::quadrille, a component of the
+# package and of what is installed, and static always: it is small, and has no ABI to keep.
 function(quadrille_add_library folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK;PRIVATE_LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OPTIONAL" ""
+    "HEADERS;SOURCES;LINK;PUBLIC_LINK;PRIVATE_LINK")
   set(target quadrille_${folder})
   list(TRANSFORM arg_SOURCES PREPEND "src/")
   list(TRANSFORM arg_LINK PREPEND "quadrille_")
-  add_library(${target} ${arg_SOURCES})
+  set(kind)
+  set(component dev)
+  if(arg_OPTIONAL)
+    set(kind STATIC)
+    set(component ${folder})
+  endif()
+  add_library(${target} ${kind} ${arg_SOURCES})
   add_library(quadrille::${folder} ALIAS ${target})
   target_include_directories(${target}
     PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
       "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
     # Private headers are named with their room: "cost/descent.hpp".
     PRIVATE src)
-  target_link_libraries(${target} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
+  target_link_libraries(${target} PUBLIC ${arg_LINK} ${arg_PUBLIC_LINK}
+    PRIVATE ${arg_PRIVATE_LINK})
   quadrille_compile_options(${target})
   quadrille_precompile(${target})
   set_target_properties(${target} PROPERTIES
@@ -72,10 +83,14 @@ function(quadrille_add_library folder)
     set_property(GLOBAL APPEND PROPERTY QUADRILLE_HEADERS "quadrille/${folder}/${header}")
     if(QUADRILLE_INSTALL)
       install(FILES "include/quadrille/${folder}/${header}"
-        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder}" COMPONENT dev)
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder}" COMPONENT ${component})
     endif()
   endforeach()
-  set_property(GLOBAL APPEND PROPERTY QUADRILLE_LIBRARIES ${target})
+  if(arg_OPTIONAL)
+    set_property(GLOBAL APPEND PROPERTY QUADRILLE_OPTIONAL_LIBRARIES ${target})
+  else()
+    set_property(GLOBAL APPEND PROPERTY QUADRILLE_LIBRARIES ${target})
+  endif()
 endfunction()
 
 # The target quadrille_headers, which is built on demand: each public header compiles on its own, as
@@ -83,6 +98,7 @@ endfunction()
 function(quadrille_check_headers)
   get_property(headers GLOBAL PROPERTY QUADRILLE_HEADERS)
   get_property(libraries GLOBAL PROPERTY QUADRILLE_LIBRARIES)
+  get_property(optional GLOBAL PROPERTY QUADRILLE_OPTIONAL_LIBRARIES)
   set(sources)
   foreach(header IN LISTS headers)
     set(source "${CMAKE_CURRENT_BINARY_DIR}/headers/${header}.cpp")
@@ -90,7 +106,7 @@ function(quadrille_check_headers)
     list(APPEND sources "${source}")
   endforeach()
   add_library(quadrille_headers OBJECT EXCLUDE_FROM_ALL ${sources})
-  target_link_libraries(quadrille_headers PRIVATE ${libraries})
+  target_link_libraries(quadrille_headers PRIVATE ${libraries} ${optional})
   target_compile_features(quadrille_headers PRIVATE cxx_std_20)
   target_compile_options(quadrille_headers PRIVATE -O2 -Wall -Wextra -Werror)
 endfunction()

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: MIT
 # Debian packages, by `cpack` in a build of the preset `package`: libquadrille<version> (the shared
-# libraries), libquadrille-dev, quadrille (the program) and python3-quadrille. tests/package/check
-# looks at them.
+# libraries), libquadrille-dev, quadrille (the program), python3-quadrille, and, where OMPL was found,
+# libquadrille-ompl-dev. tests/package/check looks at them.
 
 set(quadrille_maintainer "The Quadrille authors <maintainers@quadrille.example>")
 set(name_library libquadrille${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(name_dev libquadrille-dev)
 set(name_program quadrille)
 set(name_python python3-quadrille)
+set(name_ompl libquadrille-ompl-dev)
 set(components library dev program)
+if(TARGET quadrille_ompl)
+  list(APPEND components ompl)
+endif()
 if(QUADRILLE_PYTHON)
   list(APPEND components python)
 endif()
@@ -86,6 +90,13 @@ quadrille_package(dev libdevel "headers" "This package contains the headers, and
 pkg-config.")
 set(CPACK_COMPONENT_DEV_DEPENDS library)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
+if(TARGET quadrille_ompl)
+  quadrille_package(ompl libdevel "bridge to OMPL" "This package contains a static library and headers that take over roadmaps
+from OMPL, and give it timed paths.")
+  set(CPACK_COMPONENT_OMPL_DEPENDS dev)
+  set(CPACK_DEBIAN_OMPL_PACKAGE_SHLIBDEPS OFF)
+  set(CPACK_DEBIAN_OMPL_PACKAGE_DEPENDS "libompl-dev, libboost-serialization-dev, libeigen3-dev")
+endif()
 quadrille_package(program science "program" "This package contains the program quadrille.")
 set(CPACK_COMPONENT_PROGRAM_DEPENDS library)
 if(QUADRILLE_PYTHON)
