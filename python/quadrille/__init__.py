@@ -12,6 +12,7 @@ A place on a grid is ``(x, y)``, column and row. On roadmaps, lengths and times 
 
 from ._core import __version__
 from ._errors import FileError, InputError, NoPlanError
+from .attribution import Attribution, Charge, Place, Raise, Reason, Site
 from .fleet import Fleet
 from .graphs import Graph, Grid, Roadmap
 from .plans import Plan, StepPath, StepPlan, TimedPath, TimedPlan
@@ -20,17 +21,23 @@ from .reports import Report, Violation
 from .solving import Progress, Result, Statistics, solve
 
 __all__ = [
+    "Attribution",
+    "Charge",
     "FileError",
     "Fleet",
     "Graph",
     "Grid",
     "InputError",
     "NoPlanError",
+    "Place",
     "Plan",
     "Progress",
+    "Raise",
+    "Reason",
     "Report",
     "Result",
     "Roadmap",
+    "Site",
     "Statistics",
     "StepPath",
     "StepPlan",

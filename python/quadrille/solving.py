@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Generic, NamedTuple, Optional, Union
 
 from . import _core
+from .attribution import Attribution, _attribution
 from .fleet import Fleet, P
 
 
@@ -83,6 +84,9 @@ class Result(Generic[P]):
     statistics: Statistics
     internal_error: Optional[str]
     """A check of the solver's own work that failed; the status is unknown then. Please report it."""
+    attribution: Optional[Attribution] = None
+    """With ``explain``: why no plan is cheaper. None for infeasible, and if a limit came before the
+    costs of the agents alone were known."""
 
     @property
     def gap(self) -> Optional[float]:
@@ -117,6 +121,7 @@ def solve(
     mdd_growth: Optional[str] = None,
     forbid_first: Optional[bool] = None,
     chronological: Optional[bool] = None,
+    explain: bool = False,
     audit: bool = False,
 ) -> Result[P]:
     """Finds a plan of least cost, or proves that there is none.
@@ -148,6 +153,8 @@ def solve(
         check: Of dpll-mdd: "watch" (default), "propagate", or shares such as "1/2,3/4".
         mdd_growth: Of the systems with decision diagrams: "on-demand" (default) or "full".
         forbid_first, chronological: Of dpll in timesteps; see the manual of the program.
+        explain: Say in ``attribution`` what the bound is made of. Of "dpll", on roadmaps of "smt-cbs"
+            too, with one thread.
         audit: Derive every lemma again by other means; slow.
 
     Returns:
@@ -176,6 +183,7 @@ def solve(
         mdd_growth=mdd_growth,
         forbid_first=forbid_first,
         chronological=chronological,
+        explain=explain,
         audit=audit,
         initial=None if initial is None else initial._plan,
     )
@@ -207,4 +215,5 @@ def solve(
         explanation=outcome["explanation"],
         statistics=Statistics(**outcome["statistics"]),
         internal_error=outcome["internal_error"],
+        attribution=_attribution(outcome["attribution"], cost),
     )

@@ -87,6 +87,7 @@ void set_common(Arguments& arguments, Options& options, const std::atomic<bool>&
   arguments.set_natural("seed", options.seed);
   arguments.set_natural("threads", options.threads);
   arguments.set("race", options.race);
+  arguments.set("explain", options.explain);
   arguments.set("audit", options.debug.audit);
   arguments.set("progress_interval", options.progress_interval_s);
   arguments.set("plan_interval", options.plan_interval_s);

@@ -37,6 +37,58 @@ def test_on_random_grids(tmp_path, objective):
     assert "optimal" in seen and (len(seen) == 2 or scaled(40) < 40)
 
 
+def plain(attribution, cost):
+    """As the program writes it, reasons apart. `cost`: to timesteps or ticks."""
+
+    def place(at):
+        write = lambda v: list(v) if isinstance(v, tuple) else v
+        return at and {"kind": at.kind, "from": write(at.start), "to": write(at.end)}
+
+    return {
+        "free_bound": cost(attribution.free_bound),
+        "lower_bound": cost(attribution.lower_bound),
+        "agents": [{"free_cost": cost(a.free_cost), "cost": cost(a.cost)} for a in attribution.agents],
+        "raises": [{"kind": r.kind, "amount": cost(r.amount), "agents": list(r.agents),
+                    "bystanders": list(r.bystanders)} for r in attribution.raises],
+        "sites": [{"agents": list(s.agents), "place": place(s.place), "other": place(s.other),
+                   "begin": cost(s.begin), "end": cost(s.end), "lemmas": s.lemmas}
+                  for s in attribution.sites],
+    }
+
+
+@pytest.mark.parametrize("make", [random_grid_fleet, random_roadmap_fleet])
+def test_attributions(tmp_path, make):
+    raised = 0
+    for seed in range(scaled(24)):
+        fleet = make(seed)
+        if fleet is None:
+            continue
+        fleet.save(tmp_path / "i.json")
+        options = {"objective": ("sum-of-costs", "makespan")[seed % 2], "seed": seed}
+        theirs = solve_by_program(tmp_path / "i.json", "--objective", options["objective"], "--seed", seed,
+                                  "--explain", "--conflict-limit", 300)
+        ours = q.solve(fleet, explain=True, conflict_limit=300, **options)
+        if theirs["attribution"] is None:
+            assert ours.attribution is None
+            continue
+        tick = theirs["cost"] / theirs["cost_ticks"] if theirs.get("cost_ticks") else 1
+        attribution = ours.attribution
+        assert plain(attribution, lambda c: None if c is None else round(c / tick)) == theirs["attribution"]
+        total = sum(reason.amount for reason in attribution.reasons)
+        assert total == pytest.approx(attribution.lower_bound - attribution.free_bound)
+        assert all(site in attribution.sites for reason in attribution.reasons for site in reason.sites)
+        assert str(attribution).startswith(f"bound {attribution.lower_bound:g}")
+        raised += bool(attribution.raises)
+        assert q.solve(fleet, conflict_limit=300, **options).attribution is None
+    assert raised > 1 or scaled(24) < 24
+
+
+def test_an_attribution_needs_a_system_that_has_one():
+    fleet = random_grid_fleet(1)
+    with pytest.raises(q.InputError):
+        q.solve(fleet, explain=True, system="mdd-sat")
+
+
 @pytest.mark.parametrize("objective", ["sum-of-costs", "makespan"])
 def test_on_random_roadmaps(tmp_path, objective):
     solved = 0

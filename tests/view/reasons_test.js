@@ -50,7 +50,8 @@ test("the bar and the list: free costs and raises make the bound", async () => {
 test("without a plan: the sentence, the agents, and the place in red", async () => {
   const at = (/** @type {string} */ name) => `${laboratory.folder}/${name}`;
   writeFileSync(at("corridor.map"), "type octile\nheight 1\nwidth 9\nmap\n.........\n");
-  const entry = (/** @type {number} */ from, /** @type {number} */ to) => `0\tm\t9\t1\t${from}\t0\t${to}\t0\t0\n`;
+  const entry = (/** @type {number} */ from, /** @type {number} */ to) =>
+    `0\tm\t9\t1\t${from}\t0\t${to}\t0\t0\n`;
   writeFileSync(at("corridor.scen"), `version 1\n${entry(1, 6)}${entry(5, 2)}${entry(8, 8)}`);
   const input = ["--map", at("corridor.map"), "--scen", at("corridor.scen"), "--agents", "3"];
   const outputs = ["--quiet", "--json", at("no.json"), "--view", at("no.html")];

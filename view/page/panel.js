@@ -92,10 +92,11 @@ export class Panel {
     const { obstruction, agents } = state.scene;
     if (obstruction === null) return;
     element("obstruction-text", HTMLElement).textContent = `${obstruction.reason}.`;
-    this.fill("obstruction", "obstruction-list", obstruction.agents.map((index) => ({
-      text: `agent ${index}: ${placeName(state, agents[index].start)} to ${placeName(state, agents[index].goal)}`,
-      time: 0, agents: [index],
-    })));
+    this.fill("obstruction", "obstruction-list", obstruction.agents.map((index) => {
+      const { start, goal } = agents[index];
+      const text = `agent ${index}: ${placeName(state, start)} to ${placeName(state, goal)}`;
+      return { text, time: 0, agents: [index] };
+    }));
     element("obstruction", HTMLElement).hidden = false;
   }
 
