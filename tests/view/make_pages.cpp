@@ -209,18 +209,52 @@ Json sample(Draw& draw, const continuous::Instance& instance, const continuous::
   return list;
 }
 
+/// [obstacle, time, x, y] at all stops, and [obstacle, time, null] where it is nowhere.
+Json obstacles_of(const continuous::Instance& instance) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < instance.obstacles().size(); ++k) {
+    const auto& [body, path, leaves] = instance.obstacles()[k];
+    const auto add = [&](Ticks tick, const continuous::MovingObstacle::Stop* stop) {
+      const double time = static_cast<double>(tick.count()) * kResolution;
+      if (stop == nullptr)
+        list.push_back({k, time, nullptr});
+      else
+        list.push_back({k, time, static_cast<double>(stop->at.x.count()) * kLengthResolution,
+                        static_cast<double>(stop->at.y.count()) * kLengthResolution});
+    };
+    for (const auto& stop : path) {
+      add(stop.arrive, &stop);
+      add(stop.depart, &stop);
+    }
+    add(path.front().arrive - 1, nullptr);
+    add(path.back().depart + 1, leaves ? nullptr : &path.back());
+  }
+  return list;
+}
+
+/// Per agent whether it is there at its arrival, and a tick later: [agent, arrival, later, there].
+Json presence_of(const continuous::Instance& instance, const continuous::Plan& plan) {
+  Json list = Json::array();
+  for (const AgentId i : instance.agent_ids()) {
+    const auto arrival = static_cast<double>(plan.paths[i].back().arrive.count());
+    list.push_back(
+        {i.index(), arrival * kResolution, (arrival + 1) * kResolution, !instance.agent(i).leaves});
+  }
+  return list;
+}
+
 void make_continuous(const std::string& name, std::uint32_t seed) {
   Draw draw(seed);
   continuous::test::RandomOptions random;
   random.num_agents = 2 + seed % 4;
   random.num_vertices = 8;
   random.polygon_percent = 40;
-  random.leaves_percent = 0;  // a page shows agents for ever
-  random.obstacles_percent = 0;
+  random.obstacles_percent = 50;
   const auto drawn = continuous::test::random_instance(seed, random);
   const auto instance =
       continuous::Instance::make(drawn.shared_roadmap(), drawn.agents().items(),
-                                 continuous::Resolution(kLengthResolution, kResolution))
+                                 continuous::Resolution(kLengthResolution, kResolution), {},
+                                 drawn.obstacles())
           .value();
   const continuous::Plan plan = random_plan(draw, instance);
   const auto report = verify(instance, plan);
@@ -229,6 +263,8 @@ void make_continuous(const std::string& name, std::uint32_t seed) {
   expected["title"] = "Plan of " + std::to_string(instance.num_agents()) + " agents";
   expected["agents"] = instance.num_agents();
   expected["positions"] = sample(draw, instance, plan);
+  expected["obstacles"] = obstacles_of(instance);
+  expected["present"] = presence_of(instance, plan);
   expected["violations"] = violations_of(report);
   expected["clearances"] = Json::array();
   for (const auto& c : report.clearances)

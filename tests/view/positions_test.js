@@ -55,6 +55,15 @@ async function compare(name) {
     near(Number((await page.locator("#nearest-list button").first().textContent()).split(" ")[0]),
       Number(least[2].toFixed(4)), "the first one in the list");
   }
+  for (const [k, time, x, y] of expected.obstacles ?? []) {
+    const at = await page.evaluate(`quadrille.obstacle(${k}, ${time})`);
+    if (x === null) assert.equal(at, null, `obstacle ${k} at ${time}`);
+    else assert.deepEqual(at, [x, y], `obstacle ${k} at ${time}`);
+  }
+  for (const [agent, arrival, later, stays] of expected.present ?? []) {
+    assert.ok(await page.evaluate(`quadrille.isPresent(${agent}, ${arrival})`), `agent ${agent}`);
+    assert.equal(await page.evaluate(`quadrille.isPresent(${agent}, ${later})`), stays, `agent ${agent}`);
+  }
   for (const [least, gaps] of found.moments) near(least, Math.min(...gaps), "at a moment");
   assert.deepEqual(found.violations.sort(), expected.violations.sort());
   await visit.leave();

@@ -5,7 +5,7 @@
 /** @import {State} from "./state.js" */
 import { convexHull } from "./clearance.js";
 import { tracePath } from "./map_layer.js";
-import { frameAt, positionAt } from "./motion.js";
+import { frameAt, isPresent, obstacleAt, positionAt } from "./motion.js";
 import { agentColour, AGENT_COLOURS, labelColour } from "./palette.js";
 import { drawPrecedences } from "./precedences.js";
 
@@ -20,15 +20,31 @@ export function drawAgents(context, state) {
   const selected = state.agent();
   if (selected !== null && state.showSwept) drawSwept(context, state, selected);
   if (selected !== null) drawSelectedPath(context, state, selected);
+  drawObstacles(context, state);
   AGENT_COLOURS.forEach((colour, kind) => {
     context.fillStyle = colour;
     // One by one: browsers fill many small paths sooner than one that covers the whole map.
     for (let i = kind; i < positions.length; i += AGENT_COLOURS.length)
-      fillBody(context, state.camera, scene.bodies[scene.agents[i].body], positions[i]);
+      {if (isPresent(scene.agents[i], player.time))
+        fillBody(context, state.camera, scene.bodies[scene.agents[i].body], positions[i]);}
   });
   outline(context, state, positions);
   if (state.showOrder) drawPrecedences(context, state);
   drawLabels(context, state, positions);
+}
+
+/**
+ * Bodies of others, in grey.
+ * @param {CanvasRenderingContext2D} context
+ * @param {State} state
+ */
+function drawObstacles(context, state) {
+  const { scene, camera, player, theme } = state;
+  context.fillStyle = theme.blocked;
+  for (const obstacle of scene.obstacles) {
+    const at = obstacleAt(obstacle, player.time);
+    if (at !== null) fillBody(context, camera, scene.bodies[obstacle.body], at);
+  }
 }
 
 /**
@@ -91,7 +107,8 @@ function outline(context, state, positions) {
     traceBody(context, camera, scene.bodies[scene.agents[i].body], positions[i], 2.5);
     context.stroke();
   };
-  if (state.selected !== null) ring(state.selected, theme.text);
+  const agent = state.agent();
+  if (agent !== null && isPresent(agent, state.player.time)) ring(agent.index, theme.text);
   for (const pair of state.clearances.overlapsAt(state.player.time))
     for (const i of pair) ring(i, theme.alarm);
 }
@@ -109,7 +126,7 @@ function drawLabels(context, state, positions) {
     const body = scene.bodies[agent.body];
     const radius = body.radius * camera.scale;
     const text = String(agent.index);
-    if (radius < 4 + 3 * text.length) continue;
+    if (radius < 4 + 3 * text.length || !isPresent(agent, state.player.time)) continue;
     const at = positions[agent.index];
     const [x, y] = [camera.toPixelX(at.x + body.centre.x), camera.toPixelY(at.y + body.centre.y)];
     if (x < 0 || y < 0 || x > camera.width || y > camera.height) continue;

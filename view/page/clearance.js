@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 /** @import {Body, Point, Scene} from "./scene.js" */
-import { positionAt } from "./motion.js";
+import { isPresent, positionAt } from "./motion.js";
 
 /**
  * Two bodies touch where the second one's position, as seen from the first one, is `radius` away from
@@ -105,13 +105,14 @@ export class Clearances {
   }
 
   /**
-   * Of two agents at a time.
+   * Of two agents at a time; infinite when one of them is gone.
    * @param {number} i
    * @param {number} j
    * @param {number} time
    * @returns {number}
    */
   between(i, j, time) {
+    if (!isPresent(this.scene.agents[i], time) || !isPresent(this.scene.agents[j], time)) return Infinity;
     const p = positionAt(this.scene.agents[i], time);
     const q = positionAt(this.scene.agents[j], time);
     return gapOf(this.contact(i, j), q.x - p.x, q.y - p.y);
@@ -124,7 +125,8 @@ export class Clearances {
    * @returns {{agents: [number, number], gap: number} | null}
    */
   leastAt(time) {
-    const items = this.scene.agents.filter((agent) => agent.times.length > 0).map((agent) => {
+    const here = this.scene.agents.filter((agent) => agent.times.length > 0 && isPresent(agent, time));
+    const items = here.map((agent) => {
       const { x, y } = positionAt(agent, time);
       return { x, y, index: agent.index, radius: this.scene.bodies[agent.body].radius };
     });
@@ -138,9 +140,9 @@ export class Clearances {
         const q = items[b];
         if (q.x - p.x - p.radius - this.largest > gap) break;
         const [i, j] = p.index < q.index ? [p, q] : [q, p];
-        const here = gapOf(this.contact(i.index, j.index), j.x - i.x, j.y - i.y);
-        if (here < gap) {
-          gap = here;
+        const own = gapOf(this.contact(i.index, j.index), j.x - i.x, j.y - i.y);
+        if (own < gap) {
+          gap = own;
           best = { agents: [i.index, j.index], gap };
         }
       }

@@ -6,7 +6,7 @@ import { listenToControls, makeActions, updateControls } from "./controls.js";
 import { listenToKeys } from "./keys.js";
 import { followLink, updateLink } from "./link.js";
 import { MapLayer } from "./map_layer.js";
-import { positionAt } from "./motion.js";
+import { isPresent, obstacleAt, positionAt } from "./motion.js";
 import { Panel } from "./panel.js";
 import { listenToMap, listenToStrip } from "./pointer.js";
 import { readScene } from "./scene.js";
@@ -131,6 +131,13 @@ function publicInterface(state, page) {
     position(agent, time) {
       const { x, y } = positionAt(scene.agents[agent], time / scene.unit);
       return [x * length, y * length];
+    },
+    /** Whether it has not left yet. @param {number} agent @param {number} time */
+    isPresent: (agent, time) => isPresent(scene.agents[agent], time / scene.unit),
+    /** Of a moving obstacle; null if it is nowhere. @param {number} index @param {number} time */
+    obstacle(index, time) {
+      const at = obstacleAt(scene.obstacles[index], time / scene.unit);
+      return at && [at.x * length, at.y * length];
     },
     /** Where the agent is drawn now, in pixels of the map. @param {number} agent */
     pixel(agent) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-/** @import {Agent, Point, Scene} from "./scene.js" */
+/** @import {Agent, Obstacle, Point, Scene} from "./scene.js" */
 
 /**
  * The last frame of the path that is not after the time; -1 before the first one. Binary search.
- * @param {Agent} agent
+ * @param {Agent | Obstacle} agent
  * @param {number} time
  * @returns {number}
  */
@@ -27,9 +27,40 @@ export function frameAt(agent, time) {
  * @returns {Point}
  */
 export function positionAt(agent, time) {
-  const { times, xs, ys } = agent;
+  const { times } = agent;
   if (times.length === 0) return { x: agent.start.x, y: agent.start.y };
-  const k = Math.max(0, frameAt(agent, time));
+  return placeOn(agent, time);
+}
+
+/**
+ * Whether it is anywhere: one that leaves is at its goal for a moment only.
+ * @param {Agent} agent
+ * @param {number} time
+ */
+export function isPresent(agent, time) {
+  return !agent.leaves || agent.cost === null || time <= agent.cost;
+}
+
+/**
+ * Where a moving obstacle is, if it is anywhere.
+ * @param {Obstacle} obstacle
+ * @param {number} time
+ * @returns {Point | null}
+ */
+export function obstacleAt(obstacle, time) {
+  const { times, leaves } = obstacle;
+  if (time < times[0] || (leaves && time > times[times.length - 1])) return null;
+  return placeOn(obstacle, time);
+}
+
+/**
+ * @param {Agent | Obstacle} mover  with at least one frame
+ * @param {number} time
+ * @returns {Point}
+ */
+function placeOn(mover, time) {
+  const { times, xs, ys } = mover;
+  const k = Math.max(0, frameAt(mover, time));
   if (k + 1 === times.length || time <= times[k]) return { x: xs[k], y: ys[k] };
   const share = (time - times[k]) / (times[k + 1] - times[k]);
   return { x: xs[k] + (xs[k + 1] - xs[k]) * share, y: ys[k] + (ys[k + 1] - ys[k]) * share };

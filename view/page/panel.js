@@ -32,6 +32,8 @@ export function placeName(state, point) {
 export function summaryOf(state) {
   const { scene } = state;
   const parts = [`${scene.agents.length} ${scene.agents.length === 1 ? "agent" : "agents"}`];
+  if (scene.obstacles.length > 0)
+    parts.push(`${scene.obstacles.length} moving ${scene.obstacles.length === 1 ? "obstacle" : "obstacles"}`);
   if (scene.obstruction !== null) parts.push("no plan exists");
   else if (scene.violations.length > 0)
     parts.push(`${scene.violations.length} ${scene.violations.length === 1 ? "violation" : "violations"}`);

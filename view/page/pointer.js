@@ -3,7 +3,7 @@
 /** @import {Agent} from "./scene.js" */
 /** @import {State} from "./state.js" */
 /** @import {Strip} from "./strip.js" */
-import { positionAt } from "./motion.js";
+import { isPresent, positionAt } from "./motion.js";
 
 /** A press that moves less than this many pixels is a click. */
 const CLICK = 5;
@@ -21,6 +21,7 @@ export function agentAt(state, px, py) {
   let best = null;
   let nearest = Infinity;
   for (const agent of scene.agents) {
+    if (!isPresent(agent, player.time)) continue;
     const at = positionAt(agent, player.time);
     const away = Math.hypot(camera.toPixelX(at.x) - px, camera.toPixelY(at.y) - py);
     const reach = Math.max(scene.bodies[agent.body].radius * camera.scale, 10);

@@ -16,6 +16,10 @@
  * @property {Float64Array} times  of the ends of all moves and waits, in order
  * @property {Float64Array} xs     where it is then
  * @property {Float64Array} ys
+ * @property {boolean} leaves   it is nowhere after its arrival
+ *
+ * A body of others on a known path, nowhere before the first time, and if it leaves nowhere after the last.
+ * @typedef {{body: number, leaves: boolean, times: Float64Array, xs: Float64Array, ys: Float64Array}} Obstacle
  *
  * @typedef {{kind: string, agents: number[], time: number, message: string}} Violation
  * @typedef {{agents: [number, number], gap: number, time: number}} Nearness
@@ -54,6 +58,7 @@
  * @property {number} hiddenLinks
  * @property {Body[]} bodies
  * @property {Agent[]} agents
+ * @property {Obstacle[]} obstacles
  * @property {Violation[]} violations
  * @property {Nearness[]} nearest
  * @property {Attribution | null} attribution
@@ -86,7 +91,8 @@ export function readScene(text) {
     lowerBound: data.lowerBound ?? null, sumOfCosts: data.sumOfCosts, makespan: data.makespan,
     cells: data.cells ? readCells(data.cells) : null,
     places: pairs(data.places ?? []), links: data.links ?? [], oneWay: data.oneWay ?? [],
-    hiddenLinks: data.hiddenLinks ?? 0, bodies, agents, violations: data.violations ?? [],
+    hiddenLinks: data.hiddenLinks ?? 0, bodies, agents,
+    obstacles: (data.obstacles ?? []).map(readObstacle), violations: data.violations ?? [],
     nearest: (data.nearest ?? []).map(readNearness),
     attribution: data.attribution ? readAttribution(data.attribution) : null,
     obstruction: data.obstruction
@@ -172,6 +178,23 @@ function readAgent(data, index) {
   return {
     index, start: { x: data.start[0], y: data.start[1] }, goal: { x: data.goal[0], y: data.goal[1] },
     body: data.body ?? 0, free: data.free ?? null, cost: data.cost ?? null,
+    leaves: Boolean(data.leaves), ...columnsOf(frames),
+  };
+}
+
+/**
+ * @param {{body: number, stops: number[], leaves: boolean}} data
+ * @returns {Obstacle}
+ */
+function readObstacle({ body, stops, leaves }) {
+  return { body, leaves, ...columnsOf(framesOfStops(stops)) };
+}
+
+/**
+ * @param {number[][]} frames  time, x and y each
+ */
+function columnsOf(frames) {
+  return {
     times: Float64Array.from(frames, (frame) => frame[0]),
     xs: Float64Array.from(frames, (frame) => frame[1]),
     ys: Float64Array.from(frames, (frame) => frame[2]),

@@ -134,11 +134,21 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
     const auto [body, is_new] =
         body_of_class.emplace(instance.class_of(i).index(), scene.bodies.size());
     if (is_new) scene.bodies.push_back(task.body);
-    SceneAgent agent{task.start.index(), task.goal.index(), body->second, {}, {}, {}};
+    SceneAgent agent{task.start.index(), task.goal.index(), body->second, {}, {}, {}, task.leaves};
     if (const auto alone = continuous::free_cost(instance, i)) agent.free_cost = alone->count();
     if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.roadmap(), plan.paths[i]);
     if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive;
     scene.agents.push_back(std::move(agent));
+  }
+  for (const continuous::MovingObstacle& obstacle : instance.obstacles()) {
+    SceneObstacle shown{scene.bodies.size(), {}, obstacle.leaves};
+    scene.bodies.push_back(obstacle.body);
+    for (const auto& stop : obstacle.path)
+      shown.stops.push_back(
+          {{static_cast<double>(stop.at.x.count()), static_cast<double>(stop.at.y.count())},
+           stop.arrive.count(),
+           stop.depart.count()});
+    scene.obstacles.push_back(std::move(shown));
   }
   add_report(verify(instance, plan), scene);
   return scene;

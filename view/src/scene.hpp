@@ -47,6 +47,18 @@ struct SceneAgent {
   std::optional<std::int64_t> free_cost;  ///< Alone in the world; nullopt: no way.
   std::optional<std::int64_t> cost;       ///< Nullopt without a path.
   std::vector<SceneStop> stops;           ///< In order of time; empty without a path.
+  bool leaves = false;                    ///< It is nowhere after its arrival.
+};
+
+/// A moving obstacle: nowhere before its first stop, and nowhere after the last one if it leaves.
+struct SceneObstacle {
+  struct Stop {
+    Position at;
+    std::int64_t arrive, depart;
+  };
+  std::size_t body;  ///< Into Scene::bodies.
+  std::vector<Stop> stops;
+  bool leaves;
 };
 
 struct SceneViolation {
@@ -92,6 +104,7 @@ struct Scene {
   std::size_t hidden_links = 0;  ///< Links that are left out because there are too many.
   std::vector<continuous::Body> bodies;
   std::vector<SceneAgent> agents;
+  std::vector<SceneObstacle> obstacles;
   std::vector<SceneViolation> violations;
   std::vector<Nearness> nearest;  ///< The pairs that come nearest, nearest first.
   std::int64_t sum_of_costs = 0, makespan = 0;

@@ -76,6 +76,7 @@ Json agent_json(const Scene& scene, const SceneAgent& agent) {
   if (!scene.bodies.empty()) json["body"] = agent.body;
   if (agent.free_cost) json["free"] = *agent.free_cost;
   if (agent.cost) json["cost"] = *agent.cost;
+  if (agent.leaves) json["leaves"] = true;
   if (agent.stops.empty()) return json;
   const Json moves = moves_of(scene, agent);
   if (!moves.is_null()) {
@@ -91,6 +92,15 @@ Json agent_json(const Scene& scene, const SceneAgent& agent) {
   }
   json["stops"] = std::move(stops);
   return json;
+}
+
+Json obstacle_json(const SceneObstacle& obstacle) {
+  Json stops = Json::array();
+  for (const auto& stop : obstacle.stops)
+    for (const Json& value :
+         {number(stop.at.x), number(stop.at.y), Json(stop.arrive), Json(stop.depart)})
+      stops.push_back(value);
+  return {{"body", obstacle.body}, {"stops", std::move(stops)}, {"leaves", obstacle.leaves}};
 }
 
 Json cells_json(const Cells& cells) {
@@ -225,6 +235,9 @@ std::string scene_json(const Scene& scene, const PageOptions& options) {
   for (const continuous::Body& body : scene.bodies) json["bodies"].push_back(body_json(body));
   json["agents"] = Json::array();
   for (const SceneAgent& agent : scene.agents) json["agents"].push_back(agent_json(scene, agent));
+  json["obstacles"] = Json::array();
+  for (const SceneObstacle& obstacle : scene.obstacles)
+    json["obstacles"].push_back(obstacle_json(obstacle));
   json["violations"] = Json::array();
   for (const SceneViolation& violation : scene.violations)
     json["violations"].push_back(violation_json(violation));
