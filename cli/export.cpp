@@ -15,6 +15,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  quadrille export --instance discs.json --to csv --rate 20 --output plan.csv plan.json\n"
     "  quadrille export --instance discs.json --to vda5050 plan.json\n"
+    "  ... | quadrille export --instance discs.json --to vda5050 --states - plan.json | ...\n"
     "\n";
 
 }  // namespace
@@ -35,6 +36,8 @@ Subcommand add_export(CLI::App& program) {
       "csv (samples), multidof (trajectory_msgs), path (nav_msgs) or vda5050 (orders)")
       ->required();
   add_positive(*app, "--rate", arguments->rate, "Samples per unit of time; default 10");
+  add_input_file(*app, "--states", arguments->states,
+                 "States of robots, one JSON message per line: release orders as they go");
   add_plan_format(*app, "--from", arguments->from,
                   "Format of PLAN; default: by what the file says");
   add_file(*app, "--output", arguments->output, "Where to write; default - is standard output");

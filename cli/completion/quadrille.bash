@@ -27,7 +27,7 @@ _quadrille() {
     --kind) values="empty random maze room warehouse roadmap" ;;
     --rule) values="naive gated coupled" ;;
     --neighbourhood) values="2 3 4 5" ;;
-    --map | --scen | --instance | --roadmap | --task | --plan | --json | --initial-plan | --known-plan | --output | --view | --svg | --map-output | \
+    --map | --scen | --instance | --roadmap | --task | --plan | --json | --initial-plan | --known-plan | --states | --output | --view | --svg | --map-output | \
       --scen-output | --instance-output | --folder | --data)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
@@ -75,7 +75,7 @@ _quadrille() {
         return
       fi
       ;;
-    export) options="$instance --to --from --rate --output" ;;
+    export) options="$instance --to --from --rate --states --output" ;;
     execute-check) options="$instance --plan-format --json --quiet" ;;
     simulate)
       options="$instance --plan-format --json --quiet --rule --delays --longest --slow --period --runs --seed"

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "roadmap/export_roadmap.hpp"
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "arguments.hpp"
 #include "conversion.hpp"
 #include "quadrille/continuous/plan_files.hpp"
+#include "roadmap/releasing.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -17,6 +21,10 @@ std::string check(const ExportArguments& arguments) {
   if (wrong.empty()) wrong = arguments.from.why_not_continuous("--from");
   if (wrong.empty() && arguments.rate && arguments.to == ExportFormat::vda5050)
     wrong = "--rate belongs to samples; orders have none";
+  if (wrong.empty() && !arguments.states.empty() && arguments.to != ExportFormat::vda5050)
+    wrong = "--states belongs to --to vda5050";
+  if (wrong.empty() && !arguments.states.empty() && arguments.output != "-")
+    wrong = "with --states orders go to standard output, as robots go";
   if (wrong.empty())
     wrong = check_outputs({{"--output", &arguments.output}},
                           {&arguments.input.instance, &arguments.roadmap.roadmap,
@@ -24,8 +32,12 @@ std::string check(const ExportArguments& arguments) {
   return wrong;
 }
 
-/// The text of the plan in its new format.
-Result<std::string> convert(const ExportArguments& arguments, const RoadmapInput& input) {
+struct Checked {
+  continuous::Plan plan;
+  execution::Precedences order;
+};
+
+Result<Checked> read_checked(const ExportArguments& arguments, const RoadmapInput& input) {
   auto file = continuous::read_plan(std::filesystem::path(arguments.plan), input.instance,
                                     input.grid_or_null(), arguments.from.continuous);
   if (!file) return file.error();
@@ -36,22 +48,61 @@ Result<std::string> convert(const ExportArguments& arguments, const RoadmapInput
     error.where.file = arguments.plan;
     return error;
   }
-  if (arguments.to == ExportFormat::vda5050)
-    return export_orders(input.instance, file->plan, *order);
+  return Checked{std::move(file->plan), *order};
+}
+
+/// The text of the plan in its new format.
+Result<std::string> convert(const ExportArguments& arguments, const RoadmapInput& input) {
+  const auto checked = read_checked(arguments, input);
+  if (!checked) return checked.error();
+  const auto& [plan, order] = *checked;
+  if (arguments.to == ExportFormat::vda5050) return export_orders(input.instance, plan, order);
   const double rate = arguments.rate.value_or(kDefaultRate);
   double time = 0;
   for (const AgentId agent : input.instance.agent_ids())
-    time += static_cast<double>(order->end(agent).count()) * input.instance.resolution().time;
+    time += static_cast<double>(order.end(agent).count()) * input.instance.resolution().time;
   if (time * rate > kMaxSamples)
     return Error{
         ErrorCode::out_of_range, "more than 10 million samples; take a smaller --rate", {}};
-  return export_samples(input.instance, file->plan, *arguments.to, rate);
+  return export_samples(input.instance, plan, *arguments.to, rate);
+}
+
+ExitCode release(const ExportArguments& arguments) {
+  const auto input = load_roadmap_input(arguments.roadmap, arguments.input);
+  const auto checked = input ? read_checked(arguments, *input) : Result<Checked>(input.error());
+  if (!checked) {
+    report_error(checked.error());
+    return ExitCode::bad_input;
+  }
+  std::ifstream states(arguments.states);
+  if (!states) {
+    report_error({ErrorCode::io, "cannot be read", {arguments.states, 0}});
+    return ExitCode::bad_input;
+  }
+  int failure = 0;
+  // At once, for whoever hands them on.
+  const auto take = [&failure](const std::string& text) {
+    errno = 0;
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+      failure = errno != 0 ? errno : EIO;
+    return failure == 0;
+  };
+  const auto error = release_orders(input->instance, checked->plan, checked->order, states,
+                                    arguments.states, take);
+  if (failure != 0) {
+    report_write_failure("-", failure);
+    return ExitCode::output;
+  }
+  if (!error) return ExitCode::success;
+  report_error(*error);
+  return ExitCode::bad_input;
 }
 
 }  // namespace
 
 ExitCode export_roadmap(const CLI::App& app, const ExportArguments& arguments) {
   if (const std::string wrong = check(arguments); !wrong.empty()) return usage_error(app, wrong);
+  if (!arguments.states.empty()) return release(arguments);
   return convert_and_write(
       arguments.output, [&] { return load_roadmap_input(arguments.roadmap, arguments.input); },
       [&](const auto& input) { return convert(arguments, input); });

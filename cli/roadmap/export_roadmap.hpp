@@ -20,6 +20,7 @@ struct ExportArguments {
   PlanFormats from;
   std::optional<ExportFormat> to;
   std::optional<double> rate;
+  std::string states;  ///< Messages of robots that go; empty: the orders at the start.
   std::string output = "-";
 };
 

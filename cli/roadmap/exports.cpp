@@ -108,14 +108,14 @@ Json nav_path(const std::vector<Sample>& samples) {
 }
 
 Json order_message(const Instance& instance, AgentId agent, const Path& path,
-                   std::uint32_t released) {
+                   const OrderState& state) {
   const double length = instance.resolution().length, time = instance.resolution().time;
   Json nodes = Json::array(), edges = Json::array();
-  for (std::size_t k = 0; k < path.size(); ++k) {
+  for (std::size_t k = state.first; k < path.size(); ++k) {
     const auto& p = instance.roadmap().position(path[k].vertex);
     nodes.push_back({{"nodeId", fmt::format("v{}", path[k].vertex.value())},
                      {"sequenceId", 2 * k},
-                     {"released", k <= released},
+                     {"released", k <= state.released},
                      {"nodePosition",
                       {{"x", continuous::in_input_units(p.x, instance.resolution())},
                        {"y", continuous::in_input_units(p.y, instance.resolution())},
@@ -129,20 +129,20 @@ Json order_message(const Instance& instance, AgentId agent, const Path& path,
     Json edge = {
         {"edgeId", fmt::format("v{}-v{}", path[k].vertex.value(), path[k + 1].vertex.value())},
         {"sequenceId", 2 * k + 1},
-        {"released", k < released}};
+        {"released", k < state.released}};
     if (way > 0)
       edge["maximumSpeed"] =
           way / (static_cast<double>((path[k + 1].arrive - path[k].depart).count()) * time);
     edge["actions"] = Json::array();
     edges.push_back(edge);
   }
-  return {{"headerId", 0},
+  return {{"headerId", state.update},
           {"timestamp", "1970-01-01T00:00:00.000Z"},
           {"version", "3.0.0"},
           {"manufacturer", "quadrille"},
-          {"serialNumber", fmt::format("agent{}", agent.value())},
-          {"orderId", fmt::format("agent{}", agent.value())},
-          {"orderUpdateId", 0},
+          {"serialNumber", order_name(agent)},
+          {"orderId", order_name(agent)},
+          {"orderUpdateId", state.update},
           {"nodes", nodes},
           {"edges", edges}};
 }
@@ -176,12 +176,20 @@ std::string export_samples(const Instance& instance, const continuous::Plan& pla
   return format == ExportFormat::csv ? text : finish(std::move(text));
 }
 
+std::string order_name(AgentId agent) { return fmt::format("agent{}", agent.value()); }
+
+std::string export_order(const Instance& instance, AgentId agent, const Path& path,
+                         const OrderState& state) {
+  return order_message(instance, agent, path, state).dump();
+}
+
 std::string export_orders(const Instance& instance, const continuous::Plan& plan,
                           const execution::Precedences& order) {
   const execution::Releaser releaser(order);
   std::string text;
   for (const AgentId agent : instance.agent_ids())
-    append(text, order_message(instance, agent, plan.paths[agent], releaser.released(agent)));
+    append(text,
+           order_message(instance, agent, plan.paths[agent], {0, releaser.released(agent), 0}));
   return finish(std::move(text));
 }
 

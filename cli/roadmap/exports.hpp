@@ -30,4 +30,15 @@ enum class ExportFormat {
                                         const continuous::Plan& plan,
                                         const execution::Precedences& order);
 
+/// What of an order has been released: the order begins with the node `first` of the path, and ends
+/// its base with the node `released`.
+struct OrderState {
+  std::uint32_t first = 0, released = 0, update = 0;
+};
+/// One order of one agent, without the end of the line.
+[[nodiscard]] std::string export_order(const continuous::Instance& instance, AgentId agent,
+                                       const continuous::Path& path, const OrderState& state);
+/// The agent's serialNumber and orderId.
+[[nodiscard]] std::string order_name(AgentId agent);
+
 }  // namespace quadrille::cli

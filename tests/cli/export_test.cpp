@@ -94,6 +94,56 @@ TEST_F(ExportTest, OrdersReleaseTheLeaderOnly) {
   EXPECT_NEAR(orders[0]["edges"][0]["maximumSpeed"].get<double>(), 1, 1e-9);
 }
 
+TEST_F(ExportTest, UpdatesReleaseWhatTheLeaderHasLeft) {
+  const json orders = json::parse(exported({"--to", "vda5050"}));
+  const std::string first = orders[0]["edges"][0]["released"] == true ? "agent0" : "agent1";
+  const std::string second = first == "agent0" ? "agent1" : "agent0";
+  const auto state = [](const std::string& robot, const json& node, const std::string& order) {
+    return json{{"serialNumber", robot}, {"orderId", order}, {"lastNodeSequenceId", node}}.dump() +
+           "\n";
+  };
+  const auto release = [&](const std::string& states) {
+    write("states", states);
+    return run(xml("export", {"--to", "vda5050", "--states", path("states"), path("plan.json")}));
+  };
+  const auto lines = [](const std::string& text) {
+    std::istringstream in(text);
+    std::vector<json> all;
+    for (std::string line; std::getline(in, line);) all.push_back(json::parse(line));
+    return all;
+  };
+  const std::string starts =
+      state(second, 0, "") + state(first, 2, "another") + state(first, 0, first);
+  Finished finished = release(starts);
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  EXPECT_EQ(json(lines(finished.out)), orders);  // Nobody has ended a move.
+  // What comes after the last arrival is not read.
+  finished = release(starts + state(first, 2, first) + state(second, 0, second) +
+                     state(second, 2, second) + "nonsense\n");
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  const auto all = lines(finished.out);
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[2]["serialNumber"], second);
+  EXPECT_EQ(all[2]["orderUpdateId"], 1);
+  EXPECT_EQ(all[2]["nodes"][0]["sequenceId"], 0);
+  EXPECT_EQ(all[2]["edges"][0]["released"], true);
+  EXPECT_EQ(all[2]["nodes"][1]["released"], true);
+
+  const auto refuses = [&](const std::string& line, const std::string& why) {
+    const Finished refused = release(starts + line + "\n");
+    EXPECT_EQ(refused.code, 65);
+    EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("states:4: "), HasSubstr(why)));
+  };
+  refuses("nonsense", "this is no JSON object");
+  refuses(R"({"serialNumber": "agent0", "orderId": "agent0"})", "'lastNodeSequenceId'");
+  refuses(R"({"serialNumber": 0, "orderId": "agent0"})", "a text 'serialNumber'");
+  refuses(state(first, -2, first), "not negative");
+  refuses(state(first, 1, first), "even numbers");
+  refuses(state("agent7", 0, "agent7"), "no robot 'agent7'");
+  refuses(state(second, 2, second), "at node 2 without release; the last one released is 0");
+  refuses(state(first, 4294967298u, first), "without release");
+}
+
 TEST_F(ExportTest, RefusesWhatItCannotDo) {
   const auto refuses = [&](const std::vector<std::string>& arguments, int code,
                            const std::string& why) {
@@ -102,6 +152,10 @@ TEST_F(ExportTest, RefusesWhatItCannotDo) {
     EXPECT_THAT(finished.err, HasSubstr(why));
   };
   refuses(xml("export", {"--to", "vda5050", "--rate", "2"}), 64, "--rate belongs to samples");
+  refuses(xml("export", {"--to", "csv", "--states", "-"}), 64, "--states belongs to");
+  refuses(xml("export", {"--to", "vda5050", "--states", "-", "--output", path("x")}), 64,
+          "orders go to standard output");
+  refuses(xml("export", {"--to", "vda5050", "--states", path("none")}), 65, "cannot be read");
   refuses(xml("export", {"--to", "bag"}), 64, "csv, multidof, path or vda5050");
   refuses(xml("export", {"--to", "csv", "--rate", "1e12"}), 65, "more than 10 million samples");
   refuses(small("export", {"--to", "csv"}), 64, "export is for plans on roadmaps");

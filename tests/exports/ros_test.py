@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Trajectories of `quadrille export` as messages of ROS: each field is one of the message, with values of
+its type; serialised and read back they are the same, and they say what the CSV and the plan say.
+
+usage: ros_test.py <quadrille>
+"""
+import csv
+import io
+import json
+import subprocess
+import sys
+import tempfile
+
+import genpy
+import genpy.message
+from nav_msgs.msg import Path
+from trajectory_msgs.msg import MultiDOFJointTrajectory
+
+program = sys.argv[1]
+
+
+def run(*arguments, codes=(0,)):
+    done = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode in codes, (arguments, done.returncode, done.stderr)
+    return done.stdout
+
+
+def round_trip(kind, fields):
+    """The message that comes back. `seq` of headers is the only field that nobody sets."""
+    message = kind()
+    genpy.message.fill_message_args(message, [fields])
+    data = io.BytesIO()
+    message.serialize(data)  # Checks all types.
+    back = kind().deserialize(data.getvalue())
+    assert back == message
+    return back
+
+
+def has_all_fields(message, fields, where="message"):
+    """The JSON has all fields of the message, so that none of them is there by default."""
+    for name, value in fields.items():
+        of_message = getattr(message, name)
+        if isinstance(value, dict):
+            has_all_fields(of_message, value, f"{where}.{name}")
+        elif isinstance(value, list):
+            assert len(of_message) == len(value), (where, name)
+            for k, item in enumerate(value):
+                if isinstance(item, dict):
+                    has_all_fields(of_message[k], item, f"{where}.{name}[{k}]")
+        else:
+            assert of_message == value, (where, name, of_message, value)
+    if not isinstance(message, (genpy.Time, genpy.Duration)):
+        assert set(message.__slots__) - {"seq"} == set(fields), (where, message.__slots__, fields)
+
+
+def refuses(kind, fields):
+    """What is no such message is not taken for one."""
+    try:
+        round_trip(kind, fields)
+    except (genpy.MessageException, genpy.SerializationError):
+        return
+    sys.exit(f"a broken {kind.__name__} was serialised")
+
+
+def close(a, b):
+    return abs(a - b) <= 1e-9 * max(1, abs(a))
+
+
+with tempfile.TemporaryDirectory() as folder:
+    instance, plan = f"{folder}/instance.json", f"{folder}/plan.json"
+    samples = 0
+    for seed in range(3):
+        run("generate", "--kind", "roadmap", "--vertices", "30", "--agents", "6", "--mixed", "--seed", str(seed),
+            "--instance-output", instance)
+        run("solve", "--instance", instance, "--gap", "1000", "--quiet", "--plan", plan, codes=(0, 10))
+        export = ["export", "--instance", instance, "--rate", "5", plan, "--to"]
+        rows = [{key: float(value) for key, value in row.items()}
+                for row in csv.DictReader(io.StringIO(run(*export, "csv")))]
+        trajectories = json.loads(run(*export, "multidof"))
+        paths = json.loads(run(*export, "path"))
+        stops = json.loads(open(plan, encoding="utf-8").read())["plan"]
+        assert len(trajectories) == len(paths) == len(stops) == 6
+        for agent, (of_trajectory, of_path) in enumerate(zip(trajectories, paths)):
+            trajectory, path = round_trip(MultiDOFJointTrajectory, of_trajectory), round_trip(Path, of_path)
+            has_all_fields(trajectory, of_trajectory)
+            has_all_fields(path, of_path)
+            assert trajectory.joint_names == [f"agent{agent}"]
+            of_agent = [row for row in rows if row["agent"] == agent]
+            assert len(of_agent) == len(trajectory.points) == len(path.poses)
+            for row, point, pose in zip(of_agent, trajectory.points, path.poses):
+                place, speed = point.transforms[0].translation, point.velocities[0].linear
+                assert (place.x, place.y) == (pose.pose.position.x, pose.pose.position.y)
+                assert close(place.x, row["x"]) and close(place.y, row["y"])
+                assert close(speed.x, row["vx"]) and close(speed.y, row["vy"])
+                assert abs(point.time_from_start.to_sec() - row["time"]) < 1e-9
+                assert abs(pose.header.stamp.to_sec() - row["time"]) < 1e-9
+                assert pose.header.frame_id == "map"
+                samples += 1
+            assert abs(path.poses[-1].header.stamp.to_sec() - stops[agent][-1]["arrive"]) < 1e-9
+            refuses(Path, {**of_path, "frame": "map"})
+            refuses(MultiDOFJointTrajectory, {**of_trajectory, "joint_names": [1]})
+    assert samples > 200, samples
