@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A road is closed while robots are under way: each one finishes its move, and they plan again.
+// A road is closed while robots are under way: they plan again from where they are, and each one
+// finishes its move.
 #include <algorithm>
 #include <iostream>
 #include <quadrille/fleet/solver.hpp>
@@ -25,17 +26,26 @@ RoadmapBuilder make_roads() {
 
 void print(const Fleet& fleet, const TimedPlan& plan) {
   for (const AgentId robot : plan.robot_ids()) {
-    std::cout << "  " << plan[robot].name() << ":";
-    for (const Stop& stop : plan[robot].stops())
-      std::cout << " " << fleet.roadmap().name(stop.vertex) << " " << to_string(stop.arrive);
+    std::cout << "  " << plan[robot].name();
+    const char* separator = ": ";
+    for (const Stop& stop : plan[robot].stops()) {
+      std::cout << separator << fleet.place_name(stop.vertex) << " " << to_string(stop.arrive);
+      separator = ", ";
+    }
     std::cout << "\n";
   }
 }
 
-/// Where the robot stands when it has finished what it does at this time.
-const Stop& next_stop(const TimedPath& path, Seconds time) {
-  return *std::find_if(path.stops().begin(), path.stops().end() - 1,
-                       [&](const Stop& stop) { return stop.depart >= time; });
+/// The robot begins where it is at this time: at a vertex, or in the middle of a move.
+void put(Robot robot, const TimedPath& path, Seconds time) {
+  const auto next = std::find_if(path.stops().begin(), path.stops().end() - 1,
+                                 [&](const Stop& stop) { return stop.depart >= time; });
+  if (next->arrive <= time) {
+    robot.from(next->vertex);
+    return;
+  }
+  const Stop& last = *(next - 1);
+  robot.from_edge(last.vertex, next->vertex, (time - last.depart) / (next->arrive - last.depart));
 }
 
 }  // namespace
@@ -62,13 +72,8 @@ int main() {
   roads.close(at("B2"), at("B3"));
   fleet.set_roadmap(roads.build().value());
   std::cout << "at " << to_string(now) << " the road from B2 to B3 is closed\n";
-  Seconds all_stand = now;
-  for (const AgentId robot : before.robot_ids()) {
-    const Stop& stop = next_stop(before[robot], now);
-    fleet[robot].from(stop.vertex);
-    all_stand = std::max(all_stand, stop.arrive);
-  }
+  for (const AgentId robot : before.robot_ids()) put(fleet[robot], before[robot], now);
   outcome = solve(fleet).value();
-  std::cout << "from " << to_string(all_stand) << " on, " << outcome.summary() << "\n";
+  std::cout << "from " << to_string(now) << " on, " << outcome.summary() << "\n";
   print(fleet, outcome.plan.value());
 }

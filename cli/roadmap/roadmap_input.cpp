@@ -136,6 +136,7 @@ std::string describe_rules(const Instance& instance) {
   };
   add("released later", [](const continuous::Agent& a) { return a.release > 0; });
   add("with a deadline", [](const continuous::Agent& a) { return a.deadline.has_value(); });
+  add("under way at the beginning", [](const continuous::Agent& a) { return a.under_way; });
   add("that leave at their goal", [](const continuous::Agent& a) { return a.leaves; });
   if (!text.empty()) text = "           " + text + "\n";
   if (!instance.obstacles().empty())

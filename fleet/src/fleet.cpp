@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/fleet/fleet.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "conversions.hpp"
+#include "numbers.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
@@ -43,6 +45,15 @@ Result<continuous::Body> to_units(const Polygon& polygon,
 Robot Robot::from(VertexId start) const {
   QUADRILLE_REQUIRE(start.index() < fleet_->roadmap_.num_vertices(), "a vertex of the roadmap");
   fleet_->robots_[id_].start = start;
+  fleet_->robots_[id_].under_way.reset();
+  return *this;
+}
+
+Robot Robot::from_edge(VertexId from, VertexId to, double fraction) const {
+  for (const VertexId v : {from, to})
+    QUADRILLE_REQUIRE(v.index() < fleet_->roadmap_.num_vertices(), "a vertex of the roadmap");
+  fleet_->robots_[id_].start.reset();
+  fleet_->robots_[id_].under_way = {from, to, fraction};
   return *this;
 }
 
@@ -105,8 +116,8 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
   const continuous::Resolution resolution = roadmap_.unit_sizes();
   const Entry& entry = robots_[id];
   const std::string name = "'" + this->name(id) + "' ";
-  if (!entry.start || !entry.goal)
-    return invalid(name + "has no " + (entry.start ? "goal" : "start"));
+  if (!entry.goal || (!entry.start && !entry.under_way))
+    return invalid(name + "has no " + (entry.goal ? "start" : "goal"));
   const auto body =
       std::visit([&](const auto& shape) { return to_units(shape, resolution); }, entry.spec.body);
   if (!body) return Error{body.error().code, name + body.error().message, {}};
@@ -114,12 +125,15 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
   if (!speed)
     return out_of_range(name + "has a speed of " + to_string(entry.spec.speed) +
                         ", which is not supported");
-  continuous::Agent agent{*entry.start, *entry.goal, *body, *speed};
+  continuous::Agent agent{entry.start.value_or(VertexId(0)), *entry.goal, *body, *speed};
+  agent.under_way = entry.under_way.has_value();  // and its start is to come
   if (entry.spec.group) {
     if (entry.spec.group->index() < 1 || entry.spec.group->index() > roadmap_.num_groups())
       return invalid(name + "is of a group that the roadmap does not have");
     agent.group = *entry.spec.group;
   }
+  if (entry.under_way && entry.release > Seconds(0))
+    return invalid(name + "is under way, and cannot be released later");
   const auto release = time_to_units(entry.release, true, resolution);
   if (!release)
     return out_of_range(name + "is released at " + to_string(entry.release) +
@@ -146,6 +160,48 @@ Result<std::vector<continuous::Agent>> Fleet::agents() const {
     agents.push_back(std::move(agent).value());
   }
   return agents;
+}
+
+std::string Fleet::place_name(VertexId v) const {
+  if (v.index() < roadmap_.num_vertices()) return roadmap_.name(v);
+  std::size_t left = v.index() - roadmap_.num_vertices();
+  for (const Entry& entry : robots_)
+    if (entry.under_way && left-- == 0)
+      return "the lane from " + roadmap_.name(entry.under_way->from) + " to " +
+             roadmap_.name(entry.under_way->to);
+  QUADRILLE_REQUIRE(false, "a vertex of the instance");
+  return {};
+}
+
+// A vertex for each place in the middle of a move, with what is left of the move. Nobody else can
+// be there.
+Result<Fleet::Roads> Fleet::put_under_way(std::vector<continuous::Agent>& agents) const {
+  if (std::none_of(agents.begin(), agents.end(), [](const auto& a) { return a.under_way; }))
+    return roadmap_.in_units();
+  std::vector<continuous::Point> points = roadmap_.in_units()->positions();
+  std::vector<continuous::Edge> edges = roadmap_.in_units()->edges();
+  for (const AgentId id : robot_ids()) {
+    continuous::Agent& agent = agents[id.index()];
+    if (!agent.under_way) continue;
+    const Underway& where = *robots_[id].under_way;
+    const std::string name = "'" + this->name(id) + "' ";
+    if (!(where.fraction >= 0 && where.fraction <= 1))
+      return out_of_range(name + "is under way with " + shortest(where.fraction) +
+                          " of its move behind it, which is not from 0 to 1");
+    const continuous::Point from = points[where.from.index()], to = points[where.to.index()];
+    const auto whole = continuous::travel_time(from, to, agent.speed);
+    if (from == to || !whole)
+      return out_of_range(name + "is under way from " + roadmap_.name(where.from) + " to " +
+                          roadmap_.name(where.to) + ", which takes it less than half a step of " +
+                          to_string(roadmap_.resolution().time) + ", or too long");
+    const continuous::Ticks behind = ticks_behind(where.fraction, *whole);
+    agent.start = VertexId(points.size());
+    points.push_back(place_between(from, to, behind, *whole));
+    edges.push_back({agent.start, where.to, *whole - behind});
+  }
+  auto roads = continuous::Roadmap::make(std::move(points), std::move(edges));
+  if (!roads) return roads.error();
+  return std::make_shared<const continuous::Roadmap>(std::move(roads).value());
 }
 
 Result<std::vector<continuous::MovingObstacle>> Fleet::obstacles_in_units() const {
@@ -178,21 +234,23 @@ Result<std::vector<continuous::MovingObstacle>> Fleet::obstacles_in_units() cons
 
 // Agents and edges are numbers in the errors of the layer below. What can still be wrong there is
 // found again here, in the words of the fleet.
-Error Fleet::in_words(const Error& error, const std::vector<continuous::Agent>& agents,
+Error Fleet::in_words(const Error& error, const Roads& roads,
+                      const std::vector<continuous::Agent>& agents,
                       const std::vector<continuous::MovingObstacle>& obstacles) const {
-  if (auto found = find_unsupported(agents)) return *found;
-  if (auto found = find_overlap(agents, &continuous::Agent::start, "starts")) return *found;
-  if (auto found = find_overlap(agents, &continuous::Agent::goal, "goals")) return *found;
-  if (auto found = find_blocked_start(agents, obstacles)) return *found;
+  if (auto found = find_unsupported(*roads, agents)) return *found;
+  if (auto found = find_overlap(*roads, agents, &continuous::Agent::start, "starts")) return *found;
+  if (auto found = find_overlap(*roads, agents, &continuous::Agent::goal, "goals")) return *found;
+  if (auto found = find_blocked_start(*roads, agents, obstacles)) return *found;
   for (std::size_t i = 0; i < agents.size(); ++i)
-    if (auto found = find_alone(agents[i], AgentId(i))) return *found;
+    if (auto found = find_alone(roads, agents[i], AgentId(i))) return *found;
   return error;
 }
 
 // What stands in the way of a robot that is alone.
-std::optional<Error> Fleet::find_alone(const continuous::Agent& agent, AgentId id) const {
+std::optional<Error> Fleet::find_alone(const Roads& roads, const continuous::Agent& agent,
+                                       AgentId id) const {
   const auto make = [&](const continuous::Agent& one) {
-    return continuous::Instance::make(roadmap_.in_units(), {one}, roadmap_.unit_sizes());
+    return continuous::Instance::make(roads, {one}, roadmap_.unit_sizes());
   };
   const auto alone = make(agent);
   if (alone) return std::nullopt;
@@ -201,10 +259,9 @@ std::optional<Error> Fleet::find_alone(const continuous::Agent& agent, AgentId i
   const auto late = make(patient);
   const std::string name = "'" + this->name(id) + "' cannot ";
   if (!late)
-    return Error{
-        late.error().code,
-        name + "get from " + roadmap_.name(agent.start) + " to " + roadmap_.name(agent.goal),
-        {}};
+    return Error{late.error().code,
+                 name + "get from " + place_name(agent.start) + " to " + roadmap_.name(agent.goal),
+                 {}};
   const continuous::Ticks arrival = continuous::free_cost(*late, AgentId(0)).value();
   return Error{alone.error().code,
                name + "arrive before " + to_string(in_seconds(arrival, roadmap_.unit_sizes())) +
@@ -214,7 +271,7 @@ std::optional<Error> Fleet::find_alone(const continuous::Agent& agent, AgentId i
 }
 
 std::optional<Error> Fleet::find_blocked_start(
-    const std::vector<continuous::Agent>& agents,
+    const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
     const std::vector<continuous::MovingObstacle>& obstacles) const {
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     const continuous::MovingObstacle& obstacle = obstacles[o];
@@ -223,25 +280,25 @@ std::optional<Error> Fleet::find_blocked_start(
       return out_of_range(name + " is too large");
     if (obstacle.path.front().arrive > 0) continue;
     for (std::size_t i = 0; i < agents.size(); ++i)
-      if (geometry::bodies_overlap(agents[i].body, roadmap_.in_units()->position(agents[i].start),
-                                   obstacle.body, obstacle.path.front().at))
+      if (geometry::bodies_overlap(agents[i].body, roads.position(agents[i].start), obstacle.body,
+                                   obstacle.path.front().at))
         return Error{ErrorCode::no_plan,
                      name + " is at the start of '" + this->name(AgentId(i)) + "' at " +
-                         roadmap_.name(agents[i].start),
+                         place_name(agents[i].start),
                      {}};
   }
   return std::nullopt;
 }
 
-std::optional<Error> Fleet::find_unsupported(const std::vector<continuous::Agent>& agents) const {
-  const continuous::Roadmap& roads = *roadmap_.in_units();
+std::optional<Error> Fleet::find_unsupported(const continuous::Roadmap& roads,
+                                             const std::vector<continuous::Agent>& agents) const {
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const std::string name = "'" + this->name(AgentId(i)) + "'";
     if (geometry::enclosing_radius(agents[i].body) > geometry::kMaxLength)
       return out_of_range(name + " is too large");
     for (const continuous::Edge& lane : roads.edges())
-      if (!continuous::travel_time(roads.position(lane.from), roads.position(lane.to),
-                                   agents[i].speed))
+      if (!lane.duration && !continuous::travel_time(roads.position(lane.from),
+                                                     roads.position(lane.to), agents[i].speed))
         return out_of_range("the lane from " + roadmap_.name(lane.from) + " to " +
                             roadmap_.name(lane.to) + " takes " + name +
                             " less than half a step of " + to_string(roadmap_.resolution().time) +
@@ -250,10 +307,10 @@ std::optional<Error> Fleet::find_unsupported(const std::vector<continuous::Agent
   return std::nullopt;
 }
 
-std::optional<Error> Fleet::find_overlap(const std::vector<continuous::Agent>& agents,
+std::optional<Error> Fleet::find_overlap(const continuous::Roadmap& roads,
+                                         const std::vector<continuous::Agent>& agents,
                                          VertexId continuous::Agent::*end,
                                          const std::string& what) const {
-  const continuous::Roadmap& roads = *roadmap_.in_units();
   for (std::size_t j = 0; j < agents.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
       if (end == &continuous::Agent::goal && (agents[i].leaves || agents[j].leaves)) continue;
@@ -261,8 +318,8 @@ std::optional<Error> Fleet::find_overlap(const std::vector<continuous::Agent>& a
       if (geometry::bodies_overlap(agents[i].body, roads.position(v), agents[j].body,
                                    roads.position(w)))
         return Error{ErrorCode::no_plan,
-                     "the " + what + " of '" + name(AgentId(i)) + "' at " + roadmap_.name(v) +
-                         " and '" + name(AgentId(j)) + "' at " + roadmap_.name(w) + " overlap",
+                     "the " + what + " of '" + name(AgentId(i)) + "' at " + place_name(v) +
+                         " and '" + name(AgentId(j)) + "' at " + place_name(w) + " overlap",
                      {}};
     }
   return std::nullopt;
@@ -271,11 +328,13 @@ std::optional<Error> Fleet::find_overlap(const std::vector<continuous::Agent>& a
 Result<continuous::Instance> Fleet::instance() const {
   auto agents = this->agents();
   if (!agents) return agents.error();
+  auto roads = put_under_way(*agents);
+  if (!roads) return roads.error();
   auto obstacles = obstacles_in_units();
   if (!obstacles) return obstacles.error();
-  auto instance = continuous::Instance::make(roadmap_.in_units(), *agents, roadmap_.unit_sizes(),
-                                             {}, *obstacles);
-  if (!instance) return in_words(instance.error(), *agents, *obstacles);
+  auto instance =
+      continuous::Instance::make(*roads, *agents, roadmap_.unit_sizes(), {}, *obstacles);
+  if (!instance) return in_words(instance.error(), *roads, *agents, *obstacles);
   return instance;
 }
 

@@ -74,7 +74,8 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
     TimedPath path;
     path.name_ = fleet.name(i);
     for (const continuous::Stop& stop : plan.paths[i])
-      path.stops_.push_back({stop.vertex, fleet.roadmap().position(stop.vertex),
+      path.stops_.push_back({stop.vertex,
+                             in_metres(state.instance.roadmap().position(stop.vertex), resolution),
                              seconds(stop.arrive), seconds(stop.depart)});
     const Cost cost = continuous::cost(plan.paths[i]);
     // There is a way to the goal: the plan takes one.

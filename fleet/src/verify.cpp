@@ -27,11 +27,15 @@ std::string message(const Fleet& fleet, const continuous::Violation& violation,
     case Kind::bad_time:
       return robot + "leaves before it arrives, or at a time that is not supported, at " + when;
     case Kind::wrong_start:
-      return robot + "does not begin at " + place(fleet.start(violation.agent));
+      return robot + "does not begin at " +
+             (fleet.start(violation.agent) ? place(fleet.start(violation.agent))
+                                           : std::string("its place in the middle of a move"));
     case Kind::wrong_goal:
       return robot + "does not end at " + place(fleet.goal(violation.agent));
     case Kind::not_adjacent:
       return robot + "moves along no lane at " + when;
+    case Kind::waits:
+      return robot + "stops at its start, where it is in the middle of a move";
     case Kind::duration:
       return robot + "takes longer or shorter for a lane than it does at its speed, at " + when;
     case Kind::too_early:

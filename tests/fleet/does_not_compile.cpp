@@ -29,5 +29,7 @@ void try_out(Fleet& fleet, RoadmapBuilder& roads) {
   roads.lane(quadrille::VertexId(0), quadrille::VertexId(1), {.only = {1}});
 #elif CASE == 7
   fleet.obstacle({.body = Disc(0.35_m), .path = {{{1_m, 2_m}, 0, 3}}});
+#elif CASE == 8
+  fleet[quadrille::AgentId(0)].from_edge(quadrille::VertexId(0), quadrille::VertexId(1), 0.4_m);
 #endif
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fleet/support.hpp"
 #include "quadrille/continuous/verify.hpp"
@@ -161,6 +162,86 @@ TEST(FleetRules, RobotsOfAnotherFleetAreObstacles) {
     EXPECT_TRUE(report.valid()) << report.violations.front().message;
   }
   EXPECT_GE(num_solved, static_cast<int>(support::scaled(30)) / 3);
+}
+
+TEST(FleetRules, MovesInProgressAreFinished) {
+  Fleet fleet(test::line(3, {.length = 1_mm, .time = 10_ms}));
+  const Robot robot = fleet.robot(disc("p")).from_edge(kA, kB, 0.3).to(kC);
+  EXPECT_EQ(fleet.start(robot), std::nullopt);
+  const SolveOutcome outcome = solve(fleet).value();
+  ASSERT_TRUE(outcome.plan.has_value());
+  EXPECT_EQ(outcome.cost, 1.7_s);
+  const TimedPath& path = (*outcome.plan)[robot];
+  EXPECT_EQ(path.at(0_s), (Point{0.3_m, 0_m}));
+  EXPECT_EQ(path.stops().size(), 3U);
+  EXPECT_EQ(path.stops()[1].arrive, 0.7_s);
+  EXPECT_EQ(fleet.place_name(path.stops()[0].vertex), "the lane from a to b");
+  EXPECT_EQ(fleet.place_name(kB), "b");
+  // It cannot turn, and somebody who stands in its way cannot be waited for.
+  robot.to(kA);
+  EXPECT_EQ(solve(fleet).value().cost, 1.7_s);
+  const Robot other = fleet.robot(disc("q")).from(kB).to(kC).release(5_s);
+  EXPECT_EQ(solve(fleet).value().status, Status::infeasible);
+  robot.from(kA).to(kB);
+  EXPECT_EQ(solve(fleet).value().status, Status::optimal);
+  robot.from_edge(kA, kB, 0.9).to(kB);
+  EXPECT_EQ(solve(fleet).value().summary(),
+            "infeasible: the starts of 'p' at the lane from a to b and 'q' at b overlap");
+  // What lies behind is rounded down; what is meant to be whole is; one step is left.
+  other.from(kC);
+  for (const auto& [fraction, cost] : std::vector<std::pair<double, Seconds>>{
+           {0.3049, 0.7_s}, {0.31, 0.69_s}, {0.29, 0.71_s}, {0, 1_s}, {1, 0.01_s}}) {
+    Fleet alone(fleet.roadmap());
+    alone.robot(disc("p")).from_edge(kA, kB, fraction).to(kB);
+    EXPECT_EQ(solve(alone).value().cost, cost) << fraction;
+  }
+  robot.from_edge(kA, kB, 1.5);
+  EXPECT_EQ(solve(fleet).error().message,
+            "'p' is under way with 1.5 of its move behind it, which is not from 0 to 1");
+  robot.from_edge(kA, kA, 0.5);
+  EXPECT_EQ(solve(fleet).error().code, ErrorCode::out_of_range);
+  robot.from_edge(kA, kB, 0.5).release(1_s);
+  EXPECT_EQ(solve(fleet).error().message, "'p' is under way, and cannot be released later");
+}
+
+// A plan that is cut off in the middle of its moves goes on: what is left of it is a plan of the
+// robots where they are then, so that an optimal one costs no more, but for rounding.
+TEST(FleetRules, WhatIsLeftOfAPlanIsAPlanOfRobotsUnderWay) {
+  int num_under_way = 0, num_cut = 0, num_kept = 0;
+  for (std::uint32_t seed = 0; seed < support::scaled(40); ++seed) {
+    SCOPED_TRACE(seed);
+    Fleet fleet = test::random_fleet(seed, 3);
+    if (!fleet.instance()) continue;
+    const SolveOutcome whole = solve(fleet, {.limits = {.wall = 5_s}}).value();
+    if (whole.status != Status::optimal) continue;
+    const TimedPlan before = *whole.plan;
+    const double step = fleet.roadmap().resolution().time.value();
+    const Seconds now(step * std::round(0.4 * before.makespan().value() / step));
+    Seconds left = 0_s;
+    for (const AgentId i : before.robot_ids()) {
+      const auto& stops = before[i].stops();
+      const auto next = std::find_if(stops.begin(), stops.end() - 1,
+                                     [&](const Stop& stop) { return stop.depart >= now; });
+      left += std::max(0_s, stops.back().arrive - now);
+      if (next->arrive <= now) {
+        fleet[i].from(next->vertex);
+        continue;
+      }
+      const Stop& last = *(next - 1);
+      ++num_under_way;
+      fleet[i].from_edge(last.vertex, next->vertex,
+                         (now - last.depart) / (next->arrive - last.depart));
+    }
+    const SolveOutcome rest = solve(fleet, {.limits = {.wall = 5_s}}).value();
+    ++num_cut;
+    if (rest.plan) {
+      EXPECT_TRUE(verify(fleet, rest.plan->in_units()).value().valid());
+    }
+    // Places are rounded: where bodies touch, there may be no room for that, or for a detour only.
+    if (rest.status == Status::optimal && rest.cost->value() <= left.value() + 4 * step) ++num_kept;
+  }
+  EXPECT_GE(num_under_way, num_cut);
+  EXPECT_GE(4 * num_kept, 3 * num_cut);
 }
 
 TEST(FleetRules, ViolationsAreSaidInWords) {

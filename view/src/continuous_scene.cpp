@@ -40,6 +40,8 @@ std::string name_of(Violation::Kind kind) {
       return "after its deadline";
     case Violation::Kind::closed_edge:
       return "closed edge";
+    case Violation::Kind::waits:
+      return "wait in a move";
     case Violation::Kind::duration:
       return "wrong duration";
     case Violation::Kind::collision:

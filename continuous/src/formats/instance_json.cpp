@@ -167,7 +167,8 @@ class InstanceReader {
   bool read_agents(Node agents) {
     if (!check_.array(agents, "agents")) return false;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, goal, radius, polygon, speed, group, release, deadline, at_goal;
+      std::optional<Node> start, goal, radius, polygon, speed, group, release, deadline, at_start,
+          at_goal;
       Agent agent;
       if (!check_.members(a, {{"start", &start},
                               {"goal", &goal},
@@ -177,13 +178,15 @@ class InstanceReader {
                               {"group", &group, false},
                               {"release", &release, false},
                               {"deadline", &deadline, false},
+                              {"at_start", &at_start, false},
                               {"at_goal", &at_goal, false}}) ||
           !read_vertex_number(*start, agent.start) || !read_vertex_number(*goal, agent.goal) ||
           !read_body(a, radius, polygon, agent.body) || !read_speed(a, speed, agent.speed) ||
           (group && !read_group(*group, agent.group)) ||
           (release && !read_time(*release, agent.release)) ||
           (deadline && !read_time(*deadline, agent.deadline.emplace())) ||
-          (at_goal && !read_at_goal(*at_goal, agent.leaves)))
+          (at_start && !read_choice(*at_start, "stay", "under_way", agent.under_way)) ||
+          (at_goal && !read_choice(*at_goal, "stay", "leave", agent.leaves)))
         return false;
       agents_.push_back(agent);
       places_.push_back({document_.file(), document_.line(a)});
@@ -202,7 +205,7 @@ class InstanceReader {
                               {"path", &path},
                               {"at_end", &at_end, false}}) ||
           !read_body(o, radius, polygon, obstacle.body) || !check_.array(*path, "stops") ||
-          (at_end && !read_at_goal(*at_end, obstacle.leaves)))
+          (at_end && !read_choice(*at_end, "stay", "leave", obstacle.leaves)))
         return false;
       for (Node s = document_.first(*path); s < document_.next(*path); s = document_.next(s))
         if (!read_obstacle_stop(s, obstacle.path)) return false;
@@ -283,12 +286,13 @@ class InstanceReader {
     return true;
   }
 
-  bool read_at_goal(Node node, bool& leaves) {
+  bool read_choice(Node node, const std::string& no, const std::string& yes, bool& choice) {
     std::string_view what;
     if (!check_.text(node, what)) return false;
-    leaves = what == "leave";
-    if (leaves || what == "stay") return true;
-    return check_.fail(node, "expected 'stay' or 'leave', found " + text::in_quotes(what));
+    choice = what == yes;
+    if (choice || what == no) return true;
+    return check_.fail(node,
+                       "expected '" + no + "' or '" + yes + "', found " + text::in_quotes(what));
   }
 
   bool read_time(Node node, Ticks& ticks) {

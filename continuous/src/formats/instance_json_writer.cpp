@@ -97,6 +97,7 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
     if (agent.group != GroupId()) out << ", \"group\": " << agent.group.index();
     if (agent.release > 0) out << ", \"release\": " << number(agent.release);
     if (agent.deadline) out << ", \"deadline\": " << number(*agent.deadline);
+    if (agent.under_way) out << ", \"at_start\": \"under_way\"";
     if (agent.leaves) out << ", \"at_goal\": \"leave\"";
     out << "}";
     separator = ",\n";

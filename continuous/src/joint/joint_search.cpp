@@ -255,8 +255,9 @@ JointScope joint_scope(const Instance& instance) {
   if (std::any_of(agents.begin(), agents.end(), [](const Agent& a) { return a.leaves; }))
     return JointScope::none;
   const bool is_relaxed = !instance.obstacles().empty() ||
-                          std::any_of(agents.begin(), agents.end(),
-                                      [](const Agent& a) { return a.release > 0 || a.deadline; });
+                          std::any_of(agents.begin(), agents.end(), [](const Agent& a) {
+                            return a.release > 0 || a.deadline || a.under_way;
+                          });
   return is_relaxed ? JointScope::relaxed : JointScope::exact;
 }
 

@@ -11,7 +11,7 @@
 namespace quadrille::continuous {
 
 /// What a joint search of an instance is worth. It knows of edges that are closed to some, but not
-/// of releases, deadlines and moving obstacles.
+/// of releases, deadlines, moving obstacles and moves in progress.
 enum class JointScope {
   exact,    ///< It knows all rules.
   relaxed,  ///< Without the others: what it cannot do cannot be done, but its plans may break them.

@@ -60,6 +60,20 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
   return std::nullopt;
 }
 
+/// Nobody else may be where an agent is in the middle of a move, and it goes on one way.
+std::optional<Error> check_under_way(const Roadmap& roadmap, const Agent& agent,
+                                     std::size_t index) {
+  if (!agent.under_way) return std::nullopt;
+  const auto out = roadmap.out_edges(agent.start);
+  if (!roadmap.in_edges(agent.start).empty() || out.size() != 1 ||
+      !roadmap.edge(out.front()).open_to.contains(agent.group) || agent.goal == agent.start)
+    return invalid(name(index) + " is under way at vertex " + std::to_string(agent.start.index()) +
+                   ", to which no edge may lead, and from which one has to lead on");
+  if (agent.release > 0)
+    return invalid(name(index) + " is under way, and cannot be released later");
+  return std::nullopt;
+}
+
 /// An agent that overlaps an earlier one when each is at its start (goal).
 std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
                                  VertexId Agent::*place, const std::string& what, std::size_t& at) {
@@ -143,8 +157,10 @@ std::optional<Error> check_obstacles(const Roadmap& roadmap, const std::vector<A
 /// What is wrong with the agents; then `at` is the one to blame.
 std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>& agents,
                                std::size_t& at) {
-  for (at = 0; at < agents.size(); ++at)
+  for (at = 0; at < agents.size(); ++at) {
     if (auto error = check(roadmap, agents, at)) return error;
+    if (auto error = check_under_way(roadmap, agents[at], at)) return error;
+  }
   if (auto error = check_apart(roadmap, agents, &Agent::start, "starts", at)) return error;
   if (auto error = check_apart(roadmap, agents, &Agent::goal, "goals", at)) return error;
   for (at = 0; at < agents.size(); ++at)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "paths/scene.hpp"
 
+#include <algorithm>
+
 #include "paths/obstacle_bans.hpp"
 
 namespace quadrille::continuous {
@@ -15,13 +17,28 @@ Scene::Scene(const Instance& instance, LimitMonitor& limits)
     detours_.emplace_back(instance, i, distances_.back());
   }
   standing_.resize(instance.num_classes());
+  keep_moving();
   is_complete_ = instance.obstacles().empty() || avoid_obstacles();
+}
+
+// A ban for a class is one for a single agent here: nobody else can be where it begins.
+void Scene::keep_moving() {
+  for (const AgentId i : instance_.agent_ids()) {
+    const Agent& agent = instance_.agent(i);
+    if (!agent.under_way) continue;
+    const EdgeId rest_of_move = instance_.roadmap().out_edges(agent.start).front();
+    standing_[instance_.class_of(i).index()].push_back(Ban::start(rest_of_move, {1, kForever}));
+  }
+  for (std::vector<Ban>& bans : standing_) std::sort(bans.begin(), bans.end());
 }
 
 bool Scene::avoid_obstacles() {
   for (const ClassId c : IdRange<ClassId>(instance_.num_classes())) {
     if (limits_.exhausted_now()) return false;
-    standing_[c.index()] = bans_around_obstacles(instance_, c, limits_);
+    std::vector<Ban>& bans = standing_[c.index()];
+    const std::vector<Ban> around = bans_around_obstacles(instance_, c, limits_);
+    bans.insert(bans.end(), around.begin(), around.end());
+    std::sort(bans.begin(), bans.end());
   }
   PathFinder finder(instance_, &limits_);
   BanTable bans(instance_.roadmap());

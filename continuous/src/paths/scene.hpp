@@ -24,7 +24,8 @@ class Scene {
   [[nodiscard]] LimitMonitor& limits() noexcept { return limits_; }
   [[nodiscard]] Contacts& contacts() noexcept { return contacts_; }
   [[nodiscard]] PathTask task(AgentId i) { return {i, distances_[i.index()], detours_[i.index()]}; }
-  /// What keeps agents of the class clear of the moving obstacles, sorted.
+  /// What keeps agents of the class clear of the moving obstacles, and those that are under way
+  /// from stopping, sorted.
   [[nodiscard]] const std::vector<Ban>& standing_bans(ClassId c) const {
     return standing_[c.index()];
   }
@@ -41,6 +42,7 @@ class Scene {
   }
 
  private:
+  void keep_moving();
   /// False: the limits ended it.
   bool avoid_obstacles();
 

@@ -53,6 +53,10 @@ class PathCheck {
       good = fail(Kind::too_late, path.back().arrive,
                   "arrives at its goal at tick " + std::to_string(path.back().arrive.count()) +
                       ", after its deadline at tick " + std::to_string(agent.deadline->count()));
+    if (agent.under_way && path.front().depart > 0)
+      good = fail(Kind::waits, path.front().arrive,
+                  "stops at vertex " + std::to_string(path.front().vertex.index()) +
+                      ", where it is in the middle of a move");
     for (std::size_t k = 0; k + 1 < path.size(); ++k) good &= check_move(path[k], path[k + 1]);
     return good;
   }
@@ -320,6 +324,8 @@ std::string_view to_string(Violation::Kind kind) noexcept {
       return "too-late";
     case Kind::closed_edge:
       return "closed-edge";
+    case Kind::waits:
+      return "waits";
     case Kind::duration:
       return "duration";
     case Kind::collision:

@@ -54,6 +54,23 @@ TEST(RoadmapJson, ReadsWhatFleetsNeed) {
             (MovingObstacle{Disc{20}, {{{100, 100}, 0, 200}, {{100, 300}, 450, 450}}, true}));
 }
 
+TEST(RoadmapJson, ReadsMovesInProgress) {
+  const auto read = [](const std::string& how) {
+    std::istringstream file(
+        "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": 0.1, \"roadmap\": "
+        "{\"vertices\": [[0, 0], [3, 4]], \"edges\": [[0, 1, 2.5]]}, \"agents\": [{\"start\": 0, "
+        "\"goal\": 1, \"radius\": 0.5, \"at_start\": " +
+        how + "}]}");
+    return read_instance_json(file, "f");
+  };
+  EXPECT_TRUE(read("\"under_way\"").value().agent(AgentId(0)).under_way);
+  EXPECT_FALSE(read("\"stay\"").value().agent(AgentId(0)).under_way);
+  EXPECT_EQ(read("\"go\"").error().to_string(),
+            "f:1: /agents/0/at_start: expected 'stay' or 'under_way', found 'go'");
+  EXPECT_EQ(read("\"under_way\", \"release\": 1").error().to_string(),
+            "f:1: agent 0 is under way, and cannot be released later");
+}
+
 TEST(RoadmapJson, RefusesWhatIsWrongWithTheRulesOfFleets) {
   const std::vector<test::Fault> faults = {
       {"[1, 2]}", "[1, 64]}", "f:9: /roadmap/edges/4/groups/1: 64 is not between 0 and 63"},
@@ -193,6 +210,7 @@ TEST(RoadmapJson, WhatIsWrittenIsReadBack) {
     SCOPED_TRACE(seed);
     test::RandomOptions random;
     random.obstacles_percent = 30;
+    random.under_way_percent = 30;
     const Instance drawn = test::random_instance(seed, random);
     // Other resolutions, where decimals are not exact.
     const Resolution resolutions[] = {1e-6, 1, 0.001, 0.3, 7, 1.0 / 3, {0.001, 0.01}, {0.3, 7}};

@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "quadrille/continuous/quantise.hpp"
+
 namespace quadrille::continuous::test {
 namespace {
 
@@ -90,6 +92,35 @@ MovingObstacle draw_obstacle(Draw& draw, const Roadmap& roadmap, const RandomOpt
   return obstacle;
 }
 
+/// Some agents begin in the middle of a move, which need not be open to them.
+std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
+                                             std::vector<Agent>& agents) {
+  std::vector<Point> points = roadmap.positions();
+  std::vector<Edge> edges = roadmap.edges();
+  for (Agent& agent : agents) {
+    if (roadmap.num_edges() == 0 || !draw.chance(60)) continue;
+    const Edge edge = edges[static_cast<std::size_t>(
+        draw.number(0, static_cast<std::int64_t>(roadmap.num_edges()) - 1))];
+    const Point from = roadmap.position(edge.from), to = roadmap.position(edge.to);
+    const auto whole = edge.duration ? edge.duration : travel_time(from, to, agent.speed);
+    if (!whole) continue;
+    const Ticks left = draw.ticks(1, whole->count());
+    const auto between = [&](Length a, Length b) {
+      return Length(static_cast<std::int64_t>(
+          std::lround(static_cast<double>(b.count()) + static_cast<double>((a - b).count()) *
+                                                           static_cast<double>(left.count()) /
+                                                           static_cast<double>(whole->count()))));
+    };
+    agent.start = VertexId(points.size());
+    agent.release = 0;
+    agent.under_way = true;
+    points.push_back({between(from.x, to.x), between(from.y, to.y)});
+    edges.push_back({agent.start, edge.to, left});
+  }
+  return std::make_shared<const Roadmap>(
+      Roadmap::make(std::move(points), std::move(edges)).value());
+}
+
 std::string describe(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body))
     return "r" + std::to_string(disc->radius.count());
@@ -102,12 +133,12 @@ std::string describe(const Body& body) {
 }  // namespace
 
 Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
-  Draw draw(seed), more(seed ^ 0x9e3779b9u);
+  Draw draw(seed), more(seed ^ 0x9e3779b9u), last(seed ^ 0x7f4a7c15u);
   while (true) {
     const bool has_groups = more.chance(options.groups_percent);
     auto roadmap = draw_roadmap(draw, more, has_groups, options);
     if (!roadmap) continue;
-    const auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
+    auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
     std::vector<Agent> agents;
     const bool are_equal = options.equal_agents || draw.chance(30);
     for (std::size_t i = 0; i < options.num_agents; ++i) {
@@ -139,6 +170,7 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
     if (more.chance(options.obstacles_percent))
       for (std::int64_t k = more.number(1, 2); k > 0; --k)
         obstacles.push_back(draw_obstacle(more, *shared, options));
+    if (last.chance(options.under_way_percent)) shared = put_under_way(last, *shared, agents);
     auto instance =
         Instance::make(shared, std::move(agents), kDefaultResolution, {}, std::move(obstacles));
     if (instance) return std::move(instance).value();
@@ -174,7 +206,7 @@ std::string describe(const Instance& instance) {
             (a.group == GroupId() ? "" : " g" + std::to_string(a.group.index())) +
             (a.release == 0 ? "" : " from " + std::to_string(a.release.count())) +
             (a.deadline ? " by " + std::to_string(a.deadline->count()) : "") +
-            (a.leaves ? " leaves" : "");
+            (a.under_way ? " under way" : "") + (a.leaves ? " leaves" : "");
   if (!instance.obstacles().empty()) text += "; obstacles";
   for (const MovingObstacle& o : instance.obstacles()) {
     text += " " + describe(o.body);

@@ -46,6 +46,8 @@ struct RandomOptions {
   int leaves_percent = 15;
   /// Of the instances: moving obstacles, one or two.
   int obstacles_percent = 15;
+  /// Of the instances: some agents begin in the middle of a move.
+  int under_way_percent = 0;
 };
 
 /// The same for the same seed. Tries until the instance is valid.

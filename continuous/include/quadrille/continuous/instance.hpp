@@ -42,6 +42,10 @@ struct Agent {
   /// It vanishes when it arrives at its goal, where the goals of others may be, too. Otherwise it
   /// stays there for ever.
   bool leaves = false;
+  /// At tick 0 it is moving: its start is a place in the middle of a move, and it goes on at once.
+  /// The start is a vertex of its own, without edges that lead there and with one that leads on,
+  /// whose duration is what is left of the move. It has no release.
+  bool under_way = false;
   friend bool operator==(const Agent&, const Agent&) = default;
 };
 
@@ -79,7 +83,8 @@ class Instance {
   /// [0, kMaxGroups), a release or a deadline outside [0, geometry::kMaxDuration], a duration
   /// outside [1, geometry::kMaxDuration], a resolution that is not positive and finite, likewise
   /// for bodies, places and times of obstacles; invalid_instance for vertices that do not exist,
-  /// and obstacles without stops or whose times go back; no_plan for overlapping starts, also with
+  /// agents that are under way but not at a place of their own, or released later, and obstacles
+  /// without stops or whose times go back; no_plan for overlapping starts, also with
   /// an obstacle at tick 0, overlapping goals (interiors) of agents that stay there, and goals that
   /// cannot be reached, or not by the deadline. Agents are named by index. `places`: where each
   /// agent comes from, for errors about it; none, or one per agent.

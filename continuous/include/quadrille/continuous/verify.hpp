@@ -27,6 +27,7 @@ struct Violation {
     too_early,     ///< A move that begins before the agent's release.
     too_late,      ///< An arrival after the agent's deadline.
     closed_edge,   ///< A move along an edge that is not open to the agent's group.
+    waits,         ///< An agent that is under way at tick 0 and stops there.
     duration,      ///< A move that takes longer or shorter than its edge does.
     collision,     ///< The interiors of two agents' bodies meet.
     obstacle,      ///< Those of an agent and of a moving obstacle meet.

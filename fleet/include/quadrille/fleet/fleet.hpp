@@ -77,6 +77,12 @@ class Robot {
  public:
   /// Where it begins. Requires a vertex of the roadmap.
   Robot from(VertexId start) const;  // NOLINT: part of a chain
+  /// Instead: at time 0 it is in the middle of a move, of which `fraction` lies behind it, 0 .. 1,
+  /// and it finishes the move, without a stop; also if the lane has been closed meanwhile. What
+  /// lies behind is rounded down to whole steps of time, and at least one step is left: it is never
+  /// taken to be further than it is, but for that last step. Its place follows from that, and is
+  /// rounded to the resolution. Requires two vertices of the roadmap.
+  Robot from_edge(VertexId from, VertexId to, double fraction) const;  // NOLINT: part of a chain
   /// Where it goes, and stays. Requires a vertex of the roadmap.
   Robot to(VertexId goal) const;  // NOLINT: part of a chain
 
@@ -118,12 +124,17 @@ class Fleet {
   [[nodiscard]] const RobotSpec& spec(AgentId id) const { return robots_[id].spec; }
   [[nodiscard]] std::string name(AgentId id) const;
   [[nodiscard]] std::optional<AgentId> find(std::string_view name) const;
-  /// nullopt as long as it has not been told.
+  /// nullopt as long as it has not been told, or if it begins in the middle of a move.
   [[nodiscard]] std::optional<VertexId> start(AgentId id) const { return robots_[id].start; }
   [[nodiscard]] std::optional<VertexId> goal(AgentId id) const { return robots_[id].goal; }
   [[nodiscard]] Seconds release(AgentId id) const { return robots_[id].release; }
   [[nodiscard]] std::optional<Seconds> deadline(AgentId id) const { return robots_[id].deadline; }
   [[nodiscard]] bool leaves(AgentId id) const { return robots_[id].leaves; }
+
+  /// Roadmap::name for the vertices of the roadmap. In `instance`, and in plans, there is one more
+  /// for each robot that begins in the middle of a move, in their order: "the lane from a to b".
+  /// Requires one of these.
+  [[nodiscard]] std::string place_name(VertexId v) const;
 
   /// Another obstacle. Whether it makes sense is checked by `instance`.
   void obstacle(MovingObstacle obstacle) { obstacles_.push_back(std::move(obstacle)); }
@@ -142,25 +153,35 @@ class Fleet {
 
  private:
   friend class Robot;
+  struct Underway {
+    VertexId from, to;
+    double fraction = 0;
+  };
   struct Entry {
     RobotSpec spec;
     std::optional<VertexId> start = {}, goal = {};
+    std::optional<Underway> under_way = {};  // instead of a start
     Seconds release = {};
     std::optional<Seconds> deadline = {};
     bool leaves = false;
   };
+  using Roads = std::shared_ptr<const continuous::Roadmap>;
   [[nodiscard]] Result<std::vector<continuous::Agent>> agents() const;
   [[nodiscard]] Result<continuous::Agent> agent(AgentId id) const;
+  [[nodiscard]] Result<Roads> put_under_way(std::vector<continuous::Agent>& agents) const;
   [[nodiscard]] Result<std::vector<continuous::MovingObstacle>> obstacles_in_units() const;
-  [[nodiscard]] Error in_words(const Error& error, const std::vector<continuous::Agent>& agents,
+  [[nodiscard]] Error in_words(const Error& error, const Roads& roads,
+                               const std::vector<continuous::Agent>& agents,
                                const std::vector<continuous::MovingObstacle>& obstacles) const;
-  [[nodiscard]] std::optional<Error> find_alone(const continuous::Agent& agent, AgentId id) const;
+  [[nodiscard]] std::optional<Error> find_alone(const Roads& roads, const continuous::Agent& agent,
+                                                AgentId id) const;
   [[nodiscard]] std::optional<Error> find_blocked_start(
-      const std::vector<continuous::Agent>& agents,
+      const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
       const std::vector<continuous::MovingObstacle>& obstacles) const;
   [[nodiscard]] std::optional<Error> find_unsupported(
-      const std::vector<continuous::Agent>& agents) const;
-  [[nodiscard]] std::optional<Error> find_overlap(const std::vector<continuous::Agent>& agents,
+      const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents) const;
+  [[nodiscard]] std::optional<Error> find_overlap(const continuous::Roadmap& roads,
+                                                  const std::vector<continuous::Agent>& agents,
                                                   VertexId continuous::Agent::*end,
                                                   const std::string& what) const;
 

@@ -18,7 +18,8 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::fleet {
 
-/// A stay at a vertex, from `arrive` to `depart`; equal where the robot passes through.
+/// A stay at a vertex, from `arrive` to `depart`; equal where the robot passes through. The first
+/// one of a robot that begins in the middle of a move is there, see Fleet::place_name.
 struct Stop {
   VertexId vertex;
   Point place;
