@@ -74,6 +74,8 @@ def drive(port, instance, plan, count, seed):
     try:
         assert is_subscribed.wait(60), "no answer of the broker"
         assert robots.stdout.readline() == "ready\n"
+        # Robots that give up end it.
+        threading.Thread(target=lambda: (robots.wait(), releaser.stdin.close()), daemon=True).start()
         orders = []
         for line in releaser.stdout:
             order = json.loads(line)
@@ -81,9 +83,9 @@ def drive(port, instance, plan, count, seed):
             orders.append(order)
             client.publish(f"vda5050/v3/fleet{seed}/{order['serialNumber']}/order", line, qos=1)
         assert releaser.wait(60) == 0, releaser.stderr.read()
-        events = json.loads(robots.stdout.read())
+        text = robots.stdout.read()
         assert robots.wait(60) == 0, "the robots' errors are above"
-        return events, orders
+        return json.loads(text), orders
     finally:
         client.disconnect()
         client.loop_stop()
