@@ -116,6 +116,17 @@ std::string check_standard_input(const CLI::App& app) {
   return "";
 }
 
+void add_check_with(CLI::App& app, std::optional<SecondVerifier>& verifier) {
+  add_choice<std::optional<SecondVerifier>>(
+      app, "--check-with", verifier, "fcl",
+      [](std::string_view text) -> std::optional<std::optional<SecondVerifier>> {
+        if (text != "fcl") return std::nullopt;
+        return SecondVerifier::fcl;
+      },
+      "Roadmaps: ask another verifier, too: fcl, with a tolerance. Exit code 70 if it\n"
+      "contradicts the first one");
+}
+
 ExitCode usage_error(const CLI::App& app, const std::string& message) {
   const std::string parent = app.get_parent() == nullptr ? "" : app.get_parent()->get_name() + " ";
   print_stderr(fmt::format("quadrille: {}\nSee '{}{} --help'.\n", message, parent, app.get_name()));

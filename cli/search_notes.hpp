@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "history.hpp"
+#include "output.hpp"
 #include "quadrille/core/reasons.hpp"
 
 namespace quadrille::cli {
@@ -12,6 +14,8 @@ namespace quadrille::cli {
 struct SearchNotes {
   History history;
   std::vector<Reason> reasons;  ///< Of the outcome's attribution.
+  Json second_opinion;          ///< Null if none was asked for.
+  std::string opinion;          ///< The same for people; empty if none was asked for.
 };
 
 }  // namespace quadrille::cli

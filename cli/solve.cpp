@@ -143,6 +143,7 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
       ->group(group);
   add_file(app, "--json", arguments.json, "Write the result as JSON; - is standard output")
       ->group(group);
+  add_check_with(app, arguments.check_with);
   app.add_flag("--history", arguments.history,
                "Tell in the result when which bound and which cost was known")
       ->group(group);

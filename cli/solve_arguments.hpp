@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "arguments.hpp"
 #include "input.hpp"
 #include "picture_arguments.hpp"
 #include "quadrille/discrete/solver.hpp"
@@ -26,6 +27,7 @@ struct SolveArguments {
   PictureArguments picture;
   PlanFormats plan_format;
   std::optional<double> plan_every;  ///< Seconds.
+  std::optional<SecondVerifier> check_with;
   bool history = false;
   bool quiet = false;
   /// Instead of the plan, show why none is cheaper, by as few agents as are found (`explain`).

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "arguments.hpp"
 #include "delivery.hpp"
 #include "exit_codes.hpp"
 #include "input.hpp"
@@ -22,6 +24,7 @@ struct VerifyArguments {
   std::string plan;
   std::string json;  ///< Output file; empty without, "-" for standard output.
   PlanFormats format;
+  std::optional<SecondVerifier> check_with;
   bool quiet = false;
 };
 

@@ -33,6 +33,7 @@ Subcommand add_verify(CLI::App& program) {
   add_plan_format(*app, "--plan-format", arguments->format,
                   "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs; default: by what\n"
                   "the file says");
+  add_check_with(*app, arguments->check_with);
   add_file(*app, "--json", arguments->json, "Write the verdict as JSON; - is standard output");
   app->add_flag("--quiet", arguments->quiet, "Print nothing but errors; the exit code says it");
   app->footer(std::string(kFooter) + kExitCodesHelp);

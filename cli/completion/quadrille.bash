@@ -51,14 +51,14 @@ _quadrille() {
     solve)
       options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
         --backtracking --no-first-plan --initial-plan --threads --race --gap --seed --time-limit --cpu-limit
-        --memory-limit --conflict-limit --plan --plan-format --plan-every --json --history --view --svg
+        --memory-limit --conflict-limit --plan --plan-format --plan-every --check-with --json --history --view --svg
         --svg-kind --svg-agents --quiet --explain --audit --known-plan"
       ;;
     explain)
       options="$instance --objective --seed --time-limit --cpu-limit --memory-limit --conflict-limit --gap
         --json --view"
       ;;
-    verify) options="$instance --plan-format --json --quiet" ;;
+    verify) options="$instance --plan-format --check-with --json --quiet" ;;
     info) options="$instance" ;;
     generate)
       options="--kind --map --map-output --scen-output --agents --any-goal --seed --width --height

@@ -53,6 +53,7 @@ ExitCode verify_grid(const CLI::App& app, const VerifyArguments& arguments) {
   std::string wrong = why_no_roadmap(arguments.roadmap);
   if (wrong.empty()) wrong = check_grid_options(arguments.input, Need::tasks);
   if (wrong.empty()) wrong = arguments.format.why_not_discrete("--plan-format");
+  if (wrong.empty() && arguments.check_with) wrong = "--check-with applies to roadmaps only";
   if (wrong.empty()) wrong = check_verify_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 

@@ -14,6 +14,7 @@
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
+#include "roadmap/opinion_report.hpp"
 #include "roadmap/roadmap_report.hpp"
 #include "solving.hpp"
 
@@ -89,6 +90,7 @@ class RoadmapSolve {
     if (arguments_.history) keep_history<continuous::Progress>(options, notes_.history);
     const RemainingLimits left(options.limits);
     auto outcome = continuous::solve(instance(), options);
+    if (outcome && outcome->plan && arguments_.check_with) ask_second_verifier(*outcome);
     if (outcome && arguments_.finds_reasons) trace_clauses(left, *outcome);
     if (outcome && outcome->attribution)
       notes_.reasons =
@@ -118,7 +120,7 @@ class RoadmapSolve {
   }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const continuous::VerifyReport& replay) const {
-    std::string text = describe_outcome(instance(), objective(), outcome, replay);
+    std::string text = describe_outcome(instance(), objective(), outcome, replay) + notes_.opinion;
     if (outcome.attribution)
       text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
                                    kMaxSites);
@@ -129,6 +131,16 @@ class RoadmapSolve {
   }
 
  private:
+  /// A plan that it refuses becomes an internal error.
+  void ask_second_verifier(SolveOutcome& outcome) const {
+    const auto opinion = continuous::ask_fcl(instance(), *outcome.plan);
+    notes_.second_opinion = opinion_json(instance(), opinion);
+    notes_.opinion = describe_opinion(instance(), opinion);
+    const std::string contradiction = find_contradiction(true, opinion);
+    if (!contradiction.empty() && !outcome.internal_error)
+      outcome.internal_error = Error{ErrorCode::internal, contradiction, {}};
+  }
+
   /// Searches that know no clauses do not say where agents collide: another one may. Its raises are
   /// taken, too, if they prove as much.
   void trace_clauses(const RemainingLimits& left, SolveOutcome& outcome) const {

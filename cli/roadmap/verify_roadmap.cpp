@@ -2,12 +2,14 @@
 #include "roadmap/verify_roadmap.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "roadmap/opinion_report.hpp"
 #include "roadmap/roadmap_report.hpp"
 
 namespace quadrille::cli {
@@ -15,20 +17,24 @@ namespace {
 
 class RoadmapVerdict {
  public:
-  RoadmapVerdict(const RoadmapInput& input, const continuous::VerifyReport& replay)
-      : input_(input), replay_(replay) {}
+  RoadmapVerdict(const RoadmapInput& input, const continuous::VerifyReport& replay,
+                 const std::optional<continuous::SecondOpinion>& opinion)
+      : input_(input), replay_(replay), opinion_(opinion) {}
 
   [[nodiscard]] std::string describe_input() const { return cli::describe_input(input_); }
-  [[nodiscard]] std::string good() const { return describe_check(input_.instance, replay_); }
+  [[nodiscard]] std::string good() const {
+    return describe_check(input_.instance, replay_) + describe_opinion();
+  }
   [[nodiscard]] std::string more() const {
     const std::string clearance = describe_clearance(input_.instance, replay_);
-    return clearance.empty() ? "" : "           " + clearance + "\n";
+    return (clearance.empty() ? "" : "           " + clearance + "\n") + describe_opinion();
   }
   [[nodiscard]] Json cost_json(Cost cost) const {
     return continuous::in_input_units(cost, input_.instance.resolution());
   }
   void add_measures(JsonLines& json) const {
     json.add("least_clearance", clearance_json(input_.instance, replay_));
+    if (opinion_) json.add("second_opinion", opinion_json(input_.instance, *opinion_));
   }
   [[nodiscard]] Json violation_json(const continuous::Violation& violation) const {
     Json json;
@@ -43,8 +49,13 @@ class RoadmapVerdict {
   }
 
  private:
+  [[nodiscard]] std::string describe_opinion() const {
+    return opinion_ ? cli::describe_opinion(input_.instance, *opinion_) : "";
+  }
+
   const RoadmapInput& input_;
   const continuous::VerifyReport& replay_;
+  const std::optional<continuous::SecondOpinion>& opinion_;
 };
 
 }  // namespace
@@ -68,7 +79,14 @@ ExitCode verify_roadmap(const CLI::App& app, const VerifyArguments& arguments) {
     return ExitCode::bad_input;
   }
   const auto replay = verify(input->instance, file->plan);
-  return pronounce(arguments, RoadmapVerdict(*input, replay), *file, replay);
+  std::optional<continuous::SecondOpinion> opinion;
+  if (arguments.check_with) opinion = ask_fcl(input->instance, file->plan);
+  const ExitCode code =
+      pronounce(arguments, RoadmapVerdict(*input, replay, opinion), *file, replay);
+  const std::string contradiction = opinion ? find_contradiction(replay.valid(), *opinion) : "";
+  if (contradiction.empty()) return code;
+  report_error({ErrorCode::internal, "the two verifiers disagree: " + contradiction, {}});
+  return ExitCode::internal;
 }
 
 }  // namespace quadrille::cli

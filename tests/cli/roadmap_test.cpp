@@ -16,6 +16,19 @@ using testing::Not;
 
 using RoadmapTest = RoadmapCliTest;
 
+TEST_F(RoadmapTest, ASecondVerifierIsAsked) {
+  const Finished solved =
+      run(discs("solve", {"--check-with", "fcl", "--plan", path("checked.json")}));
+  ASSERT_EQ(solved.code, 0) << solved.err;
+  EXPECT_THAT(solved.out, HasSubstr("fcl        clear; 0 pairs of bodies collide, 0 touch"));
+  const Finished checked =
+      run(discs("verify", {"--check-with", "fcl", "--json", "-", path("checked.json")}));
+  ASSERT_EQ(checked.code, 0) << checked.err;
+  EXPECT_EQ(json::parse(checked.out)["second_opinion"]["verdict"], "clear");
+  const Finished unknown = run(discs("verify", {"--check-with", "me", path("checked.json")}));
+  EXPECT_EQ(unknown.code, 64);
+}
+
 TEST_F(RoadmapTest, HumanOutputOfASmallSolve) {
   const Finished finished = run(discs("solve"));
   ASSERT_EQ(finished.code, 0) << finished.err;

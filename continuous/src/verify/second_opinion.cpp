@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+//
+// On purpose this uses nothing of `verify`.
+#include "quadrille/continuous/second_opinion.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace quadrille::continuous {
+namespace {
+
+using geometry::Encounter;
+using geometry::EncounterCheck;
+using geometry::Leg;
+
+/// Which rule a path breaks; empty if none.
+std::string find_fault(const Instance& instance, AgentId i, const Path& path) {
+  const Roadmap& roadmap = instance.roadmap();
+  const Agent& agent = instance.agent(i);
+  if (path.empty()) return "has no stops";
+  const auto is_known = [&](const Stop& stop) {
+    return stop.vertex.index() < roadmap.num_vertices();
+  };
+  if (!std::all_of(path.begin(), path.end(), is_known)) return "names a vertex that is none";
+  if (path.front().vertex != agent.start) return "does not begin at its start";
+  if (path.back().vertex != agent.goal) return "does not end at its goal";
+  if (path.front().arrive != 0) return "does not begin at tick 0";
+  if (path.back().depart != path.back().arrive || path.back().arrive > kMaxTick)
+    return "does not end with an arrival in time";
+  if (agent.deadline && path.back().arrive > *agent.deadline) return "misses its deadline";
+  if (agent.under_way && path.front().depart > 0) return "stops in the middle of a move";
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (path[k].depart < path[k].arrive) return "departs before it arrives";
+    if (k + 1 == path.size()) break;
+    const Ticks takes = path[k + 1].arrive - path[k].depart;
+    const auto& edges = roadmap.edges();
+    const auto takes_it = [&](EdgeId e) {
+      return edges[e.index()].to == path[k + 1].vertex &&
+             edges[e.index()].open_to.contains(agent.group) &&
+             instance.duration(instance.class_of(i), e) == takes;
+    };
+    const auto out = roadmap.out_edges(path[k].vertex);
+    if (std::none_of(out.begin(), out.end(), takes_it))
+      return "makes a move that no edge allows it, from vertex " +
+             std::to_string(path[k].vertex.index()) + " at tick " +
+             std::to_string(path[k].depart.count());
+    if (path[k].depart < agent.release) return "departs before its release";
+  }
+  return "";
+}
+
+/// Where a body is as long as it is anywhere, leg after leg; if it stays, until `horizon`.
+template <class Stops, class Place>
+std::vector<Leg> legs_of(const Stops& stops, const Place& place, bool leaves, Ticks horizon) {
+  std::vector<Leg> legs;
+  for (std::size_t k = 0; k < stops.size(); ++k) {
+    const Point here = place(stops[k]);
+    if (k > 0) legs.push_back({place(stops[k - 1]), here, stops[k - 1].depart, stops[k].arrive});
+    const bool stays = k + 1 == stops.size() && !leaves;
+    const Ticks until = stays ? horizon : stops[k].depart;
+    // Passing through a place belongs to the moves before and after it; what is somewhere for one
+    // moment of its life is in nobody's way, docs/continuous.md.
+    if (until > stops[k].arrive) legs.push_back({here, here, stops[k].arrive, until});
+  }
+  return legs;
+}
+
+class Opinion {
+ public:
+  Opinion(const Instance& instance, const Plan& plan) : instance_(instance), plan_(plan) {
+    for (const Point& p : instance.roadmap().positions()) include(p);
+    for (const MovingObstacle& obstacle : instance.obstacles())
+      for (const MovingObstacle::Stop& stop : obstacle.path) {
+        include(stop.at);
+        horizon_ = std::max(horizon_, stop.depart + 1);
+      }
+  }
+
+  SecondOpinion run() {
+    check_paths();
+    for (const MovingObstacle& obstacle : instance_.obstacles())
+      obstacles_.push_back(legs_of(
+          obstacle.path, [](const MovingObstacle::Stop& stop) { return stop.at; }, obstacle.leaves,
+          horizon_));
+    for (const AgentId i : instance_.agent_ids()) {
+      for (const AgentId j : instance_.agent_ids())
+        if (i < j) compare({i, j, {}}, between(i, j), legs_[i], legs_[j]);
+      for (std::size_t o = 0; o < obstacles_.size(); ++o)
+        if (!legs_[i].empty())
+          compare({i, {}, o},
+                  EncounterCheck(instance_.agent(i).body, instance_.obstacles()[o].body, extent_),
+                  legs_[i], obstacles_[o]);
+    }
+    const auto collides = [](const Meeting& meeting) { return meeting.collide; };
+    using Verdict = SecondOpinion::Verdict;
+    if (!opinion_.broken.empty())
+      opinion_.verdict = Verdict::broken;
+    else if (std::any_of(opinion_.meetings.begin(), opinion_.meetings.end(), collides))
+      opinion_.verdict = Verdict::collision;
+    else if (!opinion_.meetings.empty())
+      opinion_.verdict = Verdict::touch;
+    return std::move(opinion_);
+  }
+
+ private:
+  void include(const Point& p) {
+    for (const Length coordinate : {p.x, p.y}) extent_ = std::max(extent_, abs(coordinate));
+  }
+
+  /// Paths without fault as legs.
+  void check_paths() {
+    std::vector<AgentId> sound;
+    for (const AgentId i : instance_.agent_ids()) {
+      const std::string fault = find_fault(instance_, i, plan_.paths[i]);
+      if (fault.empty()) {
+        sound.push_back(i);
+        horizon_ = std::max(horizon_, plan_.paths[i].back().arrive + 1);
+      } else {
+        opinion_.broken.push_back("the path of agent " + std::to_string(i.index()) + " " + fault);
+      }
+    }
+    legs_ = IdVector<AgentId, std::vector<Leg>>(instance_.num_agents());
+    const auto place = [&](const Stop& stop) { return instance_.roadmap().position(stop.vertex); };
+    for (const AgentId i : sound)
+      legs_[i] = legs_of(plan_.paths[i], place, instance_.agent(i).leaves, horizon_);
+  }
+
+  const EncounterCheck& between(AgentId i, AgentId j) {
+    const std::pair key(instance_.class_of(i), instance_.class_of(j));
+    const auto known = checks_.find(key);
+    if (known != checks_.end()) return known->second;
+    EncounterCheck check(instance_.agent(i).body, instance_.agent(j).body, extent_);
+    return checks_.emplace(key, std::move(check)).first->second;
+  }
+
+  void compare(Meeting meeting, const EncounterCheck& check, const std::vector<Leg>& a,
+               const std::vector<Leg>& b) {
+    opinion_.tolerance = std::max(opinion_.tolerance, check.tolerance());
+    std::size_t first = 0;  // of b: those before it end before the leg of a begins
+    bool meets = false;
+    for (const Leg& leg : a) {
+      while (first < b.size() && b[first].end < leg.begin) ++first;
+      for (std::size_t k = first; k < b.size() && b[k].begin <= leg.end; ++k) {
+        ++opinion_.num_looks;
+        const Encounter encounter = check.look(leg, b[k]);
+        if (encounter == Encounter::clear || (meets && encounter == Encounter::touch)) continue;
+        meets = true;
+        meeting.collide = encounter == Encounter::collision;
+        meeting.begin = std::max(leg.begin, b[k].begin);
+        meeting.end = std::min(leg.end, b[k].end);
+        if (meeting.collide) {
+          opinion_.meetings.push_back(meeting);
+          return;
+        }
+      }
+    }
+    if (meets) opinion_.meetings.push_back(meeting);
+  }
+
+  const Instance& instance_;
+  const Plan& plan_;
+  Length extent_ = 0;
+  Ticks horizon_ = 1;
+  IdVector<AgentId, std::vector<Leg>> legs_;  // none: the path has a fault
+  std::vector<std::vector<Leg>> obstacles_;
+  std::map<std::pair<ClassId, ClassId>, EncounterCheck> checks_;
+  SecondOpinion opinion_;
+};
+
+}  // namespace
+
+std::string_view to_string(SecondOpinion::Verdict verdict) noexcept {
+  switch (verdict) {
+    case SecondOpinion::Verdict::clear:
+      return "clear";
+    case SecondOpinion::Verdict::touch:
+      return "touch";
+    case SecondOpinion::Verdict::collision:
+      return "collision";
+    case SecondOpinion::Verdict::broken:
+      return "broken";
+  }
+  return "";
+}
+
+SecondOpinion ask_fcl(const Instance& instance, const Plan& plan) {
+  if (plan.paths.size() == instance.num_agents()) return Opinion(instance, plan).run();
+  SecondOpinion opinion;
+  opinion.verdict = SecondOpinion::Verdict::broken;
+  opinion.broken.push_back("the plan has " + std::to_string(plan.paths.size()) + " paths for " +
+                           std::to_string(instance.num_agents()) + " agents");
+  return opinion;
+}
+
+std::string find_contradiction(bool is_valid, const SecondOpinion& opinion) {
+  using Verdict = SecondOpinion::Verdict;
+  if (is_valid && opinion.verdict == Verdict::broken)
+    return "the paths break no rule, but to the second verifier " + opinion.broken.front();
+  if (is_valid && opinion.verdict == Verdict::collision)
+    return "nobody collides, but FCL finds a collision";
+  if (!is_valid && opinion.verdict == Verdict::clear)
+    return "the plan breaks a rule, but FCL finds it clear";
+  return "";
+}
+
+}  // namespace quadrille::continuous
