@@ -57,8 +57,9 @@ TEST_F(ViewTest, APlanWithViolationsIsShownWithThem) {
 }
 
 TEST_F(ViewTest, WithoutAPlanNothingIsWritten) {
-  const Finished none = run(corridor("solve", {"--view", path("v.html"), "--svg", path("v.svg")}));
-  EXPECT_EQ(none.code, 20);
+  const Finished none =
+      run(small("solve", {"--time-limit", "0", "--view", path("v.html"), "--svg", path("v.svg")}));
+  EXPECT_EQ(none.code, 30);
   EXPECT_THAT(none.out, HasSubstr("v.html is not written"));
   EXPECT_FALSE(exists("v.html"));
   EXPECT_FALSE(exists("v.svg"));
@@ -66,6 +67,14 @@ TEST_F(ViewTest, WithoutAPlanNothingIsWritten) {
   EXPECT_EQ(broken.code, 65);
   EXPECT_THAT(broken.err, HasSubstr("/p:1: "));
   EXPECT_FALSE(exists("v.html"));
+}
+
+TEST_F(ViewTest, IfThereIsNoPlanThePageSaysWhy) {
+  const Finished none = run(corridor("solve", {"--view", path("v.html"), "--svg", path("v.svg")}));
+  EXPECT_EQ(none.code, 20);
+  EXPECT_THAT(none.out, HasSubstr("v.svg is not written"));
+  EXPECT_FALSE(exists("v.svg"));
+  EXPECT_THAT(read("v.html"), HasSubstr("cannot pass each other"));
 }
 
 TEST_F(ViewTest, AnOutputThatFailsIs74) {
