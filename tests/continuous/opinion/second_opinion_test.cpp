@@ -136,8 +136,11 @@ TEST(SecondOpinion, AgreesWithVerifyOnPlansGoodAndTampered) {
   const int few = static_cast<int>(num_instances) / 4;
   for (const Verdict verdict : {Verdict::clear, Verdict::collision, Verdict::broken})
     EXPECT_GT(comparison.seen[verdict], few) << to_string(verdict);
-  EXPECT_GT(comparison.seen[Verdict::touch], few / 10);
-  EXPECT_GT(comparison.num_obstacles, few / 10);
+  // A few instances need not have any.
+  if (num_instances >= 100) {
+    EXPECT_GT(comparison.seen[Verdict::touch], few / 10);
+    EXPECT_GT(comparison.num_obstacles, few / 10);
+  }
   for (const auto& [verdict, count] : comparison.seen)
     RecordProperty(std::string(to_string(verdict)), count);
 }
