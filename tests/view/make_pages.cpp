@@ -249,7 +249,7 @@ void make_continuous(const std::string& name, std::uint32_t seed) {
   random.num_agents = 2 + seed % 4;
   random.num_vertices = 8;
   random.polygon_percent = 40;
-  random.obstacles_percent = 50;
+  random.obstacles_percent = random.leaves_percent = 50;
   const auto drawn = continuous::test::random_instance(seed, random);
   const auto instance =
       continuous::Instance::make(drawn.shared_roadmap(), drawn.agents().items(),

@@ -28,6 +28,7 @@ after(() => laboratory.close());
  * @param {string} what
  */
 function near(actual, expected, what) {
+  if (actual === expected) return;  // Both may be infinite.
   const slack = 1e-9 * Math.max(1, Math.abs(expected));
   assert.ok(Math.abs(actual - expected) <= slack, `${what}: ${actual}, but it is ${expected}`);
 }
@@ -51,7 +52,8 @@ async function compare(name) {
   });
   if (expected.clearances.length > 0) {
     const least = expected.clearances.reduce((p, q) => (q[2] < p[2] ? q : p));
-    near(found.least.gap, least[2], "the least clearance of all");
+    // verify leaves out agents with broken paths, which the page draws.
+    if (found.complete) near(found.least.gap, least[2], "the least clearance of all");
     near(Number((await page.locator("#nearest-list button").first().textContent()).split(" ")[0]),
       Number(least[2].toFixed(4)), "the first one in the list");
   }
@@ -81,8 +83,9 @@ const askPage = `(expected) => {
     positions: expected.positions.map(([agent, time]) => quadrille.position(agent, time)),
     clearances: expected.clearances.map(([a, b, , time]) => quadrille.clearance(a, b, time)),
     elsewhere: pairs.map(([a, b]) => times.map((time) => quadrille.clearance(a, b, time))),
+    complete,
     least: quadrille.leastClearance(least[3]),
-    moments: complete ? times.map((time) => [quadrille.leastClearance(time).gap,
+    moments: complete ? times.map((time) => [quadrille.leastClearance(time)?.gap ?? Infinity,
       pairs.map(([a, b]) => quadrille.clearance(a, b, time))]) : [],
     violations: [...document.querySelectorAll("#violation-list button")]
       .map((button) => button.textContent.replace(/^[^:]*: /, "")),
