@@ -112,8 +112,11 @@ class RoadmapSolve {
     return result_json(&instance(), arguments_, options_, outcome, replay, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
-    return view::page(instance(), outcome.plan.value_or(continuous::Plan{}),
-                      page_options(input_.source, objective(), outcome), input_.grid_or_null());
+    view::PageOptions options = page_options(input_.source, objective(), outcome);
+    if (options.obstruction)
+      options.obstruction = {outcome.explanation, outcome.blocked, outcome.bottleneck};
+    return view::page(instance(), outcome.plan.value_or(continuous::Plan{}), options,
+                      input_.grid_or_null());
   }
   [[nodiscard]] Result<std::string> drawing(const continuous::Plan& plan) const {
     return view::picture(instance(), plan, arguments_.picture.options, input_.grid_or_null());

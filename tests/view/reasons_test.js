@@ -73,6 +73,37 @@ test("without a plan: the sentence, the agents, and the place in red", async () 
   await visit.leave();
 });
 
+test("without a plan on a roadmap: the vertices that both have to pass, and roads between them", async () => {
+  const at = (/** @type {string} */ name) => `${laboratory.folder}/${name}`;
+  // A corridor of two roads, and a dead end that is not deep enough for one of them to step aside.
+  const roadmap = {
+    vertices: [[0, 0], [2, 0], [4, 0], [2, 0.5], [4, 2]],
+    edges: [[0, 1], [1, 2], [1, 3], [2, 4]].flatMap(([v, w]) => [[v, w], [w, v]]),
+  };
+  const agents = [
+    { start: 0, goal: 2, radius: 0.3 }, { start: 2, goal: 0, radius: 0.3 }, { start: 4, goal: 4, radius: 0.3 },
+  ];
+  writeFileSync(at("dead_end.json"),
+    JSON.stringify({ quadrille: "instance", version: 1, resolution: 0.01, roadmap, agents }));
+  const outputs = ["--quiet", "--json", at("no.json"), "--view", at("no.html")];
+  assert.throws(() => laboratory.run("solve", "--instance", at("dead_end.json"), ...outputs), { status: 20 });
+  const { explanation } = JSON.parse(readFileSync(at("no.json"), "utf8"));
+  assert.match(explanation, /^agents 0 and 1 .* vertices 0, 1 and 2, in opposite directions$/);
+  const visit = await laboratory.visit(at("no.html"));
+  const { page } = visit;
+  assert.equal(await visit.text("obstruction-text"), `${explanation}.`);
+  assert.equal(await page.locator("#obstruction-list button").count(), 2);
+  const isRed = async (/** @type {number} */ x, /** @type {number} */ y) => {
+    const [px, py] = await page.evaluate(`quadrille.pixelOf(${x}, ${y})`);
+    const [r, g] = (await pixel(page, "map", px, py + 5)).split(" ").map(Number);
+    return r > g + 40;
+  };
+  // Beside the agents, which stand on the first vertex and the last.
+  for (const x of [0.5, 1.3, 2, 2.7, 3.5]) assert.ok(await isRed(x, 0), `${x}`);
+  for (const [x, y] of [[2, 0.5], [4, 1], [4, 2]]) assert.ok(!(await isRed(x, y)), `${x} ${y}`);
+  await visit.leave();
+});
+
 test("a page without an attribution shows nothing of it", async () => {
   const visit = await laboratory.visit(plain);
   const { page } = visit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 /** @import {Camera} from "./camera.js" */
-/** @import {Agent, Cells, Obstruction} from "./scene.js" */
+/** @import {Agent, Cells, Obstruction, Point, Scene} from "./scene.js" */
 /** @import {State} from "./state.js" */
 import { drawHeat } from "./attribution.js";
 import { agentColour, AGENT_COLOURS } from "./palette.js";
@@ -215,6 +215,26 @@ function drawEnds(context, camera, agent, state) {
 }
 
 /**
+ * The links of which both ends are among the points.
+ * @param {Scene} scene
+ * @param {Point[]} points
+ * @returns {[Point, Point][]}
+ */
+function linksWithin(scene, points) {
+  const key = (/** @type {Point} */ { x, y }) => `${x} ${y}`;
+  const within = new Set(points.map(key));
+  /** @type {[Point, Point][]} */
+  const links = [];
+  for (const list of [scene.links, scene.oneWay]) {
+    for (let k = 0; k + 1 < list.length; k += 2) {
+      const [from, to] = [scene.places[list[k]], scene.places[list[k + 1]]];
+      if (within.has(key(from)) && within.has(key(to))) links.push([from, to]);
+    }
+  }
+  return links;
+}
+
+/**
  * The place where no two can pass, and where the agents want to go that the reason names.
  * @param {CanvasRenderingContext2D} context
  * @param {State} state
@@ -225,13 +245,18 @@ function drawObstruction(context, state, { agents, points }) {
   const unit = scene.cells === null ? camera.smallest() : 0.5 * scene.cells.pitch;
   const width = Math.max(6, unit * camera.scale);
   context.globalAlpha = 0.5;
-  context.fillStyle = theme.alarm;
-  for (const { x, y } of points) {
-    context.beginPath();
-    context.arc(camera.toPixelX(x), camera.toPixelY(y), width / 2, 0, 2 * Math.PI);
-    context.fill();
+  context.strokeStyle = theme.alarm;
+  context.lineWidth = width;
+  context.lineCap = "round";
+  // In one stroke, so that nothing is painted twice. A line without length would not be painted.
+  context.beginPath();
+  for (const [from, to] of [...points.map((point) => [point, point]), ...linksWithin(scene, points)]) {
+    context.moveTo(camera.toPixelX(from.x), camera.toPixelY(from.y));
+    context.lineTo(camera.toPixelX(to.x) + 0.01, camera.toPixelY(to.y));
   }
+  context.stroke();
   context.globalAlpha = 1;
+  context.lineCap = "butt";
   context.setLineDash([6, 4]);
   context.lineWidth = 2;
   for (const { index, start, goal } of agents.map((agent) => scene.agents[agent])) {

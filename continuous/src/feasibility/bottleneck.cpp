@@ -43,26 +43,34 @@ std::vector<VertexId> inevitable_vertices(const Instance& instance, AgentId agen
   return inevitable;
 }
 
-std::string describe_bottleneck(const Instance& instance, const std::vector<AgentId>& agents) {
-  std::vector<VertexId> common = inevitable_vertices(instance, agents.front()), order;
-  for (const AgentId i : agents) {
-    order = inevitable_vertices(instance, i);
+std::vector<VertexId> find_bottleneck(const Instance& instance,
+                                      const std::vector<AgentId>& agents) {
+  std::vector<VertexId> common = inevitable_vertices(instance, agents.front());
+  for (auto other = agents.begin() + 1; other != agents.end(); ++other) {
+    const std::vector<VertexId> order = inevitable_vertices(instance, *other);
     std::erase_if(common, [&](VertexId v) {
       return std::find(order.begin(), order.end(), v) == order.end();
     });
   }
-  if (common.empty()) return "";
+  return common;
+}
+
+std::string describe_bottleneck(const Instance& instance, const std::vector<AgentId>& agents,
+                                const std::vector<VertexId>& bottleneck) {
+  const std::size_t count = bottleneck.size();
+  if (count == 0) return "";
   std::string text = agents.size() == 2 ? "both have" : "all of them have";
-  text += common.size() == 1 ? " to pass vertex " : " to pass vertices ";
-  for (std::size_t k = 0; k < std::min(common.size(), kNamed); ++k) {
-    if (k > 0) text += k + 1 == common.size() ? " and " : ", ";
-    text += std::to_string(common[k].index());
+  text += count == 1 ? " to pass vertex " : " to pass vertices ";
+  for (std::size_t k = 0; k < std::min(count, kNamed); ++k) {
+    if (k > 0) text += k + 1 == count ? " and " : ", ";
+    text += std::to_string(bottleneck[k].index());
   }
-  if (common.size() > kNamed) text += " and " + std::to_string(common.size() - kNamed) + " more";
+  if (count > kNamed) text += " and " + std::to_string(count - kNamed) + " more";
+  if (agents.size() != 2 || count == 1) return text;
   // The second of two comes to the same vertices in the same order or in the opposite one.
-  if (agents.size() == 2 && common.size() > 1 &&
-      std::find(order.begin(), order.end(), common.back()) <
-          std::find(order.begin(), order.end(), common.front()))
+  const std::vector<VertexId> order = inevitable_vertices(instance, agents.back());
+  if (std::find(order.begin(), order.end(), bottleneck.back()) <
+      std::find(order.begin(), order.end(), bottleneck.front()))
     text += ", in opposite directions";
   return text;
 }

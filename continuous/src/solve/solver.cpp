@@ -44,7 +44,9 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   return error;
 }
 
-std::string blocked_text(const Instance& instance, const std::vector<AgentId>& blocked) {
+/// What the outcome says of agents that block each other.
+void report_blocked(const Instance& instance, const std::vector<AgentId>& blocked,
+                    SolveOutcome& outcome) {
   const bool are_all = blocked.size() == instance.num_agents();
   std::string text = are_all && blocked.size() > 2 ? "the agents" : "agents";
   if (!are_all || blocked.size() == 2)
@@ -53,8 +55,11 @@ std::string blocked_text(const Instance& instance, const std::vector<AgentId>& b
   text += blocked.size() == 2 ? " cannot both" : " cannot all";
   text += " reach their goals";
   if (!are_all) text += ", even without the others";
-  const std::string where = describe_bottleneck(instance, blocked);
-  return where.empty() ? text : text + ": " + where;
+  outcome.status = Status::infeasible;
+  outcome.blocked = blocked;
+  outcome.bottleneck = find_bottleneck(instance, blocked);
+  const std::string where = describe_bottleneck(instance, blocked, outcome.bottleneck);
+  outcome.explanation = where.empty() ? text : text + ": " + where;
 }
 
 void keep_cheaper(std::optional<Plan>& best, std::optional<Plan> plan, Objective objective) {
@@ -123,14 +128,13 @@ void find_plan(const Instance& instance, const SolveOptions& options, LimitMonit
   Scene scene(instance, limits);
   if (!scene.is_complete()) return;
   const auto is_blocked = [&](const std::vector<AgentId>& blocked) {
-    if (blocked.empty()) return false;
-    outcome.status = Status::infeasible;
-    outcome.explanation = blocked_text(instance, blocked);
-    return true;
+    if (!blocked.empty()) report_blocked(instance, blocked, outcome);
+    return !blocked.empty();
   };
   for (const AgentId i : instance.agent_ids()) {
     if (scene.free_cost(i) < kAnyCost) continue;
     outcome.status = Status::infeasible;
+    outcome.blocked = {i};
     outcome.explanation =
         "agent " + std::to_string(i.index()) + " cannot get past the moving obstacles" +
         (instance.agent(i).deadline ? " by its deadline" : "") + ", even without other agents";

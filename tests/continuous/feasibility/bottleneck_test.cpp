@@ -11,6 +11,7 @@ namespace quadrille::continuous::test {
 namespace {
 
 using testing::ElementsAre;
+using testing::IsEmpty;
 
 using Ends = std::pair<std::size_t, std::size_t>;
 
@@ -46,16 +47,23 @@ TEST(Bottleneck, IsWhatAllWaysPass) {
   EXPECT_THAT(inevitable_vertices(instance, AgentId(0)),
               ElementsAre(VertexId(0), VertexId(1), VertexId(3)));
   EXPECT_THAT(inevitable_vertices(instance, AgentId(1)), ElementsAre(VertexId(2), VertexId(4)));
-  EXPECT_EQ(describe_bottleneck(instance, {AgentId(0), AgentId(1)}), "");
+  EXPECT_THAT(find_bottleneck(instance, {AgentId(0), AgentId(1)}), IsEmpty());
+  EXPECT_EQ(describe_bottleneck(instance, {AgentId(0), AgentId(1)}, {}), "");
 }
 
 TEST(Bottleneck, SaysWhoGoesWhere) {
   const Instance instance = make(5, kRoads, {{0, 3}, {3, 0}, {1, 2}});
-  EXPECT_EQ(describe_bottleneck(instance, {AgentId(0), AgentId(1)}),
+  const auto describe = [&](const std::vector<AgentId>& agents) {
+    return describe_bottleneck(instance, agents, find_bottleneck(instance, agents));
+  };
+  EXPECT_EQ(describe({AgentId(0), AgentId(1)}),
             "both have to pass vertices 0, 1 and 3, in opposite directions");
-  EXPECT_EQ(describe_bottleneck(instance, {AgentId(0), AgentId(2)}), "both have to pass vertex 1");
-  EXPECT_EQ(describe_bottleneck(instance, {AgentId(0), AgentId(1), AgentId(2)}),
-            "all of them have to pass vertex 1");
+  EXPECT_EQ(describe({AgentId(0), AgentId(2)}), "both have to pass vertex 1");
+  EXPECT_EQ(describe({AgentId(0), AgentId(1), AgentId(2)}), "all of them have to pass vertex 1");
+  // In the order of the first one.
+  EXPECT_THAT(find_bottleneck(instance, {AgentId(1), AgentId(0)}),
+              ElementsAre(VertexId(3), VertexId(1), VertexId(0)));
+  EXPECT_THAT(find_bottleneck(instance, {AgentId(1), AgentId(2)}), ElementsAre(VertexId(1)));
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ TEST_P(FleetRules, ObstaclesAreAvoided) {
   EXPECT_EQ(answer(blocked).status, Status::infeasible);
   EXPECT_EQ(answer(blocked).explanation,
             "agent 0 cannot get past the moving obstacles, even without other agents");
+  EXPECT_EQ(answer(blocked).blocked, std::vector<AgentId>{AgentId(0)});
   // It leaves, but too late for the agent's deadline.
   crossing.leaves = true;
   std::vector<Agent> hurried = agents;

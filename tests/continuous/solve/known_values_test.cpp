@@ -96,6 +96,11 @@ TEST_P(KnownValue, ASidingThatIsNotDeepEnoughMakesItInfeasible) {
       const SolveOutcome outcome = solve(instance, options).value();
       EXPECT_EQ(outcome.status, radius == 400 ? Status::optimal : Status::infeasible);
       EXPECT_EQ(outcome.explanation.empty(), radius == 400) << outcome.explanation;
+      using Agents = std::vector<AgentId>;
+      using Vertices = std::vector<VertexId>;
+      EXPECT_EQ(outcome.blocked, radius == 400 ? Agents{} : Agents({AgentId(0), AgentId(1)}));
+      EXPECT_EQ(outcome.bottleneck,
+                radius == 400 ? Vertices{} : Vertices({VertexId(0), VertexId(1), VertexId(2)}));
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
@@ -96,6 +97,10 @@ struct SolveOutcome {
   Cost lower_bound = 0;      ///< Proven, in ticks, for every status but infeasible.
   StopReason stop = StopReason::none;
   std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
+  /// For infeasible: whom the explanation names, and the vertices that each of them has to pass on
+  /// whatever way, in the order in which the first one comes to them. Either may be empty.
+  std::vector<AgentId> blocked;
+  std::vector<VertexId> bottleneck;
   Statistics statistics;
   /// With `explain`, for every status but infeasible; absent if a limit was met before the free
   /// costs were known.
