@@ -227,6 +227,8 @@ Result<std::vector<continuous::MovingObstacle>> Fleet::obstacles_in_units() cons
                        to_string(roadmap_.resolution().time));
       made.path.push_back({*place, *arrive, *depart});
     }
+    if (made.leaves && made.path.front().arrive == made.path.back().depart)
+      return invalid(name + "vanishes at the moment at which it appears");
     obstacles.push_back(std::move(made));
   }
   return obstacles;

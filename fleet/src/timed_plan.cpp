@@ -95,10 +95,12 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
   return TimedPlan(std::make_shared<const State>(std::move(state)));
 }
 
-MovingObstacle as_obstacle(const Fleet& fleet, const TimedPlan& plan, AgentId robot) {
+std::optional<MovingObstacle> as_obstacle(const Fleet& fleet, const TimedPlan& plan,
+                                          AgentId robot) {
   MovingObstacle obstacle{plan[robot].name(), fleet.spec(robot).body, {}, fleet.leaves(robot)};
   for (const Stop& stop : plan[robot].stops())
     obstacle.path.push_back({stop.place, stop.arrive, stop.depart});
+  if (obstacle.leaves && plan[robot].cost() == Seconds(0)) return std::nullopt;
   return obstacle;
 }
 

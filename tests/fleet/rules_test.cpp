@@ -135,6 +135,9 @@ TEST(FleetRules, ObstaclesAreAvoided) {
   fleet.clear_obstacles();
   fleet.obstacle({"cart", Disc(0.2_m), {}});
   EXPECT_EQ(solve(fleet).error().message, "'cart' has no stops");
+  fleet.clear_obstacles();
+  fleet.obstacle({"cart", Disc(0.2_m), {{{1_m, 0_m}, 0.104_s, 0.1_s}}, true});
+  EXPECT_EQ(solve(fleet).error().message, "'cart' vanishes at the moment at which it appears");
 }
 
 // Each robot of one fleet, planned one after the other around those before it: together they are a
@@ -154,7 +157,9 @@ TEST(FleetRules, RobotsOfAnotherFleetAreObstacles) {
       const SolveOutcome outcome = solve(one, {.limits = {.wall = 5_s}}).value();
       if (!outcome.plan) break;
       together.paths.push_back(outcome.plan->in_units().paths[AgentId(0)]);
-      known.push_back(as_obstacle(one, *outcome.plan, AgentId(0)));
+      const auto obstacle = as_obstacle(one, *outcome.plan, AgentId(0));
+      EXPECT_EQ(obstacle.has_value(), !all.leaves(i) || all.start(i) != all.goal(i));
+      if (obstacle) known.push_back(*obstacle);
     }
     if (together.paths.size() < all.num_robots() || !all.instance()) continue;
     ++num_solved;

@@ -210,6 +210,9 @@ class InstanceReader {
       for (Node s = document_.first(*path); s < document_.next(*path); s = document_.next(s))
         if (!read_obstacle_stop(s, obstacle.path)) return false;
       if (obstacle.path.empty()) return check_.fail(*path, "the path is empty");
+      if (obstacle.leaves && obstacle.path.front().arrive == obstacle.path.back().depart)
+        return check_.fail(*path, ErrorCode::invalid_instance,
+                           "it vanishes at the moment at which it appears");
     }
     return true;
   }

@@ -137,6 +137,8 @@ std::optional<Error> check_obstacle(const MovingObstacle& obstacle, std::size_t 
       return invalid(who + " has times that do not increase");
     now = stop.depart;
   }
+  if (obstacle.leaves && obstacle.path.front().arrive == now)
+    return invalid(who + " vanishes at the moment at which it appears");
   return std::nullopt;
 }
 

@@ -103,6 +103,8 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithTheRulesOfFleets) {
       {"4.5", "-4.5", "f:18: /obstacles/0/path/1/arrive: the time is negative"},
       {"\"arrive\": 0,", "\"arrive\": 3,",
        "f:18: /obstacles/0/path/0/depart: the departure is before the arrival"},
+      {"{\"vertex\": 3, \"arrive\": 0, \"depart\": 2}, ", "",
+       "f:18: /obstacles/0/path: it vanishes at the moment at which it appears"},
       {"\"at_end\": \"leave\"", "\"at_end\": \"go\"",
        "f:18: /obstacles/0/at_end: expected 'stay' or 'leave', found 'go'"},
       {"\"vertex\": 3", "\"vertex\": 2", "f:17: /obstacles: obstacle 0 is at the start of agent 1"},

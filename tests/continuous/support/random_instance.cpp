@@ -89,6 +89,7 @@ MovingObstacle draw_obstacle(Draw& draw, const Roadmap& roadmap, const RandomOpt
     now = stop.depart + draw.ticks(1, 60);
     obstacle.path.push_back(stop);
   }
+  if (obstacle.path.front().arrive == obstacle.path.back().depart) obstacle.leaves = false;
   return obstacle;
 }
 

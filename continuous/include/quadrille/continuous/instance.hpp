@@ -84,10 +84,10 @@ class Instance {
   /// outside [1, geometry::kMaxDuration], a resolution that is not positive and finite, likewise
   /// for bodies, places and times of obstacles; invalid_instance for vertices that do not exist,
   /// agents that are under way but not at a place of their own, or released later, and obstacles
-  /// without stops or whose times go back; no_plan for overlapping starts, also with
-  /// an obstacle at tick 0, overlapping goals (interiors) of agents that stay there, and goals that
-  /// cannot be reached, or not by the deadline. Agents are named by index. `places`: where each
-  /// agent comes from, for errors about it; none, or one per agent.
+  /// without stops, whose times go back, or that vanish when they appear; no_plan for overlapping
+  /// starts, also with an obstacle at tick 0, overlapping goals (interiors) of agents that stay
+  /// there, and goals that cannot be reached, or not by the deadline. Agents are named by index.
+  /// `places`: where each agent comes from, for errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents, Resolution resolution = {},
                                              std::span<const SourcePlace> places = {},

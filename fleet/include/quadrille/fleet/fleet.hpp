@@ -145,10 +145,10 @@ class Fleet {
 
   /// The same in whole units, as the solver takes it. Errors name robots and vertices:
   /// invalid_instance for a robot without body, start or goal, a name given twice, a polygon that
-  /// is not convex, a group that the roadmap does not have, an obstacle without stops or whose
-  /// times do not increase; out_of_range for sizes, speeds and times that are not supported at this
-  /// resolution; no_plan for starts that overlap, also with an obstacle, goals that overlap and
-  /// goals that cannot be reached, or not by the deadline.
+  /// is not convex, a group that the roadmap does not have, an obstacle without stops, whose times
+  /// do not increase, or that vanishes when it appears; out_of_range for sizes, speeds and times
+  /// that are not supported at this resolution; no_plan for starts that overlap, also with an
+  /// obstacle, goals that overlap and goals that cannot be reached, or not by the deadline.
   [[nodiscard]] Result<continuous::Instance> instance() const;
 
  private:

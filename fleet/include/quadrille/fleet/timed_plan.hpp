@@ -125,9 +125,11 @@ class TimedPlan {
   std::shared_ptr<const State> state_;
 };
 
-/// What another fleet has to keep clear of, when the robot does what the plan says. `fleet`: whose
-/// plan it is. Requires a robot of the plan.
-[[nodiscard]] MovingObstacle as_obstacle(const Fleet& fleet, const TimedPlan& plan, AgentId robot);
+/// What another fleet has to keep clear of, when the robot does what the plan says; nullopt for one
+/// that leaves where it begins, and so is never anywhere. `fleet`: whose plan it is. Requires a
+/// robot of the plan.
+[[nodiscard]] std::optional<MovingObstacle> as_obstacle(const Fleet& fleet, const TimedPlan& plan,
+                                                        AgentId robot);
 
 }  // namespace quadrille::fleet
 
