@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -44,30 +43,6 @@ namespace quadrille::fleet {
   if (std::abs(value - exact) <= 1e-9 * value) return *nearest;
   if (is_up) return exact >= value ? *nearest : *nearest + 1;
   return exact <= value ? *nearest : *nearest - 1;
-}
-
-/// How much of a move lies behind a robot: down to a whole tick, with the same billionth, and less
-/// than all. `fraction`: 0 .. 1.
-[[nodiscard]] inline continuous::Ticks ticks_behind(double fraction, continuous::Ticks whole) {
-  const double ticks = fraction * static_cast<double>(whole.count());
-  const double nearest = std::round(ticks);
-  const bool is_meant = std::abs(ticks - nearest) <= 1e-9 * nearest;
-  const auto behind = static_cast<std::int64_t>(is_meant ? nearest : std::floor(ticks));
-  return continuous::Ticks(std::clamp<std::int64_t>(behind, 0, whole.count() - 1));
-}
-
-/// Where it is then, to the nearest length unit in each coordinate.
-[[nodiscard]] inline continuous::Point place_between(const continuous::Point& from,
-                                                     const continuous::Point& to,
-                                                     continuous::Ticks behind,
-                                                     continuous::Ticks whole) {
-  const long double share =
-      static_cast<long double>(behind.count()) / static_cast<long double>(whole.count());
-  const auto between = [&](continuous::Length a, continuous::Length b) {
-    return a + continuous::Length(static_cast<std::int64_t>(
-                   std::round(static_cast<long double>((b - a).count()) * share)));
-  };
-  return {between(from.x, to.x), between(from.y, to.y)};
 }
 
 [[nodiscard]] inline Point in_metres(const continuous::Point& point,

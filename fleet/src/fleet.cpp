@@ -7,6 +7,7 @@
 #include "conversions.hpp"
 #include "numbers.hpp"
 #include "quadrille/continuous/free_cost.hpp"
+#include "quadrille/continuous/under_way.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::fleet {
@@ -194,10 +195,8 @@ Result<Fleet::Roads> Fleet::put_under_way(std::vector<continuous::Agent>& agents
       return out_of_range(name + "is under way from " + roadmap_.name(where.from) + " to " +
                           roadmap_.name(where.to) + ", which takes it less than half a step of " +
                           to_string(roadmap_.resolution().time) + ", or too long");
-    const continuous::Ticks behind = ticks_behind(where.fraction, *whole);
-    agent.start = VertexId(points.size());
-    points.push_back(place_between(from, to, behind, *whole));
-    edges.push_back({agent.start, where.to, *whole - behind});
+    agent.start = continuous::add_place_under_way(points, edges, where.from, where.to, *whole,
+                                                  where.fraction);
   }
   auto roads = continuous::Roadmap::make(std::move(points), std::move(edges));
   if (!roads) return roads.error();

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/under_way.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace quadrille::continuous {
+namespace {
+
+Ticks ticks_behind(double fraction, Ticks whole) {
+  const double ticks = fraction * static_cast<double>(whole.count());
+  const double nearest = std::round(ticks);
+  const bool is_meant = std::abs(ticks - nearest) <= 1e-9 * nearest;
+  const auto behind = static_cast<std::int64_t>(is_meant ? nearest : std::floor(ticks));
+  return Ticks(std::clamp<std::int64_t>(behind, 0, whole.count() - 1));
+}
+
+Point place_between(const Point& from, const Point& to, Ticks behind, Ticks whole) {
+  const long double share =
+      static_cast<long double>(behind.count()) / static_cast<long double>(whole.count());
+  const auto between = [&](Length a, Length b) {
+    return a + Length(static_cast<std::int64_t>(
+                   std::round(static_cast<long double>((b - a).count()) * share)));
+  };
+  return {between(from.x, to.x), between(from.y, to.y)};
+}
+
+}  // namespace
+
+VertexId add_place_under_way(std::vector<Point>& vertices, std::vector<Edge>& edges, VertexId from,
+                             VertexId to, Ticks whole, double fraction) {
+  for (const VertexId v : {from, to})
+    QUADRILLE_REQUIRE(v.index() < vertices.size(), "a vertex of the roadmap");
+  QUADRILLE_REQUIRE(fraction >= 0 && fraction <= 1, "a part of the move");
+  QUADRILLE_REQUIRE(whole >= 1, "a move that takes some time");
+  const Ticks behind = ticks_behind(fraction, whole);
+  const VertexId place(vertices.size());
+  vertices.push_back(place_between(vertices[from.index()], vertices[to.index()], behind, whole));
+  edges.push_back({place, to, whole - behind});
+  return place;
+}
+
+}  // namespace quadrille::continuous
