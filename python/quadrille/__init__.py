@@ -18,6 +18,7 @@ from .graphs import Graph, Grid, Roadmap
 from .plans import Plan, StepPath, StepPlan, TimedPath, TimedPlan
 from .reading import read
 from .reports import Report, Violation
+from .rules import Obstacle, Underway
 from .solving import Progress, Result, Statistics, solve
 
 __all__ = [
@@ -29,6 +30,7 @@ __all__ = [
     "Grid",
     "InputError",
     "NoPlanError",
+    "Obstacle",
     "Place",
     "Plan",
     "Progress",
@@ -43,6 +45,7 @@ __all__ = [
     "StepPlan",
     "TimedPath",
     "TimedPlan",
+    "Underway",
     "Violation",
     "__version__",
     "read",

@@ -13,11 +13,17 @@ from . import _core
 from ._arrays import doubles, ints, per_agent
 from .graphs import Graph, Grid, Roadmap
 from .plans import Plan, StepPlan, TimedPlan
+from .rules import (
+    DEFAULT_RADIUS,
+    Obstacle,
+    Underway,
+    flags,
+    group_numbers,
+    moments,
+    obstacle_of,
+)
 
 P = TypeVar("P", bound=Plan)
-
-# sqrt(2) / 4: on a grid of unit cells a diagonal move just touches a disc in the cell beside it.
-DEFAULT_RADIUS = 0.35355339059327379
 
 
 class Fleet(Generic[P]):
@@ -26,12 +32,22 @@ class Fleet(Generic[P]):
     Args:
         graph: ``Grid``, ``Graph`` or ``Roadmap``.
         starts, goals: On a grid int[n, 2], cells (x, y). Otherwise int[n], vertices, or their names
-            if the roadmap has names.
+            if the roadmap has names. On roadmaps a start may also be an ``Underway``.
         radius: On roadmaps: radius of the agents' discs in your unit of length, a number or
             float[n]; rounded down to a length unit. Default sqrt(2)/4.
         polygon: On roadmaps, instead: float[k, 2], corners of a convex polygon around the agent's
             place, which does not turn; or a list of n entries, None where the radius counts.
         speed: On roadmaps: length per time, a number or float[n]. Default 1.
+        group: On roadmaps: the name of a group for all agents, or n entries, None without one. An agent
+            may use the edges that are open to all, and those that are reserved for its group.
+        release: On roadmaps: the agent begins no move before this time, a number or float[n] in your
+            unit of time. At its start it is from the beginning all the same, in the way of others,
+            and its cost counts from there. Default 0.
+        deadline: On roadmaps: a plan in which the agent arrives for good later is none; a number or n
+            entries, None or NaN: whenever (default). All times are rounded to the nearest tick.
+        leaves: On roadmaps: whether the agent vanishes when it arrives, instead of staying at its
+            goal; a truth value or bool[n]. Default false.
+        obstacles: On roadmaps: ``Obstacle`` s, of which agents keep clear.
         names: n names for the agents, which plans and tables show; default "0", "1", ...
 
     Raises:
@@ -61,6 +77,11 @@ class Fleet(Generic[P]):
         radius: Optional[npt.ArrayLike] = None,
         polygon: Any = None,
         speed: Optional[npt.ArrayLike] = None,
+        group: Union[None, str, Sequence[Optional[str]]] = None,
+        release: Any = None,
+        deadline: Any = None,
+        leaves: Optional[npt.ArrayLike] = None,
+        obstacles: Sequence[Obstacle] = (),
         names: Optional[Sequence[str]] = None,
     ) -> None: ...
 
@@ -73,23 +94,40 @@ class Fleet(Generic[P]):
         radius: Optional[npt.ArrayLike] = None,
         polygon: Any = None,
         speed: Optional[npt.ArrayLike] = None,
+        group: Union[None, str, Sequence[Optional[str]]] = None,
+        release: Any = None,
+        deadline: Any = None,
+        leaves: Optional[npt.ArrayLike] = None,
+        obstacles: Sequence[Obstacle] = (),
         names: Optional[Sequence[str]] = None,
     ) -> None:
         instance: Union[_core.StepInstance, _core.TimedInstance]
         if isinstance(graph, Roadmap):
-            begin, end = graph._vertices(starts, "starts"), graph._vertices(goals, "goals")
-            _check_lengths(len(begin), len(end))
+            begin, under_way = _starts(graph, starts)
+            end = graph._vertices(goals, "goals")
+            n = len(begin)
+            _check_lengths(n, len(end))
             instance = _core.TimedInstance(
                 graph._graph,
                 graph.resolution,
                 begin,
                 end,
-                _bodies(radius, polygon, len(begin)),
-                per_agent(1.0 if speed is None else speed, "speed", len(begin)),
+                _bodies(radius, polygon, n),
+                per_agent(1.0 if speed is None else speed, "speed", n),
+                dict(
+                    groups=group_numbers(group, graph._groups, n),
+                    releases=moments(release, "release", n, 0.0),
+                    deadlines=moments(deadline, "deadline", n, np.nan),
+                    leaves=flags(False if leaves is None else leaves, "leaves", n),
+                    under_way=under_way,
+                    obstacles=[obstacle._given() for obstacle in obstacles],
+                ),
             )
         else:
-            for name, given in (("radius", radius), ("polygon", polygon), ("speed", speed)):
-                if given is not None:
+            given = dict(radius=radius, polygon=polygon, speed=speed, group=group, release=release)
+            given.update(deadline=deadline, leaves=leaves, obstacles=obstacles or None)
+            for name, value in given.items():
+                if value is not None:
                     raise ValueError(f"{name} is for roadmaps")
             shape = (None, 2) if isinstance(graph, Grid) else (None,)
             begin, end = ints(starts, "starts", shape), ints(goals, "goals", shape)
@@ -105,6 +143,12 @@ class Fleet(Generic[P]):
     ) -> None:
         self._graph = graph
         self._instance = instance
+        # Its vertices are those of the graph, and one for each agent that is under way.
+        self._places = graph
+        if isinstance(graph, Roadmap) and isinstance(instance, _core.TimedInstance):
+            if instance.graph.num_vertices > graph.num_vertices:
+                self._places = Roadmap.__new__(Roadmap)
+                self._places._setup(instance.graph, graph.resolution, graph._groups)
         self._names = [str(i) for i in range(len(self))] if names is None else list(names)
         if len(self._names) != len(self):
             raise ValueError(f"names: {len(self._names)} names for {len(self)} agents")
@@ -127,7 +171,10 @@ class Fleet(Generic[P]):
 
     @property
     def starts(self) -> npt.NDArray[np.int32]:
-        """int32[n, 2], cells (x, y), on grids; int32[n], vertices, otherwise. Read-only."""
+        """int32[n, 2], cells (x, y), on grids; int32[n], vertices, otherwise. Read-only.
+
+        Agents that are under way begin at vertices of their own, numbered after those of the roadmap.
+        """
         return self._instance.starts()
 
     @property
@@ -144,6 +191,38 @@ class Fleet(Generic[P]):
     def speeds(self) -> npt.NDArray[np.float64]:
         """On roadmaps: float64[n], length per time; read-only."""
         return self._timed("speeds").speeds()
+
+    @property
+    def groups(self) -> list[Optional[str]]:
+        """On roadmaps, per agent: the name of its group, or None."""
+        numbers = self._timed("groups").rules()["groups"].tolist()
+        names = cast(Roadmap, self._graph)._groups
+        return [None if number == 0 else names[number - 1] for number in numbers]
+
+    @property
+    def releases(self) -> npt.NDArray[np.float64]:
+        """On roadmaps: float64[n], before which agents begin no move; read-only."""
+        return cast("npt.NDArray[np.float64]", self._timed("releases").rules()["releases"])
+
+    @property
+    def deadlines(self) -> npt.NDArray[np.float64]:
+        """On roadmaps: float64[n], NaN for none; read-only."""
+        return cast("npt.NDArray[np.float64]", self._timed("deadlines").rules()["deadlines"])
+
+    @property
+    def leaves(self) -> npt.NDArray[np.bool_]:
+        """On roadmaps: bool[n], who vanishes at its goal; read-only."""
+        return cast("npt.NDArray[np.bool_]", self._timed("leaves").rules()["leaves"])
+
+    @property
+    def under_way(self) -> npt.NDArray[np.bool_]:
+        """On roadmaps: bool[n], who begins in the middle of a move; read-only."""
+        return cast("npt.NDArray[np.bool_]", self._timed("under_way").rules()["under_way"])
+
+    @property
+    def obstacles(self) -> list[Obstacle]:
+        """On roadmaps: as rounded."""
+        return [obstacle_of(given) for given in self._timed("obstacles").rules()["obstacles"]]
 
     def plan(self, paths: npt.ArrayLike) -> StepPlan:
         """A plan of your own, in timesteps; ``verify`` says whether it is valid.
@@ -197,7 +276,7 @@ class Fleet(Generic[P]):
     def _timed(self, what: str) -> _core.TimedInstance:
         if isinstance(self._instance, _core.TimedInstance):
             return self._instance
-        raise ValueError(f"{what}: agents have bodies and speeds on roadmaps only")
+        raise ValueError(f"{what}: on roadmaps only")
 
     def _cost(self, cost: int) -> float:
         """A cost of the library in the user's unit of time."""
@@ -207,6 +286,24 @@ class Fleet(Generic[P]):
 
     def __repr__(self) -> str:
         return f"<quadrille.Fleet of {len(self)} on {self._graph!r}>"
+
+
+def _starts(
+    graph: Roadmap, starts: Any
+) -> tuple[npt.NDArray[np.int64], list[tuple[int, int, int, float]]]:
+    """Vertices, and who is under way instead: (agent, from, to, fraction)."""
+    under_way: list[tuple[int, int, int, float]] = []
+    if isinstance(starts, np.ndarray) and starts.dtype.kind != "O":
+        return graph._vertices(starts, "starts"), under_way
+    places = list(starts)
+    for agent, place in enumerate(places):
+        if not isinstance(place, Underway):
+            continue
+        source = graph._vertex(place.source, agent, "start")
+        target = graph._vertex(place.target, agent, "start")
+        under_way.append((agent, source, target, float(place.fraction)))
+        places[agent] = place.source
+    return graph._vertices(places, "starts"), under_way
 
 
 def _check_lengths(starts: int, goals: int) -> None:

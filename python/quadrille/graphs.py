@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import bools, doubles, ints
+from .rules import Only, only_of, open_to
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -104,6 +105,9 @@ class Roadmap:
             Lengths and times are whole numbers of these, and exact from there on. Places are
             rounded to the nearest.
         nodes: What you call the vertices: ``Fleet`` understands these names as well as numbers.
+        only: m entries, who may use an edge: None for all agents, or the name of a group, or several
+            names, for the agents of these groups only (None among them: agents without a group). At most
+            63 groups, named by strings.
 
     Raises:
         InputError: for loops, vertices that do not exist, numbers that are too large for the
@@ -121,27 +125,33 @@ class Roadmap:
         both_ways: bool = False,
         resolution: Resolution = DEFAULT_RESOLUTION,
         nodes: Optional[Sequence[Hashable]] = None,
+        only: Optional[Sequence[Only]] = None,
     ) -> None:
         places = doubles(xy, "xy", (None, 2))
         ends = ints(edges, "edges", (None, 2))
         times = np.full(len(ends), np.nan)
         if durations is not None:
             times = doubles(durations, "durations", (len(ends),))
+        masks, groups = open_to(only, len(ends))
         if both_ways:
             # An edge and its reverse are neighbours.
             ends = np.stack([ends, ends[:, ::-1]], axis=1).reshape(-1, 2)
-            times = np.repeat(times, 2)
+            times, masks = np.repeat(times, 2), np.repeat(masks, 2)
         sizes = doubles(np.broadcast_to(resolution, 2), "resolution", (2,)).tolist()
         if not all(0 < size < float("inf") for size in sizes):
             raise ValueError("resolution: a resolution is positive")
         pair = (sizes[0], sizes[1])
-        self._setup(_core.TimedGraph(places, np.ascontiguousarray(ends), times, pair), pair)
+        graph = _core.TimedGraph(places, np.ascontiguousarray(ends), times, masks, pair)
+        self._setup(graph, pair, groups)
         if nodes is not None:
             self._name_nodes(nodes)
 
-    def _setup(self, graph: _core.TimedGraph, resolution: tuple[float, float]) -> None:
+    def _setup(
+        self, graph: _core.TimedGraph, resolution: tuple[float, float], groups: list[str]
+    ) -> None:
         self._graph = graph
         self._resolution = resolution
+        self._groups = groups  # called 1, 2, ... by the compiled part
         self._nodes: Optional[list[Hashable]] = None
         self._number: dict[Hashable, int] = {}
 
@@ -160,6 +170,7 @@ class Roadmap:
         pos: Any = "pos",
         *,
         duration: Optional[str] = None,
+        only: Optional[str] = None,
         resolution: Resolution = DEFAULT_RESOLUTION,
     ) -> Roadmap:
         """The roadmap of a networkx graph. Edges of an undirected graph lead both ways.
@@ -169,6 +180,8 @@ class Roadmap:
             pos: Name of the node attribute that has the place (x, y), or a dict from node to place.
             duration: Name of an edge attribute with the duration of a move; edges that lack it take
                 their length divided by the speed of the agent.
+            only: Name of an edge attribute with the group, or groups, that may use the edge; edges that
+                lack it are open to all agents.
             resolution: As for ``Roadmap``.
 
         Raises:
@@ -193,6 +206,7 @@ class Roadmap:
             both_ways=not G.is_directed(),
             resolution=resolution,
             nodes=nodes,
+            only=None if only is None else [groups for _, _, groups in G.edges(data=only)],
         )
 
     @property
@@ -226,6 +240,17 @@ class Roadmap:
         return self._graph.durations(self._resolution)
 
     @property
+    def groups(self) -> list[str]:
+        """What the groups of agents are called, for which edges are reserved."""
+        return list(self._groups)
+
+    @property
+    def only(self) -> list[Optional[tuple[Optional[str], ...]]]:
+        """Per edge the groups whose agents may use it, None among them for agents without a group; None
+        if all may."""
+        return [only_of(mask, self._groups) for mask in self._graph.open_to().tolist()]
+
+    @property
     def nodes(self) -> list[Hashable]:
         """What the vertices are called: their numbers, or the nodes of the networkx graph."""
         return list(range(self.num_vertices)) if self._nodes is None else list(self._nodes)
@@ -234,12 +259,14 @@ class Roadmap:
         """Numbers of vertices that are given by number or by node."""
         if self._nodes is None:
             return ints(places, name, (None,))
-        numbers = []
-        for agent, place in enumerate(places):
-            if place not in self._number:
-                raise ValueError(f"agent {agent}: {name}: there is no node {place!r}")
-            numbers.append(self._number[place])
-        return ints(numbers, name, (None,))
+        return ints([self._vertex(place, agent, name) for agent, place in enumerate(places)], name, (None,))
+
+    def _vertex(self, place: Any, agent: int, name: str) -> int:
+        if self._nodes is None:
+            return int(ints(place, f"agent {agent}: {name}", ()))
+        if place not in self._number:
+            raise ValueError(f"agent {agent}: {name}: there is no node {place!r}")
+        return self._number[place]
 
     def __repr__(self) -> str:
         return f"<quadrille.Roadmap {self.num_vertices} vertices, {self._graph.num_edges} edges>"

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from . import _core
 from .graphs import Graph, Grid, Roadmap
 from .reports import Report, Violation
+from .rules import Obstacle, obstacle_of
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -297,7 +298,7 @@ class TimedPlan(Plan):
 
     @property
     def _roadmap(self) -> Roadmap:
-        return cast(Roadmap, self._fleet.graph)
+        return cast(Roadmap, self._fleet._places)
 
     @property
     def costs(self) -> npt.NDArray[np.float64]:
@@ -319,6 +320,21 @@ class TimedPlan(Plan):
         stops["arrive"], stops["depart"] = self._plan.times(agent, self._roadmap.resolution)
         cost = float(stops["arrive"][-1])
         return TimedPath(self._fleet._names[agent], stops, ticks, cost)
+
+    def obstacle(self, agent: int) -> Optional[Obstacle]:
+        """What another fleet has to keep clear of, when the agent does what the plan says; None for one
+        that leaves where it begins, and so is never anywhere.
+
+        Raises:
+            IndexError: for an agent that there is not.
+        """
+        path = self[agent]
+        leaves = bool(self._fleet.leaves[self._checked(agent)])
+        if leaves and path.cost == 0:
+            return None
+        stops = np.stack([path.stops[name] for name in ("x", "y", "arrive", "depart")], axis=1)
+        body = self._fleet.bodies[self._checked(agent)]
+        return obstacle_of((body, stops, leaves))
 
     def __iter__(self) -> Iterator[TimedPath]:
         return (self[agent] for agent in range(len(self)))

@@ -9,6 +9,7 @@ from typing import Any, Optional, Union
 from . import _core
 from .fleet import Fleet
 from .graphs import Graph, Grid, Roadmap
+from .rules import numbered_groups
 
 
 def read(
@@ -72,7 +73,8 @@ def _fleet_of(instance: Union[_core.StepInstance, _core.TimedInstance]) -> Fleet
     graph: Union[Grid, Graph, Roadmap]
     if isinstance(instance, _core.TimedInstance):
         graph = Roadmap.__new__(Roadmap)
-        graph._setup(instance.graph, instance.resolution)
+        groups = numbered_groups(instance.graph.open_to(), instance.rules()["groups"])
+        graph._setup(instance.graph, instance.resolution, groups)
     else:
         graph = Grid.__new__(Grid) if instance.graph.is_grid else Graph.__new__(Graph)
         graph._graph = instance.graph

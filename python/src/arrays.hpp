@@ -15,6 +15,7 @@ namespace py = pybind11;
 // What the Python files hand over: the shape, the type and the order in memory are settled there.
 using Bools = py::array_t<bool, py::array::c_style>;
 using Ints = py::array_t<std::int64_t, py::array::c_style>;
+using Bits = py::array_t<std::uint64_t, py::array::c_style>;
 using Doubles = py::array_t<double, py::array::c_style>;
 
 /// A new array, whose entries are not set yet.

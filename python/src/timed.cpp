@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The continuous domain: roadmaps, bodies and plans in ticks.
+// The continuous domain: searches and plans, in ticks.
 #include "timed.hpp"
 
 #include <pybind11/stl.h>
@@ -29,180 +29,11 @@ namespace quadrille::python {
 namespace {
 
 using continuous::Instance;
-using continuous::Length;
 using continuous::Plan;
-using continuous::Point;
 using continuous::Resolution;
 using continuous::Roadmap;
 using continuous::Stop;
 using continuous::Ticks;
-
-/// Sizes of a length unit and of a tick, as Python has them.
-using Sizes = std::pair<double, double>;
-Resolution resolution_of(const Sizes& sizes) { return {sizes.first, sizes.second}; }
-
-/// For messages: "xy[3]".
-std::string entry(const char* array, py::ssize_t row) {
-  return std::string(array) + "[" + std::to_string(row) + "]";
-}
-/// For messages: what is wrong with an agent.
-std::string agent(py::ssize_t i) { return "agent " + std::to_string(i) + ": "; }
-
-VertexId vertex_of(std::int64_t vertex, std::size_t size, const std::string& name) {
-  if (vertex < 0 || vertex >= static_cast<std::int64_t>(size))
-    refuse(name + ": there is no vertex " + std::to_string(vertex) + " among " +
-           std::to_string(size));
-  return VertexId(static_cast<std::size_t>(vertex));
-}
-
-/// `xy`: [n, 2], `edges`: [m, 2], `durations`: [m], NaN for none.
-std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const Doubles& durations,
-                                    const Sizes& sizes) {
-  const Resolution resolution = resolution_of(sizes);
-  const auto coordinates = xy.unchecked<2>();
-  std::vector<Point> points;
-  for (py::ssize_t v = 0; v < coordinates.shape(0); ++v) {
-    const auto x = continuous::quantise_coordinate(coordinates(v, 0), resolution);
-    const auto y = continuous::quantise_coordinate(coordinates(v, 1), resolution);
-    if (!x || !y)
-      refuse(entry("xy", v) + ": the coordinate is too large for the resolution, or not finite");
-    points.push_back({*x, *y});
-  }
-  const auto ends = edges.unchecked<2>();
-  const auto times = durations.unchecked<1>();
-  std::vector<continuous::Edge> list;
-  for (py::ssize_t e = 0; e < ends.shape(0); ++e) {
-    const std::string name = entry("edges", e);
-    continuous::Edge edge{
-        vertex_of(ends(e, 0), points.size(), name), vertex_of(ends(e, 1), points.size(), name), {}};
-    if (!std::isnan(times(e))) {
-      edge.duration = continuous::quantise_duration(times(e), resolution);
-      if (!edge.duration)
-        refuse(entry("durations", e) + ": the duration is less than one tick, or too long");
-    }
-    list.push_back(edge);
-  }
-  return std::make_shared<Roadmap>(take(Roadmap::make(std::move(points), std::move(list))));
-}
-
-/// int64[n, 2] in length units: the roadmap's own memory.
-py::array units_of(const py::object& self) {
-  static_assert(sizeof(Point) == 2 * sizeof(std::int64_t) &&
-                sizeof(Length) == sizeof(std::int64_t));
-  const auto& points = self.cast<const Roadmap&>().positions();
-  return view_of(points.data(), py::dtype::of<std::int64_t>(),
-                 {static_cast<py::ssize_t>(points.size()), 2},
-                 {sizeof(Point), sizeof(std::int64_t)}, self);
-}
-
-py::array coordinates_of(const Roadmap& roadmap, const Sizes& sizes) {
-  const Resolution resolution = resolution_of(sizes);
-  auto array = new_array<double>({roadmap.num_vertices(), 2});
-  double* to = array.mutable_data();
-  for (const Point& point : roadmap.positions()) {
-    *to++ = continuous::in_input_units(point.x, resolution);
-    *to++ = continuous::in_input_units(point.y, resolution);
-  }
-  return frozen(array);
-}
-
-py::array edges_of(const Roadmap& roadmap) {
-  auto array = new_array<std::int32_t>({roadmap.num_edges(), 2});
-  std::int32_t* to = array.mutable_data();
-  for (const continuous::Edge& edge : roadmap.edges()) {
-    *to++ = static_cast<std::int32_t>(edge.from.index());
-    *to++ = static_cast<std::int32_t>(edge.to.index());
-  }
-  return frozen(array);
-}
-
-py::array durations_of(const Roadmap& roadmap, const Sizes& sizes) {
-  const Resolution resolution = resolution_of(sizes);
-  auto array = new_array<double>({roadmap.num_edges()});
-  double* to = array.mutable_data();
-  for (const continuous::Edge& edge : roadmap.edges())
-    *to++ = edge.duration ? continuous::in_input_units(*edge.duration, resolution) : std::nan("");
-  return frozen(array);
-}
-
-/// `corners`: float64[k, 2].
-continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution, py::ssize_t i) {
-  const auto xy = corners.unchecked<2>();
-  std::vector<Point> points;
-  for (py::ssize_t k = 0; k < xy.shape(0); ++k) {
-    const auto x = continuous::quantise_corner(xy(k, 0), resolution);
-    const auto y = continuous::quantise_corner(xy(k, 1), resolution);
-    if (!x || !y) refuse(agent(i) + "a corner is too far away for the resolution, or not finite");
-    points.push_back({*x, *y});
-  }
-  auto polygon = continuous::ConvexPolygon::make(std::move(points));
-  if (!polygon) raise({polygon.error().code, agent(i) + polygon.error().message, {}});
-  return *std::move(polygon);
-}
-
-/// A body is a radius or the corners of a polygon.
-TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& sizes,
-                          const Ints& starts, const Ints& goals, const py::list& bodies,
-                          const Doubles& speeds) {
-  const Resolution resolution = resolution_of(sizes);
-  std::vector<continuous::Agent> agents;
-  for (py::ssize_t i = 0; i < starts.shape(0); ++i) {
-    continuous::Agent made;
-    made.start = vertex_of(starts.at(i), roadmap->num_vertices(), agent(i) + "start");
-    made.goal = vertex_of(goals.at(i), roadmap->num_vertices(), agent(i) + "goal");
-    const py::object body = bodies[static_cast<std::size_t>(i)];
-    if (py::isinstance<py::float_>(body)) {
-      const auto radius = continuous::quantise_radius(body.cast<double>(), resolution);
-      if (!radius) refuse(agent(i) + "the radius is less than one length unit, or too large");
-      made.body = continuous::Disc{*radius};
-    } else {
-      made.body = polygon_of(body.cast<Doubles>(), resolution, i);
-    }
-    const auto speed = continuous::quantise_speed(speeds.at(i), resolution);
-    if (!speed) refuse(agent(i) + "the speed is not between 0.000001 and 1000000");
-    made.speed = *speed;
-    agents.push_back(std::move(made));
-  }
-  return {take(Instance::make(roadmap, std::move(agents), resolution)), {}};
-}
-
-template <class VertexOf>
-py::array vertices(const TimedInstance& self, const VertexOf& vertex) {
-  auto array = new_array<std::int32_t>({self.instance.num_agents()});
-  std::int32_t* to = array.mutable_data();
-  for (const continuous::Agent& agent : self.instance.agents())
-    *to++ = static_cast<std::int32_t>(vertex(agent).index());
-  return frozen(array);
-}
-
-/// Per agent a radius, or float64[k, 2].
-py::list bodies_of(const TimedInstance& self) {
-  const Resolution& resolution = self.instance.resolution();
-  py::list bodies;
-  for (const continuous::Agent& agent : self.instance.agents()) {
-    if (const auto* disc = std::get_if<continuous::Disc>(&agent.body)) {
-      bodies.append(continuous::radius_in_input_units(disc->radius, resolution));
-      continue;
-    }
-    const auto& corners = std::get<continuous::ConvexPolygon>(agent.body).vertices();
-    auto array = new_array<double>({corners.size(), 2});
-    double* to = array.mutable_data();
-    for (const Point& corner : corners) {
-      *to++ = continuous::corner_in_input_units(corner.x, resolution);
-      *to++ = continuous::corner_in_input_units(corner.y, resolution);
-    }
-    bodies.append(frozen(array));
-  }
-  return bodies;
-}
-
-py::array speeds_of(const TimedInstance& self) {
-  auto array = new_array<double>({self.instance.num_agents()});
-  double* to = array.mutable_data();
-  for (const continuous::Agent& agent : self.instance.agents())
-    *to++ = continuous::speed_in_input_units(agent.speed, self.instance.resolution());
-  return frozen(array);
-}
 
 continuous::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>& interrupt) {
   continuous::SolveOptions options;
@@ -304,21 +135,10 @@ Plan read_plan(const TimedInstance& self, const std::filesystem::path& path,
       .plan;
 }
 
-void bind_roadmap(py::module_& module) {
-  py::class_<Roadmap, std::shared_ptr<Roadmap>>(module, "TimedGraph")
-      .def(py::init(&roadmap_of))
-      .def_property_readonly("num_vertices", &Roadmap::num_vertices)
-      .def_property_readonly("num_edges", &Roadmap::num_edges)
-      .def_property_readonly("units", &units_of)
-      .def("xy", &coordinates_of)
-      .def("edges", &edges_of)
-      .def("durations", &durations_of);
-}
-
 }  // namespace
 
 void bind_timed(py::module_& module) {
-  bind_roadmap(module);
+  bind_timed_graph(module);
   py::class_<Plan>(module, "TimedPlan")
       .def_property_readonly("num_agents", [](const Plan& plan) { return plan.paths.size(); })
       .def("costs",
@@ -346,16 +166,11 @@ void bind_timed(py::module_& module) {
             // Nobody on this side can change it.
             return std::const_pointer_cast<Roadmap>(self.instance.shared_roadmap());
           })
-      .def("starts",
-           [](const TimedInstance& self) {
-             return vertices(self, [](const continuous::Agent& agent) { return agent.start; });
-           })
-      .def("goals",
-           [](const TimedInstance& self) {
-             return vertices(self, [](const continuous::Agent& agent) { return agent.goal; });
-           })
+      .def("starts", &starts_of)
+      .def("goals", &goals_of)
       .def("bodies", &bodies_of)
       .def("speeds", &speeds_of)
+      .def("rules", &rules_of)
       .def("in_input_units",
            [](const TimedInstance& self, Cost ticks) {
              return continuous::in_input_units(ticks, self.instance.resolution());

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Roadmaps: vertices in the plane and directed edges.
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "quadrille/continuous/quantise.hpp"
+#include "timed.hpp"
+
+namespace quadrille::python {
+namespace {
+
+using continuous::Length;
+using continuous::Point;
+using continuous::Resolution;
+using continuous::Roadmap;
+
+/// For messages: "xy[3]".
+std::string entry(const char* array, py::ssize_t row) {
+  return std::string(array) + "[" + std::to_string(row) + "]";
+}
+
+/// A set of groups as the bits of a number.
+continuous::Groups groups_of(std::uint64_t bits) {
+  continuous::Groups groups;
+  for (std::size_t group = 0; group < continuous::kMaxGroups; ++group)
+    if ((bits >> group & 1) != 0) groups.insert(continuous::GroupId(group));
+  return groups;
+}
+
+std::uint64_t bits_of(const continuous::Groups& groups) {
+  std::uint64_t bits = 0;
+  for (std::size_t group = 0; group < continuous::kMaxGroups; ++group)
+    if (groups.contains(continuous::GroupId(group))) bits |= std::uint64_t{1} << group;
+  return bits;
+}
+
+/// `xy`: [n, 2], `edges`: [m, 2], `durations`: [m], NaN for none, `open_to`: [m], groups.
+std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const Doubles& durations,
+                                    const Bits& open_to, const Sizes& sizes) {
+  const Resolution resolution = resolution_of(sizes);
+  const auto coordinates = xy.unchecked<2>();
+  std::vector<Point> points;
+  for (py::ssize_t v = 0; v < coordinates.shape(0); ++v) {
+    const auto x = continuous::quantise_coordinate(coordinates(v, 0), resolution);
+    const auto y = continuous::quantise_coordinate(coordinates(v, 1), resolution);
+    if (!x || !y)
+      refuse(entry("xy", v) + ": the coordinate is too large for the resolution, or not finite");
+    points.push_back({*x, *y});
+  }
+  const auto ends = edges.unchecked<2>();
+  const auto times = durations.unchecked<1>();
+  std::vector<continuous::Edge> list;
+  for (py::ssize_t e = 0; e < ends.shape(0); ++e) {
+    const std::string name = entry("edges", e);
+    continuous::Edge edge{vertex_of(ends(e, 0), points.size(), name),
+                          vertex_of(ends(e, 1), points.size(), name),
+                          {},
+                          groups_of(open_to.at(e))};
+    if (!std::isnan(times(e))) {
+      edge.duration = continuous::quantise_duration(times(e), resolution);
+      if (!edge.duration)
+        refuse(entry("durations", e) + ": the duration is less than one tick, or too long");
+    }
+    list.push_back(edge);
+  }
+  return std::make_shared<Roadmap>(take(Roadmap::make(std::move(points), std::move(list))));
+}
+
+/// int64[n, 2] in length units: the roadmap's own memory.
+py::array units_of(const py::object& self) {
+  static_assert(sizeof(Point) == 2 * sizeof(std::int64_t) &&
+                sizeof(Length) == sizeof(std::int64_t));
+  const auto& points = self.cast<const Roadmap&>().positions();
+  return view_of(points.data(), py::dtype::of<std::int64_t>(),
+                 {static_cast<py::ssize_t>(points.size()), 2},
+                 {sizeof(Point), sizeof(std::int64_t)}, self);
+}
+
+py::array coordinates_of(const Roadmap& roadmap, const Sizes& sizes) {
+  const Resolution resolution = resolution_of(sizes);
+  auto array = new_array<double>({roadmap.num_vertices(), 2});
+  double* to = array.mutable_data();
+  for (const Point& point : roadmap.positions()) {
+    *to++ = continuous::in_input_units(point.x, resolution);
+    *to++ = continuous::in_input_units(point.y, resolution);
+  }
+  return frozen(array);
+}
+
+py::array edges_of(const Roadmap& roadmap) {
+  auto array = new_array<std::int32_t>({roadmap.num_edges(), 2});
+  std::int32_t* to = array.mutable_data();
+  for (const continuous::Edge& edge : roadmap.edges()) {
+    *to++ = static_cast<std::int32_t>(edge.from.index());
+    *to++ = static_cast<std::int32_t>(edge.to.index());
+  }
+  return frozen(array);
+}
+
+py::array durations_of(const Roadmap& roadmap, const Sizes& sizes) {
+  const Resolution resolution = resolution_of(sizes);
+  auto array = new_array<double>({roadmap.num_edges()});
+  double* to = array.mutable_data();
+  for (const continuous::Edge& edge : roadmap.edges())
+    *to++ = edge.duration ? continuous::in_input_units(*edge.duration, resolution) : std::nan("");
+  return frozen(array);
+}
+
+py::array open_to_of(const Roadmap& roadmap) {
+  auto array = new_array<std::uint64_t>({roadmap.num_edges()});
+  std::uint64_t* to = array.mutable_data();
+  for (const continuous::Edge& edge : roadmap.edges()) *to++ = bits_of(edge.open_to);
+  return frozen(array);
+}
+
+}  // namespace
+
+void bind_timed_graph(py::module_& module) {
+  py::class_<Roadmap, std::shared_ptr<Roadmap>>(module, "TimedGraph")
+      .def(py::init(&roadmap_of))
+      .def_property_readonly("num_vertices", &Roadmap::num_vertices)
+      .def_property_readonly("num_edges", &Roadmap::num_edges)
+      .def_property_readonly("units", &units_of)
+      .def("xy", &coordinates_of)
+      .def("edges", &edges_of)
+      .def("durations", &durations_of)
+      .def("open_to", &open_to_of);
+}
+
+}  // namespace quadrille::python

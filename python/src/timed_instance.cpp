@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Agents on roadmaps, from arrays and back.
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/continuous/under_way.hpp"
+#include "timed.hpp"
+
+namespace quadrille::python {
+namespace {
+
+using continuous::Instance;
+using continuous::Point;
+using continuous::Resolution;
+using continuous::Roadmap;
+using continuous::Ticks;
+
+/// For messages: what is wrong with an agent.
+std::string agent(py::ssize_t i) { return "agent " + std::to_string(i) + ": "; }
+
+/// `corners`: float64[k, 2]. `who`: for messages.
+continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution,
+                            const std::string& who) {
+  const auto xy = corners.unchecked<2>();
+  std::vector<Point> points;
+  for (py::ssize_t k = 0; k < xy.shape(0); ++k) {
+    const auto x = continuous::quantise_corner(xy(k, 0), resolution);
+    const auto y = continuous::quantise_corner(xy(k, 1), resolution);
+    if (!x || !y) refuse(who + "a corner is too far away for the resolution, or not finite");
+    points.push_back({*x, *y});
+  }
+  auto polygon = continuous::ConvexPolygon::make(std::move(points));
+  if (!polygon) raise({polygon.error().code, who + polygon.error().message, {}});
+  return *std::move(polygon);
+}
+
+/// A radius, or the corners of a polygon.
+continuous::Body body_of(const py::handle& body, const Resolution& resolution,
+                         const std::string& who) {
+  if (!py::isinstance<py::float_>(body)) return polygon_of(body.cast<Doubles>(), resolution, who);
+  const auto radius = continuous::quantise_radius(body.cast<double>(), resolution);
+  if (!radius) refuse(who + "the radius is less than one length unit, or too large");
+  return continuous::Disc{*radius};
+}
+
+/// A moment, to the nearest tick; NaN is none.
+std::optional<Ticks> moment_of(double value, const Resolution& resolution, const std::string& who) {
+  if (std::isnan(value)) return std::nullopt;
+  const auto ticks = continuous::quantise_time(value, resolution);
+  if (!ticks) refuse(who + " is negative, or too late");
+  return ticks;
+}
+
+continuous::MovingObstacle obstacle_of(const py::tuple& given, const Resolution& resolution,
+                                       std::size_t number) {
+  const std::string who = "obstacle " + std::to_string(number) + ": ";
+  continuous::MovingObstacle obstacle{
+      body_of(given[0], resolution, who), {}, given[2].cast<bool>()};
+  const auto path = given[1].cast<Doubles>();
+  const auto stops = path.unchecked<2>();
+  for (py::ssize_t k = 0; k < stops.shape(0); ++k) {
+    const auto x = continuous::quantise_coordinate(stops(k, 0), resolution);
+    const auto y = continuous::quantise_coordinate(stops(k, 1), resolution);
+    const auto arrive = moment_of(stops(k, 2), resolution, who + "an arrival");
+    const auto depart = moment_of(stops(k, 3), resolution, who + "a departure");
+    if (!x || !y) refuse(who + "a place is too far away for the resolution, or not finite");
+    if (!arrive || !depart) refuse(who + "a time is not a number");
+    obstacle.path.push_back({{*x, *y}, *arrive, *depart});
+  }
+  return obstacle;
+}
+
+/// What the rules say of each agent.
+void set_rules(const py::dict& rules, const Resolution& resolution,
+               std::vector<continuous::Agent>& agents) {
+  const auto groups = rules["groups"].cast<Ints>();
+  const auto releases = rules["releases"].cast<Doubles>();
+  const auto deadlines = rules["deadlines"].cast<Doubles>();
+  const auto leaves = rules["leaves"].cast<Bools>();
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    continuous::Agent& made = agents[i];
+    made.group = continuous::GroupId(static_cast<std::size_t>(groups.at(row)));
+    made.release =
+        moment_of(releases.at(row), resolution, agent(row) + "the release").value_or(Ticks{0});
+    made.deadline = moment_of(deadlines.at(row), resolution, agent(row) + "the deadline");
+    made.leaves = leaves.at(row);
+  }
+}
+
+/// How long the move takes the agent: as the roadmap says, or by its speed, of edges that are not
+/// there as well.
+Ticks move_of(const Roadmap& roadmap, VertexId from, VertexId to, const continuous::Agent& made,
+              const std::string& who) {
+  for (const continuous::EdgeId e : roadmap.out_edges(from))
+    if (roadmap.edge(e).to == to && roadmap.edge(e).duration) return *roadmap.edge(e).duration;
+  const Point &begin = roadmap.position(from), &end = roadmap.position(to);
+  const auto duration = continuous::travel_time(begin, end, made.speed);
+  if (begin == end || !duration) refuse(who + "its move takes less than half a tick, or too long");
+  return *duration;
+}
+
+/// Agents in the middle of a move get a place of their own each, at the end of the vertices.
+std::shared_ptr<const Roadmap> put_under_way(const py::list& under_way,
+                                             const std::shared_ptr<Roadmap>& roadmap,
+                                             std::vector<continuous::Agent>& agents) {
+  if (under_way.empty()) return roadmap;
+  std::vector<Point> points = roadmap->positions();
+  std::vector<continuous::Edge> edges = roadmap->edges();
+  for (const py::handle entry : under_way) {
+    const auto [number, source, target, fraction] =
+        entry.cast<std::tuple<std::size_t, std::int64_t, std::int64_t, double>>();
+    const std::string who = agent(static_cast<py::ssize_t>(number));
+    const VertexId from = vertex_of(source, roadmap->num_vertices(), who + "start");
+    const VertexId to = vertex_of(target, roadmap->num_vertices(), who + "start");
+    if (!(fraction >= 0 && fraction <= 1))
+      refuse(who + "the part of its move that lies behind it is not from 0 to 1");
+    continuous::Agent& made = agents[number];
+    made.under_way = true;
+    made.start = continuous::add_place_under_way(points, edges, from, to,
+                                                 move_of(*roadmap, from, to, made, who), fraction);
+  }
+  return std::make_shared<Roadmap>(take(Roadmap::make(std::move(points), std::move(edges))));
+}
+
+/// A radius, or float64[k, 2].
+py::object body_of(const continuous::Body& body, const Resolution& resolution) {
+  if (const auto* disc = std::get_if<continuous::Disc>(&body))
+    return py::float_(continuous::radius_in_input_units(disc->radius, resolution));
+  const auto& corners = std::get<continuous::ConvexPolygon>(body).vertices();
+  auto array = new_array<double>({corners.size(), 2});
+  double* to = array.mutable_data();
+  for (const Point& corner : corners) {
+    *to++ = continuous::corner_in_input_units(corner.x, resolution);
+    *to++ = continuous::corner_in_input_units(corner.y, resolution);
+  }
+  return frozen(array);
+}
+
+/// float64[k, 4].
+py::array stops_of(const continuous::MovingObstacle& obstacle, const Resolution& resolution) {
+  auto array = new_array<double>({obstacle.path.size(), 4});
+  double* to = array.mutable_data();
+  for (const continuous::MovingObstacle::Stop& stop : obstacle.path) {
+    *to++ = continuous::in_input_units(stop.at.x, resolution);
+    *to++ = continuous::in_input_units(stop.at.y, resolution);
+    *to++ = continuous::in_input_units(stop.arrive, resolution);
+    *to++ = continuous::in_input_units(stop.depart, resolution);
+  }
+  return frozen(array);
+}
+
+template <class VertexOf>
+py::array vertices(const TimedInstance& self, const VertexOf& vertex) {
+  auto array = new_array<std::int32_t>({self.instance.num_agents()});
+  std::int32_t* to = array.mutable_data();
+  for (const continuous::Agent& agent : self.instance.agents())
+    *to++ = static_cast<std::int32_t>(vertex(agent).index());
+  return frozen(array);
+}
+
+}  // namespace
+
+TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& sizes,
+                          const Ints& starts, const Ints& goals, const py::list& bodies,
+                          const Doubles& speeds, const py::dict& rules) {
+  const Resolution resolution = resolution_of(sizes);
+  std::vector<continuous::Agent> agents;
+  for (py::ssize_t i = 0; i < starts.shape(0); ++i) {
+    continuous::Agent made;
+    made.start = vertex_of(starts.at(i), roadmap->num_vertices(), agent(i) + "start");
+    made.goal = vertex_of(goals.at(i), roadmap->num_vertices(), agent(i) + "goal");
+    made.body = body_of(bodies[static_cast<std::size_t>(i)], resolution, agent(i));
+    const auto speed = continuous::quantise_speed(speeds.at(i), resolution);
+    if (!speed) refuse(agent(i) + "the speed is not between 0.000001 and 1000000");
+    made.speed = *speed;
+    agents.push_back(std::move(made));
+  }
+  set_rules(rules, resolution, agents);
+  const auto roads = put_under_way(rules["under_way"].cast<py::list>(), roadmap, agents);
+  std::vector<continuous::MovingObstacle> obstacles;
+  for (const py::handle obstacle : rules["obstacles"].cast<py::list>())
+    obstacles.push_back(obstacle_of(obstacle.cast<py::tuple>(), resolution, obstacles.size()));
+  return {take(Instance::make(roads, std::move(agents), resolution, {}, std::move(obstacles))), {}};
+}
+
+py::array starts_of(const TimedInstance& self) {
+  return vertices(self, [](const continuous::Agent& agent) { return agent.start; });
+}
+
+py::array goals_of(const TimedInstance& self) {
+  return vertices(self, [](const continuous::Agent& agent) { return agent.goal; });
+}
+
+py::list bodies_of(const TimedInstance& self) {
+  py::list bodies;
+  for (const continuous::Agent& agent : self.instance.agents())
+    bodies.append(body_of(agent.body, self.instance.resolution()));
+  return bodies;
+}
+
+py::array speeds_of(const TimedInstance& self) {
+  auto array = new_array<double>({self.instance.num_agents()});
+  double* to = array.mutable_data();
+  for (const continuous::Agent& agent : self.instance.agents())
+    *to++ = continuous::speed_in_input_units(agent.speed, self.instance.resolution());
+  return frozen(array);
+}
+
+py::dict rules_of(const TimedInstance& self) {
+  const Resolution& resolution = self.instance.resolution();
+  const std::size_t n = self.instance.num_agents();
+  auto groups = new_array<std::int64_t>({n});
+  auto releases = new_array<double>({n}), deadlines = new_array<double>({n});
+  auto leaves = new_array<bool>({n}), under_way = new_array<bool>({n});
+  for (const AgentId i : self.instance.agent_ids()) {
+    const continuous::Agent& agent = self.instance.agent(i);
+    const std::size_t at = i.index();
+    groups.mutable_data()[at] = static_cast<std::int64_t>(agent.group.index());
+    releases.mutable_data()[at] = continuous::in_input_units(agent.release, resolution);
+    deadlines.mutable_data()[at] =
+        agent.deadline ? continuous::in_input_units(*agent.deadline, resolution) : std::nan("");
+    leaves.mutable_data()[at] = agent.leaves;
+    under_way.mutable_data()[at] = agent.under_way;
+  }
+  py::list obstacles;
+  for (const continuous::MovingObstacle& obstacle : self.instance.obstacles())
+    obstacles.append(py::make_tuple(body_of(obstacle.body, resolution),
+                                    stops_of(obstacle, resolution), obstacle.leaves));
+  py::dict rules;
+  rules["groups"] = frozen(groups);
+  rules["releases"] = frozen(releases);
+  rules["deadlines"] = frozen(deadlines);
+  rules["leaves"] = frozen(leaves);
+  rules["under_way"] = frozen(under_way);
+  rules["obstacles"] = obstacles;
+  return rules;
+}
+
+}  // namespace quadrille::python

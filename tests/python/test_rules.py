@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: MIT
+"""Groups, releases, deadlines, moves in progress and obstacles: each does what it says, and the program
+reads what the package writes."""
+
+import random
+
+import numpy as np
+import pytest
+from conftest import scaled, solve_by_program
+
+import quadrille as q
+
+LINE = [(0, 0), (1, 0), (2, 0), (1, 1)]
+
+
+def line(only=None):
+    """0 - 1 - 2, and 3 beside 1."""
+    return q.Roadmap(LINE, [(0, 1), (1, 2), (1, 3)], both_ways=True, resolution=(0.001, 0.01), only=only)
+
+
+def alone(**rules):
+    return q.Fleet(line(), [0], [2], radius=0.2, **rules)
+
+
+def random_fleet(seed):
+    """With some of the rules, on a small roadmap; None if it cannot have a plan for all to see."""
+    rng = random.Random(seed)
+    n = rng.randint(1, 3)
+    xy = [(x, y) for x in range(4) for y in range(2)]
+    edges = [(u, v) for u in range(8) for v in range(u) if abs(u - v) in (1, 2) and rng.random() < 0.9]
+    only = [rng.choice([None, None, None, "a", ("a", "b"), ("b", None)]) for _ in edges]
+    roadmap = q.Roadmap(xy, edges, both_ways=True, resolution=0.01, only=only)
+    groups = [rng.choice([None, *roadmap.groups]) for _ in range(n)]
+    starts = rng.sample(range(8), n)
+    under_way = rng.random() < 0.4
+    if under_way:
+        starts[0] = q.Underway(*rng.choice(edges), rng.random())
+    path, now = [], rng.choice([0, rng.uniform(0, 3)])
+    for _ in range(rng.randint(1, 3)):
+        path.append((rng.uniform(0, 3), rng.uniform(0, 1), now, now + rng.choice([0, 0.5])))
+        now = path[-1][3] + rng.uniform(0.1, 3)
+    square = [(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]
+    shape = rng.choice([dict(radius=rng.uniform(0.05, 0.2)), dict(polygon=square), {}])
+    obstacle = q.Obstacle(path, leaves=len(path) > 1 and rng.random() < 0.6, **shape)
+    try:
+        return q.Fleet(
+            roadmap,
+            starts,
+            rng.sample(range(8), n),
+            radius=rng.uniform(0.1, 0.3),
+            group=groups,
+            release=None if under_way else [rng.choice([0, rng.uniform(0, 3)]) for _ in range(n)],
+            deadline=[rng.choice([None, rng.uniform(4, 20)]) for _ in range(n)],
+            leaves=[rng.random() < 0.3 for _ in range(n)],
+            obstacles=[obstacle] if rng.random() < 0.5 else [],
+        )
+    except q.NoPlanError:
+        return None
+
+
+def same_obstacle(a, b):
+    shape = lambda o: o.radius if o.polygon is None else o.polygon.tolist()
+    return np.array_equal(a.path, b.path) and a.leaves == b.leaves and shape(a) == shape(b)
+
+
+def test_files_keep_the_rules_and_the_program_gives_the_same_answers(tmp_path):
+    solved = 0
+    for seed in range(scaled(60)):
+        fleet = random_fleet(seed)
+        if fleet is None:
+            continue
+        fleet.save(tmp_path / "i.json")
+        again = q.read(tmp_path / "i.json")
+        for rule in ("releases", "deadlines", "leaves", "under_way", "starts"):
+            assert np.array_equal(getattr(fleet, rule), getattr(again, rule), equal_nan=rule == "deadlines"), rule
+        number = {name: str(at + 1) for at, name in enumerate(fleet.graph.groups)}
+        assert again.groups == [name and number[name] for name in fleet.groups]
+        named = [e and tuple(name and number[name] for name in e) for e in fleet.graph.only]
+        assert again.graph.only[: len(named)] == named
+        assert len(fleet.obstacles) == len(again.obstacles)
+        assert all(map(same_obstacle, fleet.obstacles, again.obstacles))
+        theirs = solve_by_program(tmp_path / "i.json", "--conflict-limit", 300)
+        ours = q.solve(fleet, conflict_limit=300)
+        assert (ours.status, ours.cost, ours.lower_bound) == (
+            theirs["status"], theirs["cost"], theirs["lower_bound"]), seed
+        if ours.plan is None:
+            continue
+        solved += 1
+        assert ours.plan.verify()
+        known = ~np.isnan(fleet.deadlines)
+        assert (ours.plan.costs[known] <= fleet.deadlines[known] + 0.005).all()
+        for path, release in zip(ours.plan, fleet.releases):
+            assert len(path.stops) == 1 or path.stops["depart"][0] >= release
+    assert solved > 10 or scaled(60) < 60
+
+
+def test_lanes_for_some():
+    small = line(only=[None, None, "small"])
+    assert small.groups == ["small"]
+    assert small.only == [None, None, None, None, ("small",), ("small",)]
+    cost = lambda group: q.solve(q.Fleet(small, [0, 2], [2, 0], radius=0.2, group=group)).cost
+    assert cost("small") == cost([None, "small"]) < 10
+    assert q.solve(q.Fleet(small, [0, 2], [2, 0], radius=0.2)).status == "infeasible"
+    with pytest.raises(q.NoPlanError, match="no way"):
+        q.Fleet(small, [0], [3], radius=0.2)
+    assert q.Fleet(small, [0], [3], radius=0.2, group="small").groups == ["small"]
+    networkx = pytest.importorskip("networkx")
+    G = networkx.Graph()
+    for node, pos in enumerate(LINE):
+        G.add_node(node, pos=pos)
+    G.add_edge(0, 1)
+    G.add_edge(1, 3, kind={"small"})
+    assert q.Roadmap.from_networkx(G, only="kind").only == [None, None, ("small",), ("small",)]
+
+
+def test_releases_deadlines_and_leaving():
+    assert q.solve(alone()).cost == 2
+    assert q.solve(alone(release=1.5)).cost == 3.5
+    assert q.solve(alone(release=[1.5], deadline=[3.5])).cost == 3.5
+    with pytest.raises(q.NoPlanError, match="deadline"):
+        alone(deadline=1.99)
+    assert np.isnan(alone(deadline=[None]).deadlines).all()
+    # One after the other to the same goal, which the first one has left by then.
+    after = lambda leaves: q.Fleet(line(), [1, 0], [2, 2], radius=0.2, leaves=leaves)
+    assert q.solve(after([True, False])).cost == 3
+    with pytest.raises(q.NoPlanError, match="overlap"):
+        after(False)
+
+
+def test_obstacles():
+    # On the middle of the road from 1 to 2.
+    cart = q.Obstacle([(1, 0, 1, 2), (1, 1, 3, 3)], radius=0.2, leaves=True)
+    fleet = alone(obstacles=[cart])
+    assert q.solve(fleet).cost > 2
+    assert same_obstacle(fleet.obstacles[0], cart)
+    # One agent after the other, the second around the first: no cheaper than both together.
+    tasks = [(0, 2), (3, 0)]
+    carts, costs = [], []
+    for start, goal in tasks:
+        one = q.Fleet(line(), [start], [goal], radius=0.1, obstacles=carts, leaves=True)
+        result = q.solve(one)
+        carts.append(result.plan.obstacle(0))
+        costs.append(result.cost)
+    assert costs[1] > q.solve(q.Fleet(line(), [3], [0], radius=0.1)).cost
+    together = q.Fleet(line(), *zip(*tasks), radius=0.1, leaves=True)
+    assert q.solve(together).cost <= sum(costs) + 1e-9
+    assert q.solve(q.Fleet(line(), [0], [0], radius=0.1, leaves=True)).plan.obstacle(0) is None
+
+
+def test_moves_in_progress_are_finished():
+    named = q.Roadmap(LINE, [(0, 1), (1, 2)], both_ways=True, resolution=(0.001, 0.01), nodes="abcd")
+    fleet = q.Fleet(named, [q.Underway("a", "b", 0.3)], ["a"], radius=0.2)
+    assert fleet.under_way.all() and fleet.starts.tolist() == [4]
+    stops = q.solve(fleet).plan[0].stops
+    assert stops["vertex"].tolist() == [4, 1, 0] and stops["arrive"].tolist() == [0, 0.7, 1.7]
+    assert stops["x"].tolist() == [0.3, 1, 0]
+    assert q.solve(fleet).plan.sample(10)[0, 7].tolist() == [1, 0]
+    # By the duration of the edge, if it has one.
+    slow = q.Roadmap(LINE, [(0, 1)], durations=[4], resolution=(0.001, 0.01))
+    assert q.solve(q.Fleet(slow, [q.Underway(0, 1, 0.5)], [1], radius=0.2)).cost == 2
+    for fraction in (-0.1, 1.1, float("nan")):
+        with pytest.raises(q.InputError, match="agent 0: the part of its move"):
+            q.Fleet(named, [q.Underway("a", "b", fraction)], ["a"], radius=0.2)
+    with pytest.raises(q.InputError, match="agent 0: start: there is no vertex 9"):
+        q.Fleet(line(), [q.Underway(9, 1, 0.5)], [1], radius=0.2)
+    with pytest.raises(q.InputError, match="under way, and cannot be released later"):
+        q.Fleet(named, [q.Underway("a", "b", 0.3)], ["a"], radius=0.2, release=1)
+
+
+def test_an_initial_plan_has_to_keep_the_rules():
+    plan = q.solve(alone()).plan
+    assert q.solve(alone(deadline=2), initial=plan).cost == 2
+    with pytest.raises(q.InputError, match="initial plan"):
+        q.solve(alone(release=1), initial=plan)
+
+
+@pytest.mark.parametrize("rules, message", [
+    (dict(group="large"), "has no group 'large'"),
+    (dict(group=[None, None]), "group: 2 entries for 1 agents"),
+    (dict(release=-1), "agent 0: the release is negative, or too late"),
+    (dict(release=[1, 2]), "release: expected an array of shape"),
+    (dict(deadline=float("inf")), "agent 0: the deadline is negative, or too late"),
+    (dict(leaves="yes"), "leaves: expected booleans"),
+    (dict(obstacles=[q.Obstacle([])]), "obstacle 0 has no stops"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)], leaves=True)]), "obstacle 0 vanishes at the moment"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 2, 1)])]), "obstacle 0 has times that do not increase"),
+    (dict(obstacles=[q.Obstacle([(0, 1, float("nan"), 1)])]), "obstacle 0: a time is not a number"),
+    (dict(obstacles=[q.Obstacle([(0, 1e300, 0, 1)])]), "obstacle 0: a place is too far away"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 0)])]), r"path: expected an array of shape \(n, 4\)"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)], radius=0)]), "obstacle 0: the radius is less"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)], radius=1, polygon=[(0, 0)])]), "either a radius or a polygon"),
+])
+def test_bad_rules(rules, message):
+    with pytest.raises(ValueError, match=message):
+        alone(**rules)
+
+
+def test_bad_lanes_and_grids():
+    for only, message in [([None], "only: 1 entries for 3 edges"), ([None, None, 3], "not iterable"),
+                          ([None, None, [3]], "a group is called by a string"),
+                          ([None, None, []], "the edge is open to nobody"),
+                          ([None, None, [str(k) for k in range(64)]], "more than 63 groups")]:
+        with pytest.raises((ValueError, TypeError), match=message):
+            line(only=only)
+    for rule in ("group", "release", "deadline", "leaves", "obstacles"):
+        with pytest.raises(ValueError, match=f"{rule} is for roadmaps"):
+            q.Fleet(q.Grid([[1, 1]]), [(0, 0)], [(1, 0)], **{rule: [1]})
