@@ -50,11 +50,12 @@ Body body(std::int64_t kind) {
 }
 
 std::vector<Pair> near_pairs(const Body& shape, bool grid) {
-  const SweptVolumes volumes(shape, roadmap(2000, grid));
+  const SweptVolumes volumes(roadmap(2000, grid));
+  const BodyPair bodies(shape, shape);
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < volumes.motions().size(); ++i)
-    for (const std::size_t k : volumes.near(shape, i))
-      pairs.push_back({volumes.motions()[i], volumes.motions()[k]});
+  for (const Motion& a : volumes.motions())
+    for (const auto& [k, is_sure] : volumes.near(a, 2 * enclosing_radius(shape)))
+      if (bodies.can_meet(a, volumes.motions()[k])) pairs.push_back({a, volumes.motions()[k]});
   return pairs;
 }
 
@@ -99,18 +100,38 @@ void contact_window(benchmark::State& state) {
 }
 BENCHMARK(contact_window)->ArgNames({"polygon", "grid"})->ArgsProduct({{0, 1}, {0, 1}});
 
-void broad_phase(benchmark::State& state) {
-  const Body shape = body(0);
-  const std::vector<Motion> motions = roadmap(static_cast<std::size_t>(state.range(0)), true);
-  std::size_t found = 0;
+void can_meet(benchmark::State& state) {
+  const BodyPair pair(body(0), body(0));
+  const std::vector<Pair> pairs = near_pairs(body(0), state.range(0) != 0);
+  std::size_t next = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const SweptVolumes volumes(shape, motions);
-    found = 0;
-    for (std::size_t i = 0; i < motions.size(); ++i) found += volumes.near(shape, i).size();
+    const Pair& at = pairs[next++ % pairs.size()];
+    benchmark::DoNotOptimize(pair.can_meet(at.a, at.b));
   }
-  state.counters["pairs"] = static_cast<double>(found);
+  state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(broad_phase)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
+BENCHMARK(can_meet)->ArgName("grid")->Arg(0)->Arg(1);
+
+// Each motion's neighbours, and how many pairs each stage settles.
+void swept_volumes(benchmark::State& state) {
+  const std::vector<Motion> motions =
+      roadmap(static_cast<std::size_t>(state.range(0)), state.range(1) != 0);
+  SweptVolumes::Tally tally;
+  for ([[maybe_unused]] auto _ : state) {
+    const SweptVolumes volumes(motions);
+    tally = {};
+    for (const Motion& motion : motions)
+      benchmark::DoNotOptimize(volumes.near(motion, 2 * kRadius, &tally));
+  }
+  state.counters["by_boxes"] = static_cast<double>(tally.by_boxes);
+  state.counters["apart"] = static_cast<double>(tally.apart);
+  state.counters["sure"] = static_cast<double>(tally.sure);
+  state.counters["doubtful"] = static_cast<double>(tally.doubtful);
+}
+BENCHMARK(swept_volumes)
+    ->ArgNames({"motions", "grid"})
+    ->ArgsProduct({{1000, 10000}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace quadrille::geometry

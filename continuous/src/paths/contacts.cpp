@@ -3,20 +3,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 namespace quadrille::continuous {
-namespace {
-
-/// A disc that contains every body.
-Disc widest(const Instance& instance) {
-  Disc widest;
-  for (const ClassId c : IdRange<ClassId>(instance.num_classes()))
-    widest.radius = std::max(widest.radius, instance.reach(c));
-  return widest;
-}
-
-}  // namespace
-
 Contacts::Contacts(const Instance& instance, LimitMonitor& limits)
     : instance_(instance), limits_(limits) {
   const IdRange<ClassId> classes(instance.num_classes());
@@ -54,8 +43,8 @@ bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
       instance_.roadmap().position(v), instance_.roadmap().position(w));
 }
 
-// One tree is enough for all classes: what meets the widest disc is looked at again. Edges between
-// the same two vertices sweep the same volume, in whatever direction and time.
+// One tree is enough for all classes. Edges between the same two vertices are one line, in whatever
+// direction and time.
 void Contacts::make_volumes() {
   const Roadmap& roadmap = instance_.roadmap();
   const auto ends = [&](EdgeId e) {
@@ -73,7 +62,7 @@ void Contacts::make_volumes() {
   }
   segment_begins_.push_back(segment_edges_.size());
   for (const Point& position : roadmap.positions()) motions.push_back(geometry::rest(position, 1));
-  volumes_.emplace(widest(instance_), std::move(motions));
+  volumes_.emplace(std::move(motions));
 }
 
 const Contacts::Neighbours& Contacts::near(
@@ -87,15 +76,19 @@ const Contacts::Neighbours& Contacts::near(
     const geometry::BodyPair& bodies = pair(a, b).bodies;
     if (!volumes_) make_volumes();
     const std::size_t num_segments = segment_begins_.size() - 1;
-    for (const std::size_t index : volumes_->near(instance_.body(a), motion)) {
+    const bool are_discs = std::holds_alternative<Disc>(instance_.body(a)) &&
+                           std::holds_alternative<Disc>(instance_.body(b));
+    for (const auto& [index, is_sure] :
+         volumes_->near(motion, instance_.reach(a) + instance_.reach(b))) {
+      const bool is_settled = are_discs && is_sure;
       if (index < num_segments) {
         const std::size_t begin = segment_begins_[index];
-        if (bodies.can_meet(motion, instance_.motion(b, segment_edges_[begin])))
+        if (is_settled || bodies.can_meet(motion, instance_.motion(b, segment_edges_[begin])))
           for (std::size_t k = begin; k < segment_begins_[index + 1]; ++k)
             if (instance_.may_use(b, segment_edges_[k])) made->edges.push_back(segment_edges_[k]);
       } else {
         const VertexId v(index - num_segments);
-        if (bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))
+        if (is_settled || bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))
           made->vertices.push_back(v);
       }
     }
