@@ -80,6 +80,15 @@ def random_roadmap_fleet(seed, agents=4):
         return None
 
 
+def saved_fleets(make, count, file):
+    """(seed, fleet) of the first `count` seeds that give one; the file has the same instance."""
+    for seed in range(scaled(count)):
+        fleet = make(seed)
+        if fleet is not None:
+            fleet.save(file)
+            yield seed, fleet
+
+
 @pytest.fixture
 def crowd():
     """Too hard to be solved in the time that a test has."""

@@ -5,7 +5,7 @@ import random
 
 import numpy as np
 import pytest
-from conftest import random_grid_fleet, random_roadmap_fleet, scaled, solve_by_program
+from conftest import random_grid_fleet, random_roadmap_fleet, saved_fleets, scaled, solve_by_program
 
 import quadrille as q
 
@@ -15,9 +15,8 @@ SYSTEMS = ["dpll", "dpll-mdd", "smt-cbs", "mdd-sat"]
 @pytest.mark.parametrize("objective", ["sum-of-costs", "makespan"])
 def test_on_random_grids(tmp_path, objective):
     seen = set()
-    for seed in range(scaled(40)):
-        fleet, system = random_grid_fleet(seed), SYSTEMS[seed % 4]
-        fleet.save(tmp_path / "i.json")
+    for seed, fleet in saved_fleets(random_grid_fleet, 40, tmp_path / "i.json"):
+        system = SYSTEMS[seed % 4]
         theirs = solve_by_program(
             tmp_path / "i.json", "--objective", objective, "--system", system, "--seed", seed
         )
@@ -59,11 +58,7 @@ def plain(attribution, cost):
 @pytest.mark.parametrize("make", [random_grid_fleet, random_roadmap_fleet])
 def test_attributions(tmp_path, make):
     raised = 0
-    for seed in range(scaled(24)):
-        fleet = make(seed)
-        if fleet is None:
-            continue
-        fleet.save(tmp_path / "i.json")
+    for seed, fleet in saved_fleets(make, 24, tmp_path / "i.json"):
         options = {"objective": ("sum-of-costs", "makespan")[seed % 2], "seed": seed}
         theirs = solve_by_program(tmp_path / "i.json", "--objective", options["objective"], "--seed", seed,
                                   "--explain", "--conflict-limit", 300)
@@ -92,11 +87,7 @@ def test_an_attribution_needs_a_system_that_has_one():
 @pytest.mark.parametrize("objective", ["sum-of-costs", "makespan"])
 def test_on_random_roadmaps(tmp_path, objective):
     solved = 0
-    for seed in range(scaled(16)):
-        fleet = random_roadmap_fleet(seed)
-        if fleet is None:
-            continue
-        fleet.save(tmp_path / "i.json")
+    for seed, fleet in saved_fleets(random_roadmap_fleet, 16, tmp_path / "i.json"):
         # A limit that does not depend on time: some of them cannot be solved.
         limits = {"conflict_limit": 300}
         theirs = solve_by_program(

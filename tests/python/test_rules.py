@@ -6,7 +6,7 @@ import random
 
 import numpy as np
 import pytest
-from conftest import scaled, solve_by_program
+from conftest import saved_fleets, scaled, solve_by_program
 
 import quadrille as q
 
@@ -65,11 +65,7 @@ def same_obstacle(a, b):
 
 def test_files_keep_the_rules_and_the_program_gives_the_same_answers(tmp_path):
     solved = 0
-    for seed in range(scaled(60)):
-        fleet = random_fleet(seed)
-        if fleet is None:
-            continue
-        fleet.save(tmp_path / "i.json")
+    for seed, fleet in saved_fleets(random_fleet, 60, tmp_path / "i.json"):
         again = q.read(tmp_path / "i.json")
         for rule in ("releases", "deadlines", "leaves", "under_way", "starts"):
             assert np.array_equal(getattr(fleet, rule), getattr(again, rule), equal_nan=rule == "deadlines"), rule
