@@ -104,7 +104,7 @@ int main() {
 
   // Robots that pause for up to 3 s, are up to 15 % slow, and are told every 50 ms how far to go.
   const auto order = qe::precedences(plan.instance(), plan.in_units()).value();
-  for (const qe::Rule rule : {qe::Rule::naive, qe::Rule::coupled}) {
+  for (const qe::Rule rule : {qe::Rule::naive, qe::Rule::gated, qe::Rule::coupled}) {
     std::size_t arrived = 0, collided = 0;
     for (std::uint64_t run = 0; run < 10; ++run) {
       qe::ClearanceWatch watch(plan.instance(), plan.in_units());
