@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "paths/scene.hpp"
+#include "quadrille/continuous/solver.hpp"
+
+namespace quadrille::continuous {
+
+/// The phases of one solve, one after the other until the bounds meet: what comes before the search
+/// for the least cost, and that search.
+class Phases {
+ public:
+  /// `account`: that of `limits`. What is found and proved goes into `outcome`. All outlive this.
+  Phases(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
+         const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome)
+      : instance_(instance),
+        options_(options),
+        limits_(limits),
+        account_(account),
+        outcome_(outcome) {}
+
+  /// Throws LimitReached, with what is known in the outcome, and what callbacks throw.
+  void run();
+
+ private:
+  /// Each returns whether that is all.
+  [[nodiscard]] bool are_kept_off(const Scene& scene);
+  [[nodiscard]] bool search_jointly(Scene& scene);
+  [[nodiscard]] bool look_at_routes(Scene& scene);
+  [[nodiscard]] bool find_some_plan(Scene& scene, bool was_joint);
+  [[nodiscard]] bool is_blocked(const std::vector<AgentId>& blocked);
+  [[nodiscard]] bool learn(Cost bound, std::optional<Plan> plan);
+
+  void search(Scene& scene);
+  void keep_cheaper(std::optional<Plan> plan);
+
+  const Instance& instance_;
+  const SolveOptions& options_;
+  LimitMonitor& limits_;
+  const std::shared_ptr<ResourceAccount>& account_;
+  SolveOutcome& outcome_;
+  std::optional<Plan> plan_;  // the cheapest one
+  Cost floor_ = 0;            // proved
+};
+
+}  // namespace quadrille::continuous
