@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "quadrille/core/ids.hpp"
+#include "quadrille/core/progress.hpp"
 
 namespace quadrille::cli {
 
@@ -26,11 +27,13 @@ class History {
 };
 
 /// Has `options.on_progress` tell the history, and then what it told before.
-template <class Progress, class Options>
+template <class Options>
 void keep_history(Options& options, History& history) {
   options.progress_interval_s = 0.1;
   options.on_progress = [&history, also = options.on_progress](const Progress& progress) {
-    history.note(progress.elapsed_s, progress.lower_bound, progress.cost);
+    // Nothing is known before that.
+    if (progress.phase != Phase::set_up)
+      history.note(progress.elapsed_s, progress.lower_bound, progress.cost);
     if (also) also(progress);
   };
 }

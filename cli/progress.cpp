@@ -13,26 +13,27 @@ namespace quadrille::cli {
 namespace {
 
 /// `print`: how a cost is written.
-template <class Progress, class Print>
-std::string progress_text(const Progress& progress, const Print& print) {
+template <class Print>
+std::string text_of(const Progress& progress, const Print& print) {
+  if (progress.phase == Phase::set_up)
+    return fmt::format("{}, {:.1f} s", to_string(progress.phase), progress.elapsed_s);
   std::string plan;
   if (progress.cost)
     plan = fmt::format(", plan {}{}", print(*progress.cost),
                        gap_text(gap_percent(*progress.cost, progress.lower_bound)));
-  return fmt::format("cost >= {}{}, {:.1f} s, {} conflicts", print(progress.lower_bound), plan,
-                     progress.elapsed_s, progress.conflicts);
+  return fmt::format("{}: cost >= {}{}, {:.1f} s, {} conflicts", to_string(progress.phase),
+                     print(progress.lower_bound), plan, progress.elapsed_s, progress.conflicts);
 }
 
 }  // namespace
 
-std::string progress_text(const discrete::Progress& progress) {
-  return progress_text(progress, [](Cost cost) { return cost; });
+std::string progress_text(const Progress& progress) {
+  return text_of(progress, [](Cost cost) { return cost; });
 }
 
-std::string progress_text(const continuous::Progress& progress,
-                          const continuous::Resolution& resolution) {
-  return progress_text(progress,
-                       [&](Cost ticks) { return continuous::in_input_units(ticks, resolution); });
+std::string progress_text(const Progress& progress, const continuous::Resolution& resolution) {
+  return text_of(progress,
+                 [&](Cost ticks) { return continuous::in_input_units(ticks, resolution); });
 }
 
 ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILENO) == 1) {}

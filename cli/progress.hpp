@@ -4,13 +4,14 @@
 #include <cstddef>
 #include <string>
 
-#include "quadrille/continuous/solver.hpp"
-#include "quadrille/discrete/solver.hpp"
+#include "quadrille/continuous/resolution.hpp"
+#include "quadrille/core/progress.hpp"
 
 namespace quadrille::cli {
 
-[[nodiscard]] std::string progress_text(const discrete::Progress& progress);
-[[nodiscard]] std::string progress_text(const continuous::Progress& progress,
+/// Costs in timesteps, or of a roadmap in the units of its input.
+[[nodiscard]] std::string progress_text(const Progress& progress);
+[[nodiscard]] std::string progress_text(const Progress& progress,
                                         const continuous::Resolution& resolution);
 
 /// One line on a terminal's stderr that is rewritten in place and gone at the end.

@@ -29,6 +29,7 @@ int main() {
   options.limits.memory_mib = 4096;  // limits can be combined; the first one that is met ends it
   options.limits.interrupt = &stop;  // set by anybody: a thread, a signal handler
   options.on_progress = [&](const Progress& progress) {  // on the solving thread
+    if (progress.phase != Phase::search) return;
     seen = progress.lower_bound;
     ++looks;
     looks.notify_one();

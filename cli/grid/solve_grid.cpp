@@ -81,7 +81,7 @@ class GridSolve {
     }
     if (line.active())
       options.on_progress = [&line](const auto& progress) { line.show(progress_text(progress)); };
-    if (arguments_.history) keep_history<discrete::Progress>(options, notes_.history);
+    if (arguments_.history) keep_history(options, notes_.history);
     const RemainingLimits left(options.limits);
     auto outcome = discrete::solve(instance(), options);
     if (outcome && outcome->attribution)

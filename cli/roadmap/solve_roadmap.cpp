@@ -84,10 +84,10 @@ class RoadmapSolve {
       options.plan_interval_s = *arguments_.plan_every;
     }
     if (line.active())
-      options.on_progress = [&](const continuous::Progress& progress) {
+      options.on_progress = [&](const Progress& progress) {
         line.show(progress_text(progress, instance().resolution()));
       };
-    if (arguments_.history) keep_history<continuous::Progress>(options, notes_.history);
+    if (arguments_.history) keep_history(options, notes_.history);
     const RemainingLimits left(options.limits);
     auto outcome = continuous::solve(instance(), options);
     if (outcome && outcome->plan && arguments_.check_with) ask_second_verifier(*outcome);

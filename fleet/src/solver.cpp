@@ -34,6 +34,7 @@ continuous::SolveOptions in_units(const Fleet& fleet, const continuous::Resoluti
   if (options.on_progress)
     result.on_progress = [resolution, &options](const continuous::Progress& progress) {
       Progress seen;
+      seen.phase = progress.phase;
       seen.lower_bound = in_seconds(progress.lower_bound, resolution);
       if (progress.cost) seen.cost = in_seconds(*progress.cost, resolution);
       seen.elapsed = Seconds(progress.elapsed_s);

@@ -52,6 +52,8 @@ class Progress:
     elapsed: float
     """Seconds."""
     conflicts: int
+    phase: str = "search"
+    """"feasibility", "set-up", "joint-search", "routes", "first-plan" or "search"."""
 
     @property
     def gap(self) -> Optional[float]:
@@ -60,7 +62,7 @@ class Progress:
 
     def __str__(self) -> str:
         cost, gap = ("none", "") if self.cost is None else (f"{self.cost:g}", f", gap {self.gap:.2f} %")
-        return f"{self.elapsed:.1f} s: bound {self.lower_bound:g}, best plan {cost}{gap}"
+        return f"{self.elapsed:.1f} s: {self.phase}, bound {self.lower_bound:g}, best plan {cost}{gap}"
 
 
 @dataclass(frozen=True)
@@ -138,8 +140,8 @@ def solve(
         seed: Of all random choices, 0 to 2000000000.
         system: "dpll", "dpll-mdd", "smt-cbs" or "mdd-sat"; on roadmaps "dpll" or "smt-cbs".
         objective: "sum-of-costs" of the agents' arrivals, or "makespan", the last one.
-        progress: Called with a ``Progress`` in this thread, at most once in ``progress_interval``
-            seconds. An exception ends the search and comes out of ``solve``.
+        progress: Called with a ``Progress`` in this thread, when a phase begins and else about once
+            in ``progress_interval`` seconds. An exception ends the search and comes out of ``solve``.
         on_plan: Called with the best plan so far whenever a better one is known, at most once in
             ``plan_interval`` seconds. Exceptions as with ``progress``.
         initial: A valid plan for the same agents to begin with: the answer costs no more.
@@ -192,9 +194,11 @@ def solve(
     if progress is not None:
         tell = progress
 
-        def on_progress(bound: int, best: Optional[int], elapsed: float, conflicts: int) -> None:
+        def on_progress(
+            phase: str, bound: int, best: Optional[int], elapsed: float, conflicts: int
+        ) -> None:
             known = None if best is None else cost(best)
-            tell(Progress(cost(bound), known, elapsed, conflicts))
+            tell(Progress(cost(bound), known, elapsed, conflicts, phase))
 
         arguments["progress"] = on_progress
     if on_plan is not None:

@@ -13,6 +13,8 @@
 #include <thread>
 #include <utility>
 
+#include "quadrille/core/progress.hpp"
+
 namespace quadrille::python {
 
 namespace py = pybind11;
@@ -21,7 +23,7 @@ namespace py = pybind11;
 /// asks for the GIL. The calling thread waits without the GIL, and takes it to look for signals and
 /// to call back: so Ctrl-C is heard at once, whatever the search is doing, callbacks run in the
 /// thread that called, and a slow callback does not slow the search down.
-template <class Progress, class Plan>
+template <class Plan>
 class Conversation {
  public:
   /// Either function may be empty. They are called with the GIL.

@@ -180,7 +180,7 @@ discrete::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>&
 }
 
 py::dict solve_steps(const Instance& instance, const py::dict& arguments) {
-  return run_solve<discrete::Progress, Plan>(instance, arguments, options_of);
+  return run_solve<Plan>(instance, arguments, options_of);
 }
 
 /// (violations, sum of costs, makespan); a violation is (kind, agent, other, timestep, message).

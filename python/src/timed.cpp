@@ -45,7 +45,7 @@ continuous::SolveOptions options_of(Arguments& arguments, const std::atomic<bool
 }
 
 py::dict solve_timed(const TimedInstance& self, const py::dict& arguments) {
-  return run_solve<continuous::Progress, Plan>(self.instance, arguments, options_of);
+  return run_solve<Plan>(self.instance, arguments, options_of);
 }
 
 /// (violations, sum of costs, makespan, clearances); a violation is (kind, agent, other, tick,

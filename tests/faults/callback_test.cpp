@@ -38,8 +38,8 @@ void expect_thrown_at_each_call(const std::vector<Options>& systems, const Insta
   int num_thrown = 0, num_tried = 0;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     SCOPED_TRACE(i);
-    // Each of the first calls, which differ most, and some of the later ones.
-    for (int k = 1; k <= 50; k += k < 10 ? 1 : 8) {
+    // Each of the first calls, and some of the later ones, from ever deeper inside.
+    for (int k = 1; k <= 2000; k += k < 10 ? 1 : k / 3) {
       ++num_tried;
       if (!throws_at(hard, systems[i], k)) break;
       ++num_thrown;

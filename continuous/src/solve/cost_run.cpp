@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "quadrille/core/progress.hpp"
 #include "solve/auditors.hpp"
 #include "solve/cost_problem.hpp"
 #include "solve/cover_search.hpp"
@@ -25,9 +26,11 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
         known_(known),
         limits_(limits),
         companion_(companion),
-        next_progress_s_(limits.elapsed_wall() + options.progress_interval_s) {
+        progress_(options.on_progress, options.progress_interval_s, limits) {
     outcome_.lower_bound = known.lower_bound;
     if (known.plan) keep(std::make_shared<const Plan>(*known.plan), cost_of(*known.plan));
+    tell_known();
+    progress_.enter(Phase::search);
   }
 
   SolveOutcome run(Scene& scene) {
@@ -144,17 +147,19 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     if (plan_ && outcome_.lower_bound < plan_cost_ &&
         is_within_gap(options_.gap_percent, plan_cost_, outcome_.lower_bound))
       limits_.stop(StopReason::gap);
+    tell_known();
+    progress_.tell_if_due();
     const double now = limits_.elapsed_wall();
-    if (options_.on_progress && now >= next_progress_s_) {
-      const auto cost = plan_ ? std::optional<Cost>(plan_cost_) : std::nullopt;
-      options_.on_progress({outcome_.lower_bound, cost, now, limits_.conflicts()});
-      next_progress_s_ = now + options_.progress_interval_s;
-    }
     if (options_.on_plan && plan_ && plan_cost_ != told_cost_ && now >= next_plan_s_) {
       options_.on_plan(*plan_);
       told_cost_ = plan_cost_;
       next_plan_s_ = now + options_.plan_interval_s;
     }
+  }
+
+  void tell_known() {
+    progress_.know(outcome_.lower_bound,
+                   plan_ ? std::optional<Cost>(plan_cost_) : std::nullopt);
   }
 
   void exchange() {
@@ -206,7 +211,8 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
   News heard_;                          // and not yet passed on to the search
   std::vector<std::size_t> num_heard_;  // cores, by teller
   std::optional<Cost> told_cost_;
-  double next_progress_s_, next_plan_s_ = 0;
+  ProgressReporter progress_;
+  double next_plan_s_ = 0;
 };
 
 }  // namespace

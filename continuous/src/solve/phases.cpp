@@ -86,6 +86,7 @@ Cost most_cost(const Instance& instance, Objective objective) {
 void Phases::run() {
   plan_ = outcome_.plan = options_.initial_plan;
   keep_best(options_, outcome_);  // the answer if a limit is met
+  enter(Phase::set_up);
   Scene scene(instance_, limits_);
   if (!scene.is_complete() || are_kept_off(scene)) return;
   floor_ = outcome_.lower_bound = free_bound(scene, options_.objective);
@@ -113,18 +114,24 @@ bool Phases::are_kept_off(const Scene& scene) {
 }
 
 bool Phases::search_jointly(Scene& scene) {
+  enter(Phase::joint_search);
   SmallReport report = search_small_instance(scene, options_.objective, options_.joint_work);
   return is_blocked(report.blocked) || learn(report.lower_bound, std::move(report.plan));
 }
 
 bool Phases::look_at_routes(Scene& scene) {
+  enter(Phase::routes);
   auto routes = search_routes(scene, options_.objective, options_.route_work);
   return learn(routes.lower_bound, std::move(routes.plan));
 }
 
 bool Phases::find_some_plan(Scene& scene, bool was_joint) {
-  if (!plan_ || was_joint) keep_cheaper(find_first_plan(scene));
+  if (!plan_ || was_joint) {
+    enter(Phase::first_plan);
+    keep_cheaper(find_first_plan(scene));
+  }
   if (!plan_ && !was_joint) {
+    enter(Phase::feasibility);
     Feasibility feasibility = check_feasibility(scene);
     if (is_blocked(feasibility.blocked)) return true;
     plan_ = std::move(feasibility.plan);
@@ -159,6 +166,12 @@ void Phases::search(Scene& scene) {
   outcome_ = options_.threads > 1 ? search_side_by_side(scene, options_, known, limits_, account_)
                                   : search_alone(scene, options_, known, limits_, nullptr);
   if (charges) take_traced(*charges, outcome_);
+}
+
+void Phases::enter(Phase phase) {
+  const auto known = plan_ ? std::optional(cost(*plan_, options_.objective)) : std::nullopt;
+  progress_.know(floor_, known);
+  progress_.enter(phase);
 }
 
 void Phases::keep_cheaper(std::optional<Plan> plan) {

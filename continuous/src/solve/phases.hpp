@@ -7,6 +7,7 @@
 
 #include "paths/scene.hpp"
 #include "quadrille/continuous/solver.hpp"
+#include "quadrille/core/progress.hpp"
 
 namespace quadrille::continuous {
 
@@ -21,7 +22,8 @@ class Phases {
         options_(options),
         limits_(limits),
         account_(account),
-        outcome_(outcome) {}
+        outcome_(outcome),
+        progress_(options.on_progress, options.progress_interval_s, limits) {}
 
   /// Throws LimitReached, with what is known in the outcome, and what callbacks throw.
   void run();
@@ -37,12 +39,14 @@ class Phases {
 
   void search(Scene& scene);
   void keep_cheaper(std::optional<Plan> plan);
+  void enter(Phase phase);
 
   const Instance& instance_;
   const SolveOptions& options_;
   LimitMonitor& limits_;
   const std::shared_ptr<ResourceAccount>& account_;
   SolveOutcome& outcome_;
+  ProgressReporter progress_;
   std::optional<Plan> plan_;  // the cheapest one
   Cost floor_ = 0;            // proved
 };

@@ -9,6 +9,7 @@
 
 #include "mdd/usages.hpp"
 #include "quadrille/core/plan_claim.hpp"
+#include "quadrille/core/progress.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
@@ -48,6 +49,7 @@ class Search final : private sat::YieldPoint {
         outcome_(outcome),
         companion_(companion),
         role_(companion != nullptr ? companion->role() : Role::both),
+        progress_(options.on_progress, options.progress_interval_s, limits),
         incumbent_(options.objective) {}
 
   void run() {
@@ -76,6 +78,7 @@ class Search final : private sat::YieldPoint {
 
  private:
   void search() {
+    enter(Phase::set_up);
     const auto distances = companion_ != nullptr ? companion_->distances(limits_)
                                                  : GoalDistances::make(instance_, limits_);
     incumbent_.raise(free_bound(distances.get()));
@@ -98,6 +101,7 @@ class Search final : private sat::YieldPoint {
     plans_.emplace(PlanSearchContext{instance_, distances, options_.objective, options_.seed, part,
                                      incumbent_, limits_});
     if (!options_.initial_plan) {
+      enter(Phase::first_plan);
       if (role_ == Role::both)
         while (plans_->start()) yield();
       else
@@ -183,10 +187,13 @@ class Search final : private sat::YieldPoint {
   }
 
   void report_progress() {
-    if (!options_.on_progress || limits_.elapsed_wall() < next_report_s_) return;
-    options_.on_progress(
-        {lower(), incumbent_.upper(), limits_.elapsed_wall(), limits_.conflicts()});
-    next_report_s_ = limits_.elapsed_wall() + options_.progress_interval_s;
+    progress_.know(lower(), incumbent_.upper());
+    progress_.tell_if_due();
+  }
+
+  void enter(Phase phase) {
+    progress_.know(lower(), incumbent_.upper());
+    progress_.enter(phase);
   }
 
   void report_plan() {
@@ -210,6 +217,7 @@ class Search final : private sat::YieldPoint {
   }
 
   void search_costs(const std::shared_ptr<const GoalDistances>& distances) {
+    enter(Phase::search);
     const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
     if (!run->prepare(distances, limits_)) return;
     run_ = run.get();
@@ -243,10 +251,11 @@ class Search final : private sat::YieldPoint {
   SolveOutcome& outcome_;
   Companion* const companion_;
   const Role role_;
+  ProgressReporter progress_;
   Incumbent incumbent_;
   std::optional<PlanSearch> plans_;
   const Run* run_ = nullptr;  // when it is prepared
-  double next_report_s_ = 0, next_plan_s_ = 0;
+  double next_plan_s_ = 0;
   std::optional<Cost> reported_cost_;
   // What was heard from others, and told to them.
   Cost heard_lower_ = 0;
@@ -303,6 +312,8 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
 /// memory does not even suffice for the answer.
 void answer(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
             LimitMonitor& limits, Companion* companion, SolveOutcome& outcome) {
+  ProgressReporter(options.on_progress, options.progress_interval_s, limits)
+      .enter(Phase::feasibility);
   const Feasibility feasibility = check_feasibility(instance);
   if (!feasibility.feasible) {
     outcome.status = Status::infeasible;

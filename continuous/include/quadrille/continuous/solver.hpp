@@ -15,12 +15,16 @@
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
+#include "quadrille/core/progress.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/core/statistics.hpp"
 
 QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
+
+using quadrille::Phase;
+using quadrille::Progress;
 
 /// When paths and their collisions are looked at.
 enum class System {
@@ -29,14 +33,6 @@ enum class System {
 };
 [[nodiscard]] std::string_view to_string(System system) noexcept;  ///< "dpll" | "smt-cbs"
 [[nodiscard]] std::optional<System> parse_system(std::string_view text) noexcept;
-
-/// A look at a running search.
-struct Progress {
-  Cost lower_bound = 0;      ///< Ticks.
-  std::optional<Cost> cost;  ///< Of the best plan so far, in ticks.
-  double elapsed_s = 0;
-  std::int64_t conflicts = 0;
-};
 
 /// See SolveOptions::route_work.
 inline constexpr std::size_t kMaxRouteAgents = 6;
@@ -75,8 +71,8 @@ struct SolveOptions {
   /// Of dpll: effort for the joint search of small instances, which comes before everything else:
   /// about 10^8 take a second. 0: none.
   std::int64_t joint_work = 200'000'000;
-  /// Called on the solving thread, at most once in `progress_interval_s` seconds. May be empty.
-  /// What it throws ends the search and comes out of `solve`.
+  /// Called on the solving thread when a phase begins, and else about once in `progress_interval_s`
+  /// seconds. May be empty. What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;
   double progress_interval_s = 0.25;  ///< At least 0.
   /// Called on the solving thread with the best plan so far, if it is cheaper than at the last

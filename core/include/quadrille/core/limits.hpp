@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/outcome.hpp"
@@ -47,8 +49,9 @@ struct Limits {
 /// The searches of this library catch it; nobody else gets to see it.
 struct LimitReached {};
 
-/// Watches Limits during one search: a budget and a stop token, nothing else. Once a limit is met
-/// it stays met. To be used by the thread that made it.
+/// Watches Limits during one search: a budget and a stop token. Once a limit is met it stays met.
+/// Everything of length asks it, and so it is the pulse of a search, too. To be used by the thread
+/// that made it.
 class LimitMonitor {
  public:
   /// A search of several threads has one monitor for each of them and one account for all; null: an
@@ -69,6 +72,9 @@ class LimitMonitor {
 
   /// A second interrupt flag. May be null; must outlive the monitor otherwise.
   void set_cancel(const std::atomic<bool>* cancel) noexcept { cancel_ = cancel; }
+  /// To be called whenever the monitor looks at the wall clock, until a limit is met; what it throws
+  /// comes out of who asked. Empty: nothing.
+  void set_pulse(std::function<void()> pulse) { pulse_ = std::move(pulse); }
   /// From now on, and if no limit was met before, the search has to stop for that reason.
   void stop(StopReason reason) noexcept;
 
@@ -87,6 +93,7 @@ class LimitMonitor {
   Limits limits_;
   const std::atomic<bool>* cancel_ = nullptr;
   ResourceMeter meter_;
+  std::function<void()> pulse_;
   double next_look_ = 0;
   std::int64_t conflicts_ = 0;
   std::int64_t calls_ = 0;

@@ -12,6 +12,7 @@
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
+#include "quadrille/core/progress.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/core/statistics.hpp"
 #include "quadrille/discrete/instance.hpp"
@@ -20,6 +21,9 @@
 QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
+
+using quadrille::Phase;
+using quadrille::Progress;
 
 /// The solving systems; see docs/architecture.md.
 enum class System {
@@ -66,14 +70,6 @@ enum class MddGrowth {
 };
 [[nodiscard]] std::string_view to_string(MddGrowth growth) noexcept;  ///< "on-demand" | "full"
 [[nodiscard]] std::optional<MddGrowth> parse_mdd_growth(std::string_view text) noexcept;
-
-/// A look at a running search.
-struct Progress {
-  Cost lower_bound = 0;
-  std::optional<Cost> cost;  ///< Of the best plan so far.
-  double elapsed_s = 0;
-  std::int64_t conflicts = 0;
-};
 
 /// Of the systems with MDDs.
 struct MddOptions {
@@ -127,8 +123,8 @@ struct SolveOptions {
   /// With several threads, exchange at once and take the proof that comes first in time. Otherwise
   /// both go by steps, so that the answer is always the same.
   bool race = false;
-  /// Called on the solving thread, at most once in `progress_interval_s` seconds. May be empty.
-  /// What it throws ends the search and comes out of `solve`.
+  /// Called on the solving thread when a phase begins, and else about once in `progress_interval_s`
+  /// seconds. May be empty. What it throws ends the search and comes out of `solve`.
   std::function<void(const Progress&)> on_progress;
   double progress_interval_s = 0.25;  ///< At least 0.
   /// Called on the solving thread with the best plan so far, if it is cheaper than at the last

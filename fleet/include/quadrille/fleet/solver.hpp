@@ -10,6 +10,7 @@
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/outcome.hpp"
+#include "quadrille/core/progress.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/core/statistics.hpp"
 #include "quadrille/fleet/fleet.hpp"
@@ -30,6 +31,7 @@ struct Limits {
 
 /// A look at a running search.
 struct Progress {
+  Phase phase = Phase::set_up;
   Seconds lower_bound;
   std::optional<Seconds> cost;  ///< Of the best plan so far.
   Seconds elapsed;
@@ -48,12 +50,12 @@ struct SolveOptions {
   std::optional<TimedPlan> initial_plan = {};
   std::uint32_t seed = 0;   ///< 0 .. 2'000'000'000
   std::size_t threads = 1;  ///< 1 .. kMaxThreads
-  /// Both are called on the solving thread, at most once in so many seconds; what they throw ends
-  /// the search and comes out of `solve`. May be empty.
+  /// Called on the solving thread when a phase begins, and else about once in so many seconds; what
+  /// it throws ends the search and comes out of `solve`. May be empty.
   std::function<void(const Progress&)> on_progress = {};
   Seconds progress_interval = Seconds(0.25);
-  /// With the best plan so far, if it is cheaper than at the last call; the answer may be better
-  /// still.
+  /// Likewise with the best plan so far, if it is cheaper than at the last call, at most once in so
+  /// many seconds; the answer may be better still.
   std::function<void(const TimedPlan&)> on_plan = {};
   Seconds plan_interval = Seconds(1);
 };

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Progress: which phases a solve goes through, and that the long ones show that they go on.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include "quadrille/continuous/generator.hpp"
+#include "quadrille/continuous/solver.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+using enum Phase;
+
+Instance discs(std::size_t num_vertices, std::size_t num_agents, std::uint64_t seed) {
+  RandomInstanceOptions options;
+  options.num_vertices = num_vertices;
+  options.num_agents = num_agents;
+  return random_instance(options, seed).value();
+}
+
+/// Two discs on a line that have to change places.
+Instance deadlock() {
+  std::vector<Edge> edges;
+  for (const auto& [from, to] : {std::pair{0, 1}, {1, 0}, {1, 2}, {2, 1}})
+    edges.push_back({VertexId(from), VertexId(to), {}, Groups::all()});
+  auto roadmap = Roadmap::make({{0, 0}, {10, 0}, {20, 0}}, edges).value();
+  return Instance::make(std::move(roadmap), {{VertexId(0), VertexId(2), Disc{2}, kUnitSpeed},
+                                             {VertexId(2), VertexId(0), Disc{2}, kUnitSpeed}})
+      .value();
+}
+
+struct Told {
+  std::vector<Phase> phases;  ///< As they began.
+  std::map<Phase, int> num_times;
+};
+
+Told told_by(const Instance& instance, SolveOptions options) {
+  Told told;
+  options.on_progress = [&](const Progress& progress) {
+    if (told.phases.empty()) {
+      EXPECT_EQ(progress.lower_bound, 0);
+      EXPECT_EQ(progress.conflicts, 0);
+    }
+    if (told.phases.empty() || told.phases.back() != progress.phase)
+      told.phases.push_back(progress.phase);
+    ++told.num_times[progress.phase];
+  };
+  static_cast<void>(solve(instance, options).value());
+  return told;
+}
+
+TEST(Phases, EachIsToldWhenItBegins) {
+  SolveOptions options;
+  options.limits.conflicts = 10;
+  options.progress_interval_s = 1000;
+  using List = std::vector<Phase>;
+  EXPECT_EQ(told_by(discs(40, 9, 1), options).phases, (List{set_up, first_plan, search}));
+  options.threads = 2;
+  EXPECT_EQ(told_by(discs(40, 9, 1), options).phases, (List{set_up, first_plan, search}));
+  options.threads = 1;
+  EXPECT_EQ(told_by(deadlock(), options).phases, (List{set_up, joint_search}));
+  options.joint_work = 0;
+  EXPECT_EQ(told_by(deadlock(), options).phases, (List{set_up, routes, first_plan, feasibility}));
+  options.route_work = 0;
+  EXPECT_EQ(told_by(deadlock(), options).phases, (List{set_up, first_plan, feasibility}));
+  const Instance easy = discs(30, 3, 1);
+  options.initial_plan = solve(easy, {}).value().plan;
+  ASSERT_TRUE(options.initial_plan);
+  EXPECT_EQ(told_by(easy, options).phases, (List{set_up, search}));
+}
+
+TEST(Phases, LongOnesShowThatTheyGoOn) {
+  SolveOptions options;
+  options.limits.conflicts = 10;
+  options.progress_interval_s = 0;
+  Told told = told_by(discs(150, 60, 1), options);
+  EXPECT_GE(told.num_times[set_up], 10);
+  EXPECT_GE(told.num_times[first_plan], 10);
+  EXPECT_GE(told.num_times[search], 10);
+  told = told_by(discs(60, 6, 2), options);
+  EXPECT_GE(told.num_times[routes], 10);
+  told = told_by(discs(9, 4, 3), options);
+  EXPECT_GE(told.num_times[joint_search], 2);
+}
+
+TEST(Phases, BetweenThemTheIntervalIsKept) {
+  SolveOptions options;
+  options.limits.conflicts = 10;
+  options.progress_interval_s = 1000;
+  for (const auto& [phase, times] : told_by(discs(150, 60, 1), options).num_times)
+    EXPECT_EQ(times, 1) << to_string(phase);
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test
