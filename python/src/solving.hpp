@@ -35,8 +35,8 @@ py::dict outcome_of(const Instance& instance, Outcome outcome) {
 }
 
 /// Solves with `options` but for the callbacks, which the arguments may name: `progress` is called
-/// with (phase, lower bound, cost or None, seconds, conflicts), `on_plan` with the plan. `interrupt` is
-/// where the options' flag has to point.
+/// with (phase, lower bound, cost or None, seconds, conflicts), `on_plan` with the plan.
+/// `interrupt` is where the options' flag has to point.
 template <class Plan, class Instance, class SetOptions>
 py::dict run_solve(const Instance& instance, const py::dict& given, const SetOptions& set_options) {
   Arguments arguments(given);
@@ -46,7 +46,8 @@ py::dict run_solve(const Instance& instance, const py::dict& given, const SetOpt
   std::function<void(const Plan&)> tell_plan;
   if (progress)
     tell_progress = [&](const Progress& at) {
-      (*progress)(std::string(to_string(at.phase)), at.lower_bound, at.cost, at.elapsed_s, at.conflicts);
+      (*progress)(std::string(to_string(at.phase)), at.lower_bound, at.cost, at.elapsed_s,
+                  at.conflicts);
     };
   if (on_plan) tell_plan = [&](const Plan& plan) { (*on_plan)(py::cast(plan)); };
   Conversation<Plan> conversation(tell_progress, tell_plan);

@@ -158,8 +158,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
   }
 
   void tell_known() {
-    progress_.know(outcome_.lower_bound,
-                   plan_ ? std::optional<Cost>(plan_cost_) : std::nullopt);
+    progress_.know(outcome_.lower_bound, plan_ ? std::optional<Cost>(plan_cost_) : std::nullopt);
   }
 
   void exchange() {

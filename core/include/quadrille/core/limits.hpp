@@ -72,8 +72,8 @@ class LimitMonitor {
 
   /// A second interrupt flag. May be null; must outlive the monitor otherwise.
   void set_cancel(const std::atomic<bool>* cancel) noexcept { cancel_ = cancel; }
-  /// To be called whenever the monitor looks at the wall clock, until a limit is met; what it throws
-  /// comes out of who asked. Empty: nothing.
+  /// To be called whenever the monitor looks at the wall clock, until a limit is met; what it
+  /// throws comes out of who asked. Empty: nothing.
   void set_pulse(std::function<void()> pulse) { pulse_ = std::move(pulse); }
   /// From now on, and if no limit was met before, the search has to stop for that reason.
   void stop(StopReason reason) noexcept;

@@ -23,7 +23,8 @@ enum class Phase : std::uint8_t {
   feasibility,   ///< Whether there is any plan.
   search,        ///< Raises the lower bound and makes plans cheaper.
 };
-[[nodiscard]] std::string_view to_string(Phase phase) noexcept;  ///< "set-up" | "joint-search" | ...
+[[nodiscard]] std::string_view to_string(
+    Phase phase) noexcept;  ///< "set-up" | "joint-search" | ...
 
 /// A look at a running solve. Costs are timesteps or ticks.
 struct Progress {
