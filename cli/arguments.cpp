@@ -70,6 +70,12 @@ CLI::Option* add_per_cents(CLI::App& app, const std::string& name, std::optional
       ->type_name("PER CENT");
 }
 
+CLI::Option* add_cost(CLI::App& app, const std::string& name, std::optional<double>& number,
+                      const std::string& help) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  return add_number(app, name, number, kMost, "a cost, 0 or more", help)->type_name("COST");
+}
+
 CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<double>& number,
                        const std::string& help) {
   return add_number(app, name, number, 1, "a number from 0 to 1", help)->type_name("SHARE");

@@ -35,6 +35,9 @@ CLI::Option* add_seconds(CLI::App& app, const std::string& name, std::optional<d
 CLI::Option* add_per_cents(CLI::App& app, const std::string& name, std::optional<double>& number,
                            const std::string& help);
 /// Adds an option that takes a number in [0, 1].
+/// A cost in the units of the input, 0 or more.
+CLI::Option* add_cost(CLI::App& app, const std::string& name, std::optional<double>& number,
+                      const std::string& help);
 CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<double>& number,
                        const std::string& help);
 

@@ -58,6 +58,7 @@ std::string describe(const OutcomeText& outcome) {
     text += fmt::format("cost       {} ({}), lower bound {}{}\n", outcome.cost.value_or("unknown"),
                         to_string(outcome.objective), outcome.lower_bound,
                         gap_text(outcome.gap_percent));
+  if (outcome.rests_on_known_bound) text += "bound      as it was given, not proved here\n";
   const Statistics& s = outcome.statistics;
   return text +
          fmt::format("search     {:.2f} s, {} SAT calls, {} conflicts, {} collision clauses\n",

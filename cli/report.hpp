@@ -44,6 +44,7 @@ struct OutcomeText {
   Objective objective = Objective::sum_of_costs;
   std::optional<std::string> cost;
   std::string lower_bound;
+  bool rests_on_known_bound = false;
   double gap_percent = 0;  ///< Between them, if there is a cost.
   Statistics statistics;
 };
@@ -62,6 +63,7 @@ template <class Outcome, class Print>
                    objective,
                    {},
                    print(outcome.lower_bound),
+                   outcome.rests_on_known_bound,
                    0,
                    outcome.statistics};
   if (outcome.cost) {

@@ -99,6 +99,9 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
   add_input_file(app, "--initial-plan", arguments.initial_plan,
                  "Begin with this valid plan, such as that of a run that a limit ended")
       ->group(group);
+  add_cost(app, "--known-bound", arguments.known_bound,
+           "No plan costs less than this, as is known from elsewhere: begin with it")
+      ->group(group);
   add_integer(app, "--threads", arguments.threads, 1, static_cast<std::int64_t>(kMaxThreads),
               "Searches side by side: for the bound, for plans, further ones for either; default 1")
       ->group(group);

@@ -26,7 +26,8 @@ struct SolveArguments {
   std::string plan, json, view;          ///< Output files; empty without, "-" for standard output.
   PictureArguments picture;
   PlanFormats plan_format;
-  std::optional<double> plan_every;  ///< Seconds.
+  std::optional<double> known_bound;  ///< In the units of the input.
+  std::optional<double> plan_every;   ///< Seconds.
   std::optional<SecondVerifier> check_with;
   bool history = false;
   bool quiet = false;

@@ -24,11 +24,11 @@ constexpr std::int64_t kMaxNumbers = 100'000;
 
 /// Options of `solve` that the campaign gives itself.
 constexpr std::array kReserved = {
-    "--map",        "--scen",        "--instance",     "--roadmap",
-    "--task",       "--agents",      "--plan",         "--plan-format",
-    "--plan-every", "--json",        "--quiet",        "--seed",
-    "--time-limit", "--cpu-limit",   "--memory-limit", "--conflict-limit",
-    "--known-plan", "--initial-plan"};
+    "--map",        "--scen",         "--instance",     "--roadmap",
+    "--task",       "--agents",       "--plan",         "--plan-format",
+    "--plan-every", "--json",         "--quiet",        "--seed",
+    "--time-limit", "--cpu-limit",    "--memory-limit", "--conflict-limit",
+    "--known-plan", "--initial-plan", "--known-bound"};
 
 std::optional<std::int64_t> natural(std::string_view text) {
   const text::Natural number = text::parse_natural(text, kMaxSeed);

@@ -50,7 +50,7 @@ _quadrille() {
   case $command in
     solve)
       options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
-        --backtracking --no-first-plan --initial-plan --threads --race --gap --seed --time-limit --cpu-limit
+        --backtracking --no-first-plan --initial-plan --known-bound --threads --race --gap --seed --time-limit --cpu-limit
         --memory-limit --conflict-limit --plan --plan-format --plan-every --check-with --json --history --view --svg
         --svg-kind --svg-agents --quiet --explain --audit --known-plan"
       ;;

@@ -33,6 +33,7 @@ Json options_json(const SolveArguments& arguments) {
     json["backtracking"] = *options.lazy.chronological ? "chronological" : "jump";
   json["first_plan"] = options.first_plan;
   json["initial_plan"] = text_or_null(arguments.initial_plan);
+  json["known_bound"] = or_null(arguments.known_bound);
   json["gap"] = or_null(options.gap_percent);
   json["threads"] = options.threads;
   json["race"] = options.race;
@@ -74,6 +75,7 @@ std::string result_json(const discrete::Instance& instance, const SolveArguments
   json.add("cost", or_null(outcome.cost));
   json.add("lower_bound", infeasible ? Json(nullptr) : Json(outcome.lower_bound));
   json.add_gap(outcome);
+  if (arguments.known_bound) json.add("rests_on_known_bound", outcome.rests_on_known_bound);
   json.add_end_of_search(outcome);
   json.add("agents", instance.num_agents());
   if (options.explain)

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <sstream>
@@ -47,6 +48,12 @@ std::string settle(SolveArguments& arguments) {
   if (options.race && options.threads == 1) return "--race needs --threads";
   if (options.explain && options.threads > 1) return "--explain needs one thread";
   if (options.explain && options.system != System::dpll) return "--explain needs --system dpll";
+  if (arguments.known_bound) {
+    const auto bound = static_cast<Cost>(std::min(*arguments.known_bound, 0x1p62));
+    if (static_cast<double>(bound) != *arguments.known_bound)
+      return "--known-bound is a whole number of timesteps";
+    options.known_lower_bound = bound;
+  }
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
   if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (!arguments.plan_format.discrete)

@@ -78,6 +78,7 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
   json["initial_plan"] = text_or_null(arguments.initial_plan);
+  json["known_bound"] = or_null(arguments.known_bound);
   json["gap"] = or_null(options.gap_percent);
   json["threads"] = options.threads;
   json["race"] = options.race;
@@ -103,6 +104,7 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   json.add("lower_bound", has_bound ? time(outcome.lower_bound) : Json(nullptr));
   json.add("lower_bound_ticks", has_bound ? Json(outcome.lower_bound) : Json(nullptr));
   json.add_gap(outcome);
+  if (arguments.known_bound) json.add("rests_on_known_bound", outcome.rests_on_known_bound);
   json.add("resolution", instance != nullptr ? resolution_json(resolution) : Json(nullptr));
   json.add("claim", claim(instance, " "));
   json.add_end_of_search(outcome);

@@ -11,6 +11,7 @@
 
 #include "arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
+#include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
@@ -229,6 +230,11 @@ ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments) {
   if (const auto error = read_given_plans(arguments, input->instance, *options, read)) {
     report_error(*error);
     return ExitCode::bad_input;
+  }
+  if (arguments.known_bound) {
+    options->known_lower_bound =
+        continuous::quantise_bound(*arguments.known_bound, input->instance.resolution());
+    if (!options->known_lower_bound) return usage_error(app, "--known-bound is out of range");
   }
   // Neither of these searches makes clauses that could be checked against the plan.
   if (options->debug.known_plan) options->route_work = options->joint_work = 0;

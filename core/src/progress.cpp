@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/core/progress.hpp"
 
+#include <algorithm>
+
 namespace quadrille {
 
 std::string_view to_string(Phase phase) noexcept {
@@ -45,7 +47,9 @@ void ProgressReporter::tell() {
   const double now = limits_.elapsed_wall();
   next_s_ = now + interval_s_;
   is_told_ = true;  // not again, if it throws
-  callback_({phase_, lower_bound_, cost_, now, limits_.conflicts()});
+  // A bound that the user gave wrongly may be above the cost of a plan, for a moment.
+  const Cost lower_bound = cost_ ? std::min(lower_bound_, *cost_) : lower_bound_;
+  callback_({phase_, lower_bound, cost_, now, limits_.conflicts()});
   is_told_ = false;
 }
 

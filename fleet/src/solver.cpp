@@ -27,6 +27,9 @@ continuous::SolveOptions in_units(const Fleet& fleet, const continuous::Resoluti
   result.limits.interrupt = options.limits.interrupt;
   result.gap_percent = options.gap_percent;
   if (options.initial_plan) result.initial_plan = options.initial_plan->in_units();
+  if (options.known_lower_bound)  // What is out of range becomes a negative number, and is refused.
+    result.known_lower_bound =
+        continuous::quantise_bound(options.known_lower_bound->value(), resolution).value_or(-1);
   result.seed = options.seed;
   result.threads = options.threads;
   result.progress_interval_s = options.progress_interval.value();
@@ -82,6 +85,7 @@ Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
 
   outcome.status = solved->status;
   outcome.lower_bound = in_seconds(solved->lower_bound, resolution);
+  outcome.rests_on_known_bound = solved->rests_on_known_bound;
   outcome.stop = solved->stop;
   outcome.explanation = std::move(solved->explanation);
   outcome.statistics = solved->statistics;

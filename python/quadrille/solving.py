@@ -86,6 +86,8 @@ class Result(Generic[P]):
     statistics: Statistics
     internal_error: Optional[str]
     """A check of the solver's own work that failed; the status is unknown then. Please report it."""
+    rests_on_known_bound: bool = False
+    """``lower_bound`` is your ``known_bound``, and less than that was proved."""
     attribution: Optional[Attribution] = None
     """With ``explain``: why no plan is cheaper. None for infeasible, and if a limit came before the
     costs of the agents alone were known."""
@@ -112,6 +114,7 @@ def solve(
     progress_interval: float = 0.25,
     on_plan: Optional[Callable[[P], object]] = None,
     initial: Optional[P] = None,
+    known_bound: Optional[float] = None,
     plan_interval: float = 1.0,
     cpu_limit: Optional[float] = None,
     memory_limit: Optional[float] = None,
@@ -145,6 +148,9 @@ def solve(
         on_plan: Called with the best plan so far whenever a better one is known, at most once in
             ``plan_interval`` seconds. Exceptions as with ``progress``.
         initial: A valid plan for the same agents to begin with: the answer costs no more.
+        known_bound: No plan costs less, as you know from elsewhere, such as an earlier solve: the search
+            begins from it. A whole number of timesteps, or your unit of time. What rests on it alone
+            says so (``rests_on_known_bound``); a plan that costs less is an ``InputError``.
         cpu_limit: Seconds of CPU time, of all threads together.
         memory_limit: MiB that the search may add to the process.
         conflict_limit: Conflicts of the SAT solver.
@@ -187,6 +193,7 @@ def solve(
         chronological=chronological,
         explain=explain,
         audit=audit,
+        known_bound=known_bound,
         initial=None if initial is None else initial._plan,
     )
     arguments = {name: value for name, value in arguments.items() if value is not None}
@@ -219,5 +226,6 @@ def solve(
         explanation=outcome["explanation"],
         statistics=Statistics(**outcome["statistics"]),
         internal_error=outcome["internal_error"],
+        rests_on_known_bound=outcome["rests_on_known_bound"],
         attribution=_attribution(outcome["attribution"], cost),
     )

@@ -23,6 +23,7 @@ py::dict outcome_of(const Instance& instance, Outcome outcome) {
   dict["cost"] = outcome.cost;
   dict["lower_bound"] =
       outcome.status == Status::infeasible ? std::nullopt : std::optional(outcome.lower_bound);
+  dict["rests_on_known_bound"] = outcome.rests_on_known_bound;
   dict["stop"] = std::string(to_string(outcome.stop));
   dict["explanation"] = outcome.explanation;
   dict["internal_error"] = outcome.internal_error

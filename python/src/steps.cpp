@@ -172,6 +172,7 @@ discrete::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>&
   if (const auto text = arguments.take<std::string>("check"))
     options.mdd.check = take(discrete::parse_check_schedule(*text));
   arguments.set("initial", options.initial_plan);
+  arguments.set("known_bound", options.known_lower_bound);
   arguments.set("forbid_first", options.lazy.forbid_first);
   arguments.set("chronological", options.lazy.chronological);
   arguments.set("first_plan", options.first_plan);

@@ -35,17 +35,23 @@ using continuous::Roadmap;
 using continuous::Stop;
 using continuous::Ticks;
 
-continuous::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>& interrupt) {
+continuous::SolveOptions options_of(const continuous::Resolution& resolution, Arguments& arguments,
+                                    const std::atomic<bool>& interrupt) {
   continuous::SolveOptions options;
   set_common(arguments, options, interrupt);
   arguments.choose("system", continuous::parse_system, options.system, "dpll or smt-cbs");
   arguments.set("initial", options.initial_plan);
+  if (const auto bound = arguments.take<double>("known_bound"))
+    options.known_lower_bound = continuous::quantise_bound(*bound, resolution).value_or(-1);
   arguments.finish("roadmaps");
   return options;
 }
 
 py::dict solve_timed(const TimedInstance& self, const py::dict& arguments) {
-  return run_solve<Plan>(self.instance, arguments, options_of);
+  const auto set_options = [&](Arguments& given, const std::atomic<bool>& interrupt) {
+    return options_of(self.instance.resolution(), given, interrupt);
+  };
+  return run_solve<Plan>(self.instance, arguments, set_options);
 }
 
 /// (violations, sum of costs, makespan, clearances); a violation is (kind, agent, other, tick,

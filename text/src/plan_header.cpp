@@ -10,7 +10,7 @@
 namespace quadrille::text {
 
 bool PlanHeader::read(std::initializer_list<Checker::Member> more, StatedOutcome& stated) {
-  std::optional<Node> unread[9];  // Of a result.
+  std::optional<Node> unread[10];  // Of a result.
   std::vector<Checker::Member> members = {{"quadrille", &kind_, false},
                                           {"version", &version_, false},
                                           {"objective", &objective_, false},
@@ -28,7 +28,8 @@ bool PlanHeader::read(std::initializer_list<Checker::Member> more, StatedOutcome
                                           {"explanation", &unread[5], false},
                                           {"history", &unread[6], false},
                                           {"attribution", &unread[7], false},
-                                          {"reasons", &unread[8], false}};
+                                          {"reasons", &unread[8], false},
+                                          {"rests_on_known_bound", &unread[9], false}};
   members.insert(members.end(), more);
   return check_.members(Document::kRoot, members) && read_kind(stated) && read_objective(stated) &&
          read_gap(stated);

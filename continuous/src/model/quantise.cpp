@@ -67,6 +67,14 @@ std::optional<Ticks> quantise_time(double value, const Resolution& resolution) {
   return Ticks(static_cast<std::int64_t>(std::round(*units)));
 }
 
+std::optional<Cost> quantise_bound(double value, const Resolution& resolution) {
+  const auto units = in_units(value, resolution.time, std::int64_t{1} << 62);
+  if (!units || *units < 0) return std::nullopt;
+  const double nearest = std::round(*units);
+  const bool is_meant = std::abs(*units - nearest) <= 1e-9 * nearest;
+  return static_cast<Cost>(is_meant ? nearest : std::floor(*units));
+}
+
 std::optional<Speed> quantise_speed(double value, const Resolution& resolution) {
   if (!resolution.is_valid()) return std::nullopt;
   // Length units per tick.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "quadrille/core/plan_claim.hpp"
 #include "quadrille/core/progress.hpp"
 #include "solve/auditors.hpp"
 #include "solve/cost_problem.hpp"
@@ -97,7 +98,8 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
       const bool is_last = report.plan && (!plan_ || cost_of(*report.plan) < plan_cost_);
       outcome_.plan = is_last ? report.plan : best();
       keep_best(options_, outcome_);
-      if (report.end == sat::SearchEnd::found && outcome_.status != Status::optimal)
+      if (report.end == sat::SearchEnd::found && outcome_.status != Status::optimal &&
+          !is_bound_refuted())
         outcome_.internal_error =
             Error{ErrorCode::internal, "the plan found does not cost the proven bound", {}};
     }
@@ -157,6 +159,12 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     }
   }
 
+  /// There is a plan that is cheaper than what the user knows; who called this tells that.
+  [[nodiscard]] bool is_bound_refuted() const {
+    const Plan* const plan = outcome_.plan ? &*outcome_.plan : plan_.get();
+    return plan != nullptr && refuse_bound(options_.known_lower_bound, cost_of(*plan)).has_value();
+  }
+
   void tell_known() {
     progress_.know(outcome_.lower_bound, plan_ ? std::optional<Cost>(plan_cost_) : std::nullopt);
   }
@@ -183,7 +191,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
            {told.list.begin() + static_cast<std::ptrdiff_t>(num_heard), told.list.end()}});
       num_heard = told.list.size();
     }
-    if (plan_ && outcome_.lower_bound > plan_cost_)
+    if (plan_ && outcome_.lower_bound > plan_cost_ && !is_bound_refuted())
       outcome_.internal_error = Error{ErrorCode::internal, "a plan costs less than the bound", {}};
   }
 

@@ -85,12 +85,14 @@ Cost most_cost(const Instance& instance, Objective objective) {
 
 void Phases::run() {
   plan_ = outcome_.plan = options_.initial_plan;
+  outcome_.lower_bound = known_;
+  outcome_.rests_on_known_bound = known_ > 0;
   keep_best(options_, outcome_);  // the answer if a limit is met
   enter(Phase::set_up);
   Scene scene(instance_, limits_);
   if (!scene.is_complete() || are_kept_off(scene)) return;
-  floor_ = outcome_.lower_bound = free_bound(scene, options_.objective);
   if (options_.explain) outcome_.attribution = free_charges(scene, options_.objective);
+  if (learn(free_bound(scene, options_.objective), std::nullopt)) return;
   const bool is_dpll = options_.system == System::dpll;
   const bool is_joint_first = is_dpll && options_.joint_work > 0 && is_small(instance_);
   if (is_joint_first && search_jointly(scene)) return;
@@ -146,7 +148,9 @@ bool Phases::is_blocked(const std::vector<AgentId>& blocked) {
 }
 
 bool Phases::learn(Cost bound, std::optional<Plan> plan) {
-  floor_ = outcome_.lower_bound = std::max(floor_, bound);
+  floor_ = std::max(floor_, bound);
+  outcome_.lower_bound = lower();
+  outcome_.rests_on_known_bound = known_ > floor_;
   if (outcome_.attribution) charge_search(*outcome_.attribution, floor_);
   keep_cheaper(std::move(plan));
   outcome_.plan = plan_;  // the answer if a limit is met
@@ -155,22 +159,23 @@ bool Phases::learn(Cost bound, std::optional<Plan> plan) {
     outcome_.explanation = "no plan keeps all deadlines";
     return true;
   }
-  if (!plan_ || cost(*plan_, options_.objective) != floor_) return false;
-  outcome_.status = Status::optimal;
+  if (!plan_ || cost(*plan_, options_.objective) > lower()) return false;
+  keep_best(options_, outcome_);
   return true;
 }
 
 void Phases::search(Scene& scene) {
-  const CostReport known{sat::SearchEnd::stopped, floor_, std::move(plan_)};
+  const CostReport known{sat::SearchEnd::stopped, lower(), std::move(plan_)};
   std::optional<Attribution> charges = std::move(outcome_.attribution);
   outcome_ = options_.threads > 1 ? search_side_by_side(scene, options_, known, limits_, account_)
                                   : search_alone(scene, options_, known, limits_, nullptr);
+  outcome_.rests_on_known_bound = known_ > floor_ && outcome_.lower_bound <= known_;
   if (charges) take_traced(*charges, outcome_);
 }
 
 void Phases::enter(Phase phase) {
   const auto known = plan_ ? std::optional(cost(*plan_, options_.objective)) : std::nullopt;
-  progress_.know(floor_, known);
+  progress_.know(lower(), known);
   progress_.enter(phase);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,13 +18,15 @@ class Phases {
  public:
   /// `account`: that of `limits`. What is found and proved goes into `outcome`. All outlive this.
   Phases(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-         const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome)
+         const std::shared_ptr<ResourceAccount>& account,
+         SolveOutcome& outcome)
       : instance_(instance),
         options_(options),
         limits_(limits),
         account_(account),
         outcome_(outcome),
-        progress_(options.on_progress, options.progress_interval_s, limits) {}
+        progress_(options.on_progress, options.progress_interval_s, limits),
+        known_(options.known_lower_bound.value_or(0)) {}
 
   /// Throws LimitReached, with what is known in the outcome, and what callbacks throw.
   void run();
@@ -37,6 +40,9 @@ class Phases {
   [[nodiscard]] bool is_blocked(const std::vector<AgentId>& blocked);
   [[nodiscard]] bool learn(Cost bound, std::optional<Plan> plan);
 
+  /// Proved or known.
+  [[nodiscard]] Cost lower() const { return std::max(floor_, known_); }
+
   void search(Scene& scene);
   void keep_cheaper(std::optional<Plan> plan);
   void enter(Phase phase);
@@ -49,6 +55,7 @@ class Phases {
   ProgressReporter progress_;
   std::optional<Plan> plan_;  // the cheapest one
   Cost floor_ = 0;            // proved
+  const Cost known_;          // by the user
 };
 
 }  // namespace quadrille::continuous

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "quadrille/core/plan_claim.hpp"
 #include "quadrille/core/portfolio.hpp"
 #include "solve/companion.hpp"
 #include "solve/cost_run.hpp"
@@ -81,6 +82,10 @@ SolveOutcome search_side_by_side(Scene& scene, const SolveOptions& options, cons
     throw;
   }
   limits.set_cancel(nullptr);
+  // A plan that is cheaper than what the user knows is no contradiction of ours.
+  for (SolveOutcome& outcome : outcomes)
+    if (outcome.cost && refuse_bound(options.known_lower_bound, *outcome.cost))
+      return std::move(outcome);
   return combine(std::move(outcomes), rounds.winner(), options.gap_percent);
 }
 

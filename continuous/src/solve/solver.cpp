@@ -29,9 +29,15 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
         ErrorCode::out_of_range, "the progress interval is not a number of at least 0", {}};
   if (!(options.plan_interval_s >= 0))
     return Error{ErrorCode::out_of_range, "the plan interval is not a number of at least 0", {}};
+  if (options.known_lower_bound && *options.known_lower_bound < 0)
+    return Error{ErrorCode::out_of_range, "the known lower bound is negative, or out of range", {}};
   std::optional<Error> error;
-  if (options.initial_plan)
+  if (options.initial_plan) {
     error = refuse_invalid(verify(instance, *options.initial_plan), "initial plan");
+    if (!error)
+      error =
+          refuse_bound(options.known_lower_bound, cost(*options.initial_plan, options.objective));
+  }
   if (!error && options.debug.known_plan)
     error = refuse_invalid(verify(instance, *options.debug.known_plan), "known plan");
   return error;
@@ -60,7 +66,8 @@ void check_known_plan(const Plan& plan, const SolveOptions& options, SolveOutcom
 
 /// The plan has to pass `verify` and to cost what was proved.
 void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
-  hold_to_replay(verify(instance, *outcome.plan), options.objective, outcome);
+  hold_to_replay(verify(instance, *outcome.plan), options.objective, options.known_lower_bound,
+                 outcome);
 }
 
 /// Fills in what was found and proved, and checks its plan. Throws what callbacks throw.
@@ -113,7 +120,11 @@ Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options
   answer(instance, options, limits, account, outcome);
   for (const auto* plan : {&options.initial_plan, &options.debug.known_plan})
     if (*plan && !outcome.internal_error) check_known_plan(**plan, options, outcome);
+  // A bound that was given wrongly is an error of the input.
+  if (outcome.internal_error && outcome.internal_error->code == ErrorCode::out_of_range)
+    return *std::move(outcome.internal_error);
   if (outcome.internal_error) {
+    outcome.rests_on_known_bound = false;
     outcome.status = Status::unknown;
     outcome.plan.reset();
     outcome.cost.reset();
@@ -123,7 +134,10 @@ Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options
     if (outcome.stop == StopReason::none) outcome.stop = limits.reason();
     outcome.explanation = stop_text(outcome.stop);
   }
-  if (outcome.status == Status::infeasible) outcome.attribution.reset();
+  if (outcome.status == Status::infeasible) {
+    outcome.attribution.reset();
+    outcome.rests_on_known_bound = false;
+  }
   if (outcome.attribution) complete(*outcome.attribution, outcome);
   outcome.statistics.cpu_s = limits.elapsed_cpu();
   outcome.statistics.wall_s = limits.elapsed_wall();

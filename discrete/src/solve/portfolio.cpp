@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solve/portfolio.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -99,7 +100,10 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
       [&](std::size_t worker) {
         if (worker == 1) has_planner = false;  // The first one looks for plans itself.
       });
+  const auto rests = [](const SolveOutcome& outcome) { return outcome.rests_on_known_bound; };
+  const bool rest_all = std::all_of(outcomes.begin(), outcomes.end(), rests);
   SolveOutcome answer = combine(std::move(outcomes), shared.rounds.winner(), options.gap_percent);
+  answer.rests_on_known_bound = rest_all && answer.lower_bound == options.known_lower_bound;
   answer.statistics.cpu_s = shared.account->cpu_s();
   answer.statistics.wall_s = shared.account->wall_s();
   return answer;

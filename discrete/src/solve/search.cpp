@@ -45,9 +45,11 @@ class Search final : private sat::YieldPoint {
         companion_(companion),
         role_(companion != nullptr ? companion->role() : Role::both),
         progress_(options.on_progress, options.progress_interval_s, limits),
-        incumbent_(options.objective) {}
+        incumbent_(options.objective),
+        known_(options.known_lower_bound.value_or(0)) {}
 
   void run() {
+    incumbent_.raise(known_);
     if (options_.initial_plan) {
       Plan plan = *options_.initial_plan;
       trim(plan);
@@ -62,8 +64,9 @@ class Search final : private sat::YieldPoint {
     }
     run_ = nullptr;
     outcome_.lower_bound = lower();
+    outcome_.rests_on_known_bound = known_ > free_bound_ && lower() <= known_;
     if (outcome_.internal_error || !incumbent_.upper()) return;
-    if (*incumbent_.upper() < lower()) {
+    if (*incumbent_.upper() < lower() && !is_bound_refuted()) {
       outcome_.internal_error = Error{ErrorCode::internal, "a plan costs less than the bound", {}};
       return;
     }
@@ -76,7 +79,8 @@ class Search final : private sat::YieldPoint {
     enter(Phase::set_up);
     const auto distances = companion_ != nullptr ? companion_->distances(limits_)
                                                  : GoalDistances::make(instance_, limits_);
-    incumbent_.raise(free_bound(distances.get()));
+    free_bound_ = free_bound(distances.get());
+    incumbent_.raise(free_bound_);
     if (!distances) return;
     if (options_.explain)
       outcome_.attribution = free_charges(instance_, *distances, options_.objective);
@@ -85,6 +89,11 @@ class Search final : private sat::YieldPoint {
       look_for_plans();
     else if (!limits_.exhausted_now())
       search_costs(distances);
+  }
+
+  /// There is a plan that is cheaper than what the user knows; who called this tells that.
+  [[nodiscard]] bool is_bound_refuted() const {
+    return incumbent_.upper() && *incumbent_.upper() < known_;
   }
 
   /// Looks for a first plan, unless there is one, for as long as everything else can wait for it.
@@ -234,7 +243,7 @@ class Search final : private sat::YieldPoint {
     else if (end == sat::SearchEnd::exhausted)
       outcome_.internal_error =
           Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
-    else if (end == sat::SearchEnd::found && !incumbent_.are_closed())
+    else if (end == sat::SearchEnd::found && !incumbent_.are_closed() && !is_bound_refuted())
       outcome_.internal_error =
           Error{ErrorCode::internal, "the plan found does not cost the proven bound", {}};
   }
@@ -248,6 +257,8 @@ class Search final : private sat::YieldPoint {
   const Role role_;
   ProgressReporter progress_;
   Incumbent incumbent_;
+  const Cost known_;  // by the user
+  Cost free_bound_ = 0;
   std::optional<PlanSearch> plans_;
   const Run* run_ = nullptr;  // when it is prepared
   double next_plan_s_ = 0;

@@ -19,7 +19,8 @@ namespace {
 /// The plan has to pass `verify` and to cost what was proved.
 void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
   trim(*outcome.plan);
-  hold_to_replay(verify(instance, *outcome.plan), options.objective, outcome);
+  hold_to_replay(verify(instance, *outcome.plan), options.objective, options.known_lower_bound,
+                 outcome);
 }
 
 std::optional<Error> check_options(const Instance& instance, const SolveOptions& options) {
@@ -52,9 +53,17 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
   if (options.explain && (options.system != System::dpll || options.threads > 1))
     return refuse(ErrorCode::out_of_range, "an explanation needs the system dpll and one thread");
+  if (options.known_lower_bound && *options.known_lower_bound < 0)
+    return refuse(ErrorCode::out_of_range, "the known lower bound is negative, or out of range");
   std::optional<Error> error;
-  if (options.initial_plan)
-    error = refuse_invalid(verify(instance, *options.initial_plan), "initial plan");
+  if (options.initial_plan) {
+    const VerifyReport report = verify(instance, *options.initial_plan);
+    error = refuse_invalid(report, "initial plan");
+    if (!error)
+      error = refuse_bound(options.known_lower_bound, options.objective == Objective::sum_of_costs
+                                                          ? report.sum_of_costs
+                                                          : report.makespan);
+  }
   if (!error && options.debug.known_plan)
     error = refuse_invalid(verify(instance, *options.debug.known_plan), "known plan");
   return error;
@@ -129,6 +138,7 @@ SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options, 
     outcome.cost.reset();
     outcome.explanation = outcome.internal_error->message;
     outcome.attribution.reset();
+    outcome.rests_on_known_bound = false;
   }
   if (outcome.attribution) complete(*outcome.attribution, outcome);
   outcome.statistics.cpu_s = limits.elapsed_cpu();
@@ -140,8 +150,12 @@ SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options, 
 Result<SolveOutcome> solve_tuned(const Instance& instance, const SolveOptions& options,
                                  const Tuner& tuner) {
   if (auto error = check_options(instance, options)) return *std::move(error);
-  return options.threads > 1 ? solve_portfolio(instance, options, tuner)
-                             : solve_alone(instance, options, tuner, nullptr);
+  SolveOutcome outcome = options.threads > 1 ? solve_portfolio(instance, options, tuner)
+                                             : solve_alone(instance, options, tuner, nullptr);
+  // A bound that was given wrongly is an error of the input.
+  if (outcome.internal_error && outcome.internal_error->code == ErrorCode::out_of_range)
+    return *std::move(outcome.internal_error);
+  return outcome;
 }
 
 Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {

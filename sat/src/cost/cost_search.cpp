@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/sat/cost_search.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,7 @@ void add_raise(std::vector<Raise>& raises, Cost amount, std::vector<AgentId> age
 }  // namespace
 
 SearchEnd search_upwards(CostSearchContext context) {
-  Cost bound = context.problem.lower_bound();
+  Cost bound = std::max(context.problem.lower_bound(), context.bounds.lower());
   std::vector<Lit> assumptions;
   while (true) {
     context.bounds.raise(bound);

@@ -25,6 +25,9 @@ namespace quadrille::continuous {
 [[nodiscard]] std::optional<Ticks> quantise_duration(double value, const Resolution& resolution);
 /// A moment from tick 0 on, to the nearest tick. nullopt after geometry::kMaxDuration.
 [[nodiscard]] std::optional<Ticks> quantise_time(double value, const Resolution& resolution);
+/// A lower bound on a cost, down to a whole tick; a number that differs from one by a billionth is
+/// meant to be that. nullopt if it is negative, or 2^62 ticks or more.
+[[nodiscard]] std::optional<Cost> quantise_bound(double value, const Resolution& resolution);
 /// A speed, to the nearest Speed. nullopt if that is 0. A uniform resolution cancels out.
 [[nodiscard]] std::optional<Speed> quantise_speed(double value, const Resolution& resolution);
 

@@ -112,6 +112,9 @@ struct SolveOptions {
   /// A plan to begin with, so that no first one is looked for: the answer costs no more, whenever
   /// a limit ends the search. It has to be valid.
   std::optional<Plan> initial_plan;
+  /// No plan costs less: known from elsewhere, such as an earlier solve. At least 0. The search
+  /// begins from it, and what rests on it alone says so: SolveOutcome::rests_on_known_bound.
+  std::optional<Cost> known_lower_bound;
   /// Stop when the plan costs at most this many per cent more than the proven lower bound, see
   /// quadrille/core/outcome.hpp. Not negative.
   std::optional<double> gap_percent;
@@ -144,6 +147,9 @@ struct SolveOutcome {
   std::optional<Plan> plan;
   std::optional<Cost> cost;  ///< Of `plan`.
   Cost lower_bound = 0;      ///< Proven, for every status but infeasible.
+  /// `lower_bound` is SolveOptions::known_lower_bound, and less than that was proved; an optimal
+  /// plan is optimal only if no plan costs less than that.
+  bool rests_on_known_bound = false;
   StopReason stop = StopReason::none;
   std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
   Statistics statistics;
@@ -156,8 +162,9 @@ struct SolveOutcome {
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range
-/// (an option, `explain` with what it is not for, or more vertices than kMaxVertices), invalid_plan
-/// (`initial_plan` or `debug.known_plan` is not a plan of the instance; with the first violation).
+/// (an option, `explain` with what it is not for, more vertices than kMaxVertices, or
+/// `known_lower_bound` if a plan is found that costs less, or given), invalid_plan (`initial_plan`
+/// or `debug.known_plan` is not a plan of the instance; with the first violation).
 ///
 /// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
 /// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be

@@ -48,6 +48,9 @@ struct SolveOptions {
   /// limit ends the search. It is verified first. One that was made for other roads or tasks will
   /// do if it is a plan of this fleet, too; one in whole units becomes one by TimedPlan::make.
   std::optional<TimedPlan> initial_plan = {};
+  /// No plan costs less: known from elsewhere, such as an earlier solve. What rests on it alone
+  /// says so. In ticks, it is rounded down.
+  std::optional<Seconds> known_lower_bound = {};
   std::uint32_t seed = 0;   ///< 0 .. 2'000'000'000
   std::size_t threads = 1;  ///< 1 .. kMaxThreads
   /// Called on the solving thread when a phase begins, and else about once in so many seconds; what
@@ -65,6 +68,8 @@ struct SolveOutcome {
   std::optional<TimedPlan> plan;  ///< Present for optimal and feasible; verified.
   std::optional<Seconds> cost;    ///< Of `plan`, by the objective.
   Seconds lower_bound;            ///< Proven, for every status but infeasible.
+  /// `lower_bound` is the one that was given, and less than that was proved.
+  bool rests_on_known_bound = false;
   StopReason stop = StopReason::none;
   std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
   Statistics statistics;
@@ -78,8 +83,9 @@ struct SolveOutcome {
 /// Finds a plan of least cost among those whose departures are at multiples of the resolution of
 /// time. That there is no plan is an outcome, `infeasible`, and never an error: also where it can
 /// be seen at once, because starts or goals overlap or a goal cannot be reached. Errors: those of
-/// `fleet.instance()` but no_plan; out_of_range (an option); invalid_plan (`initial_plan` is no
-/// plan of this fleet, with the first violation, or has another resolution). Otherwise as
+/// `fleet.instance()` but no_plan; out_of_range (an option, or
+/// `known_lower_bound` if a plan is found that costs less, or given); invalid_plan (`initial_plan`
+/// is no plan of this fleet, with the first violation, or has another resolution). Otherwise as
 /// continuous::solve.
 [[nodiscard]] Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options = {});
 
