@@ -47,6 +47,15 @@ Result<Roadmap> Roadmap::make(std::vector<Point> vertices, std::vector<Edge> edg
   return Roadmap(std::move(vertices), std::move(edges));
 }
 
+Roadmap Roadmap::with_closed(std::span<const EdgeId> closed) const {
+  std::vector<Edge> edges = edges_;
+  for (const EdgeId e : closed) {
+    QUADRILLE_REQUIRE(e.index() < edges.size(), "an edge of the roadmap");
+    edges[e.index()].open_to = Groups();
+  }
+  return Roadmap(positions_, std::move(edges));
+}
+
 Roadmap::Roadmap(std::vector<Point> positions, std::vector<Edge> edges)
     : positions_(std::move(positions)),
       edges_(std::move(edges)),

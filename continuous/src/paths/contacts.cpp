@@ -5,20 +5,24 @@
 #include <utility>
 #include <variant>
 
+#include "paths/contact_store.hpp"
+
 namespace quadrille::continuous {
-Contacts::Contacts(const Instance& instance, LimitMonitor& limits)
-    : instance_(instance), limits_(limits) {
+Contacts::Contacts(const Instance& instance, LimitMonitor& limits, ContactStore* store)
+    : instance_(instance), limits_(limits), store_(store) {
   const IdRange<ClassId> classes(instance.num_classes());
   const std::size_t num_edges = instance.roadmap().num_edges();
   for (const ClassId a : classes)
     for (const ClassId b : classes) {
       limits_.check();
       pairs_.push_back(
-          {geometry::BodyPair(instance.body(a), instance.body(b)),
-           IntervalTable(num_edges, std::max<std::size_t>(num_edges, 1)),
-           IntervalTable(num_edges, std::max<std::size_t>(instance.roadmap().num_vertices(), 1)),
-           {},
-           {}});
+          store != nullptr
+              ? store->pair(instance, a, b)
+              : std::make_shared<Pair>(Pair{
+                    geometry::BodyPair(instance.body(a), instance.body(b)),
+                    IntervalTable(num_edges, std::max<std::size_t>(num_edges, 1)),
+                    IntervalTable(num_edges,
+                                  std::max<std::size_t>(instance.roadmap().num_vertices(), 1))}));
     }
 }
 
@@ -39,30 +43,42 @@ Contacts::Window Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
 }
 
 bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
-  return pairs_[a.index() * instance_.num_classes() + b.index()].bodies.overlap(
+  return pairs_[a.index() * instance_.num_classes() + b.index()]->bodies.overlap(
       instance_.roadmap().position(v), instance_.roadmap().position(w));
 }
 
 // One tree is enough for all classes. Edges between the same two vertices are one line, in whatever
 // direction and time.
-void Contacts::make_volumes() {
+const Contacts::Volumes& Contacts::volumes() {
+  if (volumes_ == nullptr && store_ != nullptr) volumes_ = store_->volumes();
+  if (volumes_ != nullptr) return *volumes_;
   const Roadmap& roadmap = instance_.roadmap();
   const auto ends = [&](EdgeId e) {
     const Edge& edge = roadmap.edge(e);
     return std::minmax(edge.from, edge.to);
   };
-  for (const EdgeId e : IdRange<EdgeId>(roadmap.num_edges())) segment_edges_.push_back(e);
-  std::sort(segment_edges_.begin(), segment_edges_.end(),
+  std::vector<EdgeId> edges;
+  for (const EdgeId e : IdRange<EdgeId>(roadmap.num_edges())) edges.push_back(e);
+  std::sort(edges.begin(), edges.end(),
             [&](EdgeId e, EdgeId f) { return std::pair(ends(e), e) < std::pair(ends(f), f); });
+  std::vector<std::size_t> begins;
   std::vector<geometry::Motion> motions;
-  for (std::size_t k = 0; k < segment_edges_.size(); ++k) {
-    if (k > 0 && ends(segment_edges_[k]) == ends(segment_edges_[k - 1])) continue;
-    segment_begins_.push_back(k);
-    motions.push_back(instance_.motion(ClassId(0), segment_edges_[k]));
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    if (k > 0 && ends(edges[k]) == ends(edges[k - 1])) continue;
+    begins.push_back(k);
+    motions.push_back(instance_.motion(ClassId(0), edges[k]));
   }
-  segment_begins_.push_back(segment_edges_.size());
+  begins.push_back(edges.size());
   for (const Point& position : roadmap.positions()) motions.push_back(geometry::rest(position, 1));
-  volumes_.emplace(std::move(motions));
+  volumes_ = std::make_shared<const Volumes>(
+      Volumes{geometry::SweptVolumes(std::move(motions)), std::move(edges), std::move(begins)});
+  if (store_ != nullptr) store_->keep(volumes_);
+  return *volumes_;
+}
+
+// What a store keeps has to do for roadmaps in which other edges are closed.
+bool Contacts::is_listed(ClassId c, EdgeId e) const {
+  return store_ != nullptr ? store_->is_ever_open(instance_, c, e) : instance_.may_use(c, e);
 }
 
 const Contacts::Neighbours& Contacts::near(
@@ -74,18 +90,18 @@ const Contacts::Neighbours& Contacts::near(
     auto made = std::make_unique<Neighbours>();
     const Roadmap& roadmap = instance_.roadmap();
     const geometry::BodyPair& bodies = pair(a, b).bodies;
-    if (!volumes_) make_volumes();
-    const std::size_t num_segments = segment_begins_.size() - 1;
+    const Volumes& all = volumes();
+    const std::size_t num_segments = all.segment_begins.size() - 1;
     const bool are_discs = std::holds_alternative<Disc>(instance_.body(a)) &&
                            std::holds_alternative<Disc>(instance_.body(b));
     for (const auto& [index, is_sure] :
-         volumes_->near(motion, instance_.reach(a) + instance_.reach(b))) {
+         all.tree.near(motion, instance_.reach(a) + instance_.reach(b))) {
       const bool is_settled = are_discs && is_sure;
       if (index < num_segments) {
-        const std::size_t begin = segment_begins_[index];
-        if (is_settled || bodies.can_meet(motion, instance_.motion(b, segment_edges_[begin])))
-          for (std::size_t k = begin; k < segment_begins_[index + 1]; ++k)
-            if (instance_.may_use(b, segment_edges_[k])) made->edges.push_back(segment_edges_[k]);
+        const std::size_t begin = all.segment_begins[index];
+        if (is_settled || bodies.can_meet(motion, instance_.motion(b, all.segment_edges[begin])))
+          for (std::size_t k = begin; k < all.segment_begins[index + 1]; ++k)
+            if (is_listed(b, all.segment_edges[k])) made->edges.push_back(all.segment_edges[k]);
       } else {
         const VertexId v(index - num_segments);
         if (is_settled || bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))

@@ -24,6 +24,7 @@ class IntervalTable {
  public:
   using Value = std::optional<geometry::TickInterval>;
 
+  /// So many at most. Requires at least one column.
   IntervalTable(std::size_t rows, std::size_t columns)
       : columns_(columns), is_plain_(rows <= kMaxPlain / columns) {
     if (is_plain_) size_ = rows * columns;
@@ -46,6 +47,26 @@ class IntervalTable {
     entries_[place_of(key)] = {key, packed(value)};
     ++size_;
     return value;
+  }
+
+  /// Of the rest nothing is known any more. Linear in what is known.
+  void keep(std::size_t rows, std::size_t columns) {
+    const auto is_kept = [&](const Entry& entry) {
+      return entry.key != kNoKey && entry.key / columns_ < rows && entry.key % columns_ < columns;
+    };
+    if (is_plain_) {
+      for (Entry& entry : entries_)
+        if (!is_kept(entry)) entry = {};
+      return;
+    }
+    std::vector<Entry> old(entries_.size());
+    old.swap(entries_);
+    size_ = 0;
+    for (const Entry& entry : old) {
+      if (!is_kept(entry)) continue;
+      entries_[place_of(entry.key)] = entry;
+      ++size_;
+    }
   }
 
  private:
@@ -81,13 +102,15 @@ class IntervalTable {
   std::vector<Entry> entries_;
 };
 
+class ContactStore;
+
 /// Which moves and stays of agents of two classes are in each other's way, and when. Answers are
 /// computed when they are first asked for, and kept; references to neighbours stay valid.
 class Contacts {
  public:
-  /// Both arguments outlive this. What has to be computed throws LimitReached when `limits` are
-  /// met.
-  Contacts(const Instance& instance, LimitMonitor& limits);
+  /// What has to be computed throws LimitReached when `limits` are met. With a `store`, answers
+  /// come from there and stay there. All arguments outlive this.
+  Contacts(const Instance& instance, LimitMonitor& limits, ContactStore* store = nullptr);
 
   /// Offsets d = start of f - start of e at which an agent of class a on edge e and one of class b
   /// on edge f collide.
@@ -103,7 +126,8 @@ class Contacts {
   [[nodiscard]] bool overlap(ClassId a, VertexId v, ClassId b, VertexId w) const;
 
   /// Edges and vertices at which an agent of class b may collide with one of class a on edge e
-  /// (at vertex v), ascending; none that can is missing. Edges are open to class b.
+  /// (at vertex v), ascending; none that can is missing. Edges are open to class b; of a store,
+  /// some may be closed.
   struct Neighbours {
     std::vector<EdgeId> edges;
     std::vector<VertexId> vertices;
@@ -111,28 +135,37 @@ class Contacts {
   [[nodiscard]] const Neighbours& near_edge(ClassId a, EdgeId e, ClassId b);
   [[nodiscard]] const Neighbours& near_vertex(ClassId a, VertexId v, ClassId b);
 
- private:
+  /// What is known of two classes.
   struct Pair {
     geometry::BodyPair bodies;
     IntervalTable offsets;
     IntervalTable windows;
-    std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>> near_edges, near_vertices;
+    std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>> near_edges = {},
+                                                                   near_vertices = {};
   };
+  /// What a roadmap is made of, as something to come near to.
+  struct Volumes {
+    geometry::SweptVolumes tree;  ///< Of segments, then of vertices.
+    /// The edges between the same two vertices, one segment after the other.
+    std::vector<EdgeId> segment_edges;
+    std::vector<std::size_t> segment_begins;
+  };
+
+ private:
   [[nodiscard]] Pair& pair(ClassId a, ClassId b) {
-    return pairs_[a.index() * instance_.num_classes() + b.index()];
+    return *pairs_[a.index() * instance_.num_classes() + b.index()];
   }
-  void make_volumes();
+  [[nodiscard]] const Volumes& volumes();
+  [[nodiscard]] bool is_listed(ClassId c, EdgeId e) const;
   [[nodiscard]] const Neighbours& near(
       std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>>& known, std::uint32_t key,
       ClassId a, const geometry::Motion& motion, ClassId b);
 
   const Instance& instance_;
   LimitMonitor& limits_;
-  std::vector<Pair> pairs_;
-  std::optional<geometry::SweptVolumes> volumes_;  // of segments, then of vertices
-  // The edges between the same two vertices, one segment after the other.
-  std::vector<EdgeId> segment_edges_;
-  std::vector<std::size_t> segment_begins_;
+  ContactStore* const store_;
+  std::vector<std::shared_ptr<Pair>> pairs_;
+  std::shared_ptr<const Volumes> volumes_;  // null until they are needed
 };
 
 }  // namespace quadrille::continuous

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "paths/timed_path.hpp"
@@ -13,8 +14,12 @@ namespace quadrille::continuous {
 class GoalDistances {
  public:
   GoalDistances(const Instance& instance, AgentId agent);
+  /// Known already, by vertex.
+  explicit GoalDistances(std::vector<Ticks> ticks) : ticks_(std::move(ticks)) {}
   /// Ticks; kForever if the goal cannot be reached.
   [[nodiscard]] Ticks operator[](VertexId v) const { return ticks_[v.index()]; }
+
+  [[nodiscard]] const std::vector<Ticks>& ticks() const noexcept { return ticks_; }
 
  private:
   std::vector<Ticks> ticks_;

@@ -7,13 +7,18 @@
 
 namespace quadrille::continuous {
 
-Scene::Scene(const Instance& instance, LimitMonitor& limits)
-    : instance_(instance), limits_(limits), contacts_(instance, limits) {
+Scene::Scene(const Instance& instance, LimitMonitor& limits, SceneStore* store)
+    : instance_(instance),
+      limits_(limits),
+      contacts_(instance, limits, store != nullptr ? &store->contacts() : nullptr) {
   distances_.reserve(instance.num_agents());
   detours_.reserve(instance.num_agents());
   for (const AgentId i : instance.agent_ids()) {
     if (limits.exhausted_now()) return;
-    distances_.emplace_back(instance, i);
+    if (store != nullptr)
+      distances_.push_back(store->distances(instance, i));
+    else
+      distances_.emplace_back(instance, i);
     detours_.emplace_back(instance, i, distances_.back());
   }
   standing_.resize(instance.num_classes());

@@ -5,6 +5,7 @@
 
 #include "paths/contacts.hpp"
 #include "paths/path_finder.hpp"
+#include "paths/scene_store.hpp"
 #include "quadrille/core/limits.hpp"
 
 namespace quadrille::continuous {
@@ -14,10 +15,11 @@ namespace quadrille::continuous {
 class Scene {
  public:
   /// Computes the distances to all goals and the bans around moving obstacles, the latter with as
-  /// many contacts as there are edges and vertices for each of their steps, per class; both
-  /// arguments outlive the scene. If `limits` end that early, the scene is not complete and of no
-  /// use.
-  Scene(const Instance& instance, LimitMonitor& limits);
+  /// many contacts as there are edges and vertices for each of their steps, per class. If `limits`
+  /// end that early, the scene is not complete and of no use. `store`, unless null, has adopted the
+  /// instance: distances and contacts come from there, and stay there. All arguments outlive the
+  /// scene.
+  Scene(const Instance& instance, LimitMonitor& limits, SceneStore* store = nullptr);
   [[nodiscard]] bool is_complete() const { return is_complete_; }
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }

@@ -18,8 +18,7 @@ class Phases {
  public:
   /// `account`: that of `limits`. What is found and proved goes into `outcome`. All outlive this.
   Phases(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-         const std::shared_ptr<ResourceAccount>& account,
-         SolveOutcome& outcome)
+         const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome)
       : instance_(instance),
         options_(options),
         limits_(limits),

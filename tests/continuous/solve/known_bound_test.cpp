@@ -133,10 +133,9 @@ TEST(KnownBound, NegativeOnesAreRefusedAndInfeasibilityRestsOnNone) {
   options.known_lower_bound = -1;
   EXPECT_EQ(solve(random_instance(1, random), options).error().code, ErrorCode::out_of_range);
   // Two on a line that have to change places.
-  const Instance stuck =
-      Instance::make(roadmap({{0, 0}, {1000, 0}, {2000, 0}}, {{0, 1}, {1, 2}}),
-                     {agent(0, 2, 100), agent(2, 0, 100)})
-          .value();
+  const Instance stuck = Instance::make(roadmap({{0, 0}, {1000, 0}, {2000, 0}}, {{0, 1}, {1, 2}}),
+                                        {agent(0, 2, 100), agent(2, 0, 100)})
+                             .value();
   options.known_lower_bound = 1'000'000;
   const SolveOutcome outcome = solve(stuck, options).value();
   EXPECT_EQ(outcome.status, Status::infeasible);

@@ -92,6 +92,10 @@ class Roadmap {
   /// place.
   [[nodiscard]] static Result<Roadmap> make(std::vector<Point> vertices, std::vector<Edge> edges);
 
+  /// The same one, but these edges are open to nobody; all ids stay the same. No file can hold it.
+  /// Requires edges that exist. Linear.
+  [[nodiscard]] Roadmap with_closed(std::span<const EdgeId> closed) const;
+
   [[nodiscard]] std::size_t num_vertices() const noexcept { return positions_.size(); }
   [[nodiscard]] std::size_t num_edges() const noexcept { return edges_.size(); }
   [[nodiscard]] const Point& position(VertexId v) const { return positions_[v.index()]; }
