@@ -13,4 +13,9 @@ namespace quadrille::continuous {
 /// early when the limits of the scene are met.
 [[nodiscard]] std::optional<Plan> find_first_plan(Scene& scene);
 
+/// Likewise, from paths of some agents that do not collide; empty for the others. Who has one gives
+/// it up only if the others find none otherwise.
+[[nodiscard]] std::optional<Plan> complete_plan(Scene& scene,
+                                                const IdVector<AgentId, Path>& wanted);
+
 }  // namespace quadrille::continuous

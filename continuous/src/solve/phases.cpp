@@ -89,10 +89,11 @@ void Phases::run() {
   outcome_.rests_on_known_bound = known_ > 0;
   keep_best(options_, outcome_);  // the answer if a limit is met
   enter(Phase::set_up);
-  Scene scene(instance_, limits_);
+  Scene scene(instance_, limits_, inheritance_.store);
   if (!scene.is_complete() || are_kept_off(scene)) return;
   if (options_.explain) outcome_.attribution = free_charges(scene, options_.objective);
   if (learn(free_bound(scene, options_.objective), std::nullopt)) return;
+  if (take_inheritance(scene)) return;
   const bool is_dpll = options_.system == System::dpll;
   const bool is_joint_first = is_dpll && options_.joint_work > 0 && is_small(instance_);
   if (is_joint_first && search_jointly(scene)) return;
@@ -111,6 +112,26 @@ bool Phases::are_kept_off(const Scene& scene) {
         "agent " + std::to_string(i.index()) + " cannot get past the moving obstacles" +
         (instance_.agent(i).deadline ? " by its deadline" : "") + ", even without other agents";
     return true;
+  }
+  return false;
+}
+
+Cost Phases::bound_of_all(const Scene& scene, const GroupBound& group) const {
+  const bool is_sum = options_.objective == Objective::sum_of_costs;
+  Cost bound = group.cost;
+  for (const AgentId i : instance_.agent_ids()) {
+    if (std::binary_search(group.agents.begin(), group.agents.end(), i)) continue;
+    bound = is_sum ? bound + scene.free_cost(i) : std::max(bound, scene.free_cost(i));
+  }
+  return bound;
+}
+
+bool Phases::take_inheritance(Scene& scene) {
+  for (const GroupBound& group : inheritance_.bounds)
+    if (learn(bound_of_all(scene, group), std::nullopt)) return true;
+  for (const auto& draft : inheritance_.drafts) {
+    enter(Phase::first_plan);
+    if (learn(floor_, complete_plan(scene, draft))) return true;
   }
   return false;
 }

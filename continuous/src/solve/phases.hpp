@@ -9,6 +9,7 @@
 #include "paths/scene.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/core/progress.hpp"
+#include "solve/inheritance.hpp"
 
 namespace quadrille::continuous {
 
@@ -17,10 +18,12 @@ namespace quadrille::continuous {
 class Phases {
  public:
   /// `account`: that of `limits`. What is found and proved goes into `outcome`. All outlive this.
-  Phases(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-         const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome)
+  Phases(const Instance& instance, const SolveOptions& options, const Inheritance& inheritance,
+         LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
+         SolveOutcome& outcome)
       : instance_(instance),
         options_(options),
+        inheritance_(inheritance),
         limits_(limits),
         account_(account),
         outcome_(outcome),
@@ -33,6 +36,7 @@ class Phases {
  private:
   /// Each returns whether that is all.
   [[nodiscard]] bool are_kept_off(const Scene& scene);
+  [[nodiscard]] bool take_inheritance(Scene& scene);
   [[nodiscard]] bool search_jointly(Scene& scene);
   [[nodiscard]] bool look_at_routes(Scene& scene);
   [[nodiscard]] bool find_some_plan(Scene& scene, bool was_joint);
@@ -42,12 +46,15 @@ class Phases {
   /// Proved or known.
   [[nodiscard]] Cost lower() const { return std::max(floor_, known_); }
 
+  /// What a group costs, and the others when each is alone.
+  [[nodiscard]] Cost bound_of_all(const Scene& scene, const GroupBound& group) const;
   void search(Scene& scene);
   void keep_cheaper(std::optional<Plan> plan);
   void enter(Phase phase);
 
   const Instance& instance_;
   const SolveOptions& options_;
+  const Inheritance& inheritance_;
   LimitMonitor& limits_;
   const std::shared_ptr<ResourceAccount>& account_;
   SolveOutcome& outcome_;

@@ -10,6 +10,7 @@
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/core/plan_claim.hpp"
 #include "solve/cost_run.hpp"
+#include "solve/inheritance.hpp"
 #include "solve/phases.hpp"
 
 namespace quadrille::continuous {
@@ -71,11 +72,12 @@ void check_plan(const Instance& instance, const SolveOptions& options, SolveOutc
 }
 
 /// Fills in what was found and proved, and checks its plan. Throws what callbacks throw.
-void answer(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
-            const std::shared_ptr<ResourceAccount>& account, SolveOutcome& outcome) {
+void answer(const Instance& instance, const SolveOptions& options, const Inheritance& inheritance,
+            LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
+            SolveOutcome& outcome) {
   try {
     try {
-      Phases(instance, options, limits, account, outcome).run();
+      Phases(instance, options, inheritance, limits, account, outcome).run();
     } catch (const LimitReached&) {
       keep_best(options, outcome);
     } catch (const std::bad_alloc&) {
@@ -113,11 +115,16 @@ std::optional<System> parse_system(std::string_view text) noexcept {
 }
 
 Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {
+  return solve(instance, options, Inheritance{});
+}
+
+Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options,
+                           const Inheritance& inheritance) {
   if (auto error = check_options(instance, options)) return *std::move(error);
   SolveOutcome outcome;
   const auto account = std::make_shared<ResourceAccount>();
   LimitMonitor limits(options.limits, account);
-  answer(instance, options, limits, account, outcome);
+  answer(instance, options, inheritance, limits, account, outcome);
   for (const auto* plan : {&options.initial_plan, &options.debug.known_plan})
     if (*plan && !outcome.internal_error) check_known_plan(**plan, options, outcome);
   // A bound that was given wrongly is an error of the input.

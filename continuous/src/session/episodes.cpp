@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "session/episodes.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace quadrille::continuous {
+namespace {
+
+constexpr std::size_t kMaxEpisodes = 16, kMaxDrafts = 2;
+
+/// That all agents together cost at least the bound.
+Attribution undivided(std::size_t num_agents, Objective objective, Cost bound) {
+  Attribution all;
+  all.objective = objective;
+  all.agents = IdVector<AgentId, AgentCharge>(num_agents);
+  all.lower_bound = bound;
+  Raise raise{RaiseKind::total, bound, {}, {}};
+  for (const AgentId i : IdRange<AgentId>(num_agents)) raise.agents.push_back(i);
+  all.raises.push_back(std::move(raise));
+  return all;
+}
+
+std::size_t num_paths(const IdVector<AgentId, Path>& paths) {
+  return static_cast<std::size_t>(
+      std::count_if(paths.begin(), paths.end(), [](const Path& path) { return !path.empty(); }));
+}
+
+/// Whether the agent may take the path: edges may be closed that it used.
+bool is_open(const Instance& instance, AgentId agent, const Path& path) {
+  const ClassId c = instance.class_of(agent);
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const auto out = instance.out_edges(c, path[k - 1].vertex);
+    const bool fits = std::any_of(out.begin(), out.end(), [&](EdgeId e) {
+      return instance.roadmap().edge(e).to == path[k].vertex &&
+             instance.duration(c, e) == path[k].arrive - path[k - 1].depart;
+    });
+    if (!fits) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void Episodes::add(const Situation& situation, Objective objective, const SolveOutcome& outcome) {
+  if (outcome.internal_error || outcome.status == Status::infeasible) return;
+  Episode episode{situation, {}, objective, {}, outcome.plan};
+  for (const auto& [member, task] : situation.tasks) episode.members.push_back(member);
+  // A bound that the user knows is no proof.
+  if (!outcome.rests_on_known_bound) {
+    episode.proved = outcome.attribution;
+    if (!episode.proved && !episode.members.empty())
+      episode.proved = undivided(episode.members.size(), objective, outcome.lower_bound);
+  }
+  episodes_.push_front(std::move(episode));
+  if (episodes_.size() > kMaxEpisodes) episodes_.pop_back();
+}
+
+std::vector<GroupBound> Episodes::bounds(const Situation& now, Objective objective) const {
+  std::vector<GroupBound> bounds;
+  for (const Episode& episode : episodes_)
+    if (episode.objective == objective && episode.proved)
+      if (auto bound = bound_of(episode, now)) bounds.push_back(std::move(*bound));
+  return bounds;
+}
+
+std::optional<GroupBound> Episodes::bound_of(const Episode& episode, const Situation& now) {
+  const auto& closed = episode.situation.closed;
+  // With an edge that was closed then there may be cheaper plans.
+  if (!std::includes(now.closed.begin(), now.closed.end(), closed.begin(), closed.end()))
+    return std::nullopt;
+  /// Those who have the same task now, by agent then.
+  std::vector<std::optional<AgentId>> same(episode.members.size());
+  std::size_t index = 0;
+  for (const auto& [member, task] : now.tasks) {
+    const auto then = episode.situation.tasks.find(member);
+    if (then != episode.situation.tasks.end() && then->second == task)
+      same[static_cast<std::size_t>(std::distance(episode.situation.tasks.begin(), then))] =
+          AgentId(index);
+    ++index;
+  }
+  const auto are_same = [&](const std::vector<AgentId>& agents) {
+    return std::all_of(agents.begin(), agents.end(),
+                       [&](AgentId i) { return same[i.index()].has_value(); });
+  };
+  const Attribution& proved = *episode.proved;
+  GroupBound bound;
+  std::set<AgentId> group;  // then
+  Cost raised = 0;
+  for (const Raise& raise : proved.raises) {
+    raised += raise.amount;
+    if (!are_same(raise.agents) || !are_same(raise.bystanders)) continue;
+    if (proved.objective == Objective::makespan) {
+      group.clear();
+      bound.cost = proved.free_bound + raised;
+    } else {
+      bound.cost += raise.amount;
+    }
+    group.insert(raise.agents.begin(), raise.agents.end());
+    group.insert(raise.bystanders.begin(), raise.bystanders.end());
+  }
+  if (group.empty()) return std::nullopt;
+  for (const AgentId then : group) {
+    if (proved.objective == Objective::sum_of_costs) bound.cost += proved.agents[then].free_cost;
+    bound.agents.push_back(*same[then.index()]);
+  }
+  std::sort(bound.agents.begin(), bound.agents.end());
+  return bound;
+}
+
+std::vector<IdVector<AgentId, Path>> Episodes::drafts(const Situation& now,
+                                                      const Instance& instance) const {
+  std::vector<IdVector<AgentId, Path>> drafts;
+  for (const Episode& episode : episodes_)
+    if (episode.plan) drafts.push_back(paths_of(episode, now, instance));
+  std::erase_if(drafts, [](const auto& paths) { return num_paths(paths) == 0; });
+  std::stable_sort(drafts.begin(), drafts.end(),
+                   [](const auto& a, const auto& b) { return num_paths(a) > num_paths(b); });
+  if (drafts.size() > kMaxDrafts) drafts.resize(kMaxDrafts);
+  return drafts;
+}
+
+IdVector<AgentId, Path> Episodes::paths_of(const Episode& episode, const Situation& now,
+                                           const Instance& instance) {
+  IdVector<AgentId, Path> paths(instance.num_agents());
+  std::size_t index = 0;
+  for (const auto& [member, task] : now.tasks) {
+    const AgentId i(index++);
+    const auto then = episode.situation.tasks.find(member);
+    if (then == episode.situation.tasks.end() || !(then->second == task)) continue;
+    const AgentId then_i(
+        static_cast<std::size_t>(std::distance(episode.situation.tasks.begin(), then)));
+    Path path = episode.plan->paths[then_i];
+    // The place of one that is under way may have another number now.
+    path.front().vertex = instance.agent(i).start;
+    if (is_open(instance, i, path)) paths[i] = std::move(path);
+  }
+  return paths;
+}
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <list>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "quadrille/continuous/session.hpp"
+#include "solve/inheritance.hpp"
+
+namespace quadrille::continuous {
+
+/// The middle of a move.
+struct UnderWay {
+  EdgeId edge;
+  Ticks behind = 0;
+  friend bool operator==(const UnderWay&, const UnderWay&) = default;
+};
+
+/// What a member of a session has to do.
+struct Task {
+  Agent agent;  ///< The start of one that is under way is the tail of its edge.
+  std::optional<UnderWay> under_way = {};
+  friend bool operator==(const Task&, const Task&) = default;
+};
+
+/// A session at one time.
+struct Situation {
+  std::map<MemberId, Task> tasks;  ///< In the order of the instance's agents.
+  std::set<EdgeId> closed;
+};
+
+/// The last answers of a session, and what they say about another situation on the same roadmap.
+/// Why that is true: docs/soundness.md, section 13.
+class Episodes {
+ public:
+  /// The answer for a situation.
+  void add(const Situation& situation, Objective objective, const SolveOutcome& outcome);
+
+  /// Bounds of groups of agents of `now`, at most one of each answer.
+  [[nodiscard]] std::vector<GroupBound> bounds(const Situation& now, Objective objective) const;
+  /// Paths of answers, of which `instance`, that of `now`, allows all, most first; at most two.
+  [[nodiscard]] std::vector<IdVector<AgentId, Path>> drafts(const Situation& now,
+                                                            const Instance& instance) const;
+
+ private:
+  struct Episode {
+    Situation situation;
+    std::vector<MemberId> members;  // by agent
+    Objective objective = Objective::sum_of_costs;
+    std::optional<Attribution> proved;
+    std::optional<Plan> plan;
+  };
+  [[nodiscard]] static std::optional<GroupBound> bound_of(const Episode& episode,
+                                                          const Situation& now);
+  [[nodiscard]] static IdVector<AgentId, Path> paths_of(const Episode& episode,
+                                                        const Situation& now,
+                                                        const Instance& instance);
+
+  std::list<Episode> episodes_;  // the last one first
+};
+
+}  // namespace quadrille::continuous

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/session.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "paths/scene_store.hpp"
+#include "quadrille/continuous/quantise.hpp"
+#include "session/episodes.hpp"
+#include "solve/inheritance.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+
+std::string name(MemberId member) { return "member " + std::to_string(member.index()); }
+std::string name(EdgeId edge) { return "edge " + std::to_string(edge.index()); }
+
+Error no_member(MemberId member) { return invalid("there is no " + name(member)); }
+
+/// That many ticks from the first point, on the straight way to the second one.
+Point place_on(const Point& from, const Point& to, Ticks behind, Ticks whole) {
+  const long double share =
+      static_cast<long double>(behind.count()) / static_cast<long double>(whole.count());
+  const auto between = [&](Length a, Length b) {
+    return a + Length(static_cast<std::int64_t>(
+                   std::round(static_cast<long double>((b - a).count()) * share)));
+  };
+  return {between(from.x, to.x), between(from.y, to.y)};
+}
+
+}  // namespace
+
+struct Session::Parts {
+  Parts(std::shared_ptr<const Roadmap> the_roadmap, Resolution the_resolution,
+        std::vector<MovingObstacle> the_obstacles)
+      : roadmap(std::move(the_roadmap)),
+        resolution(the_resolution),
+        obstacles(std::move(the_obstacles)),
+        store(roadmap) {}
+
+  [[nodiscard]] std::optional<Error> refuse(const Agent& agent) const;
+  [[nodiscard]] std::optional<Ticks> duration(const Edge& edge, const Agent& agent) const;
+  /// The roadmap as it is now, and the agents with their starts on it.
+  [[nodiscard]] std::shared_ptr<const Roadmap> roads(std::vector<Agent>& agents) const;
+
+  std::shared_ptr<const Roadmap> roadmap;
+  Resolution resolution;
+  std::vector<MovingObstacle> obstacles;
+  std::size_t num_added = 0;
+  Situation now;
+  SceneStore store;
+  Episodes episodes;
+};
+
+std::optional<Error> Session::Parts::refuse(const Agent& agent) const {
+  for (const VertexId v : {agent.start, agent.goal})
+    if (v.index() >= roadmap->num_vertices())
+      return invalid("there is no vertex " + std::to_string(v.index()));
+  if (agent.under_way) return invalid("a member is put under way by its edge");
+  return std::nullopt;
+}
+
+std::optional<Ticks> Session::Parts::duration(const Edge& edge, const Agent& agent) const {
+  if (edge.duration) return edge.duration;
+  return travel_time(roadmap->position(edge.from), roadmap->position(edge.to), agent.speed);
+}
+
+std::shared_ptr<const Roadmap> Session::Parts::roads(std::vector<Agent>& agents) const {
+  std::vector<Point> points = roadmap->positions();
+  std::vector<Edge> edges = roadmap->edges();
+  for (const auto& [member, task] : now.tasks) {
+    agents.push_back(task.agent);
+    if (!task.under_way) continue;
+    const Edge& edge = roadmap->edge(task.under_way->edge);
+    const Ticks whole = duration(edge, task.agent).value();
+    agents.back().start = VertexId(points.size());
+    points.push_back(place_on(roadmap->position(edge.from), roadmap->position(edge.to),
+                              task.under_way->behind, whole));
+    edges.push_back({agents.back().start, edge.to, whole - task.under_way->behind});
+  }
+  const bool has_places = points.size() > roadmap->num_vertices();
+  if (!has_places && now.closed.empty()) return roadmap;
+  const std::vector<EdgeId> closed(now.closed.begin(), now.closed.end());
+  // Places lie between points that are in range.
+  return std::make_shared<const Roadmap>(
+      has_places ? Roadmap::make(std::move(points), std::move(edges)).value().with_closed(closed)
+                 : roadmap->with_closed(closed));
+}
+
+Session::Session(std::shared_ptr<const Roadmap> roadmap, Resolution resolution,
+                 std::vector<MovingObstacle> obstacles) {
+  QUADRILLE_REQUIRE(roadmap != nullptr, "a session has a roadmap");
+  parts_ = std::make_unique<Parts>(std::move(roadmap), resolution, std::move(obstacles));
+}
+
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+Result<MemberId> Session::add(const Agent& agent) {
+  if (auto error = parts_->refuse(agent)) return *std::move(error);
+  const MemberId member(parts_->num_added);
+  parts_->now.tasks.emplace(member, Task{agent});
+  ++parts_->num_added;
+  return member;
+}
+
+std::optional<Error> Session::remove(MemberId member) {
+  if (parts_->now.tasks.erase(member) == 0) return no_member(member);
+  return std::nullopt;
+}
+
+std::optional<Error> Session::change(MemberId member, const Agent& agent) {
+  const auto at = parts_->now.tasks.find(member);
+  if (at == parts_->now.tasks.end()) return no_member(member);
+  if (auto error = parts_->refuse(agent)) return error;
+  at->second = {agent, std::nullopt};
+  return std::nullopt;
+}
+
+std::optional<Error> Session::put_under_way(MemberId member, EdgeId edge, Ticks behind) {
+  const auto at = parts_->now.tasks.find(member);
+  if (at == parts_->now.tasks.end()) return no_member(member);
+  if (edge.index() >= parts_->roadmap->num_edges()) return invalid("there is no " + name(edge));
+  const Edge& on = parts_->roadmap->edge(edge);
+  Agent agent = at->second.agent;
+  if (!on.open_to.contains(agent.group)) return invalid(name(edge) + " is not for " + name(member));
+  const auto whole = parts_->duration(on, agent);
+  if (!whole || behind < 0 || behind >= *whole)
+    return Error{ErrorCode::out_of_range,
+                 name(member) + " cannot have " + std::to_string(behind.count()) + " ticks of " +
+                     name(edge) + " behind it, which takes " +
+                     (whole ? std::to_string(whole->count()) : "too few or too many"),
+                 {}};
+  agent.start = on.from;
+  agent.under_way = true;
+  agent.release = 0;
+  at->second = {agent, UnderWay{edge, behind}};
+  return std::nullopt;
+}
+
+std::optional<Error> Session::close(EdgeId edge) {
+  if (edge.index() >= parts_->roadmap->num_edges()) return invalid("there is no " + name(edge));
+  if (!parts_->now.closed.insert(edge).second) return invalid(name(edge) + " is closed already");
+  return std::nullopt;
+}
+
+std::optional<Error> Session::open(EdgeId edge) {
+  if (parts_->now.closed.erase(edge) == 0) return invalid(name(edge) + " is not closed");
+  return std::nullopt;
+}
+
+std::vector<MemberId> Session::members() const {
+  std::vector<MemberId> members;
+  for (const auto& [member, task] : parts_->now.tasks) members.push_back(member);
+  return members;
+}
+
+const Agent& Session::agent(MemberId member) const {
+  const auto at = parts_->now.tasks.find(member);
+  QUADRILLE_REQUIRE(at != parts_->now.tasks.end(), "a member of the session");
+  return at->second.agent;
+}
+
+bool Session::is_closed(EdgeId edge) const { return parts_->now.closed.contains(edge); }
+
+Result<Instance> Session::instance() const {
+  std::vector<Agent> agents;
+  auto roads = parts_->roads(agents);
+  return Instance::make(std::move(roads), std::move(agents), parts_->resolution, {},
+                        parts_->obstacles);
+}
+
+Result<SolveOutcome> Session::solve(const SolveOptions& options) {
+  const auto instance = this->instance();
+  if (!instance) return instance.error();
+  parts_->store.adopt(*instance);
+  const Inheritance inheritance{&parts_->store,
+                                parts_->episodes.bounds(parts_->now, options.objective),
+                                parts_->episodes.drafts(parts_->now, *instance)};
+  SolveOptions traced = options;
+  traced.explain = options.explain || options.threads == 1;
+  auto outcome = continuous::solve(*instance, traced, inheritance);
+  if (!outcome) return outcome;
+  parts_->episodes.add(parts_->now, options.objective, *outcome);
+  if (!options.explain) outcome->attribution.reset();
+  return outcome;
+}
+
+}  // namespace quadrille::continuous
