@@ -168,6 +168,33 @@ TEST_F(ComfortTest, ARunGoesOnWithThePlanOfAnother) {
   EXPECT_THAT(refused.err, HasSubstr("bad.json: not a valid plan: agent 0"));
 }
 
+TEST_F(ComfortTest, ABoundThatIsKnownIsWhereASearchBegins) {
+  const std::vector<std::string> discs = {"solve", "--instance", path("discs.json")};
+  for (const std::vector<std::string>& solve : {small("solve"), discs}) {
+    const auto first = json::parse(run(solve + std::vector<std::string>{"--json", "-"}).out);
+    EXPECT_FALSE(first.contains("rests_on_known_bound"));
+    const std::string cost = first["cost"].dump();
+    const auto with = [&](const std::string& bound) {
+      return run(solve + std::vector<std::string>{"--known-bound", bound, "--json", "-"});
+    };
+    const auto stopped = run(solve + std::vector<std::string>{"--known-bound", cost, "--time-limit",
+                                                              "0", "--json", "-"});
+    EXPECT_EQ(json::parse(stopped.out)["lower_bound"], first["cost"]);
+    if (solve == discs) {  // where nothing is known in no time
+      EXPECT_EQ(json::parse(stopped.out)["rests_on_known_bound"], true);
+      EXPECT_THAT(stopped.err, HasSubstr("bound      as it was given, not proved here\n"));
+    }
+    EXPECT_EQ(json::parse(stopped.out)["options"]["known_bound"], first["cost"]);
+    EXPECT_EQ(json::parse(with("1").out)["cost"], first["cost"]);
+    EXPECT_EQ(json::parse(with("1").out)["rests_on_known_bound"], false);
+    const auto refused = run(solve + std::vector<std::string>{"--known-bound", "1000"});
+    EXPECT_EQ(refused.code, 65);
+    EXPECT_THAT(refused.err, HasSubstr("the known lower bound is wrong"));
+  }
+  EXPECT_THAT(run(small("solve", {"--known-bound", "1.5"})).err,
+              HasSubstr("--known-bound is a whole number of timesteps"));
+}
+
 TEST_F(ComfortTest, ATerminalShowsColoursUnlessTheyAreNotWanted) {
   const auto on_terminal = [&](const std::string& environment) {
     std::string command = environment + " " QUADRILLE_PROGRAM;

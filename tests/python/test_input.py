@@ -141,6 +141,8 @@ def test_arguments_that_are_wrong(make, text):
     (dict(objective="fuel"), "objective: 'fuel' is not sum-of-costs or makespan"),
     (dict(check="2/1"), "2/1"),
     (dict(progress_interval=-1), "interval"),
+    (dict(known_bound=-1), "the known lower bound is negative"),
+    (dict(known_bound=1000), "the known lower bound is wrong: it is 1000, and a plan costs 1"),
 ])
 def test_options_that_are_wrong(arguments, text):
     with pytest.raises(ValueError, match=text):

@@ -54,12 +54,22 @@ def test_progress_is_heard_in_the_calling_thread(crowd):
     assert heard and heard == sorted(heard, key=lambda at: (at.elapsed, at.lower_bound))
     assert heard[-1].lower_bound <= result.lower_bound
     assert all(at.gap is None or at.gap >= 0 for at in heard)
-    assert "bound" in str(heard[0])
+    assert "set-up, bound" in str(next(at for at in heard if at.phase == "set-up"))
+    assert heard[-1].phase == "search"
     costs = [plan.sum_of_costs for plan in plans]
     assert costs == sorted(set(costs), reverse=True) and costs[-1] >= result.cost
     assert all(plan.verify() for plan in plans)
     assert result.stop == "wall-time" and result.status == "feasible"
     assert result.gap == pytest.approx(100 * (result.cost / result.lower_bound - 1))
+
+
+def test_a_bound_that_is_known():
+    fleet = random_grid_fleet(1)
+    cost = q.solve(fleet).cost
+    assert q.solve(fleet, known_bound=cost).cost == cost
+    stopped = q.solve(fleet, known_bound=cost, time_limit=0)
+    assert stopped.rests_on_known_bound and stopped.lower_bound == cost
+    assert not q.solve(fleet).rests_on_known_bound
 
 
 def test_exceptions_of_callbacks_come_out(crowd):

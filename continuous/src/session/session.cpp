@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/continuous/session.hpp"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "paths/scene_store.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/continuous/under_way.hpp"
 #include "session/episodes.hpp"
 #include "solve/inheritance.hpp"
 
@@ -19,17 +19,6 @@ std::string name(MemberId member) { return "member " + std::to_string(member.ind
 std::string name(EdgeId edge) { return "edge " + std::to_string(edge.index()); }
 
 Error no_member(MemberId member) { return invalid("there is no " + name(member)); }
-
-/// That many ticks from the first point, on the straight way to the second one.
-Point place_on(const Point& from, const Point& to, Ticks behind, Ticks whole) {
-  const long double share =
-      static_cast<long double>(behind.count()) / static_cast<long double>(whole.count());
-  const auto between = [&](Length a, Length b) {
-    return a + Length(static_cast<std::int64_t>(
-                   std::round(static_cast<long double>((b - a).count()) * share)));
-  };
-  return {between(from.x, to.x), between(from.y, to.y)};
-}
 
 }  // namespace
 
@@ -76,10 +65,9 @@ std::shared_ptr<const Roadmap> Session::Parts::roads(std::vector<Agent>& agents)
     if (!task.under_way) continue;
     const Edge& edge = roadmap->edge(task.under_way->edge);
     const Ticks whole = duration(edge, task.agent).value();
-    agents.back().start = VertexId(points.size());
-    points.push_back(place_on(roadmap->position(edge.from), roadmap->position(edge.to),
-                              task.under_way->behind, whole));
-    edges.push_back({agents.back().start, edge.to, whole - task.under_way->behind});
+    const double share =
+        static_cast<double>(task.under_way->behind.count()) / static_cast<double>(whole.count());
+    agents.back().start = add_place_under_way(points, edges, edge.from, edge.to, whole, share);
   }
   const bool has_places = points.size() > roadmap->num_vertices();
   if (!has_places && now.closed.empty()) return roadmap;

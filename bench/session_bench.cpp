@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// How much faster a session answers after a change than a solve that knows nothing: CPU time of
+// both, by kind of change, on random roadmaps.
+//
+// usage: quadrille_session_bench [vertices agents changes gap]   default 200 20 40 0
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+#include "quadrille/continuous/generator.hpp"
+#include "quadrille/continuous/session.hpp"
+#include "quadrille/core/limits.hpp"
+#include "quadrille/core/random.hpp"
+
+using namespace quadrille;
+using namespace quadrille::continuous;
+
+namespace {
+
+constexpr std::array kKinds{"close", "open", "move", "remove", "add", "again"};
+
+struct Row {
+  int count = 0, open = 0;
+  double cold_s = 0, warm_s = 0;
+};
+
+class Bench {
+ public:
+  Bench(const Instance& instance, std::uint64_t seed)
+      : instance_(instance), session_(instance.shared_roadmap()), random_(seed) {
+    for (const Agent& agent : instance.agents()) static_cast<void>(session_.add(agent).value());
+  }
+  Session& session() { return session_; }
+
+  /// False: there was nothing to do.
+  bool change(std::size_t kind) {
+    const std::vector<MemberId> members = session_.members();
+    const MemberId some = members[draw(members.size())];
+    Agent agent = session_.agent(some);
+    if (kind == 0) {  // a road that is in use: that out of somebody's start
+      const auto out = instance_.roadmap().out_edges(agent.start);
+      closed_ = out[draw(out.size())];
+      return !session_.close(*closed_);
+    }
+    if (kind == 1) return closed_ && !session_.open(*closed_);
+    if (kind == 2) {
+      agent.goal = VertexId(draw(instance_.roadmap().num_vertices()));
+      return !session_.change(some, agent);
+    }
+    if (kind == 3) {
+      removed_ = agent;
+      return !session_.remove(some);
+    }
+    if (kind == 4) return removed_ && session_.add(*removed_).has_value();
+    return true;
+  }
+
+ private:
+  std::size_t draw(std::size_t count) { return static_cast<std::size_t>(random_.below(count)); }
+
+  const Instance& instance_;
+  Session session_;
+  Random random_;
+  std::optional<EdgeId> closed_;
+  std::optional<Agent> removed_;
+};
+
+std::size_t number(int argc, char** argv, int at, std::size_t otherwise) {
+  return argc > at ? std::strtoul(argv[at], nullptr, 10) : otherwise;
+}
+
+void print(const char* name, const Row& row) {
+  std::printf("%-8s %4d changes, %3d to a limit, cold %8.3f s, session %8.3f s, ratio %.2f\n", name,
+              row.count, row.open, row.cold_s, row.warm_s, row.cold_s / row.warm_s);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  RandomInstanceOptions shape;
+  shape.num_vertices = number(argc, argv, 1, 200);
+  shape.num_agents = number(argc, argv, 2, 20);
+  const std::size_t num_changes = number(argc, argv, 3, 40);
+  SolveOptions options;
+  options.limits.cpu_s = 3;
+  options.gap_percent = static_cast<double>(number(argc, argv, 4, 0));
+  std::array<Row, kKinds.size()> rows;
+  Row all;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Instance instance = random_instance(shape, seed).value();
+    Bench bench(instance, seed);
+    static_cast<void>(bench.session().solve(options));
+    for (std::size_t k = 0; k < num_changes; ++k) {
+      const std::size_t kind = k % kKinds.size();
+      const auto now = bench.change(kind) ? bench.session().instance() : Error{};
+      if (!now) continue;
+      const double begin_s = thread_cpu_seconds();
+      const SolveOutcome warm = bench.session().solve(options).value();
+      const double middle_s = thread_cpu_seconds();
+      const SolveOutcome cold = solve(*now, options).value();
+      const double end_s = thread_cpu_seconds();
+      const bool are_open = warm.stop == StopReason::cpu_time || cold.stop == StopReason::cpu_time;
+      for (Row* row : {&rows[kind], &all}) {
+        ++row->count;
+        row->open += are_open ? 1 : 0;
+        row->warm_s += middle_s - begin_s;
+        row->cold_s += end_s - middle_s;
+      }
+    }
+  }
+  for (std::size_t kind = 0; kind < kKinds.size(); ++kind) print(kKinds[kind], rows[kind]);
+  print("all", all);
+}
