@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "continuous/support/roads.hpp"
 #include "quadrille/continuous/generator.hpp"
 #include "quadrille/continuous/solver.hpp"
 
@@ -22,12 +23,8 @@ Instance discs(std::size_t num_vertices, std::size_t num_agents, std::uint64_t s
 
 /// Two discs on a line that have to change places.
 Instance deadlock() {
-  std::vector<Edge> edges;
-  for (const auto& [from, to] : {std::pair{0, 1}, {1, 0}, {1, 2}, {2, 1}})
-    edges.push_back({VertexId(from), VertexId(to), {}, Groups::all()});
-  auto roadmap = Roadmap::make({{0, 0}, {10, 0}, {20, 0}}, edges).value();
-  return Instance::make(std::move(roadmap), {{VertexId(0), VertexId(2), Disc{2}, kUnitSpeed},
-                                             {VertexId(2), VertexId(0), Disc{2}, kUnitSpeed}})
+  return Instance::make(roadmap({{0, 0}, {10, 0}, {20, 0}}, {{0, 1}, {1, 2}}),
+                        {agent(0, 2, 2), agent(2, 0, 2)})
       .value();
 }
 
