@@ -261,7 +261,7 @@ TEST(ContinuousVerify, ObstaclesAreHitExactly) {
   // At the goal, for ever.
   const Instance at_goal = with({Disc{10}, {{{100, 0}, 9000, 9000}}, false});
   EXPECT_EQ(kinds_of(at_goal, 0), Kinds{Kind::obstacle});
-  const Instance gone = with({Disc{10}, {{{100, 0}, 9000, 9000}}, true});
+  const Instance gone = with({Disc{10}, {{{100, 0}, 0, 50}}, true});
   EXPECT_EQ(kinds_of(gone, 0), Kinds{});
 }
 
