@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -120,6 +121,12 @@ std::string check_standard_input(const CLI::App& app) {
     first = option;
   }
   return "";
+}
+
+CLI::Option* add_word(CLI::App& app, const std::string& name,
+                      const std::function<void(const std::string&)>& read,
+                      const std::string& help) {
+  return app.add_option_function<std::string>(name, read, help)->type_name("NAME");
 }
 
 void add_check_with(CLI::App& app, std::optional<SecondVerifier>& verifier) {

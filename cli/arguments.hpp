@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <string_view>
 
 #include "exit_codes.hpp"
+#include "option_parser.hpp"
 
 namespace quadrille::cli {
 
@@ -34,10 +34,10 @@ CLI::Option* add_seconds(CLI::App& app, const std::string& name, std::optional<d
 /// A number of at least 0.
 CLI::Option* add_per_cents(CLI::App& app, const std::string& name, std::optional<double>& number,
                            const std::string& help);
-/// Adds an option that takes a number in [0, 1].
 /// A cost in the units of the input, 0 or more.
 CLI::Option* add_cost(CLI::App& app, const std::string& name, std::optional<double>& number,
                       const std::string& help);
+/// Adds an option that takes a number in [0, 1].
 CLI::Option* add_share(CLI::App& app, const std::string& name, std::optional<double>& number,
                        const std::string& help);
 
@@ -57,6 +57,10 @@ inline constexpr const char* kStandardInput = "/dev/stdin";
 /// What is wrong if several options of the command line name standard input; empty if none is.
 [[nodiscard]] std::string check_standard_input(const CLI::App& app);
 
+/// Adds an option that takes one of some words, which `read` understands or refuses.
+CLI::Option* add_word(CLI::App& app, const std::string& name,
+                      const std::function<void(const std::string&)>& read, const std::string& help);
+
 /// Adds an option that takes one of `names`, as `choose` understands them.
 template <class Choice>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& choice,
@@ -67,7 +71,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& choice,
     if (!chosen) refuse_value(name, text, names);
     choice = *chosen;
   };
-  return app.add_option_function<std::string>(name, read, help)->type_name("NAME");
+  return add_word(app, name, read, help);
 }
 
 /// Who checks plans besides `verify`.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "arguments.hpp"
 #include "grid/execution_grid.hpp"
 #include "output.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,6 +11,7 @@
 
 #include "exit_codes.hpp"
 #include "input.hpp"
+#include "option_parser.hpp"
 #include "quadrille/execution/precedences.hpp"
 #include "roadmap/roadmap_input.hpp"
 

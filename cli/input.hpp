@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "option_parser.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/movingai.hpp"

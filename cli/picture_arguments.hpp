@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "option_parser.hpp"
 #include "quadrille/view/picture.hpp"
 
 namespace quadrille::cli {

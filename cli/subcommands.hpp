@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "arguments.hpp"
+#include "option_parser.hpp"
 
 namespace quadrille::cli {
 

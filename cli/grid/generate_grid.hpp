@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "exit_codes.hpp"
 #include "generate_arguments.hpp"
+#include "option_parser.hpp"
 
 namespace quadrille::cli {
 

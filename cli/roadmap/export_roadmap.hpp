@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "exit_codes.hpp"
 #include "input.hpp"
+#include "option_parser.hpp"
 #include "roadmap/exports.hpp"
 #include "roadmap/roadmap_input.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "roadmap/generate_roadmap.hpp"
 
+#include <CLI/CLI.hpp>
 #include <sstream>
 #include <utility>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "exit_codes.hpp"
+#include "option_parser.hpp"
 
 namespace quadrille::cli {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "input.hpp"
+#include "option_parser.hpp"
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/result.hpp"
