@@ -8,6 +8,7 @@ import hashlib
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -61,6 +62,9 @@ def built_package():
         f"-DPython_EXECUTABLE={sys.executable}",
         *os.environ.get("QUADRILLE_CMAKE_ARGS", "").split(),
     ]
+    # scripts/setup brings ninja, and no make.
+    if shutil.which("ninja") and "CMAKE_GENERATOR" not in os.environ and not build.exists():
+        arguments.append("-GNinja")
     subprocess.run(["cmake", "-S", ROOT, "-B", build, *arguments], check=True)
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
     subprocess.run(
