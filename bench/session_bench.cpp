@@ -4,6 +4,7 @@
 //
 // usage: quadrille_session_bench [vertices agents changes gap]   default 200 20 40 0
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -81,6 +82,9 @@ int main(int argc, char** argv) {
   RandomInstanceOptions shape;
   shape.num_vertices = number(argc, argv, 1, 200);
   shape.num_agents = number(argc, argv, 2, 20);
+  // As dense as the default of a hundred vertices.
+  const double side = 3.2e6 * std::sqrt(static_cast<double>(shape.num_vertices));
+  shape.width = shape.height = Length(static_cast<std::int64_t>(side));
   const std::size_t num_changes = number(argc, argv, 3, 40);
   SolveOptions options;
   options.limits.cpu_s = 3;
