@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The optimal costs that published solvers found on the MovingAI benchmark. Needs QUADRILLE_DATA.
+// The MovingAI benchmark: the optimal costs that published solvers found, and limits on large
+// instances. Needs QUADRILLE_DATA.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +13,7 @@
 #include <sstream>
 #include <string>
 
+#include "discrete/solve/limits.hpp"
 #include "quadrille/discrete/movingai.hpp"
 #include "support/environment.hpp"
 #include "support/solver_cases.hpp"
@@ -122,6 +125,48 @@ INSTANTIATE_TEST_SUITE_P(System, SolverBenchmark,
                                          Entry{"smt_cbs", 6, 0.5, 25},
                                          Entry{"mdd_sat", 7, 0.5, 25}),
                          [](const auto& entry) { return entry.param.name; });
+
+// Those whose plans and gaps docs/performance.md shows.
+const Row kLarge[] = {{"den520d", "1", 1000},        {"warehouse-20-40-10-2-1", "1", 1000},
+                      {"empty-48-48", "1", 600},     {"Paris_1_256", "1", 1000},
+                      {"orz900d", "1", 500},         {"brc202d", "1", 500},
+                      {"random-64-64-20", "1", 500}, {"random-32-32-20", "1", 300},
+                      {"random-32-32-20", "1", 400}, {"room-64-64-8", "1", 400},
+                      {"maze-32-32-4", "1", 100}};
+
+double resident_mib() {
+  std::size_t all = 0, resident = 0;  // in pages
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return static_cast<double>(resident) * 4096 / (1 << 20);
+}
+
+TEST(LargeBenchmark, LimitsHold) {
+  const auto folder = data_folder();
+  if (!folder) GTEST_SKIP() << "QUADRILLE_DATA is not set";
+  for (const Row& row : kLarge) {
+    SCOPED_TRACE(row.map);
+    const Instance instance = read_instance(*folder, row);
+    for (const double seconds : {0.1, 0.6, 2.0}) {
+      TunedOptions options;
+      options.limits.cpu_s = seconds;
+      const auto [outcome, cpu_s] = run(instance, options);
+      EXPECT_EQ(outcome.stop, StopReason::cpu_time) << to_string(outcome.stop);
+      EXPECT_LT(cpu_s, seconds + kSoon);
+    }
+    // What has been added is looked at from time to time, hence the margin.
+    for (const std::int64_t mib : {4, 30}) {
+      TunedOptions options;
+      options.limits.cpu_s = 10;
+      options.limits.memory_mib = mib;
+      malloc_trim(0);
+      // The peak is that of the process, earlier solves included.
+      const double most = std::max(peak_rss_mib(), resident_mib() + static_cast<double>(mib) + 30);
+      const auto [outcome, cpu_s] = run(instance, options);
+      EXPECT_LE(peak_rss_mib(), most);
+      EXPECT_NE(outcome.stop, StopReason::none);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace quadrille::discrete::support
