@@ -203,7 +203,15 @@ void LazyTheory::check_paths(ContextWriter& writer) {
     std::stable_sort(
         collisions.begin(), collisions.end(),
         [](const Encounter& a, const Encounter& b) { return a.timestep < b.timestep; });
-    for (const Encounter& e : collisions) clauses_.exclude(e, trail_.cap(e.first), writer);
+    for (const Encounter& e : collisions) {
+      // One may take several searches of the whole map: for where an agent can be, and for the ways
+      // around a corridor.
+      if (limits_.exhausted()) {
+        writer.stop();
+        return;
+      }
+      clauses_.exclude(e, trail_.cap(e.first), writer);
+    }
     trail_.notice(model_.obstacles());
     explicit_paths_.link_new_obstacles(writer);
     if (writer.has_excluded()) return;
