@@ -33,7 +33,7 @@ ClearanceWatch::ClearanceWatch(const continuous::Instance& instance, const conti
       gone_(plan.paths.size(), 2) {
   double size = 1;
   for (const geometry::Point& p : instance.roadmap().positions())
-    size = std::max({size, std::abs(real(p.x)), std::abs(real(p.y))});
+    size = std::max({size, std::abs(real(p.x)), std::abs(real(p.y)), std::abs(real(p.z))});
   touch_ = -1e-10 * size;
 }
 
@@ -42,10 +42,12 @@ ClearanceWatch::Vector ClearanceWatch::place(AgentId agent, double clock) const 
   std::size_t k = stops_[agent];
   while (k + 1 < path.size() && real(path[k + 1].arrive) <= clock) ++k;
   const geometry::Point& from = instance_.roadmap().position(path[k].vertex);
-  if (k + 1 == path.size() || clock <= real(path[k].depart)) return {real(from.x), real(from.y)};
+  if (k + 1 == path.size() || clock <= real(path[k].depart))
+    return {real(from.x), real(from.y), real(from.z)};
   const geometry::Point& to = instance_.roadmap().position(path[k + 1].vertex);
   const double share = (clock - real(path[k].depart)) / real(path[k + 1].arrive - path[k].depart);
-  return {real(from.x) + real(to.x - from.x) * share, real(from.y) + real(to.y - from.y) * share};
+  return {real(from.x) + real(to.x - from.x) * share, real(from.y) + real(to.y - from.y) * share,
+          real(from.z) + real(to.z - from.z) * share};
 }
 
 void ClearanceWatch::lay_out(AgentId agent, Ticks before, Ticks after) {
@@ -70,6 +72,7 @@ void ClearanceWatch::lay_out(AgentId agent, Ticks before, Ticks after) {
     gone_[agent] = real(end - before) / real(after - before);
 }
 
+// Polygons are flat, and so is all that is done with them.
 double ClearanceWatch::gap(AgentId i, AgentId j, const Vector& offset) const {
   const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
   double most = -std::numeric_limits<double>::infinity();
@@ -102,16 +105,16 @@ double ClearanceWatch::gap(AgentId i, AgentId j, const Vector& offset) const {
 }
 
 double ClearanceWatch::least_gap(AgentId i, AgentId j, const Vector& from, const Vector& to) const {
-  const Vector way{to.x - from.x, to.y - from.y};
+  const Vector way{to.x - from.x, to.y - from.y, to.z - from.z};
   const auto at = [&](double share) {
-    return Vector{from.x + way.x * share, from.y + way.y * share};
+    return Vector{from.x + way.x * share, from.y + way.y * share, from.z + way.z * share};
   };
-  const double square = way.x * way.x + way.y * way.y;
-  const Vector nearest =
-      at(square == 0 ? 0 : std::clamp(-(from.x * way.x + from.y * way.y) / square, 0.0, 1.0));
+  const double square = way.x * way.x + way.y * way.y + way.z * way.z;
+  const double towards = -(from.x * way.x + from.y * way.y + from.z * way.z);
+  const Vector nearest = at(square == 0 ? 0 : std::clamp(towards / square, 0.0, 1.0));
   const double reach =
       real(instance_.reach(instance_.class_of(i))) + real(instance_.reach(instance_.class_of(j)));
-  const double room = std::hypot(nearest.x, nearest.y) - reach;
+  const double room = std::hypot(nearest.x, nearest.y, nearest.z) - reach;
   if (is_disc(instance_.agent(i).body) && is_disc(instance_.agent(j).body)) return room;
   if (room > std::max(0.0, least_)) return room;
   // A convex function of the share as long as it is positive.
@@ -134,7 +137,8 @@ void ClearanceWatch::look_at(AgentId i, AgentId j) {
     const Knot &p = way[k], &q = way[k + 1];
     const double part = q.share > p.share ? (share - p.share) / (q.share - p.share) : 1;
     return Vector{p.place.x + (q.place.x - p.place.x) * part,
-                  p.place.y + (q.place.y - p.place.y) * part};
+                  p.place.y + (q.place.y - p.place.y) * part,
+                  p.place.z + (q.place.z - p.place.z) * part};
   };
   std::size_t m = 0, n = 0;
   double share = 0;
@@ -142,7 +146,8 @@ void ClearanceWatch::look_at(AgentId i, AgentId j) {
     const double next = std::min(a[m + 1].share, b[n + 1].share);
     const Vector p0 = between(a, m, share), p1 = between(a, m, next);
     const Vector q0 = between(b, n, share), q1 = between(b, n, next);
-    const double free = least_gap(i, j, {q0.x - p0.x, q0.y - p0.y}, {q1.x - p1.x, q1.y - p1.y});
+    const double free = least_gap(i, j, {q0.x - p0.x, q0.y - p0.y, q0.z - p0.z},
+                                  {q1.x - p1.x, q1.y - p1.y, q1.z - p1.z});
     least_ = std::min(least_, free);
     if (free < touch_) contacts_.emplace(i, j);
     if (next >= 1) return;

@@ -39,6 +39,8 @@ Result<ConvexPolygon> ConvexPolygon::make(std::vector<Point> vertices) {
   for (const Point& vertex : vertices)
     if (!in_range(vertex))
       return Error{ErrorCode::out_of_range, "polygon: a corner is too far", {}};
+  for (const Point& vertex : vertices)
+    if (vertex.z != 0) return invalid("a corner has a height");
 
   const auto at = [&](std::size_t i) -> const Point& { return vertices[i % n]; };
   const int orientation = turn(at(0), at(1), at(2));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/geometry/body_pair.hpp"
 
+#include "ball_pair.hpp"
 #include "exact.hpp"
 #include "offset_search.hpp"
 #include "pair_shape.hpp"
@@ -104,9 +105,16 @@ std::span<const Point> BodyPair::corners() const {
 
 Length BodyPair::size() const { return shape_ ? shape_->size() : reach_; }
 
+bool BodyPair::is_in_space(const Motion& a, const Motion& b) const {
+  if (is_level(a, b)) return false;
+  QUADRILLE_REQUIRE(!shape_, "a polygon stays at one height");
+  return true;
+}
+
 bool BodyPair::collide_unchecked(const Motion& a, const Motion& b, Ticks offset) const {
   const std::optional<Window> window = common_window(a, b, offset);
   if (!window) return false;
+  if (is_in_space(a, b)) return balls::meet(a, b, offset, *window, reach_);
   const RelativePath path = relative_path(a, b, offset, *window, size());
   if (shape_) {
     if (const int verdict = shape_->filter(path)) return verdict > 0;
@@ -126,6 +134,7 @@ bool BodyPair::collide(const Motion& a, const Motion& b, Ticks offset) const {
 
 bool BodyPair::can_meet(const Motion& a, const Motion& b) const {
   require_valid(a, b);
+  if (is_in_space(a, b)) return balls::can_meet(a, b, reach_);
   const Parallelogram places = relative_places(a, b);
   if (boxes_apart(places, corners(), reach_)) return false;
   if (insides_meet(places, corners())) return true;
@@ -140,9 +149,14 @@ bool BodyPair::can_meet(const Motion& a, const Motion& b) const {
 
 std::optional<TickInterval> BodyPair::unsafe_offsets(const Motion& a, const Motion& b) const {
   require_valid(a, b);
-  if (boxes_apart(relative_places(a, b), corners(), reach_)) return std::nullopt;
+  const bool in_space = is_in_space(a, b);
+  if (in_space ? balls::boxes_apart(a, b, reach_)
+               : boxes_apart(relative_places(a, b), corners(), reach_))
+    return std::nullopt;
   RealInterval likely;
-  if (shape_)
+  if (in_space)
+    likely = balls::likely_offsets(a, b, reach_);
+  else if (shape_)
     likely = shape_->likely_offsets(a, b);
   else
     include_disc(a, b, Vec{}, static_cast<double>(reach_.count()), likely);
@@ -169,7 +183,8 @@ std::optional<TickInterval> BodyPair::unsafe_offsets(const Motion& a, const Moti
   if (!seed) {
     // The closed form found nothing, or a run so short that rounding hides it.
     if (!can_meet(a, b)) return std::nullopt;
-    seed = exact::find_meeting(a, b, corners(), reach_);
+    seed =
+        in_space ? balls::find_meeting(a, b, reach_) : exact::find_meeting(a, b, corners(), reach_);
     if (!seed) return std::nullopt;
     low = high = *seed;
   }
@@ -198,6 +213,7 @@ std::optional<Gap> BodyPair::gap(const Motion& a, const Motion& b, Ticks offset)
   const std::optional<Window> window = common_window(a, b, offset);
   if (!window) return std::nullopt;
   if (collide_unchecked(a, b, offset)) return Gap{};
+  if (is_in_space(a, b)) return balls::gap(a, b, offset, *window, reach_);
   const RelativePath path = relative_path(a, b, offset, *window, size());
   const double apart = (shape_ ? shape_->distance(path) : distance(Vec{}, path.begin, path.end)) -
                        static_cast<double>(reach_.count());

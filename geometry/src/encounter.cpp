@@ -20,18 +20,19 @@
 namespace quadrille::geometry {
 namespace {
 
-using Vector = Eigen::Vector2d;
+using Vector = Eigen::Vector3d;
 
 // Each step proves a stretch of time, and most legs take two or three.
 constexpr int kMaxSteps = 200;
 
 Vector to_vector(const Point& p) {
-  return {static_cast<double>(p.x.count()), static_cast<double>(p.y.count())};
+  return {static_cast<double>(p.x.count()), static_cast<double>(p.y.count()),
+          static_cast<double>(p.z.count())};
 }
 
 /// A body about its centre, in length units.
 struct Outline {
-  Vector centre{0, 0};          // from the agent's position
+  Vector centre{0, 0, 0};       // from the agent's position
   std::vector<Vector> corners;  // from the centre; none: a disc
   double radius = 0;            // of a disc
   double inner = 0, outer = 0;  // radii of discs about the centre: inside, and around the body
@@ -112,7 +113,8 @@ class Shapes {
     if (outline.corners.empty())
       return std::make_shared<fcl::Sphered>(unit_ * scale_ * outline.radius);
     std::vector<Eigen::Vector2d> corners;
-    for (const Vector& corner : outline.corners) corners.emplace_back(unit_ * scale_ * corner);
+    for (const Vector& corner : outline.corners)
+      corners.emplace_back(unit_ * scale_ * corner.head<2>());
     return make_prism(corners, height);
   }
 
@@ -124,7 +126,7 @@ class Shapes {
   /// What FCL says where b's centre is at `place` as seen from a's; none if it fails.
   [[nodiscard]] std::optional<Nearest> ask(const Vector& place) const {
     fcl::Transform3d at = fcl::Transform3d::Identity();
-    at.translation() = fcl::Vector3d(unit_ * place.x(), unit_ * place.y(), 0);
+    at.translation() = unit_ * place;
     fcl::DistanceRequestd request(/*enable_nearest_points=*/true);
     request.distance_tolerance = 1e-9;
     fcl::DistanceResultd result;
@@ -137,11 +139,11 @@ class Shapes {
       return std::nullopt;
     }
     if (!(distance > 0)) return Nearest{distance, Vector::Zero()};
-    const fcl::Vector3d between = result.nearest_points[1] - result.nearest_points[0];
-    const Vector flat(between.x(), between.y());
-    const double length = flat.norm();
+    Vector between = result.nearest_points[1] - result.nearest_points[0];
+    if (!a_.corners.empty() || !b_.corners.empty()) between.z() = 0;  // Prisms overlap in height.
+    const double length = between.norm();
     if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
-    return Nearest{length / unit_, flat / length};
+    return Nearest{length / unit_, between / length};
   }
 
   const Outline &a_, &b_;
@@ -211,8 +213,7 @@ class EncounterCheck::Pair {
   /// From a's centre to b's.
   [[nodiscard]] Vector apart(const Leg& a, const Leg& b, Ticks tick) const {
     const auto difference = [](const Point& p, const Point& q) {
-      return Vector(static_cast<double>((q.x - p.x).count()),
-                    static_cast<double>((q.y - p.y).count()));
+      return to_vector({q.x - p.x, q.y - p.y, q.z - p.z});
     };
     return difference(a.from, b.from) + share(b, tick) * difference(b.from, b.to) -
            share(a, tick) * difference(a.from, a.to) + b_.centre - a_.centre;

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "exact.hpp"
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include "exact_integer.hpp"
+#include "offset_search.hpp"
 
 namespace quadrille::geometry::exact {
 namespace {
-
-// The largest numbers: positions are scaled by the two durations, 2^43 * 2^80; a squared cross
-// product of two such vectors is below 2^500, a fraction times another's denominator below 2^760.
-using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
-    1024, 1024, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
 
 struct Vector {
   Integer x;
@@ -21,16 +17,6 @@ Integer cross(const Vector& p, const Vector& q) { return p.x * q.y - p.y * q.x; 
 Vector scaled(const Point& p, const Integer& factor) {
   return {factor * p.x.count(), factor * p.y.count()};
 }
-
-// Not negative denominator.
-struct Fraction {
-  Integer numerator;
-  Integer denominator;
-};
-bool operator<(const Fraction& p, const Fraction& q) {
-  return p.numerator * q.denominator < q.numerator * p.denominator;
-}
-int compare(const Fraction& p, const Fraction& q) { return p < q ? -1 : q < p ? 1 : 0; }
 
 // Both ends of the relative path, and the shape, times `scale`.
 struct ScaledPath {
@@ -198,10 +184,6 @@ bool touch(const Motion& a, const Motion& b, Ticks offset, Window window,
   return measure.numerator == squared(reach, path.scale) * measure.denominator;
 }
 
-// By bisection. The distance is a convex function of the offset: it is the least value, over the
-// moments, of a convex function of moment and offset. So where the bodies meet at neither of two
-// neighbouring offsets, they can only meet on the side on which the distance is less, and nowhere
-// if it is the same.
 std::optional<Ticks> find_meeting(const Motion& a, const Motion& b, std::span<const Point> shape,
                                   Length reach) {
   const auto meets = [&](Ticks at) {
@@ -210,21 +192,7 @@ std::optional<Ticks> find_meeting(const Motion& a, const Motion& b, std::span<co
   const auto distance = [&](Ticks at) {
     return apart(scaled_path(a, b, at, *common_window(a, b, at)), shape, reach);
   };
-  Ticks low = -b.duration;
-  Ticks high = a.duration;
-  while (low < high) {
-    const Ticks middle = low + (high - low) / 2;
-    if (meets(middle)) return middle;
-    if (meets(middle + 1)) return middle + 1;
-    const int order = compare(distance(middle), distance(middle + 1));
-    if (order == 0) return std::nullopt;
-    if (order < 0)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  if (meets(low)) return low;
-  return std::nullopt;
+  return find_near(-b.duration, a.duration, meets, distance);
 }
 
 bool sides_within(const Parallelogram& places, std::span<const Point> shape, Length reach) {

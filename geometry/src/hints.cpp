@@ -2,28 +2,6 @@
 #include "hints.hpp"
 
 namespace quadrille::geometry {
-namespace {
-
-// The fractions in [0, 1] of a step at which |start + fraction * step| < radius.
-RealInterval near_fractions(Vec start, Vec step, double radius) {
-  RealInterval result;
-  const double square = dot(step, step);
-  if (square == 0) {
-    if (dot(start, start) < radius * radius) result = {0, 1};
-    return result;
-  }
-  // The miss distance from the cross product: the discriminant would cancel where discs graze.
-  const double length = std::sqrt(square);
-  const double miss = std::abs(cross(start, step)) / length;
-  if (miss >= radius) return result;
-  const double middle = -dot(start, step) / square;
-  const double half = std::sqrt((radius - miss) * (radius + miss)) / length;
-  if (middle + half < 0 || middle - half > 1) return result;
-  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
-}
-
-}  // namespace
-
 // With the fractions p and q of a's and b's motion that are done, the relative position is
 // apart + q step_b - p step_a and the offset p duration_a - q duration_b. The pairs (p, q) of the
 // unit square that are in contact form the part of an ellipse (or strip) in it; the offset is least
@@ -37,18 +15,7 @@ void include_disc(const Motion& a, const Motion& b, Vec centre, double radius,
   const double duration_a = static_cast<double>(a.duration.count());
   const double duration_b = static_cast<double>(b.duration.count());
 
-  for (const double p : {0.0, 1.0}) {
-    const RealInterval q = near_fractions(apart - p * step_a, step_b, radius);
-    if (q.empty()) continue;
-    offsets.include(p * duration_a - q.lo * duration_b);
-    offsets.include(p * duration_a - q.hi * duration_b);
-  }
-  for (const double q : {0.0, 1.0}) {
-    const RealInterval p = near_fractions(apart + q * step_b, Vec{} - step_a, radius);
-    if (p.empty()) continue;
-    offsets.include(p.lo * duration_a - q * duration_b);
-    offsets.include(p.hi * duration_a - q * duration_b);
-  }
+  include_ends(apart, step_a, step_b, duration_a, duration_b, radius, offsets);
 
   // In full motion: the line apart - offset velocity_b + time velocity is `radius` from the origin.
   if (a.is_rest() || b.is_rest()) return;

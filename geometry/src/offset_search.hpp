@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "quadrille/geometry/point.hpp"
 
@@ -43,6 +44,32 @@ Ticks last_true(Ticks guess, Ticks seed, Ticks limit, const Predicate& holds) {
     (holds(middle) ? good : bad) = middle;
   }
   return good;
+}
+
+/// Some offset in [low, high] at which the bodies meet; none if there is no such integer. `meets`
+/// and `distance` are of an offset, and distances can be `compare`d where the bodies do not meet.
+/// As many calls of each as the length of the interval has bits.
+///
+/// By bisection. The distance is a convex function of the offset: it is the least value, over the
+/// moments, of a convex function of moment and offset. So where the bodies meet at neither of two
+/// neighbouring offsets, they can only meet on the side on which the distance is less, and nowhere
+/// if it is the same.
+template <class Meets, class Distance>
+std::optional<Ticks> find_near(Ticks low, Ticks high, const Meets& meets,
+                               const Distance& distance) {
+  while (low < high) {
+    const Ticks middle = low + (high - low) / 2;
+    if (meets(middle)) return middle;
+    if (meets(middle + 1)) return middle + 1;
+    const int order = compare(distance(middle), distance(middle + 1));
+    if (order == 0) return std::nullopt;
+    if (order < 0)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  if (meets(low)) return low;
+  return std::nullopt;
 }
 
 }  // namespace quadrille::geometry

@@ -11,7 +11,8 @@
 #include "quadrille/geometry/motion.hpp"
 
 // What the parts of this folder share: vectors in doubles, the time that two motions have in
-// common, and the error bound of the floating-point filter.
+// common, and the error bound of the floating-point filter. All this is for motions of one height,
+// and vectors leave that out; space.hpp is for others.
 namespace quadrille::geometry {
 
 /// Wide enough for products of two differences of points in range: 2 * 2^43 * 2^43.
@@ -28,8 +29,8 @@ inline double dot(Vec p, Vec q) { return p.x * q.x + p.y * q.y; }
 inline double cross(Vec p, Vec q) { return p.x * q.y - p.y * q.x; }
 inline double norm(Vec p) { return std::sqrt(dot(p, p)); }
 
-inline Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
-inline Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y}; }
+inline Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
+inline Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
 inline Vec to_vec(const Point& p) {
   return {static_cast<double>(p.x.count()), static_cast<double>(p.y.count())};
 }
@@ -50,6 +51,11 @@ inline double distance(Vec p, Vec begin, Vec end) {
   if (!(projection > 0)) return norm(to_p);
   if (projection >= square) return norm(p - end);
   return std::abs(cross(to_p, along)) / std::sqrt(square);
+}
+
+/// Whether one body stays at the height of the other.
+inline bool is_level(const Motion& a, const Motion& b) {
+  return a.from.z == a.to.z && a.from.z == b.from.z && a.from.z == b.to.z;
 }
 
 /// Times since a's start, in ticks: begin <= end.

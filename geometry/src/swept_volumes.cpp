@@ -8,15 +8,15 @@
 
 #include <algorithm>
 
-#include "planar.hpp"
 #include "quadrille/core/contract.hpp"
+#include "space.hpp"
 
 namespace quadrille::geometry {
 namespace {
 
 fcl::Vector3d vector_of(const Point& p) {
-  const Vec v = to_vec(p);
-  return {v.x, v.y, 0};
+  const Vec3 v = to_vec3(p);
+  return {v.x, v.y, v.z};
 }
 
 /// The line of a motion as FCL has it, seen from `origin`: a capsule without a radius.

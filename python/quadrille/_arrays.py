@@ -54,6 +54,12 @@ def doubles(values: Any, name: str, shape: Shape) -> npt.NDArray[np.float64]:
     return np.ascontiguousarray(_shaped(array, name, shape), dtype=np.float64)
 
 
+def with_places(values: Any, name: str, others: int = 0) -> npt.NDArray[np.float64]:
+    """Rows of two coordinates, or of three, and ``others`` numbers."""
+    in_space = np.ndim(values) == 2 and np.shape(values)[1] == 3 + others
+    return doubles(values, name, (None, (3 if in_space else 2) + others))
+
+
 def per_agent(values: Any, name: str, n: int) -> npt.NDArray[np.float64]:
     """One number for all agents, or one for each."""
     if np.ndim(values) == 0:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import bools, doubles, ints
+from ._arrays import bools, doubles, ints, with_places
 from .rules import Only, only_of, open_to
 
 if TYPE_CHECKING:
@@ -93,10 +93,12 @@ class Graph:
 
 
 class Roadmap:
-    """Vertices in the plane and directed, straight edges, for agents with bodies in continuous time.
+    """Vertices in the plane or in space and directed, straight edges, for agents with bodies in
+    continuous time.
 
     Args:
-        xy: float[n, 2], places of the vertices in your unit of length.
+        xy: float[n, 2], places of the vertices in your unit of length; float[n, 3] with heights.
+            Where there are any, bodies are spheres.
         edges: int[m, 2], from and to. An edge leads one way.
         durations: float[m], how long the move along an edge takes whoever makes it, in your unit of
             time; NaN, or no array: its length divided by the speed of the agent.
@@ -127,7 +129,7 @@ class Roadmap:
         nodes: Optional[Sequence[Hashable]] = None,
         only: Optional[Sequence[Only]] = None,
     ) -> None:
-        places = doubles(xy, "xy", (None, 2))
+        places = with_places(xy, "xy")
         ends = ints(edges, "edges", (None, 2))
         times = np.full(len(ends), np.nan)
         if durations is not None:
@@ -177,7 +179,8 @@ class Roadmap:
 
         Args:
             G: Graph, DiGraph, or their multi-forms. Vertices are numbered in the order of G.
-            pos: Name of the node attribute that has the place (x, y), or a dict from node to place.
+            pos: Name of the node attribute that has the place (x, y), or (x, y, z), or a dict from node
+                to place.
             duration: Name of an edge attribute with the duration of a move; edges that lack it take
                 their length divided by the speed of the agent.
             only: Name of an edge attribute with the group, or groups, that may use the edge; edges that
@@ -191,8 +194,10 @@ class Roadmap:
         places = G.nodes(data=pos) if isinstance(pos, str) else [(node, pos.get(node)) for node in nodes]
         xy = []
         for node, place in places:
-            if place is None or np.shape(place) != (2,):
+            if place is None or np.shape(place) not in ((2,), (3,)):
                 raise ValueError(f"pos: node {node!r} has no place (x, y)")
+            if xy and len(xy[0]) != len(place):
+                raise ValueError(f"pos: node {node!r} does not have {len(xy[0])} coordinates as others")
             xy.append(place)
         number = {node: at for at, node in enumerate(nodes)}
         edges = [(number[u], number[v]) for u, v in G.edges()]
@@ -221,12 +226,12 @@ class Roadmap:
 
     @property
     def xy(self) -> npt.NDArray[np.float64]:
-        """float64[n, 2], places in your unit of length, as rounded; read-only."""
+        """float64[n, 2], with heights [n, 3], places in your unit of length, as rounded; read-only."""
         return self._graph.xy(self._resolution)
 
     @property
     def units(self) -> npt.NDArray[np.int64]:
-        """int64[n, 2], places in whole length units; read-only, and not a copy."""
+        """int64[n, 2], with heights [n, 3], places in whole length units; read-only, and not a copy."""
         return self._graph.units
 
     @property

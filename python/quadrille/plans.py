@@ -51,15 +51,15 @@ class Plan:
         return cast(float, self.costs.sum().item())
 
     def _timeline(self, agent: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Moments float64[k] and places float64[k, 2]; between two of them the agent moves evenly."""
+        """Moments float64[k] and places float64[k, dimensions]; between two of them the agent moves evenly."""
         raise NotImplementedError
 
     def sample(self, hz: float) -> npt.NDArray[np.float64]:
         """Where everybody is, ``hz`` times per timestep or unit of time.
 
         Returns:
-            float64[n, T, 2], (x, y) at times 0, 1 / hz, ... up to the makespan. On a grid a move takes
-            one timestep, evenly.
+            float64[n, T, 2], (x, y) at times 0, 1 / hz, ... up to the makespan; on a roadmap with
+            heights float64[n, T, 3]. On a grid a move takes one timestep, evenly.
 
         Raises:
             ValueError: for a rate that is not positive, and on graphs without coordinates.
@@ -68,12 +68,17 @@ class Plan:
             raise ValueError(f"hz: a rate is positive, not {hz}")
         # Half a millionth more, so that rounding does not cost the last moment.
         moments = np.arange(int(np.floor(self.makespan * hz + 5e-7)) + 1) / hz
-        places = np.empty((len(self), len(moments), 2))
+        places = np.empty((len(self), len(moments), self._dimensions))
         for agent in range(len(self)):
             times, xy = self._timeline(agent)
-            for axis in (0, 1):
+            for axis in range(self._dimensions):
                 places[agent, :, axis] = np.interp(moments, times, xy[:, axis])
         return places
+
+    @property
+    def _dimensions(self) -> int:
+        """Of places."""
+        return 2
 
     def to_pandas(self) -> pd.DataFrame:
         """The plan as a table, for which pandas is needed."""
@@ -273,6 +278,9 @@ class StepPlan(Plan):
 STOP = np.dtype(
     [("vertex", "i4"), ("x", "f8"), ("y", "f8"), ("arrive", "f8"), ("depart", "f8")]
 )
+STOP_IN_SPACE = np.dtype(
+    [("vertex", "i4"), ("x", "f8"), ("y", "f8"), ("z", "f8"), ("arrive", "f8"), ("depart", "f8")]
+)
 
 
 @dataclass(frozen=True)
@@ -281,9 +289,9 @@ class TimedPath:
 
     name: str
     stops: npt.NDArray[np.void]
-    """Structured [k]: (vertex, x, y, arrive, depart), places and times in your units. The agent is at
-    the vertex from its arrival to its departure, then moves evenly to the next one; the last stop is
-    for ever."""
+    """Structured [k]: (vertex, x, y, arrive, depart), on a roadmap with heights also z after y; places
+    and times in your units. The agent is at the vertex from its arrival to its departure, then moves
+    evenly to the next one; the last stop is for ever."""
     ticks: npt.NDArray[np.void]
     """Structured [k]: (vertex, arrive, depart) in whole ticks, which is what the proof is about.
     Read-only, and not a copy: it keeps the plan alive."""
@@ -301,6 +309,18 @@ class TimedPlan(Plan):
         return cast(Roadmap, self._fleet._places)
 
     @property
+    def _dimensions(self) -> int:
+        return self._roadmap.units.shape[1]
+
+    @property
+    def _axes(self) -> str:
+        return "xyz"[: self._dimensions]
+
+    @property
+    def _stop(self) -> np.dtype[np.void]:
+        return STOP if self._dimensions == 2 else STOP_IN_SPACE
+
+    @property
     def costs(self) -> npt.NDArray[np.float64]:
         fleet = self._fleet
         return np.array([fleet._cost(cost) for cost in self._plan.costs().tolist()], dtype=np.float64)
@@ -313,10 +333,11 @@ class TimedPlan(Plan):
     def __getitem__(self, agent: int) -> TimedPath:
         agent = self._checked(agent)
         ticks = self._plan.ticks(agent)
-        stops = np.empty(len(ticks), dtype=STOP)
+        stops = np.empty(len(ticks), dtype=self._stop)
         stops["vertex"] = ticks["vertex"]
         xy = self._roadmap.xy[stops["vertex"]]
-        stops["x"], stops["y"] = xy[:, 0], xy[:, 1]
+        for axis, name in enumerate(self._axes):
+            stops[name] = xy[:, axis]
         stops["arrive"], stops["depart"] = self._plan.times(agent, self._roadmap.resolution)
         cost = float(stops["arrive"][-1])
         return TimedPath(self._fleet._names[agent], stops, ticks, cost)
@@ -332,7 +353,8 @@ class TimedPlan(Plan):
         leaves = bool(self._fleet.leaves[self._checked(agent)])
         if leaves and path.cost == 0:
             return None
-        stops = np.stack([path.stops[name] for name in ("x", "y", "arrive", "depart")], axis=1)
+        names = [*self._axes, "arrive", "depart"]
+        stops = np.stack([path.stops[name] for name in names], axis=1)
         body = self._fleet.bodies[self._checked(agent)]
         return obstacle_of((body, stops, leaves))
 
@@ -342,17 +364,17 @@ class TimedPlan(Plan):
     def _timeline(self, agent: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         stops = self[agent].stops
         times = np.stack([stops["arrive"], stops["depart"]], axis=1).ravel()
-        places = np.stack([stops["x"], stops["y"]], axis=1)
+        places = np.stack([stops[name] for name in self._axes], axis=1)
         return times, np.repeat(places, 2, axis=0)
 
     def _columns(self) -> dict[str, Any]:
-        """One row per stop: agent, vertex, x, y, arrive, depart."""
+        """One row per stop: agent, vertex, x, y, with heights z, arrive, depart."""
         paths = list(self)
-        stops = np.concatenate([path.stops for path in paths] or [np.empty(0, dtype=STOP)])
+        stops = np.concatenate([path.stops for path in paths] or [np.empty(0, dtype=self._stop)])
         columns: dict[str, Any] = {
             "agent": [path.name for path in paths for _ in range(len(path.stops))]
         }
-        columns.update((name, stops[name]) for name in STOP.names or ())
+        columns.update((name, stops[name]) for name in self._stop.names or ())
         return columns
 
     def verify(self) -> Report:

@@ -9,7 +9,7 @@ from typing import Any, Iterable, Optional, Sequence, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import bools, doubles, ints, per_agent
+from ._arrays import bools, doubles, ints, per_agent, with_places
 
 # Whom an edge is open to: everybody, a group, or some; None among these is who has no group.
 Only = Union[None, str, Iterable[Optional[str]]]
@@ -27,7 +27,7 @@ class Obstacle:
     keep clear of it as of each other."""
 
     path: npt.ArrayLike
-    """float[k, 4]: x, y, arrival and departure of each stop, in your units of length and time, rounded to
+    """float[k, 4]: x, y, arrival and departure of each stop, or float[k, 5] with z after y, in your units of length and time, rounded to
     the nearest length unit and tick. It goes straight and evenly from each stop to the next, which it
     reaches later; before the first one it is nowhere."""
     radius: Optional[float] = None
@@ -44,7 +44,7 @@ class Obstacle:
             if self.radius is not None:
                 raise ValueError("an obstacle has either a radius or a polygon")
             body = doubles(self.polygon, "polygon", (None, 2))
-        return body, doubles(self.path, "path", (None, 4)), bool(self.leaves)
+        return body, with_places(self.path, "path", 2), bool(self.leaves)
 
 
 @dataclass(frozen=True)

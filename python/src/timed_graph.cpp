@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Roadmaps: vertices in the plane and directed edges.
+// Roadmaps: vertices in the plane or in space and directed edges.
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -39,7 +39,8 @@ std::uint64_t bits_of(const continuous::Groups& groups) {
   return bits;
 }
 
-/// `xy`: [n, 2], `edges`: [m, 2], `durations`: [m], NaN for none, `open_to`: [m], groups.
+/// `xy`: [n, 2], or [n, 3] with heights, `edges`: [m, 2], `durations`: [m], NaN for none,
+/// `open_to`: [m], groups.
 std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const Doubles& durations,
                                     const Bits& open_to, const Sizes& sizes) {
   const Resolution resolution = resolution_of(sizes);
@@ -48,9 +49,11 @@ std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const 
   for (py::ssize_t v = 0; v < coordinates.shape(0); ++v) {
     const auto x = continuous::quantise_coordinate(coordinates(v, 0), resolution);
     const auto y = continuous::quantise_coordinate(coordinates(v, 1), resolution);
-    if (!x || !y)
+    const bool is_flat = coordinates.shape(1) == 2;
+    const auto z = continuous::quantise_coordinate(is_flat ? 0 : coordinates(v, 2), resolution);
+    if (!x || !y || !z)
       refuse(entry("xy", v) + ": the coordinate is too large for the resolution, or not finite");
-    points.push_back({*x, *y});
+    points.push_back({*x, *y, *z});
   }
   const auto ends = edges.unchecked<2>();
   const auto times = durations.unchecked<1>();
@@ -71,23 +74,29 @@ std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const 
   return std::make_shared<Roadmap>(take(Roadmap::make(std::move(points), std::move(list))));
 }
 
-/// int64[n, 2] in length units: the roadmap's own memory.
+/// How many coordinates a place has.
+py::ssize_t dimensions(const Roadmap& roadmap) { return roadmap.is_flat() ? 2 : 3; }
+
+/// int64[n, 2], or [n, 3], in length units: the roadmap's own memory.
 py::array units_of(const py::object& self) {
-  static_assert(sizeof(Point) == 2 * sizeof(std::int64_t) &&
+  static_assert(sizeof(Point) == 3 * sizeof(std::int64_t) &&
                 sizeof(Length) == sizeof(std::int64_t));
-  const auto& points = self.cast<const Roadmap&>().positions();
+  const auto& roadmap = self.cast<const Roadmap&>();
+  const auto& points = roadmap.positions();
   return view_of(points.data(), py::dtype::of<std::int64_t>(),
-                 {static_cast<py::ssize_t>(points.size()), 2},
+                 {static_cast<py::ssize_t>(points.size()), dimensions(roadmap)},
                  {sizeof(Point), sizeof(std::int64_t)}, self);
 }
 
 py::array coordinates_of(const Roadmap& roadmap, const Sizes& sizes) {
   const Resolution resolution = resolution_of(sizes);
-  auto array = new_array<double>({roadmap.num_vertices(), 2});
+  auto array =
+      new_array<double>({roadmap.num_vertices(), static_cast<std::size_t>(dimensions(roadmap))});
   double* to = array.mutable_data();
   for (const Point& point : roadmap.positions()) {
     *to++ = continuous::in_input_units(point.x, resolution);
     *to++ = continuous::in_input_units(point.y, resolution);
+    if (!roadmap.is_flat()) *to++ = continuous::in_input_units(point.z, resolution);
   }
   return frozen(array);
 }

@@ -69,14 +69,17 @@ continuous::MovingObstacle obstacle_of(const py::tuple& given, const Resolution&
       body_of(given[0], resolution, who), {}, given[2].cast<bool>()};
   const auto path = given[1].cast<Doubles>();
   const auto stops = path.unchecked<2>();
+  const bool is_flat = stops.shape(1) == 4;
+  const py::ssize_t times = is_flat ? 2 : 3;
   for (py::ssize_t k = 0; k < stops.shape(0); ++k) {
     const auto x = continuous::quantise_coordinate(stops(k, 0), resolution);
     const auto y = continuous::quantise_coordinate(stops(k, 1), resolution);
-    const auto arrive = moment_of(stops(k, 2), resolution, who + "an arrival");
-    const auto depart = moment_of(stops(k, 3), resolution, who + "a departure");
-    if (!x || !y) refuse(who + "a place is too far away for the resolution, or not finite");
+    const auto z = continuous::quantise_coordinate(is_flat ? 0 : stops(k, 2), resolution);
+    const auto arrive = moment_of(stops(k, times), resolution, who + "an arrival");
+    const auto depart = moment_of(stops(k, times + 1), resolution, who + "a departure");
+    if (!x || !y || !z) refuse(who + "a place is too far away for the resolution, or not finite");
     if (!arrive || !depart) refuse(who + "a time is not a number");
-    obstacle.path.push_back({{*x, *y}, *arrive, *depart});
+    obstacle.path.push_back({{*x, *y, *z}, *arrive, *depart});
   }
   return obstacle;
 }
@@ -148,13 +151,15 @@ py::object body_of(const continuous::Body& body, const Resolution& resolution) {
   return frozen(array);
 }
 
-/// float64[k, 4].
-py::array stops_of(const continuous::MovingObstacle& obstacle, const Resolution& resolution) {
-  auto array = new_array<double>({obstacle.path.size(), 4});
+/// float64[k, 4], with heights [k, 5].
+py::array stops_of(const continuous::MovingObstacle& obstacle, bool is_flat,
+                   const Resolution& resolution) {
+  auto array = new_array<double>({obstacle.path.size(), is_flat ? std::size_t{4} : 5});
   double* to = array.mutable_data();
   for (const continuous::MovingObstacle::Stop& stop : obstacle.path) {
     *to++ = continuous::in_input_units(stop.at.x, resolution);
     *to++ = continuous::in_input_units(stop.at.y, resolution);
+    if (!is_flat) *to++ = continuous::in_input_units(stop.at.z, resolution);
     *to++ = continuous::in_input_units(stop.arrive, resolution);
     *to++ = continuous::in_input_units(stop.depart, resolution);
   }
@@ -237,7 +242,8 @@ py::dict rules_of(const TimedInstance& self) {
   py::list obstacles;
   for (const continuous::MovingObstacle& obstacle : self.instance.obstacles())
     obstacles.append(py::make_tuple(body_of(obstacle.body, resolution),
-                                    stops_of(obstacle, resolution), obstacle.leaves));
+                                    stops_of(obstacle, self.instance.is_flat(), resolution),
+                                    obstacle.leaves));
   py::dict rules;
   rules["groups"] = frozen(groups);
   rules["releases"] = frozen(releases);

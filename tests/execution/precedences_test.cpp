@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <variant>
 
@@ -135,7 +136,7 @@ bool discs_collide(const ContinuousCase& c, const Precedences& order, const Move
                    const MoveId& b, std::int64_t lead) {
   const auto point = [&](VertexId vertex) {
     const Point& p = c.instance.roadmap().position(vertex);
-    return std::pair<Wide, Wide>(p.x.count(), p.y.count());
+    return std::array<Wide, 3>{p.x.count(), p.y.count(), p.z.count()};
   };
   const TimedMove &ma = order.at(a), &mb = order.at(b);
   const Wide duration_a = (ma.end - ma.begin).count(), duration_b = (mb.end - mb.begin).count();
@@ -146,25 +147,27 @@ bool discs_collide(const ContinuousCase& c, const Precedences& order, const Move
   const Wide shift = (mb.begin - ma.begin).count() - lead;
   const Wide first = std::max<Wide>(0, shift), last = std::min(duration_a, duration_b + shift);
   if (first > last) return false;
-  const auto [ax0, ay0] = point(ma.from);
-  const auto [ax1, ay1] = point(ma.to);
-  const auto [bx0, by0] = point(mb.from);
-  const auto [bx1, by1] = point(mb.to);
+  const auto [ax0, ay0, az0] = point(ma.from);
+  const auto [ax1, ay1, az1] = point(ma.to);
+  const auto [bx0, by0, bz0] = point(mb.from);
+  const auto [bx1, by1, bz1] = point(mb.to);
   const Wide both = duration_a * duration_b;
   const Wide vx = (bx1 - bx0) * duration_a - (ax1 - ax0) * duration_b;
   const Wide vy = (by1 - by0) * duration_a - (ay1 - ay0) * duration_b;
+  const Wide vz = (bz1 - bz0) * duration_a - (az1 - az0) * duration_b;
   const Wide px = (bx0 - ax0) * both - (bx1 - bx0) * duration_a * shift;
   const Wide py = (by0 - ay0) * both - (by1 - by0) * duration_a * shift;
+  const Wide pz = (bz0 - az0) * both - (bz1 - bz0) * duration_a * shift;
   const Wide reach = (radius(a) + radius(b)) * both;
   const auto is_near = [&](Wide s) {
-    const Wide x = px + vx * s, y = py + vy * s;
-    return x * x + y * y < reach * reach;
+    const Wide x = px + vx * s, y = py + vy * s, z = pz + vz * s;
+    return x * x + y * y + z * z < reach * reach;
   };
   if (is_near(first) || is_near(last)) return true;
-  const Wide square = vx * vx + vy * vy, along = -(px * vx + py * vy);
+  const Wide square = vx * vx + vy * vy + vz * vz, along = -(px * vx + py * vy + pz * vz);
   if (square == 0 || along <= first * square || along >= last * square) return false;
-  const Wide cross = px * vy - py * vx;
-  return cross * cross < reach * reach * square;
+  const Wide x = py * vz - pz * vy, y = pz * vx - px * vz, z = px * vy - py * vx;
+  return x * x + y * y + z * z < reach * reach * square;
 }
 
 TEST(Precedences, OneTickMoreThanEachSlackAndTheTwoCollide) {

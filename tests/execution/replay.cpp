@@ -40,17 +40,19 @@ Replay::Vector Replay::place(AgentId agent, Real clock) const {
   while (k + 1 < path.size() && real(path[k + 1].arrive) <= clock) ++k;
   const auto at = [&](VertexId v) {
     const geometry::Point& p = instance_.roadmap().position(v);
-    return Vector{real(p.x), real(p.y)};
+    return Vector{real(p.x), real(p.y), real(p.z)};
   };
   const Vector from = at(path[k].vertex);
   if (k + 1 == path.size() || clock <= real(path[k].depart)) return from;
   const Vector to = at(path[k + 1].vertex);
   const Real share =
       (clock - real(path[k].depart)) / (real(path[k + 1].arrive) - real(path[k].depart));
-  return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share};
+  return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share,
+          from.z + (to.z - from.z) * share};
 }
 
-/// The largest gap between the bodies along any direction that can be the one of least distance.
+/// Of bodies in the plane: the largest gap between them along any direction that can be the one of
+/// least distance.
 Real Replay::apart(AgentId i, AgentId j, const Vector& offset) const {
   const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
   Real most = -std::numeric_limits<Real>::infinity();
@@ -85,17 +87,19 @@ Real Replay::apart(AgentId i, AgentId j, const Vector& offset) const {
 }
 
 Real Replay::straight(AgentId i, AgentId j, const Vector& from, const Vector& to) const {
-  const Vector way{to.x - from.x, to.y - from.y};
-  const Real square = way.x * way.x + way.y * way.y;
+  const Vector way{to.x - from.x, to.y - from.y, to.z - from.z};
+  const Real square = way.x * way.x + way.y * way.y + way.z * way.z;
   const auto at = [&](Real share) {
-    return Vector{from.x + way.x * share, from.y + way.y * share};
+    return Vector{from.x + way.x * share, from.y + way.y * share, from.z + way.z * share};
   };
-  const Real nearest =
-      square == 0 ? 0 : std::clamp<Real>(-(from.x * way.x + from.y * way.y) / square, 0, 1);
+  const Real towards = -(from.x * way.x + from.y * way.y + from.z * way.z);
+  const Real nearest = square == 0 ? 0 : std::clamp<Real>(towards / square, 0, 1);
   const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
   const Vector closest = at(nearest);
-  if (std::holds_alternative<geometry::Disc>(a) && std::holds_alternative<geometry::Disc>(b))
-    return apart(i, j, closest);
+  const auto *disc_a = std::get_if<geometry::Disc>(&a), *disc_b = std::get_if<geometry::Disc>(&b);
+  if (disc_a != nullptr && disc_b != nullptr)
+    return std::hypot(closest.x, closest.y, closest.z) - real(disc_a->radius) -
+           real(disc_b->radius);
   const auto reach = [](const geometry::Body& body) {
     return real(geometry::enclosing_radius(body));
   };
@@ -120,7 +124,7 @@ Real Replay::separation(AgentId i, Real x0, Real x1, AgentId j, Real y0, Real y1
   std::sort(shares.begin(), shares.end());
   const auto offset = [&](Real share) {
     const Vector a = place(i, x0 + (x1 - x0) * share), b = place(j, y0 + (y1 - y0) * share);
-    return Vector{b.x - a.x, b.y - a.y};
+    return Vector{b.x - a.x, b.y - a.y, b.z - a.z};
   };
   const auto is_gone = [&](AgentId a, Real clock) {
     return instance_.agent(a).leaves && clock >= real(plan_.paths[a].back().arrive);

@@ -28,7 +28,7 @@ class Replay {
 
  private:
   struct Vector {
-    Real x = 0, y = 0;
+    Real x = 0, y = 0, z = 0;
   };
   [[nodiscard]] Vector place(AgentId agent, Real clock) const;
   [[nodiscard]] Real apart(AgentId i, AgentId j, const Vector& offset) const;

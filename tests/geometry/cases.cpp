@@ -11,7 +11,9 @@ namespace {
 using support::Random;
 
 std::ostream& operator<<(std::ostream& out, const Point& p) {
-  return out << "{" << p.x << ", " << p.y << "}";
+  out << "{" << p.x << ", " << p.y;
+  if (p.z != 0) out << ", " << p.z;
+  return out << "}";
 }
 
 std::ostream& operator<<(std::ostream& out, const Motion& motion) {
@@ -25,8 +27,10 @@ std::ostream& operator<<(std::ostream& out, const Body& body) {
   return out << "}).value()";
 }
 
-Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y}; }
-Point operator*(std::int64_t factor, const Point& p) { return {factor * p.x, factor * p.y}; }
+Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
+Point operator*(std::int64_t factor, const Point& p) {
+  return {factor * p.x, factor * p.y, factor * p.z};
+}
 
 Point draw_point(Random& random, Length size) {
   return {draw(random, -size, size), draw(random, -size, size)};
@@ -146,6 +150,55 @@ Motion scaled(const Motion& motion, std::int64_t factor) {
   return {factor * motion.from, factor * motion.to, motion.duration};
 }
 
+// Of length 3, and normal to each other.
+const std::vector<Point> kAxes{{1, 2, 2}, {2, 1, -2}, {2, -2, 1}};
+
+// b is moved out of the plane of `turned(c, which)` by as much as makes bodies that touched touch
+// again, after their radii have grown: 3, 4 and 5 times the sum of the radii.
+Case lifted(Case c, std::size_t which, support::Random& random) {
+  Length &own = std::get<Disc>(c.body_a).radius, &other = std::get<Disc>(c.body_b).radius;
+  const Length reach = own + other;
+  const std::int64_t up = random.percent(50) ? 1 : -1;
+  c.a = scaled(c.a, 4);
+  c.b = scaled(c.b, 4);
+  own = 4 * own + reach;
+  other = 4 * other;
+  Case result = turned(c, which);
+  const Point across = kAxes[(which + 2) % 3];
+  const Point shift = (up * 3 * reach.count()) * across;
+  result.b.from = result.b.from + shift;
+  result.b.to = result.b.to + shift;
+  return result;
+}
+
+// Heights of their own for all ends.
+Case with_heights(Case c, support::Random& random) {
+  Length size = 1;
+  for (const Point& p : {c.a.from, c.a.to, c.b.from, c.b.to})
+    size = std::max({size, abs(p.x), abs(p.y)});
+  for (Motion* motion : {&c.a, &c.b}) {
+    const bool is_rest = motion->is_rest();
+    motion->from.z = draw(random, -size, size);
+    motion->to.z = is_rest || random.percent(30) ? motion->from.z : draw(random, -size, size);
+  }
+  return c;
+}
+
+Case in_space(const Case& c, Length most, support::Random& random) {
+  Length size = 1;
+  for (const Point& p : {c.a.from, c.a.to, c.b.from, c.b.to})
+    size = std::max({size, abs(p.x), abs(p.y)});
+  size = std::max({size, std::get<Disc>(c.body_a).radius, std::get<Disc>(c.body_b).radius});
+  switch (random.below(3)) {
+    case 0:
+      return 6 * size > most ? with_heights(c, random) : turned(c, random.below(6));
+    case 1:
+      return 64 * size > most ? with_heights(c, random) : lifted(c, random.below(3), random);
+    default:
+      return with_heights(c, random);
+  }
+}
+
 }  // namespace
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
@@ -220,6 +273,22 @@ Case hard_discs(Random& random) {
       return anything(random, scale);
   }
 }
+
+Case turned(const Case& c, std::size_t which) {
+  const std::size_t first = which % 3, second = (first + 1 + which / 3) % 3;
+  const auto turn = [&](const Point& p) {
+    return p.x.count() * kAxes[first] + p.y.count() * kAxes[second];
+  };
+  const auto larger = [](const Body& body) { return Disc{3 * std::get<Disc>(body).radius}; };
+  return {larger(c.body_a),
+          {turn(c.a.from), turn(c.a.to), c.a.duration},
+          larger(c.body_b),
+          {turn(c.b.from), turn(c.b.to), c.b.duration}};
+}
+
+Case small_balls(Random& random) { return in_space(small_discs(random), 4096, random); }
+
+Case hard_balls(Random& random) { return in_space(hard_discs(random), kMaxLength, random); }
 
 Case hard_bodies(Random& random) {
   Case c = hard_discs(random);

@@ -36,6 +36,15 @@ Case hard_discs(support::Random& random);
 /// The same for two bodies of which at least one is a polygon.
 Case hard_bodies(support::Random& random);
 
+/// Two balls that move in space, at small numbers and at hard ones: cases as above in a plane that
+/// is turned, so that what touches still does, one of them lifted off it, and ones with heights of
+/// their own.
+Case small_balls(support::Random& random);
+Case hard_balls(support::Random& random);
+/// A case in the plane through the origin that three integer vectors of length 3, normal to each
+/// other, turn: all lengths times 3. `which`, of 0 .. 5, says how.
+Case turned(const Case& c, std::size_t which);
+
 /// A convex polygon around the origin whose corners are at most about `size` away.
 ConvexPolygon random_polygon(support::Random& random, Length size);
 

@@ -20,7 +20,7 @@ Leg leg(const Motion& motion, Ticks begin) {
 Length extent_of(const Case& c) {
   Length extent = 0;
   for (const Point& p : {c.a.from, c.a.to, c.b.from, c.b.to})
-    extent = std::max({extent, abs(p.x), abs(p.y)});
+    extent = std::max({extent, abs(p.x), abs(p.y), abs(p.z)});
   return extent;
 }
 
@@ -54,6 +54,19 @@ TEST(Encounter, PolygonsThatPass) {
     EXPECT_EQ(pass(other, kSquare, -20), Encounter::touch);
     EXPECT_EQ(pass(other, kSquare, 0), Encounter::collision);
   }
+}
+
+TEST(Encounter, BallsThatPass) {
+  const auto pass = [](Length beside, Length above) {
+    return look({Disc{10},
+                 {{0, 0}, {0, 0, 100}, 100},
+                 Disc{15},
+                 {{beside, above, 100}, {beside, above, 0}, 100}},
+                0);
+  };
+  EXPECT_EQ(pass(15, 19), Encounter::collision);
+  EXPECT_EQ(pass(15, 20), Encounter::touch);
+  EXPECT_EQ(pass(15, 21), Encounter::clear);
 }
 
 TEST(Encounter, OnlyCommonMomentsCount) {
@@ -94,12 +107,14 @@ TEST(Encounter, AgreesWithTheOracle) {
   int exact_touches = 0;
   for (int seed = 0; seed < num_seeds; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
-    const Case c = seed % 2 == 0 ? small_discs(random) : small_bodies(random);
+    const Case c = seed % 3 == 0   ? small_discs(random)
+                   : seed % 3 == 1 ? small_bodies(random)
+                                   : small_balls(random);
     for (int k = 0; k < 4; ++k) {
       const Ticks offset = draw_ticks(random, -c.b.duration, c.a.duration);
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", offset " << offset << ": " << c);
       const bool exact =
-          oracle::Oracle<oracle::SmallInteger>(c.body_a, c.a, c.body_b, c.b).collide(offset);
+          oracle::Oracle<oracle::BigInteger>(c.body_a, c.a, c.body_b, c.b).collide(offset);
       compare(c, offset, exact, seen);
       const auto gap = BodyPair(c.body_a, c.body_b).gap(c.a, c.b, offset);
       if (!exact && gap && gap->at_most < 1e-9) ++exact_touches;
@@ -117,7 +132,9 @@ TEST(Encounter, IsNeverWrongAboutHardCases) {
   const int num_seeds = static_cast<int>(support::scaled(6000));
   for (int seed = 0; seed < num_seeds; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
-    const Case c = seed % 2 == 0 ? hard_discs(random) : hard_bodies(random);
+    const Case c = seed % 3 == 0   ? hard_discs(random)
+                   : seed % 3 == 1 ? hard_bodies(random)
+                                   : hard_balls(random);
     const Ticks offset = draw_ticks(random, -c.b.duration, c.a.duration);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", offset " << offset << ": " << c);
     const bool exact =

@@ -32,11 +32,12 @@ TEST(Gap, KnownValues) {
 }
 
 // (bound + reach)^2 against the exact squared distance, in rational numbers.
-TEST(Gap, BoundsEncloseTheExactDistance) {
+template <class Generator>
+void expect_enclosure(Generator generate) {
   int apart = 0;
   for (int seed = 0; seed < 3000; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
-    const Case c = hard_discs(random);
+    const Case c = generate(random);
     const Ticks offset = draw_ticks(random, -c.b.duration, c.a.duration);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", offset " << offset << ": " << c);
     const oracle::Oracle<BigInteger> oracle(c.body_a, c.a, c.body_b, c.b);
@@ -59,10 +60,13 @@ TEST(Gap, BoundsEncloseTheExactDistance) {
     const double largest = static_cast<double>((8 * kMaxLength).count());
     EXPECT_LE(gap->at_most - gap->at_least, 1e-13 * largest);
     EXPECT_EQ(gap->at_most == 0, exact == cpp_rational(BigInteger(reach.count()) * reach.count()));
-    if (HasFailure()) return;
+    if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(apart, 500);
 }
+
+TEST(Gap, BoundsOfDiscsEncloseTheExactDistance) { expect_enclosure(hard_discs); }
+TEST(Gap, BoundsOfBallsEncloseTheExactDistance) { expect_enclosure(hard_balls); }
 
 }  // namespace
 }  // namespace quadrille::geometry

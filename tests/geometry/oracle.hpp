@@ -25,6 +25,7 @@ class Oracle {
   struct Vector {
     Int x;
     Int y;
+    Int z = 0;
   };
   struct Fraction {
     Int numerator;
@@ -84,20 +85,22 @@ class Oracle {
       return Int(unit(a_).count()) * at_b - Int(unit(b_).count()) * at_a;
     };
     return {coordinate(a_.from.x, a_.to.x, b_.from.x, b_.to.x),
-            coordinate(a_.from.y, a_.to.y, b_.from.y, b_.to.y)};
+            coordinate(a_.from.y, a_.to.y, b_.from.y, b_.to.y),
+            coordinate(a_.from.z, a_.to.z, b_.from.z, b_.to.z)};
   }
 
   static Fraction squared_distance(const Vector& p, const Vector& from, const Vector& to) {
-    const Vector step{to.x - from.x, to.y - from.y};
-    Int done = (p.x - from.x) * step.x + (p.y - from.y) * step.y;
-    Int all = step.x * step.x + step.y * step.y;
+    const Vector step{to.x - from.x, to.y - from.y, to.z - from.z};
+    Int done = (p.x - from.x) * step.x + (p.y - from.y) * step.y + (p.z - from.z) * step.z;
+    Int all = step.x * step.x + step.y * step.y + step.z * step.z;
     if (all == 0) all = 1;
     if (done < 0) done = 0;
     if (done > all) done = all;
     // The nearest point is from + step * done / all.
     const Int x = (p.x - from.x) * all - step.x * done;
     const Int y = (p.y - from.y) * all - step.y * done;
-    return {x * x + y * y, all * all};
+    const Int z = (p.z - from.z) * all - step.z * done;
+    return {x * x + y * y + z * z, all * all};
   }
 
   static int side(const Vector& p, const Vector& q, const Vector& r) {

@@ -63,14 +63,15 @@ void expect_agreement(const SweptVolumes& volumes, const Motion& motion, const B
 
 TEST(SweptVolumes, AgreeWithAskingEachPair) {
   SweptVolumes::Tally tally;
-  for (int seed = 0; seed < 90; ++seed) {
+  for (int seed = 0; seed < 120; ++seed) {
     SCOPED_TRACE(seed);
     support::Random random(static_cast<std::uint64_t>(seed));
     // Bodies and motions of many cases; sometimes as large as can be.
     const auto generate = [&] {
-      return seed % 3 == 0   ? hard_bodies(random)
-             : seed % 3 == 1 ? small_bodies(random)
-                             : hard_discs(random);
+      return seed % 4 == 0   ? hard_bodies(random)
+             : seed % 4 == 1 ? small_bodies(random)
+             : seed % 4 == 2 ? hard_discs(random)
+                             : hard_balls(random);
     };
     const Case bodies = generate();
     std::vector<Motion> motions;
@@ -90,7 +91,7 @@ TEST(SweptVolumes, AgreeWithAskingEachPair) {
 // Lines that are nearly parallel are what FCL's closed form is worst at.
 TEST(SweptVolumes, NearlyParallelLines) {
   SweptVolumes::Tally tally;
-  for (int seed = 0; seed < 4000; ++seed) {
+  for (int seed = 0; seed < 6000; ++seed) {
     SCOPED_TRACE(seed);
     support::Random random(static_cast<std::uint64_t>(seed));
     const Length size{std::int64_t{1} << (20 + random.below(18))};
@@ -100,6 +101,7 @@ TEST(SweptVolumes, NearlyParallelLines) {
     const Motion a{{0, 0}, along, 1 << 20};
     const Motion b{{nudge(), aside}, {along.x + nudge(), along.y + aside + nudge()}, 1 << 20};
     if (a.is_rest() || b.is_rest()) continue;
+    const std::size_t turn = random.below(9);  // Where below 6: in space.
     // Discs whose reach is about as large as the lines are apart.
     const double exact =
         std::abs(static_cast<double>(along.x.count())) /
@@ -107,7 +109,10 @@ TEST(SweptVolumes, NearlyParallelLines) {
         static_cast<double>(aside.count());
     const Length radius =
         std::max(Length{1}, Length(static_cast<std::int64_t>(exact / 2)) + nudge());
-    expect_agreement(SweptVolumes({b}), a, Disc{radius}, Disc{radius}, tally);
+    Case c{Disc{radius}, a, Disc{radius}, b};
+    if (turn < 6) c = turned(c, turn);
+    if (turn < 3) c.b.to.z += nudge();
+    expect_agreement(SweptVolumes({c.b}), c.a, c.body_a, c.body_b, tally);
   }
   EXPECT_GT(tally.doubtful, 1000u);
 }

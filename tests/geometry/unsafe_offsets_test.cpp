@@ -99,14 +99,14 @@ TEST(UnsafeOffsets, RunShorterThanATick) {
 }
 
 // Everything by hand for small numbers: each offset is tried.
-template <class Generator>
+template <class Int, class Generator>
 void every_offset(Generator generate, int count) {
   int unsafe_cases = 0;
   for (int seed = 0; seed < count; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
     const Case c = generate(random);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << c);
-    const Oracle<SmallInteger> oracle(c.body_a, c.a, c.body_b, c.b);
+    const Oracle<Int> oracle(c.body_a, c.a, c.body_b, c.b);
     const BodyPair pair(c.body_a, c.body_b);
     const Offsets offsets = pair.unsafe_offsets(c.a, c.b);
     if (offsets) ++unsafe_cases;
@@ -121,8 +121,9 @@ void every_offset(Generator generate, int count) {
   EXPECT_LT(unsafe_cases, count - count / 10);
 }
 
-TEST(UnsafeOffsets, EveryOffsetOfSmallDiscs) { every_offset(small_discs, 8000); }
-TEST(UnsafeOffsets, EveryOffsetOfSmallBodies) { every_offset(small_bodies, 4000); }
+TEST(UnsafeOffsets, EveryOffsetOfSmallDiscs) { every_offset<SmallInteger>(small_discs, 8000); }
+TEST(UnsafeOffsets, EveryOffsetOfSmallBodies) { every_offset<SmallInteger>(small_bodies, 4000); }
+TEST(UnsafeOffsets, EveryOffsetOfSmallBalls) { every_offset<BigInteger>(small_balls, 3000); }
 
 // For large discs only: whether any offset is unsafe, by ternary search on the convex distance.
 bool any_unsafe(const Oracle<BigInteger>& oracle, const Case& c) {
@@ -162,11 +163,12 @@ void expect_symmetric(const Case& c, const BodyPair& pair, const Offsets& offset
   EXPECT_EQ(pair.can_meet(c.a, c.b), pair.swapped().can_meet(c.b, c.a));
 }
 
-TEST(UnsafeOffsets, HardDiscsAgreeWithTheOracle) {
+template <class Generator>
+void expect_agreement(Generator generate, int count) {
   int unsafe_cases = 0;
-  for (int seed = 0; seed < 12000; ++seed) {
+  for (int seed = 0; seed < count; ++seed) {
     support::Random random(static_cast<std::uint64_t>(seed));
-    const Case c = hard_discs(random);
+    const Case c = generate(random);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << c);
     ASSERT_TRUE(is_valid(c.a) && is_valid(c.b));
     const Oracle<BigInteger> oracle(c.body_a, c.a, c.body_b, c.b);
@@ -180,11 +182,14 @@ TEST(UnsafeOffsets, HardDiscsAgreeWithTheOracle) {
       EXPECT_FALSE(any_unsafe(oracle, c));
     }
     expect_symmetric(c, pair, offsets);
-    if (HasFailure()) return;
+    if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(unsafe_cases, 3000);
-  EXPECT_LT(unsafe_cases, 11000);
+  EXPECT_GT(unsafe_cases, count / 4);
+  EXPECT_LT(unsafe_cases, count - count / 12);
 }
+
+TEST(UnsafeOffsets, HardDiscsAgreeWithTheOracle) { expect_agreement(hard_discs, 12000); }
+TEST(UnsafeOffsets, HardBallsAgreeWithTheOracle) { expect_agreement(hard_balls, 8000); }
 
 TEST(UnsafeOffsets, HardBodiesAgreeWithTheOracle) {
   for (int seed = 0; seed < 3000; ++seed) {
@@ -205,7 +210,7 @@ TEST(UnsafeOffsets, HardBodiesAgreeWithTheOracle) {
         EXPECT_FALSE(oracle.collide(d));
     }
     expect_symmetric(c, pair, offsets);
-    if (HasFailure()) return;
+    if (testing::Test::HasFailure()) return;
   }
 }
 

@@ -94,6 +94,30 @@ def test_samples_are_where_the_paths_are(siding):
             assert gap - 1e-6 <= distance <= gap + 4 / hz
 
 
+def test_heights():
+    roadmap = q.Roadmap([(0, 0, 0), (0, 3, 4), (0, 3, 8)], [(0, 1), (1, 2)], both_ways=True, resolution=0.001)
+    assert roadmap.xy.tolist() == [[0, 0, 0], [0, 3, 4], [0, 3, 8]]
+    assert roadmap.units.tolist() == [[0, 0, 0], [0, 3000, 4000], [0, 3000, 8000]]
+    fleet = q.Fleet(roadmap, [0], [2], radius=0.3)
+    plan = q.solve(fleet).plan
+    assert plan.sum_of_costs == 9 and plan.verify().valid
+    assert plan[0].stops["z"].tolist() == [0, 4, 8]
+    samples = plan.sample(1)
+    assert samples.shape == (1, 10, 3)
+    np.testing.assert_allclose(samples[0, [1, 5, 6]], [[0, 0.6, 0.8], [0, 3, 4], [0, 3, 5]])
+    # What another fleet has to keep clear of.
+    obstacle = plan.obstacle(0)
+    assert np.asarray(obstacle.path).tolist() == [[0, 0, 0, 0, 0], [0, 3, 4, 5, 5], [0, 3, 8, 9, 9]]
+    other = q.Fleet(roadmap, [1], [1], radius=0.3, obstacles=[obstacle])
+    assert q.solve(other).plan is None
+    with pytest.raises(q.InputError, match="spheres"):
+        q.Fleet(roadmap, [0], [2], polygon=[(-1, -1), (1, -1), (0, 1)])
+    with pytest.raises(ValueError, match="shape"):
+        q.Roadmap([(0, 0, 0, 0)], np.empty((0, 2), dtype=int))
+    flat = q.Roadmap([(0, 0, 0), (1, 0, 0)], [(0, 1)])
+    assert flat.xy.shape == (2, 2)
+
+
 def test_samples_on_grids():
     plan = q.solve(random_grid_fleet(5)).plan
     assert np.array_equal(plan.sample(1).transpose(1, 0, 2), plan.paths.transpose(1, 0, 2))

@@ -176,25 +176,37 @@ continuous::Plan random_plan(Draw& draw, const continuous::Instance& instance) {
   return plan;
 }
 
-/// In units of the input.
-std::pair<double, double> position(const continuous::Instance& instance,
-                                   const continuous::Path& path, double tick) {
-  const auto at = [&](const continuous::Stop& stop) {
-    const auto& point = instance.roadmap().position(stop.vertex);
-    return std::pair(static_cast<double>(point.x.count()), static_cast<double>(point.y.count()));
-  };
+/// In units of the input, with the height if there are any.
+Json place_of(const continuous::Instance& instance, double x, double y, double z) {
+  Json place = {x * kLengthResolution, y * kLengthResolution};
+  if (!instance.is_flat()) place.push_back(z * kLengthResolution);
+  return place;
+}
+
+Json position(const continuous::Instance& instance, const continuous::Path& path, double tick) {
   for (std::size_t k = 0; k < path.size(); ++k) {
-    const auto [x, y] = at(path[k]);
+    const auto real = [](auto quantity) { return static_cast<double>(quantity.count()); };
+    const continuous::Point from = instance.roadmap().position(path[k].vertex);
     const bool is_last = k + 1 == path.size();
-    if (is_last || tick <= static_cast<double>(path[k].depart.count()))
-      return {x * kLengthResolution, y * kLengthResolution};
-    if (tick > static_cast<double>(path[k + 1].arrive.count())) continue;
-    const auto [x2, y2] = at(path[k + 1]);
-    const double begin = static_cast<double>(path[k].depart.count());
-    const double share = (tick - begin) / (static_cast<double>(path[k + 1].arrive.count()) - begin);
-    return {(x + share * (x2 - x)) * kLengthResolution, (y + share * (y2 - y)) * kLengthResolution};
+    if (is_last || tick <= real(path[k].depart))
+      return place_of(instance, real(from.x), real(from.y), real(from.z));
+    if (tick > real(path[k + 1].arrive)) continue;
+    const continuous::Point to = instance.roadmap().position(path[k + 1].vertex);
+    const double begin = real(path[k].depart);
+    const double share = (tick - begin) / (real(path[k + 1].arrive) - begin);
+    const auto between = [&](continuous::Length a, continuous::Length b) {
+      return real(a) + share * real(b - a);
+    };
+    return place_of(instance, between(from.x, to.x), between(from.y, to.y), between(from.z, to.z));
   }
-  return {0, 0};
+  return place_of(instance, 0, 0, 0);
+}
+
+/// What comes before the place, and the place.
+Json entry(std::size_t index, double time, const Json& place) {
+  Json list = {index, time};
+  list.insert(list.end(), place.begin(), place.end());
+  return list;
 }
 
 Json sample(Draw& draw, const continuous::Instance& instance, const continuous::Plan& plan) {
@@ -203,8 +215,7 @@ Json sample(Draw& draw, const continuous::Instance& instance, const continuous::
     const AgentId i(
         static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(plan.paths.size()) - 1)));
     const double tick = static_cast<double>(draw.number(0, 3000)) / 8;
-    const auto [x, y] = position(instance, plan.paths[i], tick);
-    list.push_back({i.index(), tick * kResolution, x, y});
+    list.push_back(entry(i.index(), tick * kResolution, position(instance, plan.paths[i], tick)));
   }
   return list;
 }
@@ -215,12 +226,13 @@ Json obstacles_of(const continuous::Instance& instance) {
   for (std::size_t k = 0; k < instance.obstacles().size(); ++k) {
     const auto& [body, path, leaves] = instance.obstacles()[k];
     const auto add = [&](Ticks tick, const continuous::MovingObstacle::Stop* stop) {
-      const double time = static_cast<double>(tick.count()) * kResolution;
-      if (stop == nullptr)
-        list.push_back({k, time, nullptr});
-      else
-        list.push_back({k, time, static_cast<double>(stop->at.x.count()) * kLengthResolution,
-                        static_cast<double>(stop->at.y.count()) * kLengthResolution});
+      const auto real = [](continuous::Length length) {
+        return static_cast<double>(length.count());
+      };
+      const Json place = stop == nullptr ? Json({nullptr})
+                                         : place_of(instance, real(stop->at.x), real(stop->at.y),
+                                                    real(stop->at.z));
+      list.push_back(entry(k, static_cast<double>(tick.count()) * kResolution, place));
     };
     for (const auto& stop : path) {
       add(stop.arrive, &stop);
@@ -243,12 +255,13 @@ Json presence_of(const continuous::Instance& instance, const continuous::Plan& p
   return list;
 }
 
-void make_continuous(const std::string& name, std::uint32_t seed) {
+void make_continuous(const std::string& name, std::uint32_t seed, bool in_space) {
   Draw draw(seed);
   continuous::test::RandomOptions random;
   random.num_agents = 2 + seed % 4;
   random.num_vertices = 8;
   random.polygon_percent = 40;
+  random.space_percent = in_space ? 100 : 0;
   random.obstacles_percent = random.leaves_percent = 50;
   const auto drawn = continuous::test::random_instance(seed, random);
   const auto instance =
@@ -262,6 +275,7 @@ void make_continuous(const std::string& name, std::uint32_t seed) {
   Json expected;
   expected["title"] = "Plan of " + std::to_string(instance.num_agents()) + " agents";
   expected["agents"] = instance.num_agents();
+  expected["heights"] = !instance.is_flat();
   expected["positions"] = sample(draw, instance, plan);
   expected["obstacles"] = obstacles_of(instance);
   expected["present"] = presence_of(instance, plan);
@@ -285,6 +299,8 @@ int main(int argc, char** argv) {
   for (std::uint32_t seed = 1; seed <= cases; ++seed) {
     const std::string number = std::to_string(seed);
     quadrille::view::test::make_discrete(std::string(argv[1]) + "/grid-" + number, seed);
-    quadrille::view::test::make_continuous(std::string(argv[1]) + "/roadmap-" + number, seed);
+    quadrille::view::test::make_continuous(std::string(argv[1]) + "/roadmap-" + number, seed,
+                                           false);
+    quadrille::view::test::make_continuous(std::string(argv[1]) + "/space-" + number, seed, true);
   }
 }

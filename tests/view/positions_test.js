@@ -41,10 +41,13 @@ async function compare(name) {
   assert.equal(await page.title(), expected.title);
   assert.equal(await page.evaluate("quadrille.agents"), expected.agents);
   const found = await page.evaluate(`(${askPage})(${JSON.stringify(expected)})`);
-  expected.positions.forEach(([agent, time, x, y], k) => {
-    near(found.positions[k][0], x, `x of agent ${agent} at ${time}`);
-    near(found.positions[k][1], y, `y of agent ${agent} at ${time}`);
+  expected.positions.forEach(([agent, time, ...place], k) => {
+    assert.equal(found.positions[k].length, place.length);
+    place.forEach((value, axis) =>
+      near(found.positions[k][axis], value, `${"xyz"[axis]} of agent ${agent} at ${time}`));
   });
+  const facts = await page.locator("#summary").textContent();
+  assert.equal(/seen from above/.test(facts), expected.heights ?? false);
   expected.clearances.forEach(([a, b, gap, time], k) => {
     near(found.clearances[k], gap, `clearance of ${a} and ${b} at ${time}`);
     // It is the least one over all time.
@@ -57,10 +60,10 @@ async function compare(name) {
     near(Number((await page.locator("#nearest-list button").first().textContent()).split(" ")[0]),
       Number(least[2].toFixed(4)), "the first one in the list");
   }
-  for (const [k, time, x, y] of expected.obstacles ?? []) {
+  for (const [k, time, ...place] of expected.obstacles ?? []) {
     const at = await page.evaluate(`quadrille.obstacle(${k}, ${time})`);
-    if (x === null) assert.equal(at, null, `obstacle ${k} at ${time}`);
-    else assert.deepEqual(at, [x, y], `obstacle ${k} at ${time}`);
+    if (place[0] === null) assert.equal(at, null, `obstacle ${k} at ${time}`);
+    else assert.deepEqual(at, place, `obstacle ${k} at ${time}`);
   }
   for (const [agent, arrival, later, stays] of expected.present ?? []) {
     assert.ok(await page.evaluate(`quadrille.isPresent(${agent}, ${arrival})`), `agent ${agent}`);
@@ -93,4 +96,4 @@ const askPage = `(expected) => {
 }`;
 
 for (let seed = 1; seed <= CASES; ++seed)
-  for (const kind of ["grid", "roadmap"]) test(`${kind}-${seed}`, () => compare(`${kind}-${seed}`));
+  for (const kind of ["grid", "roadmap", "space"]) test(`${kind}-${seed}`, () => compare(`${kind}-${seed}`));

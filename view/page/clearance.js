@@ -60,11 +60,12 @@ function side(a, b, c) {
  * @param {Contact} contact
  * @param {number} x  of the second one, as seen from the first one
  * @param {number} y
+ * @param {number} z  0 for a polygon: it is flat
  * @returns {number}
  */
-export function gapOf(contact, x, y) {
+export function gapOf(contact, x, y, z) {
   const { core, radius } = contact;
-  if (core.length === 1) return Math.hypot(x - core[0].x, y - core[0].y) - radius;
+  if (core.length === 1) return Math.hypot(x - core[0].x, y - core[0].y, z) - radius;
   let nearest = Infinity;
   let inside = true;
   for (let i = 0; i < core.length; ++i) {
@@ -115,7 +116,7 @@ export class Clearances {
     if (!isPresent(this.scene.agents[i], time) || !isPresent(this.scene.agents[j], time)) return Infinity;
     const p = positionAt(this.scene.agents[i], time);
     const q = positionAt(this.scene.agents[j], time);
-    return gapOf(this.contact(i, j), q.x - p.x, q.y - p.y);
+    return gapOf(this.contact(i, j), q.x - p.x, q.y - p.y, q.z - p.z);
   }
 
   /**
@@ -127,8 +128,8 @@ export class Clearances {
   leastAt(time) {
     const here = this.scene.agents.filter((agent) => agent.times.length > 0 && isPresent(agent, time));
     const items = here.map((agent) => {
-      const { x, y } = positionAt(agent, time);
-      return { x, y, index: agent.index, radius: this.scene.bodies[agent.body].radius };
+      const { x, y, z } = positionAt(agent, time);
+      return { x, y, z, index: agent.index, radius: this.scene.bodies[agent.body].radius };
     });
     items.sort((a, b) => a.x - b.x || a.index - b.index);
     /** @type {{agents: [number, number], gap: number} | null} */
@@ -140,7 +141,7 @@ export class Clearances {
         const q = items[b];
         if (q.x - p.x - p.radius - this.largest > gap) break;
         const [i, j] = p.index < q.index ? [p, q] : [q, p];
-        const own = gapOf(this.contact(i.index, j.index), j.x - i.x, j.y - i.y);
+        const own = gapOf(this.contact(i.index, j.index), j.x - i.x, j.y - i.y, j.z - i.z);
         if (own < gap) {
           gap = own;
           best = { agents: [i.index, j.index], gap };

@@ -129,15 +129,15 @@ function publicInterface(state, page) {
     selected: () => state.selected,
     /** @param {number} agent @param {number} time */
     position(agent, time) {
-      const { x, y } = positionAt(scene.agents[agent], time / scene.unit);
-      return [x * length, y * length];
+      const { x, y, z } = positionAt(scene.agents[agent], time / scene.unit);
+      return scene.heights ? [x * length, y * length, z * length] : [x * length, y * length];
     },
     /** Whether it has not left yet. @param {number} agent @param {number} time */
     isPresent: (agent, time) => isPresent(scene.agents[agent], time / scene.unit),
     /** Of a moving obstacle; null if it is nowhere. @param {number} index @param {number} time */
     obstacle(index, time) {
       const at = obstacleAt(scene.obstacles[index], time / scene.unit);
-      return at && [at.x * length, at.y * length];
+      return at && [at.x, at.y, ...(scene.heights ? [at.z] : [])].map((value) => value * length);
     },
     /** Where the agent is drawn now, in pixels of the map. @param {number} agent */
     pixel(agent) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-/** @import {Agent, Obstacle, Point, Scene} from "./scene.js" */
+/** @import {Agent, Obstacle, Place, Scene} from "./scene.js" */
 
 /**
  * The last frame of the path that is not after the time; -1 before the first one. Binary search.
@@ -24,11 +24,11 @@ export function frameAt(agent, time) {
  * Where an agent is: at its start without a path, at the end of its path for ever.
  * @param {Agent} agent
  * @param {number} time
- * @returns {Point}
+ * @returns {Place}
  */
 export function positionAt(agent, time) {
   const { times } = agent;
-  if (times.length === 0) return { x: agent.start.x, y: agent.start.y };
+  if (times.length === 0) return { ...agent.start };
   return placeOn(agent, time);
 }
 
@@ -45,7 +45,7 @@ export function isPresent(agent, time) {
  * Where a moving obstacle is, if it is anywhere.
  * @param {Obstacle} obstacle
  * @param {number} time
- * @returns {Point | null}
+ * @returns {Place | null}
  */
 export function obstacleAt(obstacle, time) {
   const { times, leaves } = obstacle;
@@ -56,14 +56,26 @@ export function obstacleAt(obstacle, time) {
 /**
  * @param {Agent | Obstacle} mover  with at least one frame
  * @param {number} time
- * @returns {Point}
+ * @returns {Place}
  */
 function placeOn(mover, time) {
-  const { times, xs, ys } = mover;
+  const { times, xs, ys, zs } = mover;
   const k = Math.max(0, frameAt(mover, time));
-  if (k + 1 === times.length || time <= times[k]) return { x: xs[k], y: ys[k] };
+  if (k + 1 === times.length || time <= times[k]) return { x: xs[k], y: ys[k], z: zs[k] };
   const share = (time - times[k]) / (times[k + 1] - times[k]);
-  return { x: xs[k] + (xs[k + 1] - xs[k]) * share, y: ys[k] + (ys[k + 1] - ys[k]) * share };
+  return {
+    x: xs[k] + (xs[k + 1] - xs[k]) * share, y: ys[k] + (ys[k + 1] - ys[k]) * share,
+    z: zs[k] + (zs[k + 1] - zs[k]) * share,
+  };
+}
+
+/**
+ * Whether it stands between a frame and the next one.
+ * @param {Agent} agent
+ * @param {number} k
+ */
+function stands({ xs, ys, zs }, k) {
+  return xs[k] === xs[k + 1] && ys[k] === ys[k + 1] && zs[k] === zs[k + 1];
 }
 
 /**
@@ -73,11 +85,11 @@ function placeOn(mover, time) {
  * @returns {"no path" | "waits" | "moves" | "arrived"}
  */
 export function activityAt(agent, time) {
-  const { times, xs, ys } = agent;
+  const { times } = agent;
   if (times.length === 0) return "no path";
   const k = Math.max(0, frameAt(agent, time));
   if (agent.cost === null || k + 1 === times.length || time >= agent.cost) return "arrived";
-  return xs[k] === xs[k + 1] && ys[k] === ys[k + 1] ? "waits" : "moves";
+  return stands(agent, k) ? "waits" : "moves";
 }
 
 /**
@@ -88,7 +100,7 @@ export function activityAt(agent, time) {
 export function totalWait(agent) {
   let total = 0;
   for (let k = 0; k + 1 < agent.times.length; ++k)
-    {if (agent.xs[k] === agent.xs[k + 1] && agent.ys[k] === agent.ys[k + 1])
+    {if (stands(agent, k))
       total += Math.max(0, Math.min(agent.times[k + 1], agent.cost ?? 0) - agent.times[k]);}
   return total;
 }

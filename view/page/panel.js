@@ -19,7 +19,8 @@ export function placeName(state, point) {
   const { scene } = state;
   const factor = scene.lengthUnit;
   const round = (/** @type {number} */ value) => String(Number((value * factor).toFixed(3)));
-  if (scene.hasLayout) return `(${round(point.x)}, ${round(point.y)})`;
+  const height = scene.heights ? `, height ${round(point.z ?? 0)}` : "";
+  if (scene.hasLayout) return `(${round(point.x)}, ${round(point.y)})${height}`;
   const index = scene.places.findIndex((place) => place.x === point.x && place.y === point.y);
   return index >= 0 ? `vertex ${index}` : "on its way";
 }
@@ -43,6 +44,7 @@ export function summaryOf(state) {
   if (scene.obstruction === null && scene.lowerBound !== null && scene.status !== "optimal")
     parts.push(`lower bound ${state.show(scene.lowerBound)} (${scene.objective})`);
   if (!scene.hasLayout) parts.push("positions are made up");
+  if (scene.heights) parts.push("seen from above");
   if (scene.hiddenLinks > 0) parts.push(`${scene.hiddenLinks} edges not shown`);
   return parts.join(" · ");
 }
@@ -219,5 +221,6 @@ function delayOf(agent) {
 function bodyName(state, agent) {
   const body = state.scene.bodies[agent.body];
   if (body.corners.length > 0) return `polygon with ${body.corners.length} corners`;
-  return `disc of radius ${Number((body.radius * state.scene.lengthUnit).toPrecision(6))}`;
+  const radius = Number((body.radius * state.scene.lengthUnit).toPrecision(6));
+  return `${state.scene.heights ? "sphere" : "disc"} of radius ${radius}`;
 }

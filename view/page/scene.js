@@ -3,23 +3,26 @@
 /**
  * Times are in timesteps or ticks, positions in cells or length units.
  *
- * @typedef {{x: number, y: number}} Point
+ * @typedef {{x: number, y: number, z?: number}} Point  z: the height, where the scene has heights
+ * @typedef {{x: number, y: number, z: number}} Place
  * @typedef {{radius: number, corners: Point[], centre: Point}} Body  A polygon has corners, and the
  *   radius of the disc around the agent's position that contains it; its centre need not be there.
  * @typedef {object} Agent
  * @property {number} index
- * @property {Point} start
- * @property {Point} goal
+ * @property {Place} start
+ * @property {Place} goal
  * @property {number} body       into Scene.bodies
  * @property {number | null} free   what it costs alone
  * @property {number | null} cost   null without a path
  * @property {Float64Array} times  of the ends of all moves and waits, in order
  * @property {Float64Array} xs     where it is then
  * @property {Float64Array} ys
+ * @property {Float64Array} zs
  * @property {boolean} leaves   it is nowhere after its arrival
  *
  * A body of others on a known path, nowhere before the first time, and if it leaves nowhere after the last.
- * @typedef {{body: number, leaves: boolean, times: Float64Array, xs: Float64Array, ys: Float64Array}} Obstacle
+ * @typedef {{body: number, leaves: boolean, times: Float64Array, xs: Float64Array, ys: Float64Array,
+ *   zs: Float64Array}} Obstacle
  *
  * @typedef {{kind: string, agents: number[], time: number, message: string}} Violation
  * @typedef {{agents: [number, number], gap: number, time: number}} Nearness
@@ -43,6 +46,7 @@
  * @property {boolean} continuous
  * @property {boolean} hasLayout
  * @property {boolean} yUp
+ * @property {boolean} heights    bodies are spheres in space, seen from above
  * @property {number} unit        a tick or timestep, as the user counts time
  * @property {number} lengthUnit  a length unit, as the user counts lengths
  * @property {number} end         when the last agent arrives
@@ -85,7 +89,8 @@ export function readScene(text) {
   /** @type {Scene} */
   const scene = {
     title: String(data.title), continuous: Boolean(data.continuous),
-    hasLayout: Boolean(data.hasLayout), yUp: Boolean(data.yUp), unit: Number(data.unit),
+    hasLayout: Boolean(data.hasLayout), yUp: Boolean(data.yUp),
+    heights: Boolean(data.heights), unit: Number(data.unit),
     lengthUnit: Number(data.lengthUnit),
     end: 0, objective: String(data.objective), status: data.status ?? null,
     lowerBound: data.lowerBound ?? null, sumOfCosts: data.sumOfCosts, makespan: data.makespan,
@@ -174,30 +179,39 @@ function readCells(data) {
 function readAgent(data, index) {
   /** @type {number[][]} */
   const frames = data.moves !== undefined ? framesOfMoves(data.from, data.moves)
-    : framesOfStops(data.stops ?? []);
+    : framesOfStops(data.stops ?? [], data.heights ?? []);
   return {
-    index, start: { x: data.start[0], y: data.start[1] }, goal: { x: data.goal[0], y: data.goal[1] },
+    index, start: readPlace(data.start), goal: readPlace(data.goal),
     body: data.body ?? 0, free: data.free ?? null, cost: data.cost ?? null,
     leaves: Boolean(data.leaves), ...columnsOf(frames),
   };
 }
 
 /**
- * @param {{body: number, stops: number[], leaves: boolean}} data
- * @returns {Obstacle}
+ * @param {number[]} data
+ * @returns {Place}
  */
-function readObstacle({ body, stops, leaves }) {
-  return { body, leaves, ...columnsOf(framesOfStops(stops)) };
+function readPlace([x, y, z]) {
+  return { x, y, z: z ?? 0 };
 }
 
 /**
- * @param {number[][]} frames  time, x and y each
+ * @param {{body: number, stops: number[], heights?: number[], leaves: boolean}} data
+ * @returns {Obstacle}
+ */
+function readObstacle({ body, stops, heights, leaves }) {
+  return { body, leaves, ...columnsOf(framesOfStops(stops, heights ?? [])) };
+}
+
+/**
+ * @param {number[][]} frames  time, x, y and z each
  */
 function columnsOf(frames) {
   return {
     times: Float64Array.from(frames, (frame) => frame[0]),
     xs: Float64Array.from(frames, (frame) => frame[1]),
     ys: Float64Array.from(frames, (frame) => frame[2]),
+    zs: Float64Array.from(frames, (frame) => frame[3]),
   };
 }
 
@@ -210,16 +224,16 @@ function columnsOf(frames) {
 function framesOfMoves(from, moves) {
   let [x, y] = from;
   let time = 0;
-  const frames = [[0, x, y]];
+  const frames = [[0, x, y, 0]];
   for (const [, count, letter] of moves.matchAll(/(\d*)([RLDU.])/g)) {
     const times = count === "" ? 1 : Number(count);
     if (letter === ".") {
       time += times;
-      frames.push([time, x, y]);
+      frames.push([time, x, y, 0]);
       continue;
     }
     const [dx, dy] = STEP[/** @type {keyof typeof STEP} */ (letter)];
-    for (let i = 0; i < times; ++i) frames.push([++time, x += dx, y += dy]);
+    for (let i = 0; i < times; ++i) frames.push([++time, x += dx, y += dy, 0]);
   }
   return frames;
 }
@@ -227,14 +241,16 @@ function framesOfMoves(from, moves) {
 /**
  * Four numbers per stop: x, y, arrival, departure.
  * @param {number[]} stops
+ * @param {number[]} heights  one per stop, or none
  * @returns {number[][]}
  */
-function framesOfStops(stops) {
+function framesOfStops(stops, heights) {
   const frames = [];
   for (let i = 0; i + 3 < stops.length; i += 4) {
     const [x, y, arrive, depart] = stops.slice(i, i + 4);
-    frames.push([arrive, x, y]);
-    if (depart > arrive) frames.push([depart, x, y]);
+    const z = heights[i / 4] ?? 0;
+    frames.push([arrive, x, y, z]);
+    if (depart > arrive) frames.push([depart, x, y, z]);
   }
   return frames;
 }

@@ -198,7 +198,7 @@ export function stretches(agent) {
  * @returns {string}
  */
 function placeKey(agent, k) {
-  return `${agent.xs[k]} ${agent.ys[k]}`;
+  return `${agent.xs[k]} ${agent.ys[k]} ${agent.zs[k]}`;
 }
 
 /**
@@ -210,7 +210,9 @@ function lengthsAlong(agent) {
   const lengths = new Map();
   let total = 0;
   for (let k = 0; k < agent.times.length; ++k) {
-    if (k > 0) total += Math.hypot(agent.xs[k] - agent.xs[k - 1], agent.ys[k] - agent.ys[k - 1]);
+    if (k > 0)
+      {total += Math.hypot(agent.xs[k] - agent.xs[k - 1], agent.ys[k] - agent.ys[k - 1],
+        agent.zs[k] - agent.zs[k - 1]);}
     if (!lengths.has(placeKey(agent, k))) lengths.set(placeKey(agent, k), total);
   }
   return { lengths, total: total || 1 };

@@ -52,6 +52,11 @@ std::string name_of(Violation::Kind kind) {
   return "violation";
 }
 
+Position position_of(const continuous::Point& point) {
+  return {static_cast<double>(point.x.count()), static_cast<double>(point.y.count()),
+          static_cast<double>(point.z.count())};
+}
+
 /// The path as far as it can be laid out in space and time.
 std::vector<SceneStop> stops_of(const continuous::Roadmap& roadmap, const continuous::Path& path) {
   std::vector<SceneStop> stops;
@@ -123,9 +128,9 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
   scene.time_unit = instance.resolution().time;
   scene.length_unit = instance.resolution().length;
   scene.y_up = grid == nullptr;
+  scene.has_heights = !instance.is_flat();
   for (const continuous::Point& point : instance.roadmap().positions())
-    scene.places.push_back(
-        {static_cast<double>(point.x.count()), static_cast<double>(point.y.count())});
+    scene.places.push_back(position_of(point));
   if (grid != nullptr)
     add_cells(*grid, scene);
   else
@@ -146,10 +151,7 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
     SceneObstacle shown{scene.bodies.size(), {}, obstacle.leaves};
     scene.bodies.push_back(obstacle.body);
     for (const auto& stop : obstacle.path)
-      shown.stops.push_back(
-          {{static_cast<double>(stop.at.x.count()), static_cast<double>(stop.at.y.count())},
-           stop.arrive.count(),
-           stop.depart.count()});
+      shown.stops.push_back({position_of(stop.at), stop.arrive.count(), stop.depart.count()});
     scene.obstacles.push_back(std::move(shown));
   }
   add_report(verify(instance, plan), scene);

@@ -70,7 +70,7 @@ struct Along {
       if (k > 0) {
         const Position a = scene.places[agent.stops[k - 1].place];
         const Position b = scene.places[agent.stops[k].place];
-        length += std::hypot(b.x - a.x, b.y - a.y);
+        length += std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
       }
       at.emplace(agent.stops[k].place, length);
     }

@@ -17,7 +17,8 @@ Position position_at(const Scene& scene, const SceneAgent& agent, double time) {
   const Position to = scene.places[after->place];
   const double share =
       (time - static_cast<double>(last.depart)) / static_cast<double>(after->arrive - last.depart);
-  return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share};
+  return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share,
+          from.z + (to.z - from.z) * share};
 }
 
 }  // namespace quadrille::view

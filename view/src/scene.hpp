@@ -17,9 +17,10 @@
 
 namespace quadrille::view {
 
-/// In cells (x = column, y = row, down), or in length units of a roadmap.
+/// In cells (x = column, y = row, down), or in length units of a roadmap. What is drawn is seen
+/// from above.
 struct Position {
-  double x = 0, y = 0;
+  double x = 0, y = 0, z = 0;
 };
 
 /// A connection between two places.
@@ -97,6 +98,7 @@ struct Scene {
   bool is_continuous = false;
   bool has_layout = true;  ///< Positions are those of the input.
   bool y_up = false;
+  bool has_heights = false;  ///< Bodies are spheres, and places may be above each other.
   double time_unit = 1, length_unit = 1;  ///< One tick and one length unit, as the input counts.
   std::optional<Cells> cells;
   std::vector<Position> places;

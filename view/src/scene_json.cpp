@@ -67,12 +67,16 @@ Json moves_of(const Scene& scene, const SceneAgent& agent) {
   return moves.finish();
 }
 
-Json point(Position position) { return {number(position.x), number(position.y)}; }
+Json point(const Scene& scene, Position position) {
+  Json json{number(position.x), number(position.y)};
+  if (scene.has_heights) json.push_back(number(position.z));
+  return json;
+}
 
 Json agent_json(const Scene& scene, const SceneAgent& agent) {
   Json json;
-  json["start"] = point(scene.places[agent.start]);
-  json["goal"] = point(scene.places[agent.goal]);
+  json["start"] = point(scene, scene.places[agent.start]);
+  json["goal"] = point(scene, scene.places[agent.goal]);
   if (!scene.bodies.empty()) json["body"] = agent.body;
   if (agent.free_cost) json["free"] = *agent.free_cost;
   if (agent.cost) json["cost"] = *agent.cost;
@@ -80,7 +84,7 @@ Json agent_json(const Scene& scene, const SceneAgent& agent) {
   if (agent.stops.empty()) return json;
   const Json moves = moves_of(scene, agent);
   if (!moves.is_null()) {
-    json["from"] = point(scene.places[agent.stops.front().place]);
+    json["from"] = point(scene, scene.places[agent.stops.front().place]);
     json["moves"] = moves;
     return json;
   }
@@ -91,16 +95,22 @@ Json agent_json(const Scene& scene, const SceneAgent& agent) {
       stops.push_back(value);
   }
   json["stops"] = std::move(stops);
+  if (scene.has_heights)
+    for (const SceneStop& stop : agent.stops)
+      json["heights"].push_back(number(scene.places[stop.place].z));
   return json;
 }
 
-Json obstacle_json(const SceneObstacle& obstacle) {
+Json obstacle_json(const Scene& scene, const SceneObstacle& obstacle) {
   Json stops = Json::array();
   for (const auto& stop : obstacle.stops)
     for (const Json& value :
          {number(stop.at.x), number(stop.at.y), Json(stop.arrive), Json(stop.depart)})
       stops.push_back(value);
-  return {{"body", obstacle.body}, {"stops", std::move(stops)}, {"leaves", obstacle.leaves}};
+  Json json = {{"body", obstacle.body}, {"stops", std::move(stops)}, {"leaves", obstacle.leaves}};
+  if (scene.has_heights)
+    for (const auto& stop : obstacle.stops) json["heights"].push_back(number(stop.at.z));
+  return json;
 }
 
 Json cells_json(const Cells& cells) {
@@ -220,6 +230,7 @@ std::string scene_json(const Scene& scene, const PageOptions& options) {
   json["continuous"] = scene.is_continuous;
   json["hasLayout"] = scene.has_layout;
   json["yUp"] = scene.y_up;
+  json["heights"] = scene.has_heights;
   json["unit"] = scene.time_unit;
   json["lengthUnit"] = scene.length_unit;
   json["objective"] = to_string(options.objective);
@@ -237,7 +248,7 @@ std::string scene_json(const Scene& scene, const PageOptions& options) {
   for (const SceneAgent& agent : scene.agents) json["agents"].push_back(agent_json(scene, agent));
   json["obstacles"] = Json::array();
   for (const SceneObstacle& obstacle : scene.obstacles)
-    json["obstacles"].push_back(obstacle_json(obstacle));
+    json["obstacles"].push_back(obstacle_json(scene, obstacle));
   json["violations"] = Json::array();
   for (const SceneViolation& violation : scene.violations)
     json["violations"].push_back(violation_json(violation));

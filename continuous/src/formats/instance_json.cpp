@@ -70,10 +70,20 @@ class InstanceReader {
 
   bool read_vertex(Node node) { return read_point(node, positions_.emplace_back()); }
 
+  [[nodiscard]] std::size_t size_of(Node list) const {
+    std::size_t size = 0;
+    for (Node n = document_.first(list); n < document_.next(list); n = document_.next(n)) ++size;
+    return size;
+  }
+
+  /// The first point says for all of the file whether there are heights.
   bool read_point(Node node, Point& point) {
-    if (!check_.array(node, "coordinates", 2)) return false;
-    const Node x = document_.first(node);
-    return read_coordinate(x, point.x) && read_coordinate(document_.next(x), point.y);
+    if (!check_.array(node, "coordinates")) return false;
+    if (num_coordinates_ == 0) num_coordinates_ = size_of(node) == 3 ? 3 : 2;
+    if (!check_.array(node, "coordinates", num_coordinates_)) return false;
+    const Node x = document_.first(node), y = document_.next(x);
+    return read_coordinate(x, point.x) && read_coordinate(y, point.y) &&
+           (num_coordinates_ == 2 || read_coordinate(document_.next(y), point.z));
   }
 
   bool read_coordinate(Node node, Length& length) {
@@ -324,6 +334,7 @@ class InstanceReader {
   const Document& document_;
   text::Checker check_;
   Resolution resolution_;
+  std::size_t num_coordinates_ = 0;  // of a point; 0: there was none yet
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
   std::vector<Agent> agents_;

@@ -56,8 +56,9 @@ std::string obstacles_json(const Instance& instance) {
     if (obstacle.leaves) text += ", \"at_end\": \"leave\"";
     const char* between = ", \"path\": [";
     for (const MovingObstacle::Stop& stop : obstacle.path) {
-      text += std::string(between) + "{\"at\": [" + number(stop.at.x) + ", " + number(stop.at.y) +
-              "], \"arrive\": " + number(stop.arrive);
+      text += std::string(between) +
+              "{\"at\": " + point_json(stop.at, instance.is_flat(), instance.resolution()) +
+              ", \"arrive\": " + number(stop.arrive);
       if (stop.depart > stop.arrive) text += ", \"depart\": " + number(stop.depart);
       text += "}";
       between = ", ";
@@ -79,7 +80,7 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
       << ",\n  \"roadmap\": {\n    \"vertices\": [";
   const char* separator = "\n";
   for (const Point& point : instance.roadmap().positions()) {
-    out << separator << "      [" << number(point.x) << ", " << number(point.y) << "]";
+    out << separator << "      " << point_json(point, instance.is_flat(), resolution);
     separator = ",\n";
   }
   out << (*separator == ',' ? "\n    ],\n" : "],\n") << "    \"edges\": [";

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <string>
 
+#include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/resolution.hpp"
 #include "quadrille/text/document.hpp"
 
@@ -22,6 +23,16 @@ namespace quadrille::continuous {
   if (resolution.is_uniform()) return json_number(resolution.length);
   return "{\"length\": " + json_number(resolution.length) +
          ", \"time\": " + json_number(resolution.time) + "}";
+}
+
+/// [x, y], or [x, y, z] where not all is in the plane.
+[[nodiscard]] inline std::string point_json(const Point& point, bool is_flat,
+                                            const Resolution& resolution) {
+  const auto number = [&](Length length) {
+    return json_number(in_input_units(length, resolution));
+  };
+  return "[" + number(point.x) + ", " + number(point.y) +
+         (is_flat ? "]" : ", " + number(point.z) + "]");
 }
 
 /// Reads what `resolution_json` writes.

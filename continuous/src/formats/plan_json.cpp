@@ -126,9 +126,19 @@ class JsonPlanReader {
   }
 
   bool read_place(Node node, const Point& point) {
-    if (!check_.array(node, "coordinates", 2)) return false;
-    const Node x = document_.first(node);
-    return agrees(x, point.x.count()) && agrees(document_.next(x), point.y.count());
+    // In the plane the height may be missing.
+    const std::size_t least = instance_.roadmap().is_flat() ? 2 : 3;
+    if (!check_.array(node, "coordinates")) return false;
+    std::size_t found = 0;
+    for (Node c = document_.first(node); c < document_.next(node); c = document_.next(c)) ++found;
+    if (found != 3 && !check_.array(node, "coordinates", least)) return false;
+    Node at = document_.first(node);
+    for (const Length coordinate : {point.x, point.y, point.z}) {
+      if (at == document_.next(node)) break;
+      if (!agrees(at, coordinate.count())) return false;
+      at = document_.next(at);
+    }
+    return true;
   }
 
   const Document& document_;
@@ -158,8 +168,9 @@ std::string plan_to_json(const Instance& instance, const Plan& plan) {
       const Stop& stop = path[k];
       const Point& at = instance.roadmap().position(stop.vertex);
       text += (k == 0 ? "{" : ", {");
-      text += "\"vertex\": " + std::to_string(stop.vertex.index()) + ", \"at\": [" + number(at.x) +
-              ", " + number(at.y) + "], \"arrive\": " + number(stop.arrive) +
+      text += "\"vertex\": " + std::to_string(stop.vertex.index()) +
+              ", \"at\": " + point_json(at, instance.roadmap().is_flat(), instance.resolution()) +
+              ", \"arrive\": " + number(stop.arrive) +
               ", \"arrive_ticks\": " + std::to_string(stop.arrive.count());
       if (k + 1 < path.size())
         text += ", \"depart\": " + number(stop.depart) +

@@ -30,6 +30,9 @@ std::optional<Error> check(const RandomInstanceOptions& options) {
     if (side < 1 || side > geometry::kMaxLength)
       return out_of_range("the area is 1 .. " + std::to_string(geometry::kMaxLength.count()) +
                           " length units wide and high");
+  if (options.altitude < 0 || options.altitude > geometry::kMaxLength)
+    return out_of_range("the altitude is 0 .. " + std::to_string(geometry::kMaxLength.count()) +
+                        " length units");
   if (options.radius < 1 || options.radius > geometry::kMaxLength / 4)
     return out_of_range("the radius is 1 .. " + std::to_string((geometry::kMaxLength / 4).count()) +
                         " length units");
@@ -42,7 +45,7 @@ std::optional<Error> check(const RandomInstanceOptions& options) {
   return std::nullopt;
 }
 
-/// Points by the squares of a grid that they are in: to find those that are near.
+/// Points by the squares of a grid that they are above or in: to find those that are near.
 class Squares {
  public:
   /// For points of the area, and distances of about `distance`.
@@ -93,7 +96,8 @@ std::vector<Point> draw_vertices(const RandomInstanceOptions& options, Random& r
     bool fits = false;
     for (int dart = 0; dart < kMaxDarts && !fits; ++dart) {
       const Length x = coordinate(options.width);
-      const Point point{x, coordinate(options.height)};
+      const Length y = coordinate(options.height);
+      const Point point{x, y, options.altitude > 0 ? coordinate(options.altitude) : Length{0}};
       fits = true;
       squares.near(point, spacing, [&](std::size_t other) {
         if (squared_distance(point, vertices[other]) < spacing2) fits = false;
@@ -199,7 +203,8 @@ std::vector<Agent> draw_agents(const RandomInstanceOptions& options, Random& ran
     if (options.mixed) {
       const Length radius(upper_half(options.radius.count()));
       agent.speed = Speed(upper_half(options.speed.count()));
-      agent.body = random.below(2) == 0 ? Body(Disc{radius}) : draw_polygon(radius, random);
+      const bool is_disc = options.altitude > 0 || random.below(2) == 0;
+      agent.body = is_disc ? Body(Disc{radius}) : draw_polygon(radius, random);
     }
     agents.push_back(agent);
   }

@@ -12,10 +12,11 @@ __extension__ using Area = __int128;
   return static_cast<Area>(length.count()) * length.count();
 }
 
-/// (a - c) . (b - c), which is at most 0 if c is in the disc over the diameter from a to b.
+/// (a - c) . (b - c), which is at most 0 if c is in the disc (ball) over the diameter from a to b.
 [[nodiscard]] constexpr Area dot(const Point& a, const Point& b, const Point& c) {
   return static_cast<Area>((a.x - c.x).count()) * (b.x - c.x).count() +
-         static_cast<Area>((a.y - c.y).count()) * (b.y - c.y).count();
+         static_cast<Area>((a.y - c.y).count()) * (b.y - c.y).count() +
+         static_cast<Area>((a.z - c.z).count()) * (b.z - c.z).count();
 }
 
 [[nodiscard]] constexpr Area squared_distance(const Point& a, const Point& b) {

@@ -24,6 +24,21 @@ std::string name(std::size_t agent) { return "agent " + std::to_string(agent); }
 Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
 Error no_plan(const std::string& message) { return {ErrorCode::no_plan, message, {}}; }
 
+bool are_flat(const Roadmap& roadmap, const std::vector<MovingObstacle>& obstacles) {
+  const auto is_flat = [](const MovingObstacle::Stop& stop) { return stop.at.z == 0; };
+  return roadmap.is_flat() &&
+         std::all_of(obstacles.begin(), obstacles.end(), [&](const MovingObstacle& obstacle) {
+           return std::all_of(obstacle.path.begin(), obstacle.path.end(), is_flat);
+         });
+}
+
+/// Polygons stay in the plane.
+std::optional<Error> check_flat(const Body& body, const std::string& who) {
+  if (std::holds_alternative<Disc>(body)) return std::nullopt;
+  return invalid(who + " is a polygon, but there are places with a height: in space bodies are " +
+                 "spheres");
+}
+
 std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& agents,
                            std::size_t index) {
   const Agent& agent = agents[index];
@@ -143,9 +158,11 @@ std::optional<Error> check_obstacle(const MovingObstacle& obstacle, std::size_t 
 }
 
 std::optional<Error> check_obstacles(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                     const std::vector<MovingObstacle>& obstacles) {
+                                     const std::vector<MovingObstacle>& obstacles, bool is_flat) {
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     if (auto error = check_obstacle(obstacles[o], o)) return error;
+    if (!is_flat)
+      if (auto error = check_flat(obstacles[o].body, "obstacle " + std::to_string(o))) return error;
     const MovingObstacle::Stop& first = obstacles[o].path.front();
     if (first.arrive > 0) continue;
     for (std::size_t i = 0; i < agents.size(); ++i)
@@ -158,9 +175,11 @@ std::optional<Error> check_obstacles(const Roadmap& roadmap, const std::vector<A
 
 /// What is wrong with the agents; then `at` is the one to blame.
 std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                               std::size_t& at) {
+                               bool is_flat, std::size_t& at) {
   for (at = 0; at < agents.size(); ++at) {
     if (auto error = check(roadmap, agents, at)) return error;
+    if (!is_flat)
+      if (auto error = check_flat(agents[at].body, name(at))) return error;
     if (auto error = check_under_way(roadmap, agents[at], at)) return error;
   }
   if (auto error = check_apart(roadmap, agents, &Agent::start, "starts", at)) return error;
@@ -231,15 +250,17 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
   QUADRILLE_REQUIRE(places.empty() || places.size() == agents.size(), "one place per agent");
   if (!resolution.is_valid())
     return Error{ErrorCode::out_of_range, "the resolution has to be positive and finite", {}};
+  const bool is_flat = are_flat(*roadmap, obstacles);
   std::size_t at = 0;
-  if (auto error = check_all(*roadmap, agents, at)) {
+  if (auto error = check_all(*roadmap, agents, is_flat, at)) {
     if (!places.empty()) error->where = places[at];
     return *error;
   }
 
-  if (auto error = check_obstacles(*roadmap, agents, obstacles)) return *error;
+  if (auto error = check_obstacles(*roadmap, agents, obstacles, is_flat)) return *error;
 
   Instance instance;
+  instance.is_flat_ = is_flat;
   std::map<Speed, std::size_t> speeds;
   std::map<std::tuple<std::vector<Length>, Speed, std::size_t>, ClassId> classes;
   std::map<GroupId, std::shared_ptr<const Ways>> ways;  // null: all edges

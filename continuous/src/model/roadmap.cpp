@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/continuous/roadmap.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -59,6 +60,8 @@ Roadmap Roadmap::with_closed(std::span<const EdgeId> closed) const {
 Roadmap::Roadmap(std::vector<Point> positions, std::vector<Edge> edges)
     : positions_(std::move(positions)),
       edges_(std::move(edges)),
+      is_flat_(std::all_of(positions_.begin(), positions_.end(),
+                           [](const Point& point) { return point.z == 0; })),
       out_(positions_.size(), edges_, &Edge::from, std::nullopt),
       in_(positions_.size(), edges_, &Edge::to, std::nullopt) {}
 

@@ -23,7 +23,7 @@ Point place_between(const Point& from, const Point& to, Ticks behind, Ticks whol
     return a + Length(static_cast<std::int64_t>(
                    std::round(static_cast<long double>((b - a).count()) * share)));
   };
-  return {between(from.x, to.x), between(from.y, to.y)};
+  return {between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
 }
 
 }  // namespace

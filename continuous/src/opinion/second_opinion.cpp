@@ -105,7 +105,7 @@ class Opinion {
 
  private:
   void include(const Point& p) {
-    for (const Length coordinate : {p.x, p.y}) extent_ = std::max(extent_, abs(coordinate));
+    for (const Length coordinate : {p.x, p.y, p.z}) extent_ = std::max(extent_, abs(coordinate));
   }
 
   /// Paths without fault as legs.

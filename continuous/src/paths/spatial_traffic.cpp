@@ -15,12 +15,13 @@ constexpr std::int64_t kEffortOfContact = 4;
 
 bool overlap(const Point& low, const Point& high, const Point& other_low, const Point& other_high) {
   return low.x < other_high.x && other_low.x < high.x && low.y < other_high.y &&
-         other_low.y < high.y;
+         other_low.y < high.y && low.z < other_high.z && other_low.z < high.z;
 }
 
 }  // namespace
 
-// About as many squares as vertices: an edge to a neighbour then covers few of them.
+// About as many squares as vertices: an edge to a neighbour then covers few of them. Seen from
+// above; boxes tell heights apart.
 SpatialTraffic::SpatialTraffic(Scene& scene) : scene_(scene), table_(scene.instance().roadmap()) {
   const std::vector<Point>& positions = scene.instance().roadmap().positions();
   if (positions.empty()) return;
@@ -39,8 +40,8 @@ SpatialTraffic::SpatialTraffic(Scene& scene) : scene_(scene), table_(scene.insta
 }
 
 SpatialTraffic::Box SpatialTraffic::box_of(const Point& p, const Point& q, Length reach) const {
-  return {{std::min(p.x, q.x) - reach, std::min(p.y, q.y) - reach},
-          {std::max(p.x, q.x) + reach, std::max(p.y, q.y) + reach}};
+  return {{std::min(p.x, q.x) - reach, std::min(p.y, q.y) - reach, std::min(p.z, q.z) - reach},
+          {std::max(p.x, q.x) + reach, std::max(p.y, q.y) + reach, std::max(p.z, q.z) + reach}};
 }
 
 SpatialTraffic::Squares SpatialTraffic::squares_of(const Box& box) const {

@@ -12,17 +12,17 @@ bool are_far(const Instance& instance, const Step& a, const Step& b, Length reac
   const auto ends = [&](const Step& step) {
     const Roadmap& roadmap = instance.roadmap();
     if (!step.is_move)
-      return std::pair{roadmap.position(step.vertex), roadmap.position(step.vertex)};
+      return std::pair{&roadmap.position(step.vertex), &roadmap.position(step.vertex)};
     const Edge& edge = roadmap.edge(step.edge);
-    return std::pair{roadmap.position(edge.from), roadmap.position(edge.to)};
+    return std::pair{&roadmap.position(edge.from), &roadmap.position(edge.to)};
   };
   const auto [p0, p1] = ends(a);
   const auto [q0, q1] = ends(b);
   const auto apart = [&, p0 = p0, p1 = p1, q0 = q0, q1 = q1](Length Point::*axis) {
-    return std::min(p0.*axis, p1.*axis) - std::max(q0.*axis, q1.*axis) >= reach ||
-           std::min(q0.*axis, q1.*axis) - std::max(p0.*axis, p1.*axis) >= reach;
+    return std::min(p0->*axis, p1->*axis) - std::max(q0->*axis, q1->*axis) >= reach ||
+           std::min(q0->*axis, q1->*axis) - std::max(p0->*axis, p1->*axis) >= reach;
   };
-  return apart(&Point::x) || apart(&Point::y);
+  return apart(&Point::x) || apart(&Point::y) || apart(&Point::z);
 }
 
 bool collide(Scene& scene, ClassId a, const Step& p, ClassId b, const Step& q) {

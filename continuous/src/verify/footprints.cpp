@@ -17,24 +17,35 @@ const std::vector<Point>& corners_of(const Body& body) {
   return std::get<ConvexPolygon>(body).vertices();
 }
 
-RealPoint operator-(RealPoint p, RealPoint q) { return {p.x - q.x, p.y - q.y}; }
-long double dot(RealPoint p, RealPoint q) { return p.x * q.x + p.y * q.y; }
-long double cross(RealPoint p, RealPoint q) { return p.x * q.y - p.y * q.x; }
-long double length(RealPoint p) { return std::hypot(p.x, p.y); }
-RealPoint between(const RealStep& step, long double share) {
-  return {step.from.x + share * (step.to.x - step.from.x),
-          step.from.y + share * (step.to.y - step.from.y)};
+RealPoint operator-(RealPoint p, RealPoint q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+long double dot(RealPoint p, RealPoint q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
+long double length(RealPoint p) {
+  return p.z == 0 ? std::hypot(p.x, p.y) : std::hypot(p.x, p.y, p.z);
+}
+RealPoint between(const RealPoint& from, const RealPoint& to, long double share) {
+  return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+          from.z + share * (to.z - from.z)};
 }
 
+FlatPoint operator-(FlatPoint p, FlatPoint q) { return {p.x - q.x, p.y - q.y}; }
+long double dot(FlatPoint p, FlatPoint q) { return p.x * q.x + p.y * q.y; }
+long double cross(FlatPoint p, FlatPoint q) { return p.x * q.y - p.y * q.x; }
+long double length(FlatPoint p) { return std::hypot(p.x, p.y); }
+FlatPoint between(const FlatPoint& from, const FlatPoint& to, long double share) {
+  return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+}
+FlatPoint flat(RealPoint p) { return {p.x, p.y}; }
+
 /// Where on the segment the point is nearest: a share of it in [0, 1].
-long double nearest_share(RealPoint p, RealPoint from, RealPoint to) {
-  const RealPoint along = to - from;
+template <class AnyPoint>
+long double nearest_share(AnyPoint p, AnyPoint from, AnyPoint to) {
+  const AnyPoint along = to - from;
   const long double square = dot(along, along);
   return square > 0 ? std::clamp(dot(p - from, along) / square, 0.0L, 1.0L) : 0;
 }
 
-std::vector<RealPoint> real_corners(const Body& body, int sign) {
-  std::vector<RealPoint> corners;
+std::vector<FlatPoint> real_corners(const Body& body, int sign) {
+  std::vector<FlatPoint> corners;
   for (const Point& corner : corners_of(body))
     corners.push_back({sign * static_cast<long double>(corner.x.count()),
                        sign * static_cast<long double>(corner.y.count())});
@@ -43,19 +54,19 @@ std::vector<RealPoint> real_corners(const Body& body, int sign) {
 
 /// All sums of a point of one convex polygon and one of the other, both counter-clockwise: their
 /// sides sorted by direction, from the lowest (then leftmost) corners on.
-std::vector<RealPoint> sum_of(std::vector<RealPoint> p, std::vector<RealPoint> q) {
-  const auto is_lower = [](RealPoint a, RealPoint b) {
+std::vector<FlatPoint> sum_of(std::vector<FlatPoint> p, std::vector<FlatPoint> q) {
+  const auto is_lower = [](FlatPoint a, FlatPoint b) {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
   };
   for (auto* polygon : {&p, &q})
     std::rotate(polygon->begin(), std::min_element(polygon->begin(), polygon->end(), is_lower),
                 polygon->end());
-  const auto side = [](const std::vector<RealPoint>& polygon, std::size_t k) {
+  const auto side = [](const std::vector<FlatPoint>& polygon, std::size_t k) {
     return polygon[(k + 1) % polygon.size()] - polygon[k];
   };
-  std::vector<RealPoint> sum;
+  std::vector<FlatPoint> sum;
   for (std::size_t k = 0, l = 0; k < p.size() || l < q.size();) {
-    const RealPoint &a = p[k % p.size()], &b = q[l % q.size()];
+    const FlatPoint &a = p[k % p.size()], &b = q[l % q.size()];
     sum.push_back({a.x + b.x, a.y + b.y});
     const long double turn = k == p.size() ? -1 : l == q.size() ? 1 : cross(side(p, k), side(q, l));
     if (turn >= 0) ++k;
@@ -64,16 +75,22 @@ std::vector<RealPoint> sum_of(std::vector<RealPoint> p, std::vector<RealPoint> q
   return sum;
 }
 
-long double farthest(const std::vector<RealPoint>& points) {
+long double farthest(const std::vector<FlatPoint>& points) {
   long double most = 0;
-  for (const RealPoint p : points) most = std::max(most, length(p));
+  for (const FlatPoint p : points) most = std::max(most, length(p));
   return most;
 }
 
 // --- exact ---
 
-ExactPoint operator-(const ExactPoint& p, const ExactPoint& q) { return {p.x - q.x, p.y - q.y}; }
-Integer dot(const ExactPoint& p, const ExactPoint& q) { return p.x * q.x + p.y * q.y; }
+ExactPoint operator-(const ExactPoint& p, const ExactPoint& q) {
+  return {p.x - q.x, p.y - q.y, p.z - q.z};
+}
+Integer dot(const ExactPoint& p, const ExactPoint& q) {
+  if (p.z.is_zero() || q.z.is_zero()) return p.x * q.x + p.y * q.y;
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+/// Of two vectors of the plane.
 Integer cross(const ExactPoint& p, const ExactPoint& q) { return p.x * q.y - p.y * q.x; }
 
 std::vector<ExactPoint> scaled_corners(const Body& body, const Integer& scale) {
@@ -93,7 +110,10 @@ bool is_nearer(const ExactPoint& p, const ExactPoint& from, const ExactPoint& to
     const ExactPoint beyond = p - to;
     return dot(beyond, beyond) < square;
   }
-  // Inside its stretch the distance is |cross| / length.
+  // Inside its stretch the squared distance is what is left of |at|^2 without the part ahead.
+  if (!at.z.is_zero() || !along.z.is_zero())
+    return dot(at, at) * size - ahead * ahead < square * size;
+  // In the plane it is |cross| / length.
   const Integer area = cross(along, at);
   return area * area < square * size;
 }
@@ -181,7 +201,7 @@ bool polygons_meet(const ExactStep& step, const std::vector<ExactPoint>& a,
 }  // namespace
 
 FootprintPair::FootprintPair(const Body& a, const Body& b) : a_(a), b_(b) {
-  std::vector<RealPoint> core_a{{0, 0}}, core_b{{0, 0}};
+  std::vector<FlatPoint> core_a{{0, 0}}, core_b{{0, 0}};
   for (const auto& [body, core, sign] : {std::tuple(&a, &core_a, 1), std::tuple(&b, &core_b, -1)}) {
     if (const auto* disc = disc_of(*body))
       radius_ += static_cast<long double>(disc->radius.count());
@@ -192,15 +212,15 @@ FootprintPair::FootprintPair(const Body& a, const Body& b) : a_(a), b_(b) {
   core_ = sum_of(std::move(core_a), std::move(core_b));
 }
 
-long double FootprintPair::distance(RealPoint p) const {
+long double FootprintPair::distance(FlatPoint p) const {
   long double outside = -std::numeric_limits<long double>::infinity();
   long double nearest = std::numeric_limits<long double>::infinity();
   for (std::size_t k = 0; k < core_.size(); ++k) {
-    const RealPoint from = core_[k], to = core_[(k + 1) % core_.size()];
-    const RealPoint along = to - from;
+    const FlatPoint from = core_[k], to = core_[(k + 1) % core_.size()];
+    const FlatPoint along = to - from;
     const long double size = length(along);
     if (size > 0) outside = std::max(outside, cross(p - from, along) / size);
-    nearest = std::min(nearest, length(p - between({from, to}, nearest_share(p, from, to))));
+    nearest = std::min(nearest, length(p - between(from, to, nearest_share(p, from, to))));
   }
   return core_.size() > 1 && outside < 0 ? outside : nearest;
 }
@@ -209,29 +229,30 @@ long double FootprintPair::distance(RealPoint p) const {
 // in time.
 FootprintPair::Nearest FootprintPair::nearest(const RealStep& step) const {
   if (core_.size() == 1) {
-    const long double share = nearest_share({0, 0}, step.from, step.to);
-    return {length(between(step, share)) - radius_, share};
+    const long double share = nearest_share(RealPoint{0, 0}, step.from, step.to);
+    return {length(between(step.from, step.to, share)) - radius_, share};
   }
+  const FlatPoint from = flat(step.from), to = flat(step.to);
   constexpr int kSteps = 110;  // (2/3)^110 < 2^-64
   long double low = 0, high = 1;
   for (int k = 0; k < kSteps; ++k) {
     const long double third = (high - low) / 3;
-    if (distance(between(step, low + third)) <= distance(between(step, high - third)))
+    if (distance(between(from, to, low + third)) <= distance(between(from, to, high - third)))
       high -= third;
     else
       low += third;
   }
-  Nearest best{distance(between(step, low)) - radius_, low};
+  Nearest best{distance(between(from, to, low)) - radius_, low};
   for (const long double share : {0.0L, 1.0L}) {
-    const long double gap = distance(between(step, share)) - radius_;
+    const long double gap = distance(between(from, to, share)) - radius_;
     if (gap < best.gap) best = {gap, share};
   }
   return best;
 }
 
 long double FootprintPair::least_gap(const RealStep& step) const {
-  const long double share = nearest_share({0, 0}, step.from, step.to);
-  return length(between(step, share)) - far_;
+  const long double share = nearest_share(RealPoint{0, 0}, step.from, step.to);
+  return length(between(step.from, step.to, share)) - far_;
 }
 
 bool FootprintPair::interiors_meet(const ExactStep& step) const {

@@ -14,6 +14,10 @@ namespace quadrille::continuous {
 using Integer = boost::multiprecision::cpp_int;
 
 struct RealPoint {
+  long double x, y, z = 0;
+};
+/// Of the plane, in length units.
+struct FlatPoint {
   long double x, y;
 };
 /// From where to where b's position moves as seen from a's, in length units.
@@ -22,7 +26,7 @@ struct RealStep {
 };
 
 struct ExactPoint {
-  Integer x, y;
+  Integer x, y, z = 0;
 };
 /// The same, multiplied by `scale`, which is positive.
 struct ExactStep {
@@ -30,6 +34,7 @@ struct ExactStep {
   Integer scale;
 };
 
+/// Two discs are balls. A polygon requires that steps have no height.
 class FootprintPair {
  public:
   /// Both bodies outlive this. Linear in the number of corners.
@@ -50,15 +55,15 @@ class FootprintPair {
   [[nodiscard]] bool interiors_meet(const ExactStep& step) const;
 
  private:
-  /// How far b's position is from `core_`: negative inside.
-  [[nodiscard]] long double distance(RealPoint p) const;
+  /// How far b's position is from `core_`: negative inside. With a polygon.
+  [[nodiscard]] long double distance(FlatPoint p) const;
 
   const Body &a_, &b_;
   long double far_ = 0;  // beyond this distance of the positions the bodies do not meet
   // The bodies touch where b's position is `radius_` from the convex polygon `core_`, which is a's
   // polygon and the mirror image of b's, added up; a single point for two discs.
   long double radius_ = 0;
-  std::vector<RealPoint> core_;
+  std::vector<FlatPoint> core_;
 };
 
 }  // namespace quadrille::continuous

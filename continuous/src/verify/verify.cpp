@@ -144,7 +144,8 @@ RealStep real_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   };
   const auto apart = [&](Ticks tick) {
     return RealPoint{at(b, tick, &Point::x) - at(a, tick, &Point::x),
-                     at(b, tick, &Point::y) - at(a, tick, &Point::y)};
+                     at(b, tick, &Point::y) - at(a, tick, &Point::y),
+                     at(b, tick, &Point::z) - at(a, tick, &Point::z)};
   };
   return {apart(begin), apart(end)};
 }
@@ -159,9 +160,10 @@ ExactStep exact_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   const auto apart = [&](Ticks tick, Length Point::*axis) -> Integer {
     return at(b, tick, axis) * duration_a - at(a, tick, axis) * duration_b;
   };
-  return {{apart(begin, &Point::x), apart(begin, &Point::y)},
-          {apart(end, &Point::x), apart(end, &Point::y)},
-          duration_a * duration_b};
+  const auto place = [&](Ticks tick) -> ExactPoint {
+    return {apart(tick, &Point::x), apart(tick, &Point::y), apart(tick, &Point::z)};
+  };
+  return {place(begin), place(end), duration_a * duration_b};
 }
 
 std::string describe(const Piece& piece) {
@@ -229,7 +231,7 @@ class PairCheck {
                                     near.share * static_cast<long double>((end - begin).count()));
     if (here.gap < clearance_.gap) clearance_ = here;
     // Coordinates are below 2^42 and the rounding error of `nearest`, even where long double is
-    // double, below 2^-6: those that are a whole unit apart need no exact look.
+    // double, below 2^-5: those that are a whole unit apart need no exact look.
     if (near.gap >= 1 || !pair_.interiors_meet(exact_step(a, b, begin, end))) return std::nullopt;
     return here;
   }

@@ -147,6 +147,11 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithLineAndReason) {
       {"\"vertices\"", "\"nodes\"", "f:6: /roadmap/nodes: this key is not known here"},
       {"[1, 0], [2, 0], [1, 0.8]", "[1, 0], [2], [1, 0.8]",
        "f:6: /roadmap/vertices/2: expected 2 coordinates, found 1"},
+      {"[1, 0.8]", "[1, 0.8, 2]", "f:6: /roadmap/vertices/3: expected 2 coordinates, found 3"},
+      {"[0, 0], [1, 0]", "[0, 0, 1], [1, 0]",
+       "f:6: /roadmap/vertices/1: expected 3 coordinates, found 2"},
+      {"[0, 0], [1, 0]", "[0], [1, 0]",
+       "f:6: /roadmap/vertices/0: expected 2 coordinates, found 1"},
       {"[1, 0.8]", "[1, \"0.8\"]", "f:6: /roadmap/vertices/3/1: expected a number"},
       {"[1, 0.8]", "[1, Infinity]", "f:6: not valid JSON"},
       {"[1, 0.8]", "[1, 1e300]", "f:6: /roadmap/vertices/3/1: the coordinate is too large"},
@@ -205,6 +210,47 @@ TEST(RoadmapJson, DeepAndHugeFilesAreRefused) {
   EXPECT_EQ(read_instance_json(deep, "f").error().code, ErrorCode::out_of_range);
   EXPECT_EQ(read_instance_json(std::filesystem::path("/")).error().code, ErrorCode::io);
   EXPECT_EQ(read_instance_json(std::filesystem::path("none.json")).error().code, ErrorCode::io);
+}
+
+TEST(RoadmapJson, Heights) {
+  const auto read = [](const std::string& points, const std::string& body,
+                       const std::string& more = "") {
+    std::istringstream file(
+        "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": 0.1, \"roadmap\":\n"
+        "{\"vertices\": " +
+        points +
+        ", \"edges\": [[0, 1]]}, \"agents\":\n"
+        "[{\"start\": 0, \"goal\": 1, " +
+        body + "}]" + more + "}");
+    return read_instance_json(file, "f");
+  };
+  const std::string disc = "\"radius\": 0.5",
+                    square = "\"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]]",
+                    spatial = "[[0, 0, -1], [2, 2, 0]]";
+  const Instance made = read(spatial, disc).value();
+  EXPECT_EQ(made.roadmap().positions(), (std::vector<Point>{{0, 0, -10}, {20, 20}}));
+  EXPECT_FALSE(made.is_flat());
+  EXPECT_EQ(made.duration(ClassId(0), EdgeId(0)), Ticks{30});
+  EXPECT_EQ(read(spatial, square).error().to_string(),
+            "f:3: agent 0 is a polygon, but there are places with a height: in space bodies are "
+            "spheres");
+  // Three coordinates alone make nothing high.
+  EXPECT_TRUE(read("[[0, 0, 0], [2, 2, 0]]", square).value().is_flat());
+  const auto obstacle = [](const std::string& body, const std::string& at) {
+    return ", \"obstacles\":\n[{" + body + ", \"path\": [{\"at\": " + at + ", \"arrive\": 5}]}]";
+  };
+  EXPECT_EQ(read("[[0, 0], [2, 2]]", disc, obstacle(disc, "[5, 5, 5]")).error().to_string(),
+            "f:4: /obstacles/0/path/0/at: expected 2 coordinates, found 3");
+  const Instance flown_over =
+      read("[[0, 0, 0], [2, 2, 0]]", disc, obstacle(disc, "[5, 5, 5]")).value();
+  EXPECT_TRUE(flown_over.roadmap().is_flat());
+  EXPECT_FALSE(flown_over.is_flat());
+  EXPECT_EQ(read("[[0, 0, 0], [2, 2, 0]]", square, obstacle(disc, "[5, 5, 5]")).error().code,
+            ErrorCode::invalid_instance);
+  EXPECT_EQ(read(spatial, disc, obstacle(square, "[5, 5, 5]")).error().to_string(),
+            "f:4: /obstacles: obstacle 0 is a polygon, but there are places with a height: in "
+            "space bodies "
+            "are spheres");
 }
 
 TEST(RoadmapJson, WhatIsWrittenIsReadBack) {

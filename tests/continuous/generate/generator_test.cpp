@@ -79,6 +79,53 @@ TEST(RandomRoadmap, KeepsItsPromises) {
   EXPECT_GT(discs, 5 + polygons);
 }
 
+TEST(RandomRoadmap, InSpace) {
+  const auto distance3 = [](const Point& p, const Point& q) {
+    return std::hypot(number(p.x - q.x), number(p.y - q.y), number(p.z - q.z));
+  };
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomInstanceOptions options;
+    options.num_vertices = 40;
+    options.num_agents = 12;
+    options.width = options.height = 5'000'000;
+    options.altitude = 4'000'000;
+    options.mixed = true;
+    if (seed % 2 == 1) options.reach = Length{3'000'000};
+    const auto drawn = random_instance(options, seed);
+    if (!drawn && options.reach) continue;  // It fell apart.
+    const Roadmap& roadmap = drawn.value().roadmap();
+    const auto& places = roadmap.positions();
+    EXPECT_FALSE(roadmap.is_flat());
+    std::set<std::pair<std::size_t, std::size_t>> edges, expected;
+    for (const Edge& e : roadmap.edges()) edges.emplace(e.from.index(), e.to.index());
+    for (std::size_t u = 0; u < places.size(); ++u)
+      for (std::size_t v = 0; v < places.size(); ++v) {
+        if (u == v) continue;
+        EXPECT_GE(distance3(places[u], places[v]), std::sqrt(8) * number(options.radius) - 1);
+        // Of the Gabriel graph: nobody is in the ball between the two.
+        const auto is_between = [&](const Point& w) {
+          return std::hypot(distance3(places[u], w), distance3(places[v], w)) <=
+                 distance3(places[u], places[v]);
+        };
+        const auto num_between = std::count_if(places.begin(), places.end(), is_between);
+        if (options.reach ? distance3(places[u], places[v]) <= number(*options.reach)
+                          : num_between == 2)  // The two themselves.
+          expected.emplace(u, v);
+      }
+    EXPECT_EQ(edges, expected);
+    for (const Agent& agent : drawn->agents())
+      EXPECT_TRUE(std::holds_alternative<Disc>(agent.body));
+    Length highest = 0;
+    for (const Point& p : places) {
+      EXPECT_GE(p.z, Length{0});
+      highest = std::max(highest, p.z);
+    }
+    EXPECT_LE(highest, options.altitude);
+    EXPECT_GT(2 * highest, options.altitude);
+  }
+}
+
 TEST(RandomRoadmap, HasAllEdgesWithinTheReach) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(seed);
@@ -121,6 +168,8 @@ TEST(RandomRoadmap, RefusesWhatCannotBe) {
   EXPECT_TRUE(refused([](auto& o) { o.num_agents = 101; }));
   EXPECT_TRUE(refused([](auto& o) { o.width = 0; }));
   EXPECT_TRUE(refused([](auto& o) { o.height = geometry::kMaxLength + 1; }));
+  EXPECT_TRUE(refused([](auto& o) { o.altitude = -1; }));
+  EXPECT_TRUE(refused([](auto& o) { o.altitude = geometry::kMaxLength + 1; }));
   EXPECT_TRUE(refused([](auto& o) { o.radius = 0; }));
   EXPECT_TRUE(refused([](auto& o) { o.radius = geometry::kMaxLength; }));
   EXPECT_TRUE(refused([](auto& o) { o.radius = 4'000'000; }));  // they do not fit

@@ -27,7 +27,7 @@ struct Nearest {
 
 Ticks length(const Element& e) { return std::max<Ticks>(e.end - e.begin, 1); }
 
-// Times the lengths of both elements the distance is (x + u t, y + v t), in integers.
+// Times the lengths of both elements the distance is (x + u t, y + v t, z + w t), in integers.
 Nearest nearest(const Element& a, const Element& b) {
   const Ticks begin = std::max(a.begin, b.begin);
   const Ticks end = std::min(a.end, b.end);
@@ -35,22 +35,24 @@ Nearest nearest(const Element& a, const Element& b) {
   if (begin > end) return {std::nullopt, la * lb};
   const Wide u = lb * (a.to.x - a.from.x).count() - la * (b.to.x - b.from.x).count();
   const Wide v = lb * (a.to.y - a.from.y).count() - la * (b.to.y - b.from.y).count();
+  const Wide w = lb * (a.to.z - a.from.z).count() - la * (b.to.z - b.from.z).count();
   const auto at_zero = [&](Length from_a, Length to_a, Length from_b, Length to_b) -> Wide {
     return lb * (la * from_a.count() - Wide((to_a - from_a).count()) * a.begin.count()) -
            la * (lb * from_b.count() - Wide((to_b - from_b).count()) * b.begin.count());
   };
   const Wide x = at_zero(a.from.x, a.to.x, b.from.x, b.to.x);
   const Wide y = at_zero(a.from.y, a.to.y, b.from.y, b.to.y);
-  const Wide speed = u * u + v * v;
-  const Wide approach = -(x * u + y * v);  // speed * the moment at which they are nearest
+  const Wide z = at_zero(a.from.z, a.to.z, b.from.z, b.to.z);
+  const Wide speed = u * u + v * v + w * w;
+  const Wide approach = -(x * u + y * v + z * w);  // speed * the moment at which they are nearest
   const auto at = [&](Ticks t) {
-    const Wide dx = x + u * t.count(), dy = y + v * t.count();
-    return Nearest{Square{dx * dx + dy * dy}, la * lb};
+    const Wide dx = x + u * t.count(), dy = y + v * t.count(), dz = z + w * t.count();
+    return Nearest{Square{dx * dx + dy * dy + dz * dz}, la * lb};
   };
   if (approach <= speed * begin.count()) return at(begin);
   if (approach >= speed * end.count()) return at(end);
-  const Wide area = x * v - y * u;
-  return {Square{area * area, speed}, la * lb};
+  const Wide xy = x * v - y * u, yz = y * w - z * v, zx = z * u - x * w;  // the cross product
+  return {Square{xy * xy + yz * yz + zx * zx, speed}, la * lb};
 }
 
 Element moved(Element e, Ticks by) {
@@ -89,7 +91,8 @@ std::optional<Run> disc_starts(const Element& a, const Element& b, Length reach)
     return std::max(a0, a1) + by <= std::min(b0, b1) || std::max(b0, b1) + by <= std::min(a0, a1);
   };
   if (apart(a.from.x, a.to.x, b.from.x, b.to.x, reach) ||
-      apart(a.from.y, a.to.y, b.from.y, b.to.y, reach))
+      apart(a.from.y, a.to.y, b.from.y, b.to.y, reach) ||
+      apart(a.from.z, a.to.z, b.from.z, b.to.z, reach))
     return std::nullopt;
   const auto meets = [&](Ticks d) { return discs_meet(a, moved(b, d), reach); };
   // These are the differences at which they share a moment.

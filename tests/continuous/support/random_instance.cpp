@@ -26,8 +26,14 @@ void close_edges(Draw& draw, std::vector<Edge>& edges) {
   }
 }
 
-/// `draw` says what there was before there were groups, `more` all else.
-Result<Roadmap> draw_roadmap(Draw& draw, Draw& more, bool has_groups,
+/// Heights from a few to as many as there is room.
+Length draw_height(Draw& heights, const RandomOptions& options) {
+  return heights.chance(40) ? 10 * heights.length(0, 2) : heights.length(0, options.size);
+}
+
+/// `draw` says what there was before there were groups, `more` those, `heights` the heights, if
+/// any.
+Result<Roadmap> draw_roadmap(Draw& draw, Draw& more, Draw* heights, bool has_groups,
                              const RandomOptions& options) {
   std::vector<Point> points;
   const bool is_grid = draw.chance(30);  // right angles, equal lengths
@@ -37,6 +43,8 @@ Result<Roadmap> draw_roadmap(Draw& draw, Draw& more, bool has_groups,
     else
       points.push_back({draw.length(0, options.size), draw.length(0, options.size)});
   }
+  if (heights != nullptr)
+    for (Point& point : points) point.z = draw_height(*heights, options);
   std::vector<Edge> edges;
   for (std::size_t u = 0; u < points.size(); ++u)
     for (std::size_t v = u + 1; v < points.size(); ++v) {
@@ -93,6 +101,21 @@ MovingObstacle draw_obstacle(Draw& draw, const Roadmap& roadmap, const RandomOpt
   return obstacle;
 }
 
+/// Spheres in place of polygons, and heights for stops in the air.
+void lift(Draw& heights, const RandomOptions& options, std::vector<Agent>& agents,
+          std::vector<MovingObstacle>& obstacles) {
+  const auto make_sphere = [&](Body& body) {
+    const Disc sphere{heights.length(1, options.max_radius)};
+    if (!std::holds_alternative<Disc>(body)) body = sphere;
+  };
+  for (Agent& agent : agents) make_sphere(agent.body);
+  for (MovingObstacle& obstacle : obstacles) {
+    make_sphere(obstacle.body);
+    for (MovingObstacle::Stop& stop : obstacle.path)
+      if (stop.at.z == 0) stop.at.z = draw_height(heights, options);
+  }
+}
+
 /// Some agents begin in the middle of a move, which need not be open to them.
 std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
                                              std::vector<Agent>& agents) {
@@ -115,29 +138,34 @@ std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
     agent.start = VertexId(points.size());
     agent.release = 0;
     agent.under_way = true;
-    points.push_back({between(from.x, to.x), between(from.y, to.y)});
+    points.push_back({between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)});
     edges.push_back({agent.start, edge.to, left});
   }
   return std::make_shared<const Roadmap>(
       Roadmap::make(std::move(points), std::move(edges)).value());
 }
 
+std::string describe(const Point& p) {
+  return "(" + std::to_string(p.x.count()) + "," + std::to_string(p.y.count()) +
+         (p.z == 0 ? "" : "," + std::to_string(p.z.count())) + ")";
+}
+
 std::string describe(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body))
     return "r" + std::to_string(disc->radius.count());
   std::string text = "p";
-  for (const Point& corner : std::get<ConvexPolygon>(body).vertices())
-    text += "(" + std::to_string(corner.x.count()) + "," + std::to_string(corner.y.count()) + ")";
+  for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) text += describe(corner);
   return text;
 }
 
 }  // namespace
 
 Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
-  Draw draw(seed), more(seed ^ 0x9e3779b9u), last(seed ^ 0x7f4a7c15u);
+  Draw draw(seed), more(seed ^ 0x9e3779b9u), last(seed ^ 0x7f4a7c15u), heights(seed ^ 0x5bd1e995u);
+  const bool is_in_space = heights.chance(options.space_percent);
   while (true) {
     const bool has_groups = more.chance(options.groups_percent);
-    auto roadmap = draw_roadmap(draw, more, has_groups, options);
+    auto roadmap = draw_roadmap(draw, more, is_in_space ? &heights : nullptr, has_groups, options);
     if (!roadmap) continue;
     auto shared = std::make_shared<const Roadmap>(std::move(roadmap).value());
     std::vector<Agent> agents;
@@ -171,6 +199,7 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
     if (more.chance(options.obstacles_percent))
       for (std::int64_t k = more.number(1, 2); k > 0; --k)
         obstacles.push_back(draw_obstacle(more, *shared, options));
+    if (is_in_space) lift(heights, options, agents, obstacles);
     if (last.chance(options.under_way_percent)) shared = put_under_way(last, *shared, agents);
     auto instance =
         Instance::make(shared, std::move(agents), kDefaultResolution, {}, std::move(obstacles));
@@ -188,8 +217,7 @@ Instance random_pair(std::uint32_t seed) {
 
 std::string describe(const Instance& instance) {
   std::string text = "vertices";
-  for (const Point& p : instance.roadmap().positions())
-    text += " (" + std::to_string(p.x.count()) + "," + std::to_string(p.y.count()) + ")";
+  for (const Point& p : instance.roadmap().positions()) text += " " + describe(p);
   text += "; edges";
   for (const Edge& e : instance.roadmap().edges()) {
     text += " " + std::to_string(e.from.index()) + ">" + std::to_string(e.to.index());
@@ -212,8 +240,8 @@ std::string describe(const Instance& instance) {
   for (const MovingObstacle& o : instance.obstacles()) {
     text += " " + describe(o.body);
     for (const MovingObstacle::Stop& s : o.path)
-      text += " (" + std::to_string(s.at.x.count()) + "," + std::to_string(s.at.y.count()) + ")@" +
-              std::to_string(s.arrive.count()) + "-" + std::to_string(s.depart.count());
+      text += " " + describe(s.at) + "@" + std::to_string(s.arrive.count()) + "-" +
+              std::to_string(s.depart.count());
     if (o.leaves) text += " leaves";
   }
   return text;

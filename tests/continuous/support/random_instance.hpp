@@ -36,6 +36,8 @@ struct RandomOptions {
   int one_way_percent = 10;  ///< Of the edges.
   int polygon_percent = 20;  ///< Of the agents.
   bool equal_agents = false;
+  /// Of the instances: places have heights and all bodies are spheres.
+  int space_percent = 20;
   /// Of the instances: agents of three groups, and edges that are closed to some of these.
   int groups_percent = 20;
   /// Of the instances: some agents are released late.

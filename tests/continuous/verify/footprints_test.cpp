@@ -30,31 +30,38 @@ Case draw_case(std::uint32_t seed) {
   options.num_agents = 2;
   options.polygon_percent = 70;
   const Instance instance = random_instance(seed, options);
-  const auto place = [&] { return Point{draw.length(-20, 20), draw.length(-20, 20)}; };
+  const Body &a = instance.agent(AgentId(0)).body, &b = instance.agent(AgentId(1)).body;
+  const bool in_space =
+      std::holds_alternative<Disc>(a) && std::holds_alternative<Disc>(b) && draw.chance(35);
+  const auto place = [&] {
+    return Point{draw.length(-20, 20), draw.length(-20, 20),
+                 in_space ? draw.length(-15, 15) : Length{0}};
+  };
   const Point from = place();
-  return {instance.agent(AgentId(0)).body, instance.agent(AgentId(1)).body, from,
-          draw.chance(15) ? from : place()};
+  return {a, b, from, draw.chance(15) ? from : place()};
 }
 
 ExactStep exact(const Case& c, std::int64_t scale) {
   const auto at = [&](const Point& p) {
-    return ExactPoint{Integer(scale * p.x.count()), Integer(scale * p.y.count())};
+    return ExactPoint{scale * p.x.count(), scale * p.y.count(), scale * p.z.count()};
   };
   return {at(c.from), at(c.to), Integer(scale)};
 }
 
 RealStep real(const Case& c) {
   const auto at = [](const Point& p) {
-    return RealPoint{static_cast<long double>(p.x.count()), static_cast<long double>(p.y.count())};
+    return RealPoint{static_cast<long double>(p.x.count()), static_cast<long double>(p.y.count()),
+                     static_cast<long double>(p.z.count())};
   };
   return {at(c.from), at(c.to)};
 }
 
 TEST(Footprints, MeetWhenGeometryAndTheOracleSaySo) {
-  int meeting = 0, apart = 0, touching = 0;
+  int meeting = 0, apart = 0, touching = 0, high = 0;
   for (std::uint32_t seed = 0; seed < support::scaled(20'000); ++seed) {
     const Case c = draw_case(seed);
     SCOPED_TRACE(seed);
+    if (c.from.z != 0) ++high;
     const FootprintPair pair(c.a, c.b);
     const geometry::Motion rest{{0, 0}, {0, 0}, kTicks}, motion{c.from, c.to, kTicks};
     const bool meet = pair.interiors_meet(exact(c, 1));
@@ -79,6 +86,7 @@ TEST(Footprints, MeetWhenGeometryAndTheOracleSaySo) {
   EXPECT_GT(meeting, 100);
   EXPECT_GT(apart, 100);
   EXPECT_GT(touching, 5);
+  EXPECT_GT(high, 100);
 }
 
 /// The depth of an overlap is what a body has to be moved by.
@@ -95,6 +103,9 @@ TEST(Footprints, OverlapIsThePushThatSeparates) {
   EXPECT_NEAR(gap(disc, square, -7, 2), -1, 1e-12);
   EXPECT_NEAR(gap(square, disc, 8, 9), 2, 1e-12);
   EXPECT_NEAR(gap(disc, disc, 3, 4), -1, 1e-12);
+  const RealPoint above{1, 2, 2};
+  EXPECT_NEAR(static_cast<double>(FootprintPair(disc, disc).nearest({above, above}).gap), -3,
+              1e-12);
 }
 
 }  // namespace

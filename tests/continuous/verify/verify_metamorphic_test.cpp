@@ -33,6 +33,7 @@ const std::vector<Case>& cases() {
       options.height = 3'000;
       options.radius = 150;
       options.mixed = seed % 2 == 1;
+      if (seed % 4 == 2) options.altitude = 2'000;
       const Instance instance = random_instance(options, seed).value();
       SolveOptions solve_options;
       solve_options.limits.conflicts = 20'000;
@@ -143,7 +144,7 @@ TEST(VerifyMetamorphic, MovingMirroringAndTurningTheRoadmapChangesNothing) {
     const auto same = [&](auto turn, Point by) {
       const auto move = [&](Point p) {
         p = turn(p);
-        return Point{p.x + by.x, p.y + by.y};
+        return Point{p.x + by.x, p.y + by.y, p.z + by.z};
       };
       const auto turn_body = [&](Agent& agent, AgentId) {
         agent.body = moved_body(agent.body, turn);
@@ -155,9 +156,12 @@ TEST(VerifyMetamorphic, MovingMirroringAndTurningTheRoadmapChangesNothing) {
         EXPECT_NEAR(before.clearances[k].gap, after.clearances[k].gap, 1e-9);
     };
     same([](Point p) { return p; }, {123'456'789, -987'654'321});
-    same([](Point p) { return Point{-p.x, p.y}; }, {});
-    same([](Point p) { return Point{p.y, p.x}; }, {});
-    same([](Point p) { return Point{-p.y, p.x}; }, {});
+    same([](Point p) { return Point{-p.x, p.y, p.z}; }, {});
+    same([](Point p) { return Point{p.y, p.x, p.z}; }, {});
+    same([](Point p) { return Point{-p.y, p.x, p.z}; }, {});
+    if (c.instance.is_flat()) continue;
+    same([](Point p) { return p; }, {0, 0, 123'456'789});
+    same([](Point p) { return Point{p.z, p.x, -p.y}; }, {});
   }
 }
 
@@ -206,7 +210,7 @@ TEST(VerifyMetamorphic, ScalingSpaceAndTimeScalesTheClearance) {
     constexpr std::int64_t kFactor = 7;
     std::vector<Point> points;
     for (const Point& p : c.instance.roadmap().positions())
-      points.push_back({kFactor * p.x, kFactor * p.y});
+      points.push_back({kFactor * p.x, kFactor * p.y, kFactor * p.z});
     std::vector<Edge> edges = c.instance.roadmap().edges();
     for (std::size_t e = 0; e < edges.size(); ++e)
       edges[e].duration = kFactor * c.instance.duration(ClassId(0), EdgeId(e));

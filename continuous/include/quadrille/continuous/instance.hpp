@@ -30,7 +30,7 @@ struct Agent {
   VertexId start;
   VertexId goal;
   /// A disc, or a convex polygon, which keeps its orientation on all moves: a robot that turns is
-  /// the disc around all its orientations.
+  /// the disc around all its orientations. In an instance that is not flat a disc is a ball.
   Body body = Disc{};
   Speed speed = kUnitSpeed;
   GroupId group = {};  ///< It may use the edges that are open to this one.
@@ -83,11 +83,12 @@ class Instance {
   /// [0, kMaxGroups), a release or a deadline outside [0, geometry::kMaxDuration], a duration
   /// outside [1, geometry::kMaxDuration], a resolution that is not positive and finite, likewise
   /// for bodies, places and times of obstacles; invalid_instance for vertices that do not exist,
-  /// agents that are under way but not at a place of their own, or released later, and obstacles
-  /// without stops, whose times go back, or that vanish when they appear; no_plan for overlapping
-  /// starts, also with an obstacle at tick 0, overlapping goals (interiors) of agents that stay
-  /// there, and goals that cannot be reached, or not by the deadline. Agents are named by index.
-  /// `places`: where each agent comes from, for errors about it; none, or one per agent.
+  /// agents that are under way but not at a place of their own, or released later, obstacles
+  /// without stops, whose times go back, or that vanish when they appear, and polygons in an
+  /// instance that is not flat; no_plan for overlapping starts, also with an obstacle at tick 0,
+  /// overlapping goals (interiors) of agents that stay there, and goals that cannot be reached, or
+  /// not by the deadline. Agents are named by index. `places`: where each agent comes from, for
+  /// errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents, Resolution resolution = {},
                                              std::span<const SourcePlace> places = {},
@@ -108,6 +109,9 @@ class Instance {
   [[nodiscard]] const Agent& agent(AgentId i) const { return agents_[i]; }
 
   [[nodiscard]] const std::vector<MovingObstacle>& obstacles() const noexcept { return obstacles_; }
+  /// Whether all is in the plane z = 0, vertices and stops of obstacles. Otherwise all bodies are
+  /// balls.
+  [[nodiscard]] bool is_flat() const noexcept { return is_flat_; }
 
   [[nodiscard]] std::size_t num_classes() const noexcept { return classes_.size(); }
   [[nodiscard]] ClassId class_of(AgentId i) const { return class_of_[i]; }
@@ -153,6 +157,7 @@ class Instance {
   std::shared_ptr<const Roadmap> roadmap_;
   IdVector<AgentId, Agent> agents_;
   std::vector<MovingObstacle> obstacles_;
+  bool is_flat_ = true;
   Resolution resolution_;
   IdVector<ClassId, Class> classes_;
   IdVector<AgentId, ClassId> class_of_;

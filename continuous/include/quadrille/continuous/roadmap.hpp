@@ -82,7 +82,7 @@ class EdgeLists {
   std::vector<EdgeId> edges_;
 };
 
-/// Vertices in the plane and directed edges. Immutable.
+/// Vertices in the plane or in space, and directed edges. Immutable.
 class Roadmap {
  public:
   /// Errors: out_of_range for coordinates beyond geometry::kMaxLength or durations outside
@@ -100,6 +100,8 @@ class Roadmap {
   [[nodiscard]] std::size_t num_edges() const noexcept { return edges_.size(); }
   [[nodiscard]] const Point& position(VertexId v) const { return positions_[v.index()]; }
   [[nodiscard]] const Edge& edge(EdgeId e) const { return edges_[e.index()]; }
+  /// Whether no vertex has a height: all of them are in the plane z = 0.
+  [[nodiscard]] bool is_flat() const noexcept { return is_flat_; }
   /// Whoever they are open to, by edge id.
   [[nodiscard]] std::span<const EdgeId> out_edges(VertexId v) const { return out_.of(v); }
   [[nodiscard]] std::span<const EdgeId> in_edges(VertexId v) const { return in_.of(v); }
@@ -112,6 +114,7 @@ class Roadmap {
 
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
+  bool is_flat_ = true;
   EdgeLists out_, in_;
 };
 

@@ -39,7 +39,7 @@ class ClearanceWatch {
 
  private:
   struct Vector {
-    double x = 0, y = 0;
+    double x = 0, y = 0, z = 0;
   };
   /// Where an agent is at some share of the period.
   struct Knot {

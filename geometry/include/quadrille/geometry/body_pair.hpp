@@ -31,7 +31,9 @@ struct Gap {
 /// leaves in doubt is decided in exact integer arithmetic.
 ///
 /// Immutable, cheap to copy; all members may be called from several threads at once. They require
-/// valid motions and points in range. Time is constant for discs and grows with the number of
+/// valid motions and points in range, and for pairs with a polygon that the motions are level: that
+/// all their ends have the same height. Two discs are balls: at any heights it is the distance in
+/// space that counts. Time is constant for discs and grows with the number of
 /// corners for polygons, whose pairs also take longer to construct: keep one per pair of body
 /// classes.
 class BodyPair {
@@ -74,6 +76,9 @@ class BodyPair {
  private:
   class Shape;  // Null for two discs.
 
+  // Whether it takes more than the plane to see the two motions. Requires that there are two discs
+  // then.
+  [[nodiscard]] bool is_in_space(const Motion& a, const Motion& b) const;
   // Without checking the motions.
   [[nodiscard]] bool collide_unchecked(const Motion& a, const Motion& b, Ticks offset) const;
   // What b's position relative to a's must keep `reach_` away from: a convex polygon or a point.

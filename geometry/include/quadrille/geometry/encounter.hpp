@@ -33,9 +33,9 @@ struct Leg {
 ///
 /// Each body is also looked at a little smaller: shrunk about its centre, of a polygon the mean of
 /// its corners, by kRelativeTolerance, or by more where rounding of large coordinates asks for it.
-/// - `clear`: at each moment some straight line separates the bodies by more than rounding can
-///   amount to. FCL's nearest points propose lines; how long one of them holds follows from
-///   corners, radii and the constant speed at which the bodies approach it.
+/// - `clear`: at each moment some straight line (some plane) separates the bodies by more than
+///   rounding can amount to. FCL's nearest points propose lines; how long one of them holds follows
+///   from corners, radii and the constant speed at which the bodies approach it.
 /// - `collision`: at some moment FCL finds the shrunk bodies overlapping, or nearer to each other
 ///   than half of what they have been shrunk by.
 /// - `touch`: everything else, also where FCL fails.
@@ -61,7 +61,8 @@ class EncounterCheck {
   [[nodiscard]] double tolerance() const noexcept;
 
   /// During the ticks that both legs share; `clear` if there are none. Requires coordinates within
-  /// the extent and begin <= end, all ticks within 2^61. A few queries of FCL; none where the discs
+  /// the extent, all of one height if one of the bodies is a polygon, and begin <= end, all ticks
+  /// within 2^61. A few queries of FCL; none where the discs
   /// around the bodies do not meet.
   [[nodiscard]] Encounter look(const Leg& a, const Leg& b) const;
 

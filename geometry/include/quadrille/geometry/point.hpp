@@ -22,18 +22,19 @@ inline constexpr Length kMaxLength{std::int64_t{1} << 40};
 /// The longest motion, rests included.
 inline constexpr Ticks kMaxDuration{std::int64_t{1} << 40};
 
-/// A point or a vector of the plane, in length units.
+/// A point or a vector of space, in length units. All that lies in the plane has z = 0.
 struct Point {
   Length x = 0;
   Length y = 0;
+  Length z = 0;  ///< Height.
 
   friend constexpr bool operator==(const Point&, const Point&) = default;
 };
 
-/// Whether both coordinates are within kMaxLength.
+/// Whether all coordinates are within kMaxLength.
 [[nodiscard]] constexpr bool in_range(const Point& point) noexcept {
   return -kMaxLength <= point.x && point.x <= kMaxLength && -kMaxLength <= point.y &&
-         point.y <= kMaxLength;
+         point.y <= kMaxLength && -kMaxLength <= point.z && point.z <= kMaxLength;
 }
 
 }  // namespace quadrille::geometry
