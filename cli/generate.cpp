@@ -63,6 +63,7 @@ const std::vector<KindOption>& kind_options() {
       {"--aisle-width", {Kind::warehouse}},
       {"--side-width", {Kind::warehouse}},
       {"--vertices", {Kind::roadmap}},
+      {"--altitude", {Kind::roadmap}},
       {"--radius", {Kind::roadmap}},
       {"--speed", {Kind::roadmap}},
       {"--mixed", {Kind::roadmap}},

@@ -34,7 +34,7 @@ _quadrille() {
       ;;
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
       --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
-      --speed | --resolution | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
+      --speed | --resolution | --altitude | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
       --longest | --slow | --period | --runs | --rate)
       return
       ;;
@@ -63,7 +63,7 @@ _quadrille() {
     generate)
       options="--kind --map --map-output --scen-output --agents --any-goal --seed --width --height
         --obstacles --corridor-width --room-size --doors --shelf-columns --shelf-rows --shelf-length
-        --shelf-width --aisle-width --side-width --vertices --radius --speed --reach --mixed --resolution
+        --shelf-width --aisle-width --side-width --vertices --altitude --radius --speed --reach --mixed --resolution
         --instance-output"
       ;;
     convert) options="$instance --to --from --output" ;;

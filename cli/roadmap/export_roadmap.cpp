@@ -38,6 +38,10 @@ struct Checked {
 };
 
 Result<Checked> read_checked(const ExportArguments& arguments, const RoadmapInput& input) {
+  if (arguments.to == ExportFormat::vda5050 && !input.instance.roadmap().is_flat())
+    return Error{ErrorCode::invalid_instance,
+                 "orders of VDA 5050 have no heights, and the roadmap has",
+                 {input.source, 0}};
   auto file = continuous::read_plan(std::filesystem::path(arguments.plan), input.instance,
                                     input.grid_or_null(), arguments.from.continuous);
   if (!file) return file.error();

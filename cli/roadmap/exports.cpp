@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -28,7 +29,7 @@ constexpr std::pair<ExportFormat, std::string_view> kFormats[] = {
 
 /// In the instance's units; the velocity is that of what comes next.
 struct Sample {
-  double time = 0, x = 0, y = 0, vx = 0, vy = 0;
+  double time = 0, x = 0, y = 0, z = 0, vx = 0, vy = 0, vz = 0;
 };
 
 class Sampler {
@@ -42,8 +43,8 @@ class Sampler {
       add(path[k].vertex, path[k].vertex, path[k].arrive, path[k].depart);
       add(path[k].vertex, path[k + 1].vertex, path[k].depart, path[k + 1].arrive);
     }
-    const auto [x, y] = place(path.back().vertex);
-    samples_.push_back({units(path.back().arrive), x, y, 0, 0});
+    const auto [x, y, z] = place(path.back().vertex);
+    samples_.push_back({units(path.back().arrive), x, y, z, 0, 0, 0});
     return samples_;
   }
 
@@ -51,24 +52,26 @@ class Sampler {
   [[nodiscard]] double units(Ticks ticks) const {
     return continuous::in_input_units(ticks, instance_.resolution());
   }
-  [[nodiscard]] std::pair<double, double> place(VertexId vertex) const {
+  [[nodiscard]] std::array<double, 3> place(VertexId vertex) const {
     const auto& p = instance_.roadmap().position(vertex);
     return {continuous::in_input_units(p.x, instance_.resolution()),
-            continuous::in_input_units(p.y, instance_.resolution())};
+            continuous::in_input_units(p.y, instance_.resolution()),
+            continuous::in_input_units(p.z, instance_.resolution())};
   }
   /// From its beginning on, its end excluded.
   void add(VertexId from, VertexId to, Ticks begin, Ticks end) {
     if (begin == end) return;
     const double start = units(begin), stop = units(end);
-    const auto [x0, y0] = place(from);
-    const auto [x1, y1] = place(to);
-    const double vx = (x1 - x0) / (stop - start), vy = (y1 - y0) / (stop - start);
-    samples_.push_back({start, x0, y0, vx, vy});
+    const auto [x0, y0, z0] = place(from);
+    const auto [x1, y1, z1] = place(to);
+    const double vx = (x1 - x0) / (stop - start), vy = (y1 - y0) / (stop - start),
+                 vz = (z1 - z0) / (stop - start);
+    samples_.push_back({start, x0, y0, z0, vx, vy, vz});
     next_ = std::max(next_, static_cast<std::int64_t>(std::floor(start * rate_)) + 1);
     for (; static_cast<double>(next_) / rate_ < stop; ++next_) {
-      const double time = static_cast<double>(next_) / rate_;
-      if (time > start)
-        samples_.push_back({time, x0 + vx * (time - start), y0 + vy * (time - start), vx, vy});
+      const double time = static_cast<double>(next_) / rate_, since = time - start;
+      if (since > 0)
+        samples_.push_back({time, x0 + vx * since, y0 + vy * since, z0 + vz * since, vx, vy, vz});
     }
   }
 
@@ -78,7 +81,7 @@ class Sampler {
   std::vector<Sample> samples_;
 };
 
-Json point(double x, double y) { return {{"x", x}, {"y", y}, {"z", 0.0}}; }
+Json point(double x, double y, double z) { return {{"x", x}, {"y", y}, {"z", z}}; }
 Json no_rotation() { return {{"x", 0.0}, {"y", 0.0}, {"z", 0.0}, {"w", 1.0}}; }
 Json duration(double time) {
   const auto nanoseconds = std::llround(time * 1e9);
@@ -90,8 +93,8 @@ Json multidof(AgentId agent, const std::vector<Sample>& samples) {
   Json points = Json::array();
   for (const Sample& s : samples)
     points.push_back(
-        {{"transforms", {{{"translation", point(s.x, s.y)}, {"rotation", no_rotation()}}}},
-         {"velocities", {{{"linear", point(s.vx, s.vy)}, {"angular", point(0, 0)}}}},
+        {{"transforms", {{{"translation", point(s.x, s.y, s.z)}, {"rotation", no_rotation()}}}},
+         {"velocities", {{{"linear", point(s.vx, s.vy, s.vz)}, {"angular", point(0, 0, 0)}}}},
          {"accelerations", Json::array()},
          {"time_from_start", duration(s.time)}});
   return {{"header", header(0)},
@@ -102,8 +105,9 @@ Json multidof(AgentId agent, const std::vector<Sample>& samples) {
 Json nav_path(const std::vector<Sample>& samples) {
   Json poses = Json::array();
   for (const Sample& s : samples)
-    poses.push_back({{"header", header(s.time)},
-                     {"pose", {{"position", point(s.x, s.y)}, {"orientation", no_rotation()}}}});
+    poses.push_back(
+        {{"header", header(s.time)},
+         {"pose", {{"position", point(s.x, s.y, s.z)}, {"orientation", no_rotation()}}}});
   return {{"header", header(0)}, {"poses", poses}};
 }
 
@@ -164,14 +168,20 @@ std::optional<ExportFormat> parse_export_format(std::string_view text) noexcept 
 std::string export_samples(const Instance& instance, const continuous::Plan& plan,
                            ExportFormat format, double rate) {
   Sampler sampler(instance, rate);
-  std::string text = format == ExportFormat::csv ? "agent,time,x,y,vx,vy\n" : "";
+  const bool is_flat = instance.is_flat();
+  std::string text;
+  if (format == ExportFormat::csv)
+    text = is_flat ? "agent,time,x,y,vx,vy\n" : "agent,time,x,y,z,vx,vy,vz\n";
   for (const AgentId agent : instance.agent_ids()) {
     const auto samples = sampler.samples(plan.paths[agent]);
     if (format == ExportFormat::multidof) append(text, multidof(agent, samples));
     if (format == ExportFormat::path) append(text, nav_path(samples));
-    if (format == ExportFormat::csv)
-      for (const Sample& s : samples)
-        text += fmt::format("{},{},{},{},{},{}\n", agent.value(), s.time, s.x, s.y, s.vx, s.vy);
+    if (format != ExportFormat::csv) continue;
+    for (const Sample& s : samples)
+      text += is_flat
+                  ? fmt::format("{},{},{},{},{},{}\n", agent.value(), s.time, s.x, s.y, s.vx, s.vy)
+                  : fmt::format("{},{},{},{},{},{},{},{}\n", agent.value(), s.time, s.x, s.y, s.z,
+                                s.vx, s.vy, s.vz);
   }
   return format == ExportFormat::csv ? text : finish(std::move(text));
 }

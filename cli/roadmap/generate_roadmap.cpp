@@ -37,6 +37,12 @@ Result<continuous::Instance> make(const GenerateRoadmapOptions& options, std::in
   wanted.speed = *speed;
   wanted.width = *unit_width;
   wanted.height = *unit_height;
+  if (options.altitude) {
+    const auto altitude = continuous::quantise_coordinate(*options.altitude, wanted.resolution);
+    if (!altitude || *altitude < 1)
+      return refuse("--altitude is less than one length unit, or too large");
+    wanted.altitude = *altitude;
+  }
   wanted.mixed = options.mixed;
   if (options.reach) {
     wanted.reach = continuous::quantise_coordinate(*options.reach, wanted.resolution);
@@ -54,6 +60,9 @@ void add_generate_roadmap_options(CLI::App& app, GenerateRoadmapOptions& options
   add_integer(app, "--vertices", options.vertices, 1,
               static_cast<std::int64_t>(continuous::kMaxRandomVertices),
               "Number of vertices; default 100")
+      ->group(group);
+  add_positive(app, "--altitude", options.altitude,
+               "Vertices in space, up to so high; agents are spheres")
       ->group(group);
   add_positive(app, "--radius", options.radius, "Radius of the agents; default sqrt(2)/4")
       ->group(group);

@@ -13,7 +13,7 @@ namespace quadrille::cli {
 /// What `generate --kind roadmap` is asked for, besides width, height, agents and seed.
 struct GenerateRoadmapOptions {
   std::optional<std::int64_t> vertices;
-  std::optional<double> radius, speed, reach, resolution;
+  std::optional<double> altitude, radius, speed, reach, resolution;
   bool mixed = false;
   std::string output;
 };
