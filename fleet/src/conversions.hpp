@@ -18,8 +18,9 @@ namespace quadrille::fleet {
     const Point& place, const continuous::Resolution& resolution) {
   const auto x = continuous::quantise_coordinate(place.x.value(), resolution);
   const auto y = continuous::quantise_coordinate(place.y.value(), resolution);
-  if (!x || !y) return std::nullopt;
-  return continuous::Point{*x, *y};
+  const auto z = continuous::quantise_coordinate(place.z.value(), resolution);
+  if (!x || !y || !z) return std::nullopt;
+  return continuous::Point{*x, *y, *z};
 }
 
 /// Up to a whole length unit. A number that differs from one by a billionth is meant to be that:
@@ -48,7 +49,8 @@ namespace quadrille::fleet {
 [[nodiscard]] inline Point in_metres(const continuous::Point& point,
                                      const continuous::Resolution& resolution) {
   return {Metres(continuous::in_input_units(point.x, resolution)),
-          Metres(continuous::in_input_units(point.y, resolution))};
+          Metres(continuous::in_input_units(point.y, resolution)),
+          Metres(continuous::in_input_units(point.z, resolution))};
 }
 
 [[nodiscard]] inline Seconds in_seconds(continuous::Ticks ticks,

@@ -238,6 +238,7 @@ Result<std::vector<continuous::MovingObstacle>> Fleet::obstacles_in_units() cons
 Error Fleet::in_words(const Error& error, const Roads& roads,
                       const std::vector<continuous::Agent>& agents,
                       const std::vector<continuous::MovingObstacle>& obstacles) const {
+  if (auto found = find_polygon_in_space(*roads, agents, obstacles)) return *found;
   if (auto found = find_unsupported(*roads, agents)) return *found;
   if (auto found = find_overlap(*roads, agents, &continuous::Agent::start, "starts")) return *found;
   if (auto found = find_overlap(*roads, agents, &continuous::Agent::goal, "goals")) return *found;
@@ -245,6 +246,27 @@ Error Fleet::in_words(const Error& error, const Roads& roads,
   for (std::size_t i = 0; i < agents.size(); ++i)
     if (auto found = find_alone(roads, agents[i], AgentId(i))) return *found;
   return error;
+}
+
+std::optional<Error> Fleet::find_polygon_in_space(
+    const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
+    const std::vector<continuous::MovingObstacle>& obstacles) const {
+  const auto is_high = [](const auto& stop) { return stop.at.z != 0; };
+  const auto flies = [&](const continuous::MovingObstacle& obstacle) {
+    return std::any_of(obstacle.path.begin(), obstacle.path.end(), is_high);
+  };
+  if (roads.is_flat() && std::none_of(obstacles.begin(), obstacles.end(), flies))
+    return std::nullopt;
+  const auto refusal = [](const std::string& name) {
+    return invalid("'" + name + "' is a polygon, but there are places with a height: in space " +
+                   "bodies are spheres");
+  };
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    if (!std::holds_alternative<continuous::Disc>(agents[i].body)) return refusal(name(AgentId(i)));
+  for (std::size_t o = 0; o < obstacles.size(); ++o)
+    if (!std::holds_alternative<continuous::Disc>(obstacles[o].body))
+      return refusal(obstacle_name(o));
+  return std::nullopt;
 }
 
 // What stands in the way of a robot that is alone.

@@ -11,7 +11,8 @@ namespace quadrille::fleet {
 namespace {
 
 std::string text(const Point& place) {
-  return "(" + to_string(place.x) + ", " + to_string(place.y) + ")";
+  return "(" + to_string(place.x) + ", " + to_string(place.y) +
+         (place.z == Metres(0) ? ")" : ", " + to_string(place.z) + ")");
 }
 
 Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
@@ -19,7 +20,8 @@ Error invalid(const std::string& message) { return {ErrorCode::invalid_instance,
 }  // namespace
 
 Metres distance(const Point& a, const Point& b) {
-  return Metres(std::hypot((a.x - b.x).value(), (a.y - b.y).value()));
+  const double x = (a.x - b.x).value(), y = (a.y - b.y).value(), z = (a.z - b.z).value();
+  return Metres(z == 0 ? std::hypot(x, y) : std::hypot(x, y, z));
 }
 
 Point Roadmap::position(VertexId v) const { return in_metres(roads_->position(v), unit_sizes()); }
@@ -49,8 +51,8 @@ VertexId Roadmap::nearest(const Point& place) const {
   return best;
 }
 
-VertexId RoadmapBuilder::vertex(Metres x, Metres y, std::string name) {
-  places_.push_back({x, y});
+VertexId RoadmapBuilder::vertex(const Point& place, std::string name) {
+  places_.push_back(place);
   names_.push_back(std::move(name));
   return VertexId(places_.size() - 1);
 }

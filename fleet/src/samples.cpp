@@ -23,11 +23,18 @@ std::string json_string(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string numbers(const Sample& sample, const char* separator) {
+/// Without heights in the plane.
+std::string numbers(const Sample& sample, bool is_flat, const char* separator) {
+  const auto& [x, y, z] = sample.position;
+  const auto& [vx, vy, vz] = sample.velocity;
   std::string text = shortest(sample.time.value());
-  for (const double value : {sample.position.x.value(), sample.position.y.value(),
-                             sample.velocity.x.value(), sample.velocity.y.value()})
-    text += separator + shortest(value);
+  const auto add = [&](auto value) { text += separator + shortest(value.value()); };
+  add(x);
+  add(y);
+  if (!is_flat) add(z);
+  add(vx);
+  add(vy);
+  if (!is_flat) add(vz);
   return text;
 }
 
@@ -35,11 +42,13 @@ std::string numbers(const Sample& sample, const char* separator) {
 
 std::optional<Error> write_samples_csv(std::ostream& out, const std::string& file,
                                        const TimedPlan& plan, Hertz rate) {
-  out << "robot,time_s,x_m,y_m,vx_mps,vy_mps\n";
+  const bool is_flat = plan.instance().is_flat();
+  out << (is_flat ? "robot,time_s,x_m,y_m,vx_mps,vy_mps\n"
+                  : "robot,time_s,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps\n");
   for (const AgentId robot : plan.robot_ids()) {
     const std::string name = csv_field(plan[robot].name());
     for (const Sample& sample : plan[robot].samples(rate))
-      out << name << "," << numbers(sample, ",") << "\n";
+      out << name << "," << numbers(sample, is_flat, ",") << "\n";
   }
   return text::finish_output(out, file);
 }
@@ -48,13 +57,14 @@ std::optional<Error> write_samples_json(std::ostream& out, const std::string& fi
                                         const TimedPlan& plan, Hertz rate) {
   out << "{\n  \"quadrille\": \"samples\",\n  \"version\": " << kSamplesJsonVersion
       << ",\n  \"rate_hz\": " << shortest(rate.value()) << ",\n  \"robots\": [";
+  const bool is_flat = plan.instance().is_flat();
   const char* next_robot = "\n";
   for (const AgentId robot : plan.robot_ids()) {
     out << next_robot << "    {\"name\": " << json_string(plan[robot].name()) << ", \"samples\": [";
     next_robot = ",\n";
     const char* next_sample = "\n";
     for (const Sample& sample : plan[robot].samples(rate)) {
-      out << next_sample << "      [" << numbers(sample, ", ") << "]";
+      out << next_sample << "      [" << numbers(sample, is_flat, ", ") << "]";
       next_sample = ",\n";
     }
     out << "\n    ]}";

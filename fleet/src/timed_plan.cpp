@@ -26,9 +26,11 @@ Sample TimedPath::sample(std::size_t stop, Seconds time) const {
   const Stop& to = stops_[stop + 1];
   const Seconds duration = to.arrive - from.depart;
   const double share = (time - from.depart) / duration;
-  const Metres dx = to.place.x - from.place.x, dy = to.place.y - from.place.y;
-  return {
-      time, {from.place.x + share * dx, from.place.y + share * dy}, {dx / duration, dy / duration}};
+  const Metres dx = to.place.x - from.place.x, dy = to.place.y - from.place.y,
+               dz = to.place.z - from.place.z;
+  return {time,
+          {from.place.x + share * dx, from.place.y + share * dy, from.place.z + share * dz},
+          {dx / duration, dy / duration, dz / duration}};
 }
 
 Point TimedPath::at(Seconds time) const { return sample(stop_at(time), time).position; }

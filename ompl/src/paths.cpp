@@ -14,6 +14,7 @@ Result<TimedGeometric> to_geometric(const fleet::TimedPath& path,
   TimedGeometric result{::ompl::geometric::PathGeometric(space), {}};
   ::ompl::base::ScopedState<> state(space);
   for (const fleet::Stop& stop : path.stops()) {
+    if (auto error = refuse(*space->getStateSpace(), stop.place)) return *error;
     set_state(*space->getStateSpace(), *state, stop.place, yaw);
     result.path.append(state.get());
     result.times.push_back(stop.arrive);

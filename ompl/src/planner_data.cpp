@@ -4,6 +4,7 @@
 #include <ompl/base/ScopedState.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -23,17 +24,19 @@ Result<std::vector<VertexId>> add_planner_data(fleet::RoadmapBuilder& roads,
   std::vector<fleet::Point> places;
   for (unsigned i = 0; i < data.numVertices(); ++i) {
     places.push_back(place_of(space, *data.getVertex(i).getState()));
-    if (!std::isfinite(places[i].x.value()) || !std::isfinite(places[i].y.value()))
+    const auto& [x, y, z] = places[i];
+    if (!std::isfinite(x.value()) || !std::isfinite(y.value()) || !std::isfinite(z.value()))
       return Error{ErrorCode::invalid_instance,
                    "state " + std::to_string(i) + " of the planner data has no finite coordinates",
                    {}};
   }
   // In steps of the resolution, as the builder rounds. What is too far away is for it to refuse.
   const double step = roads.resolution().length.value();
-  std::map<std::pair<double, double>, VertexId> known;
+  std::map<std::array<double, 3>, VertexId> known;
   std::vector<VertexId> vertices;
   for (const fleet::Point& place : places) {
-    const std::pair rounded(std::round(place.x.value() / step), std::round(place.y.value() / step));
+    const auto steps = [&](fleet::Metres value) { return std::round(value.value() / step); };
+    const std::array rounded{steps(place.x), steps(place.y), steps(place.z)};
     const auto found = known.find(rounded);
     vertices.push_back(found == known.end() ? roads.vertex(place) : found->second);
     known.emplace(rounded, vertices.back());
@@ -83,6 +86,7 @@ Result<std::size_t> join(fleet::RoadmapBuilder& roads, const ::ompl::base::Space
                          VertexId v, const JoinOptions& options) {
   QUADRILLE_REQUIRE(v.index() < roads.num_vertices(), "a vertex of the roadmap");
   if (auto error = refuse(*space.getStateSpace())) return *error;
+  if (auto error = refuse(*space.getStateSpace(), roads.position(v))) return *error;
   const auto state = [&](VertexId w) {
     ScopedState<> made(space.getStateSpace());
     set_state(*space.getStateSpace(), *made, roads.position(w), 0);
@@ -93,6 +97,7 @@ Result<std::size_t> join(fleet::RoadmapBuilder& roads, const ::ompl::base::Space
   std::size_t joined = 0;
   for (const VertexId w : others_by_distance(roads, v, options)) {
     if (joined == options.neighbours) break;
+    if (refuse(*space.getStateSpace(), roads.position(w))) continue;
     const ScopedState<> there = state(w);
     // OMPL takes the beginning of a motion for valid.
     if (!space.isValid(there.get())) continue;

@@ -55,6 +55,31 @@ TEST(Fleet, DiscsAreRoundedUp) {
       ASSERT_EQ(radius(Metres(value)), continuous::Length(std::int64_t{mm})) << mm;
 }
 
+TEST(Fleet, PolygonsDoNotFly) {
+  RoadmapBuilder roads;
+  const VertexId low = roads.vertex(0_m, 0_m), high = roads.vertex(0_m, 0_m, 5_m);
+  const Fleet fleet(roads.road(low, high).build().value());
+  const Polygon square({{-0.2_m, -0.2_m}, {0.2_m, -0.2_m}, {0.2_m, 0.2_m}, {-0.2_m, 0.2_m}});
+  Fleet wrong = fleet;
+  wrong.robot({.name = "cart", .body = square, .speed = 1_mps}).from(low).to(high);
+  EXPECT_EQ(wrong.instance().error().message,
+            "'cart' is a polygon, but there are places with a height: in space bodies are spheres");
+  Fleet good = fleet;
+  good.robot({.name = "drone", .body = Disc(0.2_m), .speed = 1_mps}).from(low).to(high);
+  EXPECT_TRUE(good.instance().has_value());
+  good.obstacle({.name = "crane", .body = square, .path = {{{9_m, 9_m, 9_m}, 0_s, 1_s}}});
+  EXPECT_EQ(good.instance().error().message,
+            "'crane' is a polygon, but there are places with a height: in space bodies are "
+            "spheres");
+  // In the middle of a climb.
+  Fleet later = fleet;
+  later.robot({.name = "drone", .body = Disc(0.2_m), .speed = 1_mps})
+      .from_edge(low, high, 0.4)
+      .to(high);
+  EXPECT_EQ(later.instance().value().roadmap().position(VertexId(2)),
+            (continuous::Point{0, 0, 2000}));
+}
+
 TEST(Fleet, TasksMayChange) {
   Fleet fleet(test::line(4));
   const AgentId robot = fleet.robot({.name = "r", .body = Disc(0.1_m), .speed = 1_mps}).from(kA);

@@ -43,6 +43,19 @@ TEST(FleetRoadmap, NamesAndPlaces) {
   EXPECT_EQ(made.find(""), std::nullopt);
 }
 
+TEST(FleetRoadmap, Heights) {
+  RoadmapBuilder roads;
+  const VertexId a = roads.vertex(1_m, 2_m, 3.0004_m), b = roads.vertex(1_m, 2_m, 7_m, "mast");
+  EXPECT_EQ(roads.road(a, b).build().value().num_lanes(), 2u);
+  const Roadmap made = roads.build().value();
+  EXPECT_EQ(made.position(a), (Point{1_m, 2_m, 3_m}));
+  EXPECT_EQ(made.name(a), "(1 m, 2 m, 3 m)");
+  EXPECT_EQ(made.nearest({1_m, 2_m, 6_m}), b);
+  EXPECT_EQ(made.nearest({1_m, 2_m}), a);
+  EXPECT_EQ(distance(made.position(a), {3_m, 5_m, 9_m}), 7_m);
+  EXPECT_FALSE(made.in_units()->is_flat());
+}
+
 TEST(FleetRoadmap, RoadsAreASetThatCanBeClosed) {
   RoadmapBuilder roads;
   const VertexId a = roads.vertex(0_m, 0_m), b = roads.vertex(1_m, 0_m), c = roads.vertex(2_m, 0_m);

@@ -40,6 +40,28 @@ TEST(FleetSamples, Csv) {
             "\"the \"\"slow\"\", one\",1.5,3,0,0,0\n");
 }
 
+TEST(FleetSamples, Heights) {
+  RoadmapBuilder roads({.length = 1_mm, .time = 50_ms});
+  const VertexId low = roads.vertex(0_m, 0_m, 1_m), high = roads.vertex(0_m, 3_m, 5_m);
+  Fleet fleet(roads.road(low, high).build().value());
+  fleet.robot({.name = "p", .body = Disc(0.2_m), .speed = 1.25_mps}).from(low).to(high);
+  const TimedPlan plan =
+      TimedPlan::make(fleet, {{continuous::Path{{low, 0, 0}, {high, 80, 80}}}}).value();
+  EXPECT_EQ(plan[AgentId(0)].at(1_s), (Point{0_m, 0.75_m, 2_m}));
+  EXPECT_EQ(plan[AgentId(0)].velocity(1_s), (Velocity{0_mps, 0.75_mps, 1_mps}));
+  std::ostringstream csv, json;
+  ASSERT_EQ(write_samples_csv(csv, "out", plan, 1_Hz), std::nullopt);
+  EXPECT_EQ(csv.str(),
+            "robot,time_s,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps\n"
+            "p,0,0,0,1,0,0.75,1\n"
+            "p,1,0,0.75,2,0,0.75,1\n"
+            "p,2,0,1.5,3,0,0.75,1\n"
+            "p,3,0,2.25,4,0,0.75,1\n"
+            "p,4,0,3,5,0,0,0\n");
+  ASSERT_EQ(write_samples_json(json, "out", plan, 1_Hz), std::nullopt);
+  EXPECT_NE(json.str().find("[1, 0, 0.75, 2, 0, 0.75, 1]"), std::string::npos);
+}
+
 TEST(FleetSamples, JsonHoldsTheSameNumbers) {
   const TimedPlan plan = plan_of_two();
   std::ostringstream out;

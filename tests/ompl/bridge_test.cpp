@@ -176,21 +176,71 @@ TEST(OmplBridge, PlansBecomePathsWithTimes) {
   EXPECT_EQ(made.path.getState(1)->as<ob::SE2StateSpace::StateType>()->getYaw(), 0.5);
 }
 
+TEST(OmplBridge, HeightsOfR3) {
+  const auto space = std::make_shared<ob::RealVectorStateSpace>(3);
+  space->setBounds(0, 10);
+  const auto info = std::make_shared<ob::SpaceInformation>(space);
+  info->setStateValidityChecker([](const ob::State*) { return true; });
+  info->setup();
+  ob::PlannerData data(info);
+  std::vector<ob::ScopedState<ob::RealVectorStateSpace>> states;
+  const std::vector<std::array<double, 3>> places{
+      {1, 1, 1}, {1, 1, 4.0004}, {1, 1, 4.0001}, {3, 1, 4}};
+  for (const auto& [x, y, z] : places) {
+    states.emplace_back(space);
+    states.back()->values[0] = x;
+    states.back()->values[1] = y;
+    states.back()->values[2] = z;
+  }
+  for (const auto& state : states) data.addVertex(ob::PlannerDataVertex(state.get()));
+  for (const unsigned to : {1u, 2u}) {
+    data.addEdge(0, to);
+    data.addEdge(to, 0);
+    data.addEdge(to, 3);
+  }
+  RoadmapBuilder roads({.length = 1_mm, .time = 10_ms});
+  const auto vertices = add_planner_data(roads, data).value();
+  // What is in one place once it is rounded is one vertex, and what is above it is another one.
+  EXPECT_EQ(roads.num_vertices(), 3u);
+  EXPECT_EQ(vertices[1], vertices[2]);
+  const Roadmap made = roads.build().value();
+  EXPECT_EQ(made.position(vertices[1]), (Point{1_m, 1_m, 4_m}));
+  EXPECT_EQ(made.num_lanes(), 3u);
+
+  Fleet fleet(made);
+  fleet.robot({.name = {}, .body = Disc(0.4_m), .speed = 1_mps}).from(vertices[0]).to(vertices[3]);
+  const TimedPlan plan = *solve(fleet, {}).value().plan;
+  const TimedPath& path = plan[AgentId(0)];
+  EXPECT_EQ(path.cost(), 5_s);
+  EXPECT_EQ(path.at(1_s), (Point{1_m, 1_m, 2_m}));
+  auto geometric = to_geometric(path, info).value();
+  EXPECT_NEAR(geometric.path.length(), 5, 1e-9);
+  const auto* last = geometric.path.getStates().back()->as<ob::RealVectorStateSpace::StateType>();
+  EXPECT_EQ(last->values[2], 4);
+  // A space of the plane has no room for it.
+  const auto flat = std::make_shared<ob::SpaceInformation>(plane());
+  EXPECT_EQ(to_geometric(path, flat).error().code, ErrorCode::invalid_instance);
+  const auto joined = roads.vertex(5_m, 1_m, 4_m);
+  EXPECT_FALSE(join(roads, *flat, joined).has_value());
+  EXPECT_EQ(join(roads, *info, joined).value(), 3u);
+}
+
 TEST(OmplBridge, RefusesOtherSpaces) {
   RoadmapBuilder roads;
-  const auto three = std::make_shared<ob::RealVectorStateSpace>(3);
+  const auto four = std::make_shared<ob::RealVectorStateSpace>(4);
   const auto dubins = std::make_shared<ob::DubinsStateSpace>();
-  for (const ob::StateSpacePtr& space : {ob::StateSpacePtr(three), ob::StateSpacePtr(dubins)}) {
+  for (const ob::StateSpacePtr& space : {ob::StateSpacePtr(four), ob::StateSpacePtr(dubins)}) {
     const auto info = std::make_shared<ob::SpaceInformation>(space);
     const auto refused = add_planner_data(roads, ob::PlannerData(info));
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, ErrorCode::invalid_instance);
     EXPECT_NE(refused.error().message.find("is not supported: "), std::string::npos);
   }
-  three->setName("drones");
-  const auto info = std::make_shared<ob::SpaceInformation>(three);
+  four->setName("drones");
+  const auto info = std::make_shared<ob::SpaceInformation>(four);
   EXPECT_EQ(add_planner_data(roads, ob::PlannerData(info)).error().message,
-            "the state space 'drones' is not supported: it has 3 dimensions, and roadmaps have 2");
+            "the state space 'drones' is not supported: it has 4 dimensions, and roadmaps have 2 "
+            "or 3");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto flat = std::make_shared<ob::SpaceInformation>(plane());
   EXPECT_FALSE(add_planner_data(roads, *data_of(flat, {{1, 1}, {nan, 1}}, {})).has_value());

@@ -18,8 +18,8 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::fleet {
 
-/// A disc around the robot's position. Rounded up to the resolution: the robot is never larger than
-/// planned.
+/// A disc around the robot's position, where there are heights a sphere. Rounded up to the
+/// resolution: the robot is never larger than planned.
 struct Disc {
   Metres radius;
   constexpr explicit Disc(Metres of_radius) : radius(of_radius) {}
@@ -27,8 +27,9 @@ struct Disc {
 };
 
 /// A convex polygon around the robot's position, which it keeps without turning; a robot that turns
-/// is a disc around all its orientations. `corners`: relative to the position, in order, either way
-/// round; 3 .. 64. Each coordinate is rounded to the nearest multiple of the resolution.
+/// is a disc around all its orientations. Not where there are heights. `corners`: relative to the
+/// position, in order, either way round; 3 .. 64. Each coordinate is rounded to the nearest
+/// multiple of the resolution.
 struct Polygon {
   std::vector<Point> corners;
   explicit Polygon(std::vector<Point> of_corners) : corners(std::move(of_corners)) {}
@@ -145,10 +146,11 @@ class Fleet {
 
   /// The same in whole units, as the solver takes it. Errors name robots and vertices:
   /// invalid_instance for a robot without body, start or goal, a name given twice, a polygon that
-  /// is not convex, a group that the roadmap does not have, an obstacle without stops, whose times
-  /// do not increase, or that vanishes when it appears; out_of_range for sizes, speeds and times
-  /// that are not supported at this resolution; no_plan for starts that overlap, also with an
-  /// obstacle, goals that overlap and goals that cannot be reached, or not by the deadline.
+  /// is not convex, or is somewhere where there are heights, a group that the roadmap does not
+  /// have, an obstacle without stops, whose times do not increase, or that vanishes when it
+  /// appears; out_of_range for sizes, speeds and times that are not supported at this resolution;
+  /// no_plan for starts that overlap, also with an obstacle, goals that overlap and goals that
+  /// cannot be reached, or not by the deadline.
   [[nodiscard]] Result<continuous::Instance> instance() const;
 
  private:
@@ -176,6 +178,9 @@ class Fleet {
   [[nodiscard]] std::optional<Error> find_alone(const Roads& roads, const continuous::Agent& agent,
                                                 AgentId id) const;
   [[nodiscard]] std::optional<Error> find_blocked_start(
+      const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
+      const std::vector<continuous::MovingObstacle>& obstacles) const;
+  [[nodiscard]] std::optional<Error> find_polygon_in_space(
       const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
       const std::vector<continuous::MovingObstacle>& obstacles) const;
   [[nodiscard]] std::optional<Error> find_unsupported(

@@ -25,10 +25,11 @@ using units::Metres;
 using units::MetresPerSecond;
 using units::Seconds;
 
-/// A place in the plane.
+/// A place in the plane, or in space.
 struct Point {
   Metres x;
   Metres y;
+  Metres z = {};  ///< Height; 0 in the plane.
   friend constexpr bool operator==(const Point&, const Point&) = default;
 };
 
@@ -52,7 +53,7 @@ struct LaneSpec {
   friend bool operator==(const LaneSpec&, const LaneSpec&) = default;
 };
 
-/// Vertices in the plane, joined by straight lanes. Immutable; cheap to copy.
+/// Vertices in the plane or in space, joined by straight lanes. Immutable; cheap to copy.
 class Roadmap {
  public:
   [[nodiscard]] Resolution resolution() const noexcept { return resolution_; }
@@ -65,7 +66,8 @@ class Roadmap {
 
   /// Where the vertex is, rounded to the resolution. Requires a vertex of this roadmap.
   [[nodiscard]] Point position(VertexId v) const;
-  /// The name that the vertex was given, or its place, such as "(1.5 m, 2 m)".
+  /// The name that the vertex was given, or its place, such as "(1.5 m, 2 m)", with its height if
+  /// it has one.
   [[nodiscard]] std::string name(VertexId v) const;
   /// The vertex of this name, among those that were given one.
   [[nodiscard]] std::optional<VertexId> find(std::string_view name) const;
@@ -97,9 +99,13 @@ class RoadmapBuilder {
   explicit RoadmapBuilder(Resolution resolution = {}) : resolution_(resolution) {}
 
   /// A new vertex. Names are optional.
-  VertexId vertex(Metres x, Metres y, std::string name = {});
-  VertexId vertex(const Point& place, std::string name = {}) {
-    return vertex(place.x, place.y, std::move(name));
+  VertexId vertex(const Point& place, std::string name = {});
+  VertexId vertex(Metres x, Metres y, std::string name = {}) {
+    return vertex(Point{x, y}, std::move(name));
+  }
+  /// One with a height. Then all robots have to be discs, which are spheres there.
+  VertexId vertex(Metres x, Metres y, Metres z, std::string name = {}) {
+    return vertex(Point{x, y, z}, std::move(name));
   }
   /// A new group of robots: RobotSpec::group. At most continuous::kMaxGroups - 1.
   Group group() { return Group(++num_groups_); }

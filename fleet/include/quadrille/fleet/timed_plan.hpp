@@ -39,6 +39,7 @@ struct Wait {
 struct Velocity {
   MetresPerSecond x;
   MetresPerSecond y;
+  MetresPerSecond z = {};
   friend constexpr bool operator==(const Velocity&, const Velocity&) = default;
 };
 

@@ -22,7 +22,8 @@ struct TimedGeometric {
 };
 
 /// What one robot does, as OMPL has it. `space`: of a space that is known, see planner_data.hpp.
-/// `yaw`: of all states in SE2; robots do not turn. Errors: invalid_instance for another space.
+/// `yaw`: of all states in SE2; robots do not turn. Errors: invalid_instance for another space,
+/// and for a path with heights in a flat one.
 [[nodiscard]] Result<TimedGeometric> to_geometric(const fleet::TimedPath& path,
                                                   const ::ompl::base::SpaceInformationPtr& space,
                                                   double yaw = 0);
