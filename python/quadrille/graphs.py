@@ -192,7 +192,7 @@ class Roadmap:
         """
         nodes = list(G.nodes)
         places = G.nodes(data=pos) if isinstance(pos, str) else [(node, pos.get(node)) for node in nodes]
-        xy = []
+        xy: list[Any] = []
         for node, place in places:
             if place is None or np.shape(place) not in ((2,), (3,)):
                 raise ValueError(f"pos: node {node!r} has no place (x, y)")

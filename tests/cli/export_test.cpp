@@ -83,6 +83,31 @@ TEST_F(ExportTest, MessagesHaveTheFieldsOfRos) {
   EXPECT_EQ(nav[0]["poses"].back()["header"]["frame_id"], "map");
 }
 
+TEST_F(ExportTest, Heights) {
+  const std::string drones = path("drones.json"), plan = path("drones_plan.json");
+  ASSERT_EQ(run({"generate", "--kind", "roadmap", "--vertices", "20", "--width", "5", "--height",
+                 "5", "--altitude", "4", "--agents", "3", "--instance-output", drones})
+                .code,
+            0);
+  ASSERT_EQ(run({"solve", "--instance", drones, "--quiet", "--plan", plan}).code, 0);
+  const auto exported_to = [&](const std::string& format) {
+    return run({"export", "--instance", drones, "--to", format, plan});
+  };
+  const std::string csv = exported_to("csv").out;
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "agent,time,x,y,z,vx,vy,vz");
+  const json stops = json::parse(read("drones_plan.json"))["plan"];
+  const json paths = json::parse(exported_to("path").out);
+  ASSERT_EQ(paths.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const json& position = paths[i]["poses"].back()["pose"]["position"];
+    EXPECT_EQ(position["z"], stops[i].back()["at"][2]);
+    EXPECT_GT(position["z"], 0);
+  }
+  const Finished orders = exported_to("vda5050");
+  EXPECT_EQ(orders.code, 65);
+  EXPECT_THAT(orders.err, HasSubstr("orders of VDA 5050 have no heights"));
+}
+
 TEST_F(ExportTest, OrdersReleaseTheLeaderOnly) {
   const json orders = json::parse(exported({"--to", "vda5050"}));
   ASSERT_EQ(orders.size(), 2u);
