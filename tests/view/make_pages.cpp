@@ -229,7 +229,7 @@ Json obstacles_of(const continuous::Instance& instance) {
       const auto real = [](continuous::Length length) {
         return static_cast<double>(length.count());
       };
-      const Json place = stop == nullptr ? Json({nullptr})
+      const Json place = stop == nullptr ? Json::array({nullptr})
                                          : place_of(instance, real(stop->at.x), real(stop->at.y),
                                                     real(stop->at.z));
       list.push_back(entry(k, static_cast<double>(tick.count()) * kResolution, place));
