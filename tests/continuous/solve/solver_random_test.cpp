@@ -17,7 +17,7 @@ class SolverRandom : public testing::TestWithParam<std::tuple<Objective, System>
 
 TEST_P(SolverRandom, AgreesWithTheOracle) {
   const auto [objective, system] = GetParam();
-  const auto count = static_cast<std::uint32_t>(support::scaled(250));
+  const auto count = static_cast<std::uint32_t>(support::scaled(500));
   const std::uint32_t part = 2 * static_cast<std::uint32_t>(objective == Objective::makespan) +
                              static_cast<std::uint32_t>(system == System::smt_cbs);
   const std::uint32_t first = part * 1'000'000;
@@ -28,6 +28,8 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     random.num_agents = 2 + seed % 2;
     random.num_vertices = 4 + seed / 2 % 4;
     random.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
+    random.space_percent = 40;
+    random.polygon_percent = 30;
     const Instance instance = random_instance(seed, random);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
     const OrderSearch oracle = search_orders(instance, objective, max_moves);
