@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "quadrille/geometry/motion.hpp"
@@ -87,11 +88,14 @@ inline double error_bound(const Motion& a, const Motion& b, Length size) {
   return 32 * std::numeric_limits<double>::epsilon() * static_cast<double>(sum.count());
 }
 
-inline RelativePath relative_path(const Motion& a, const Motion& b, Ticks offset, Window window,
-                                  Length size) {
-  const Vec apart = to_vec(b.from - a.from);
-  const Vec step_a = to_vec(a.to - a.from);
-  const Vec step_b = to_vec(b.to - b.from);
+/// Where b is as seen from a, when the window begins and when it ends; `to_vector` makes doubles of
+/// points.
+template <class ToVector>
+auto relative_ends(const Motion& a, const Motion& b, Ticks offset, Window window,
+                   const ToVector& to_vector) {
+  const auto apart = to_vector(b.from - a.from);
+  const auto step_a = to_vector(a.to - a.from);
+  const auto step_b = to_vector(b.to - b.from);
   const auto fraction = [](Ticks time, Ticks duration) {
     return duration == 0
                ? 0.0
@@ -101,7 +105,13 @@ inline RelativePath relative_path(const Motion& a, const Motion& b, Ticks offset
     return apart + fraction(time - offset, b.duration) * step_b -
            fraction(time, a.duration) * step_a;
   };
-  return {at(window.begin), at(window.end), error_bound(a, b, size)};
+  return std::pair(at(window.begin), at(window.end));
+}
+
+inline RelativePath relative_path(const Motion& a, const Motion& b, Ticks offset, Window window,
+                                  Length size) {
+  const auto [begin, end] = relative_ends(a, b, offset, window, to_vec);
+  return {begin, end, error_bound(a, b, size)};
 }
 
 /// The places that b's reference point can take relative to a's at any offset: a parallelogram, in

@@ -59,19 +59,8 @@ inline double space_error_bound(const Motion& a, const Motion& b, Length reach) 
 
 inline SpacePath space_path(const Motion& a, const Motion& b, Ticks offset, Window window,
                             Length reach) {
-  const Vec3 apart = to_vec3(b.from - a.from);
-  const Vec3 step_a = to_vec3(a.to - a.from);
-  const Vec3 step_b = to_vec3(b.to - b.from);
-  const auto fraction = [](Ticks time, Ticks duration) {
-    return duration == 0
-               ? 0.0
-               : static_cast<double>(time.count()) / static_cast<double>(duration.count());
-  };
-  const auto at = [&](Ticks time) {
-    return apart + fraction(time - offset, b.duration) * step_b -
-           fraction(time, a.duration) * step_a;
-  };
-  return {at(window.begin), at(window.end), space_error_bound(a, b, reach)};
+  const auto [begin, end] = relative_ends(a, b, offset, window, to_vec3);
+  return {begin, end, space_error_bound(a, b, reach)};
 }
 
 }  // namespace quadrille::geometry

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/areas.hpp"
+#include "model/body_numbers.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/geometry/body_pair.hpp"
@@ -206,17 +207,6 @@ std::optional<Error> check_deadlines(const Instance& instance, std::size_t& at) 
 bool is_all_open(const Roadmap& roadmap, GroupId group) {
   return std::all_of(roadmap.edges().begin(), roadmap.edges().end(),
                      [&](const Edge& edge) { return edge.open_to.contains(group); });
-}
-
-/// Equal for equal bodies; radii and corners, in order.
-std::vector<Length> numbers_of(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body)) return {disc->radius};
-  std::vector<Length> numbers;
-  for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) {
-    numbers.push_back(corner.x);
-    numbers.push_back(corner.y);
-  }
-  return numbers;
 }
 
 /// `agent`: somebody of this speed.

@@ -2,23 +2,14 @@
 #include "paths/contact_store.hpp"
 
 #include <algorithm>
-#include <variant>
+
+#include "model/body_numbers.hpp"
 
 namespace quadrille::continuous {
 namespace {
 
 /// Room for vertices and edges that come and go.
 std::size_t with_room(std::size_t count) { return count + count / 4 + 64; }
-
-std::vector<Length> numbers_of(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body)) return {disc->radius};
-  std::vector<Length> numbers;
-  for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) {
-    numbers.push_back(corner.x);
-    numbers.push_back(corner.y);
-  }
-  return numbers;
-}
 
 }  // namespace
 
