@@ -93,6 +93,7 @@ test("a click on an agent shows its path, free cost and delay", async () => {
   await page.evaluate("quadrille.seek(2.5)");
   await clickAgent(page, 1);
   assert.equal(await visit.selected(), 1);
+  await until(page, "document.getElementById('agent-facts').innerText !== ''");
   const facts = await page.locator("#agent-facts").innerText();
   assert.match(facts.replace(/\s+/g, " "), /cost 7 free cost 5 delay 2 waits 2 now moves, \(4.5, 2\)/);
   await page.locator("#deselect").click();
