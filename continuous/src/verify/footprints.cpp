@@ -19,9 +19,8 @@ const std::vector<Point>& corners_of(const Body& body) {
 
 RealPoint operator-(RealPoint p, RealPoint q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
 long double dot(RealPoint p, RealPoint q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-long double length(RealPoint p) {
-  return p.z == 0 ? std::hypot(p.x, p.y) : std::hypot(p.x, p.y, p.z);
-}
+// Below 2^44: nothing overflows, as it would where std::hypot is worth its time.
+long double length(RealPoint p) { return std::sqrt(dot(p, p)); }
 RealPoint between(const RealPoint& from, const RealPoint& to, long double share) {
   return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
           from.z + share * (to.z - from.z)};
@@ -30,7 +29,7 @@ RealPoint between(const RealPoint& from, const RealPoint& to, long double share)
 FlatPoint operator-(FlatPoint p, FlatPoint q) { return {p.x - q.x, p.y - q.y}; }
 long double dot(FlatPoint p, FlatPoint q) { return p.x * q.x + p.y * q.y; }
 long double cross(FlatPoint p, FlatPoint q) { return p.x * q.y - p.y * q.x; }
-long double length(FlatPoint p) { return std::hypot(p.x, p.y); }
+long double length(FlatPoint p) { return std::sqrt(dot(p, p)); }
 FlatPoint between(const FlatPoint& from, const FlatPoint& to, long double share) {
   return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
 }
@@ -225,14 +224,27 @@ long double FootprintPair::distance(FlatPoint p) const {
   return core_.size() > 1 && outside < 0 ? outside : nearest;
 }
 
+// Whether some moment is less than a length unit outside of each side, or inside: more than
+// rounding can amount to, so that a way that cuts the core is seen to do so, however thin the core
+// is.
+bool FootprintPair::may_enter_core(FlatPoint from, FlatPoint to) const {
+  long double low = 0, high = 1;
+  for (std::size_t k = 0; k < core_.size(); ++k) {
+    const FlatPoint along = core_[(k + 1) % core_.size()] - core_[k];
+    const long double size = length(along);
+    if (!(size > 0)) continue;
+    const long double first = cross(from - core_[k], along) / size - 1;
+    const long double last = cross(to - core_[k], along) / size - 1;
+    if (first >= 0 && last >= 0) return false;
+    if (first > 0) low = std::max(low, first / (first - last));
+    if (last > 0) high = std::min(high, first / (first - last));
+  }
+  return low <= high;
+}
+
 // The distance from a convex set, negative inside, is a convex function, and positions are linear
 // in time.
-FootprintPair::Nearest FootprintPair::nearest(const RealStep& step) const {
-  if (core_.size() == 1) {
-    const long double share = nearest_share(RealPoint{0, 0}, step.from, step.to);
-    return {length(between(step.from, step.to, share)) - radius_, share};
-  }
-  const FlatPoint from = flat(step.from), to = flat(step.to);
+FootprintPair::Nearest FootprintPair::search_nearest(FlatPoint from, FlatPoint to) const {
   constexpr int kSteps = 110;  // (2/3)^110 < 2^-64
   long double low = 0, high = 1;
   for (int k = 0; k < kSteps; ++k) {
@@ -242,12 +254,29 @@ FootprintPair::Nearest FootprintPair::nearest(const RealStep& step) const {
     else
       low += third;
   }
-  Nearest best{distance(between(from, to, low)) - radius_, low};
-  for (const long double share : {0.0L, 1.0L}) {
-    const long double gap = distance(between(from, to, share)) - radius_;
+  Nearest best{distance(between(from, to, low)), low};
+  for (const long double share : {0.0L, 1.0L})
+    if (const long double gap = distance(between(from, to, share)); gap < best.gap)
+      best = {gap, share};
+  return {best.gap - radius_, best.share};
+}
+
+// A way that stays outside of the core is nearest to it at an end of the way or beside a corner.
+FootprintPair::Nearest FootprintPair::nearest(const RealStep& step) const {
+  if (core_.size() == 1) {
+    const long double share = nearest_share(RealPoint{0, 0}, step.from, step.to);
+    return {length(between(step.from, step.to, share)) - radius_, share};
+  }
+  const FlatPoint from = flat(step.from), to = flat(step.to);
+  if (may_enter_core(from, to)) return search_nearest(from, to);
+  Nearest best{distance(from), 0};
+  if (const long double gap = distance(to); gap < best.gap) best = {gap, 1};
+  for (const FlatPoint corner : core_) {
+    const long double share = nearest_share(corner, from, to);
+    const long double gap = length(corner - between(from, to, share));
     if (gap < best.gap) best = {gap, share};
   }
-  return best;
+  return {best.gap - radius_, best.share};
 }
 
 long double FootprintPair::least_gap(const RealStep& step) const {

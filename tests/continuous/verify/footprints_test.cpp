@@ -108,5 +108,25 @@ TEST(Footprints, OverlapIsThePushThatSeparates) {
               1e-12);
 }
 
+/// Ways that cut a sliver far from its corners: both ends are outside, and all corners far away.
+TEST(Footprints, ThinBodiesAreNotJumpedOver) {
+  for (std::uint32_t seed = 0; seed < support::scaled(2'000); ++seed) {
+    SCOPED_TRACE(seed);
+    Draw draw(seed);
+    const Length size{std::int64_t{1} << draw.length(4, 39).count()};
+    // The third corner is a length unit or less beside the other side.
+    const Point far{size, draw.length(-5, 5)}, middle{far.x / 2, far.y / 2 + 1};
+    const auto sliver = ConvexPolygon::make({{0, 0}, far, middle});
+    ASSERT_TRUE(sliver);
+    const auto beside = [&](std::int64_t sign) {
+      return Point{draw.length(size / 4, 3 * (size / 4)), sign * draw.length(10, size)};
+    };
+    const Case c{*sliver, Disc{1}, beside(1), beside(-1)};
+    const FootprintPair pair(c.a, c.b);
+    ASSERT_TRUE(pair.interiors_meet(exact(c, 1)));
+    ASSERT_LT(pair.nearest(real(c)).gap, 0.5L);
+  }
+}
+
 }  // namespace
 }  // namespace quadrille::continuous::test
