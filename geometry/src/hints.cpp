@@ -47,6 +47,8 @@ void include_polygon(const Motion& a, const Motion& b, std::span<const Vec> corn
     const auto inside = [&](Vec at) {
       return cross(side, apart + at.y * step_b - at.x * step_a - corners[i]);
     };
+    // Most sides have all of it inside.
+    if (std::all_of(kept.begin(), kept.end(), [&](Vec at) { return inside(at) >= 0; })) continue;
     next.clear();
     for (std::size_t k = 0; k < kept.size(); ++k) {
       const Vec from = kept[k];

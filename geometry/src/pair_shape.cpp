@@ -25,7 +25,54 @@ BodyPair::Shape::Shape(const Body& a, const Body& b, Length reach)
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const Vec side = to_vec(corners_[(i + 1) % corners_.size()] - corners_[i]);
     normals_.push_back((1 / norm(side)) * Vec{side.y, -side.x});
+    inner_ = std::min(inner_, dot(normals_[i], vecs_[i]));
+    outer_ = std::max(outer_, norm(vecs_[i]));
   }
+  // Each is off by less than 8 u of the coordinates (u = 2^-53).
+  const double error = std::ldexp(static_cast<double>(size_.count()), -48);
+  inner_ -= error;
+  outer_ += error;
+}
+
+double BodyPair::Shape::outside(const RelativePath& path) const {
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < vecs_.size(); ++i)
+    most = std::max(most, std::min(dot(normals_[i], path.begin - vecs_[i]),
+                                   dot(normals_[i], path.end - vecs_[i])));
+  return most;
+}
+
+bool BodyPair::Shape::meets(const RelativePath& path) const {
+  return depth(path) > path.error ||
+         (reach_ > 0 && distance(path) < static_cast<double>(reach_.count()) - path.error);
+}
+
+bool BodyPair::Shape::contains(Vec position, double error) const {
+  // Rounding is less than 32 u of the polygon's coordinates, as in the constructor.
+  return meets({position, position, error + std::ldexp(static_cast<double>(size_.count()), -48)});
+}
+
+bool BodyPair::Shape::meet_at_ends(const Motion& a, const Motion& b) const {
+  const Parallelogram places = relative_places(a, b);
+  const double error = error_bound(a, b, size_);
+  for (std::size_t i = 0; i < 4; ++i)
+    if (meets({to_vec(places.corners[i]), to_vec(places.corners[(i + 1) % 4]), error})) return true;
+  return false;
+}
+
+bool BodyPair::Shape::is_aside(const RelativePath& path) const {
+  const Vec along = path.end - path.begin;
+  const double length = norm(along);
+  if (!(length > path.error)) return false;
+  const Vec across = (1 / length) * Vec{-along.y, along.x};
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const Vec corner : vecs_) {
+    const double side = dot(across, corner - path.begin);
+    least = std::min(least, side);
+    most = std::max(most, side);
+  }
+  const double bound = static_cast<double>(reach_.count()) + path.error;
+  return least >= bound || most <= -bound;
 }
 
 double BodyPair::Shape::depth(const RelativePath& path) const {
@@ -60,10 +107,12 @@ double BodyPair::Shape::distance(const RelativePath& path) const {
   return least;
 }
 
+// Most paths that stay away are beyond a side, or have the polygon on one side of them; around the
+// corners, where discs are, FCL has to find a direction.
 int BodyPair::Shape::filter(const RelativePath& path) const {
-  if (depth(path) > path.error) return 1;
-  if (reach_ > 0 && distance(path) < static_cast<double>(reach_.count()) - path.error) return 1;
-  return advancement_.proves_apart(path) ? -1 : 0;
+  if (outside(path) >= static_cast<double>(reach_.count()) + path.error) return -1;
+  if (meets(path)) return 1;
+  return is_aside(path) || advancement_.proves_apart(path) ? -1 : 0;
 }
 
 // The grown polygon is the union of the polygon, a disc around each corner, and a rectangle on each

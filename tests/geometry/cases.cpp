@@ -310,4 +310,18 @@ Case hard_bodies(Random& random) {
   return c;
 }
 
+Point left_of(const Point& step) {
+  std::int64_t s = 1, next_s = 0, t = 0, next_t = 1, a = step.x.count(), b = step.y.count();
+  while (b != 0) {  // step.x s + step.y t == a
+    const std::int64_t quotient = a / b;
+    a = std::exchange(b, a - quotient * b);
+    s = std::exchange(next_s, s - quotient * next_s);
+    t = std::exchange(next_t, t - quotient * next_t);
+  }
+  const Point w{Length{-t}, Length{s}};
+  __extension__ using Wide = __int128;
+  const Wide ahead = Wide{w.x.count()} * step.x.count() + Wide{w.y.count()} * step.y.count();
+  return ahead > 0 ? w : Point{w.x + step.x, w.y + step.y};
+}
+
 }  // namespace quadrille::geometry

@@ -48,4 +48,8 @@ Case turned(const Case& c, std::size_t which);
 /// A convex polygon around the origin whose corners are at most about `size` away.
 ConvexPolygon random_polygon(support::Random& random, Length size);
 
+/// The integer point nearest to the line through the origin and `step` on its left, beside the
+/// first half of it or the second: their cross product is 1. Requires coprime positive coordinates.
+Point left_of(const Point& step);
+
 }  // namespace quadrille::geometry

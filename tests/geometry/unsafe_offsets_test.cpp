@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "exact.hpp"
 #include "geometry/cases.hpp"
 #include "geometry/oracle.hpp"
@@ -212,6 +214,38 @@ TEST(UnsafeOffsets, HardBodiesAgreeWithTheOracle) {
     expect_symmetric(c, pair, offsets);
     if (testing::Test::HasFailure()) return;
   }
+}
+
+// Triangles on two sides of a long line, over which one of them is by 2^-38 length units, or by as
+// much on its own side: far less than doubles tell apart at such coordinates.
+TEST(UnsafeOffsets, RoundingIsOnTheSafeSide) {
+  int num_tried = 0;
+  for (int seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE(seed);
+    support::Random random(static_cast<std::uint64_t>(seed));
+    const Length least{std::int64_t{1} << 37};
+    const Point step{draw(random, least, 2 * least), draw(random, least, 2 * least)};
+    if (std::gcd(step.x.count(), step.y.count()) != 1) continue;
+    ++num_tried;
+    const auto at = [&](std::int64_t along, std::int64_t left) {  // in 64ths of the step
+      return Point{Length((along * step.x.count() - left * step.y.count()) / 64),
+                   Length((along * step.y.count() + left * step.x.count()) / 64)};
+    };
+    const Body right = ConvexPolygon::make({{0, 0}, at(-8, -16), at(8, -16)}).value();
+    const Point over = left_of(step);
+    const auto minus = [](const Point& p, const Point& q) { return Point{p.x - q.x, p.y - q.y}; };
+    // Beside a side, at rest.
+    const Body left = ConvexPolygon::make({{0, 0}, step, at(32, 16)}).value();
+    const BodyPair side(left, right);
+    ASSERT_TRUE(side.overlap({0, 0}, over));
+    ASSERT_FALSE(side.overlap({0, 0}, minus(step, over)));
+    // Past a corner.
+    const BodyPair corner(ConvexPolygon::make({{0, 0}, at(8, 16), at(-8, 16)}).value(), right);
+    const Motion stays = rest({0, 0}, 1000);
+    ASSERT_TRUE(corner.collide(stays, {minus(over, step), over, 1000}, 0));
+    ASSERT_FALSE(corner.collide(stays, {minus({0, 0}, over), minus(step, over), 1000}, 0));
+  }
+  EXPECT_GT(num_tried, 100);
 }
 
 // The search that the closed form makes unnecessary nearly always.
