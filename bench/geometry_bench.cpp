@@ -43,10 +43,19 @@ std::vector<Motion> roadmap(std::size_t count, bool grid) {
   return motions;
 }
 
+// A disc, a rectangle, or a polygon of 64 corners, all in the same disc.
 Body body(std::int64_t kind) {
   if (kind == 0) return Disc{kRadius};
   const Length r = kRadius;
-  return ConvexPolygon::make({{-r, -r / 2}, {r, -r / 2}, {r, r / 2}, {-r, r / 2}}).value();
+  if (kind == 1)
+    return ConvexPolygon::make({{-r, -r / 2}, {r, -r / 2}, {r, r / 2}, {-r, r / 2}}).value();
+  std::vector<Point> corners;
+  for (int k = 0; k < 64; ++k) {
+    const double angle = k * std::acos(-1) / 32, size = static_cast<double>(r.count());
+    corners.push_back({Length(std::llround(size * std::cos(angle))),
+                       Length(std::llround(size * std::sin(angle)))});
+  }
+  return ConvexPolygon::make(corners).value();
 }
 
 std::vector<Pair> near_pairs(const Body& shape, bool grid) {
@@ -54,7 +63,7 @@ std::vector<Pair> near_pairs(const Body& shape, bool grid) {
   const BodyPair bodies(shape, shape);
   std::vector<Pair> pairs;
   for (const Motion& a : volumes.motions())
-    for (const auto& [k, is_sure] : volumes.near(a, 2 * enclosing_radius(shape)))
+    for (const auto& [k, is_sure] : volumes.near(a, bodies))
       if (bodies.can_meet(a, volumes.motions()[k])) pairs.push_back({a, volumes.motions()[k]});
   return pairs;
 }
@@ -70,7 +79,7 @@ void unsafe_offsets(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(unsafe_offsets)->ArgNames({"polygon", "grid"})->ArgsProduct({{0, 1}, {0, 1}});
+BENCHMARK(unsafe_offsets)->ArgNames({"body", "grid"})->ArgsProduct({{0, 1, 2}, {0, 1}});
 
 void collide(benchmark::State& state) {
   const Body shape = body(state.range(0));
@@ -85,7 +94,7 @@ void collide(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(collide)->ArgNames({"polygon", "grid"})->ArgsProduct({{0, 1}, {0, 1}});
+BENCHMARK(collide)->ArgNames({"body", "grid"})->ArgsProduct({{0, 1, 2}, {0, 1}});
 
 void contact_window(benchmark::State& state) {
   const Body shape = body(state.range(0));
@@ -98,11 +107,12 @@ void contact_window(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(contact_window)->ArgNames({"polygon", "grid"})->ArgsProduct({{0, 1}, {0, 1}});
+BENCHMARK(contact_window)->ArgNames({"body", "grid"})->ArgsProduct({{0, 1, 2}, {0, 1}});
 
 void can_meet(benchmark::State& state) {
-  const BodyPair pair(body(0), body(0));
-  const std::vector<Pair> pairs = near_pairs(body(0), state.range(0) != 0);
+  const Body shape = body(state.range(0));
+  const BodyPair pair(shape, shape);
+  const std::vector<Pair> pairs = near_pairs(shape, state.range(1) != 0);
   std::size_t next = 0;
   for ([[maybe_unused]] auto _ : state) {
     const Pair& at = pairs[next++ % pairs.size()];
@@ -110,27 +120,35 @@ void can_meet(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(can_meet)->ArgName("grid")->Arg(0)->Arg(1);
+BENCHMARK(can_meet)->ArgNames({"body", "grid"})->ArgsProduct({{0, 1, 2}, {0, 1}});
 
-// Each motion's neighbours, and how many pairs each stage settles.
+// Each motion's neighbours, with the exact test of those in doubt, and how many pairs each stage
+// settles.
 void swept_volumes(benchmark::State& state) {
   const std::vector<Motion> motions =
       roadmap(static_cast<std::size_t>(state.range(0)), state.range(1) != 0);
+  const BodyPair bodies(body(state.range(2)), body(state.range(2)));
   SweptVolumes::Tally tally;
+  std::size_t num_exact = 0;
   for ([[maybe_unused]] auto _ : state) {
     const SweptVolumes volumes(motions);
     tally = {};
+    num_exact = 0;
     for (const Motion& motion : motions)
-      benchmark::DoNotOptimize(volumes.near(motion, 2 * kRadius, &tally));
+      for (const auto& [k, is_sure] : volumes.near(motion, bodies, &tally))
+        if (!is_sure && bodies.can_meet(motion, motions[k])) ++num_exact;
   }
   state.counters["by_boxes"] = static_cast<double>(tally.by_boxes);
   state.counters["apart"] = static_cast<double>(tally.apart);
+  state.counters["by_nearest"] = static_cast<double>(tally.by_nearest);
+  state.counters["by_hulls"] = static_cast<double>(tally.by_hulls);
   state.counters["sure"] = static_cast<double>(tally.sure);
   state.counters["doubtful"] = static_cast<double>(tally.doubtful);
+  state.counters["of_these_meet"] = static_cast<double>(num_exact);
 }
 BENCHMARK(swept_volumes)
-    ->ArgNames({"motions", "grid"})
-    ->ArgsProduct({{1000, 10000}, {0, 1}})
+    ->ArgNames({"motions", "grid", "body"})
+    ->ArgsProduct({{1000, 10000}, {0, 1}, {0, 1, 2}})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

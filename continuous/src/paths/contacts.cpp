@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <variant>
 
 #include "paths/contact_store.hpp"
 
@@ -92,19 +91,15 @@ const Contacts::Neighbours& Contacts::near(
     const geometry::BodyPair& bodies = pair(a, b).bodies;
     const Volumes& all = volumes();
     const std::size_t num_segments = all.segment_begins.size() - 1;
-    const bool are_discs = std::holds_alternative<Disc>(instance_.body(a)) &&
-                           std::holds_alternative<Disc>(instance_.body(b));
-    for (const auto& [index, is_sure] :
-         all.tree.near(motion, instance_.reach(a) + instance_.reach(b))) {
-      const bool is_settled = are_discs && is_sure;
+    for (const auto& [index, is_sure] : all.tree.near(motion, bodies)) {
       if (index < num_segments) {
         const std::size_t begin = all.segment_begins[index];
-        if (is_settled || bodies.can_meet(motion, instance_.motion(b, all.segment_edges[begin])))
+        if (is_sure || bodies.can_meet(motion, instance_.motion(b, all.segment_edges[begin])))
           for (std::size_t k = begin; k < all.segment_begins[index + 1]; ++k)
             if (is_listed(b, all.segment_edges[k])) made->edges.push_back(all.segment_edges[k]);
       } else {
         const VertexId v(index - num_segments);
-        if (is_settled || bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))
+        if (is_sure || bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))
           made->vertices.push_back(v);
       }
     }

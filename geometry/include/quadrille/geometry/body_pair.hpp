@@ -74,6 +74,7 @@ class BodyPair {
   [[nodiscard]] BodyPair swapped() const;
 
  private:
+  friend class SweptVolumes;
   class Shape;  // Null for two discs.
 
   // Whether it takes more than the plane to see the two motions. Requires that there are two discs
