@@ -242,40 +242,61 @@ bool FootprintPair::may_enter_core(FlatPoint from, FlatPoint to) const {
   return low <= high;
 }
 
-// The distance from a convex set, negative inside, is a convex function, and positions are linear
-// in time.
-FootprintPair::Nearest FootprintPair::search_nearest(FlatPoint from, FlatPoint to) const {
-  constexpr int kSteps = 110;  // (2/3)^110 < 2^-64
-  long double low = 0, high = 1;
-  for (int k = 0; k < kSteps; ++k) {
-    const long double third = (high - low) / 3;
-    if (distance(between(from, to, low + third)) <= distance(between(from, to, high - third)))
-      high -= third;
-    else
-      low += third;
+// How far it is outside of each side is linear in the share; the greatest of these is followed
+// while it falls.
+long double FootprintPair::deepest_share(FlatPoint from, FlatPoint to) const {
+  struct Outside {
+    long double first, growth;
+  };
+  std::vector<Outside> sides;
+  for (std::size_t k = 0; k < core_.size(); ++k) {
+    const FlatPoint along = core_[(k + 1) % core_.size()] - core_[k];
+    const long double size = length(along);
+    if (size > 0)
+      sides.push_back({cross(from - core_[k], along) / size, cross(to - from, along) / size});
   }
-  Nearest best{distance(between(from, to, low)), low};
-  for (const long double share : {0.0L, 1.0L})
-    if (const long double gap = distance(between(from, to, share)); gap < best.gap)
-      best = {gap, share};
-  return {best.gap - radius_, best.share};
+  Outside top = *std::max_element(sides.begin(), sides.end(), [](Outside x, Outside y) {
+    return std::tie(x.first, x.growth) < std::tie(y.first, y.growth);
+  });
+  long double share = 0;
+  while (top.growth < 0) {
+    const Outside last = top;
+    share = 1;
+    for (const Outside side : sides) {
+      if (side.growth <= last.growth) continue;
+      const long double at = (last.first - side.first) / (side.growth - last.growth);
+      if (at > share || (at == share && side.growth <= top.growth)) continue;
+      share = at;
+      top = side;
+    }
+    if (top.growth == last.growth) return 1;
+  }
+  return std::clamp(share, 0.0L, 1.0L);
 }
 
-// A way that stays outside of the core is nearest to it at an end of the way or beside a corner.
+// A way that stays outside of the core is nearest to it at an end of the way or beside a corner; in
+// the core, what counts is the nearest side.
 FootprintPair::Nearest FootprintPair::nearest(const RealStep& step) const {
   if (core_.size() == 1) {
     const long double share = nearest_share(RealPoint{0, 0}, step.from, step.to);
     return {length(between(step.from, step.to, share)) - radius_, share};
   }
   const FlatPoint from = flat(step.from), to = flat(step.to);
-  if (may_enter_core(from, to)) return search_nearest(from, to);
-  Nearest best{distance(from), 0};
-  if (const long double gap = distance(to); gap < best.gap) best = {gap, 1};
-  for (const FlatPoint corner : core_) {
-    const long double share = nearest_share(corner, from, to);
-    const long double gap = length(corner - between(from, to, share));
+  Nearest best{std::numeric_limits<long double>::infinity(), 0};
+  const auto try_share = [&](long double gap, long double share) {
     if (gap < best.gap) best = {gap, share};
+  };
+  try_share(distance(from), 0);
+  try_share(distance(to), 1);
+  if (may_enter_core(from, to)) {
+    const long double share = deepest_share(from, to);
+    try_share(distance(between(from, to, share)), share);
   }
+  if (best.gap >= 0)
+    for (const FlatPoint corner : core_) {
+      const long double share = nearest_share(corner, from, to);
+      try_share(length(corner - between(from, to, share)), share);
+    }
   return {best.gap - radius_, best.share};
 }
 

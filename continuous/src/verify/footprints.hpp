@@ -45,8 +45,8 @@ class FootprintPair {
     long double gap, share;
   };
   /// Negative when the bodies overlap: by as much one of them has to be moved to touch the other.
-  /// For two discs in constant time; else linear in the number of corners, times the steps of a
-  /// search where the bodies touch or overlap (a disc's middle and a polygon, that is).
+  /// For two discs in constant time; else linear in the number of corners, squared at worst where
+  /// the bodies overlap or touch.
   [[nodiscard]] Nearest nearest(const RealStep& step) const;
   /// At most nearest(step).gap, at once.
   [[nodiscard]] long double least_gap(const RealStep& step) const;
@@ -58,7 +58,7 @@ class FootprintPair {
   /// How far b's position is from `core_`: negative inside. With a polygon.
   [[nodiscard]] long double distance(FlatPoint p) const;
   [[nodiscard]] bool may_enter_core(FlatPoint from, FlatPoint to) const;
-  [[nodiscard]] Nearest search_nearest(FlatPoint from, FlatPoint to) const;
+  [[nodiscard]] long double deepest_share(FlatPoint from, FlatPoint to) const;
 
   const Body &a_, &b_;
   long double far_ = 0;  // beyond this distance of the positions the bodies do not meet

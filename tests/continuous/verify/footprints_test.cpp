@@ -74,6 +74,15 @@ TEST(Footprints, MeetWhenGeometryAndTheOracleSaySo) {
     ASSERT_GE(near.share, 0);
     ASSERT_LE(near.share, 1);
     ASSERT_LE(pair.least_gap(real(c)), near.gap + 1e-12L);
+    // At that moment it is as small as that, and at no other one smaller.
+    const auto gap_at = [&](long double share) {
+      const auto [from, to] = real(c);
+      const RealPoint at{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+                         from.z + share * (to.z - from.z)};
+      return pair.nearest({at, at}).gap;
+    };
+    ASSERT_NEAR(static_cast<double>(gap_at(near.share) - near.gap), 0, 1e-12);
+    for (int k = 0; k <= 20; ++k) ASSERT_GE(gap_at(k / 20.0L), near.gap - 1e-12L);
     const auto gap = geometry::BodyPair(c.a, c.b).gap(rest, motion, 0).value();
     if (meet) {
       ASSERT_LT(near.gap, 0);
