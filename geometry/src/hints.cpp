@@ -2,6 +2,24 @@
 #include "hints.hpp"
 
 namespace quadrille::geometry {
+namespace {
+
+// The fractions in [0, 1] of a step that are in the convex polygon.
+RealInterval inner_fractions(Vec start, Vec step, std::span<const Vec> corners) {
+  RealInterval kept{0, 1};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec side = corners[(i + 1) % corners.size()] - corners[i];
+    const double first = cross(side, start - corners[i]), growth = cross(side, step);
+    if (growth == 0 && first < 0) return {};
+    if (growth > 0) kept.lo = std::max(kept.lo, -first / growth);
+    if (growth < 0) kept.hi = std::min(kept.hi, -first / growth);
+    if (kept.empty()) return {};
+  }
+  return kept;
+}
+
+}  // namespace
+
 // With the fractions p and q of a's and b's motion that are done, the relative position is
 // apart + q step_b - p step_a and the offset p duration_a - q duration_b. The pairs (p, q) of the
 // unit square that are in contact form the part of an ellipse (or strip) in it; the offset is least
@@ -34,36 +52,30 @@ void include_disc(const Motion& a, const Motion& b, Vec centre, double radius,
   }
 }
 
+// See above: the pairs in contact form a convex part of the unit square, which has its corners
+// where the sides of the square enter and leave the polygon, and at corners of the polygon.
 void include_polygon(const Motion& a, const Motion& b, std::span<const Vec> corners,
                      RealInterval& offsets) {
   const Vec apart = to_vec(b.from - a.from);
   const Vec step_a = to_vec(a.to - a.from);
   const Vec step_b = to_vec(b.to - b.from);
-  // Clips the unit square of (p, q), see above, by one side of the polygon after the other.
-  std::vector<Vec> kept{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  std::vector<Vec> next;
-  for (std::size_t i = 0; i < corners.size() && !kept.empty(); ++i) {
-    const Vec side = corners[(i + 1) % corners.size()] - corners[i];
-    const auto inside = [&](Vec at) {
-      return cross(side, apart + at.y * step_b - at.x * step_a - corners[i]);
-    };
-    // Most sides have all of it inside.
-    if (std::all_of(kept.begin(), kept.end(), [&](Vec at) { return inside(at) >= 0; })) continue;
-    next.clear();
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      const Vec from = kept[k];
-      const Vec to = kept[(k + 1) % kept.size()];
-      const double value_from = inside(from);
-      const double value_to = inside(to);
-      if (value_from >= 0) next.push_back(from);
-      if ((value_from < 0 && value_to > 0) || (value_from > 0 && value_to < 0))
-        next.push_back(from + (value_from / (value_from - value_to)) * (to - from));
-    }
-    kept.swap(next);
+  const auto include = [&](double p, double q) {
+    offsets.include(p * static_cast<double>(a.duration.count()) -
+                    q * static_cast<double>(b.duration.count()));
+  };
+  for (const double end : {0.0, 1.0}) {
+    const RealInterval q = inner_fractions(apart - end * step_a, step_b, corners);
+    if (!q.empty()) include(end, q.lo), include(end, q.hi);
+    const RealInterval p = inner_fractions(apart + end * step_b, Vec{} - step_a, corners);
+    if (!p.empty()) include(p.lo, end), include(p.hi, end);
   }
-  for (const Vec at : kept)
-    offsets.include(at.x * static_cast<double>(a.duration.count()) -
-                    at.y * static_cast<double>(b.duration.count()));
+  const double turn = cross(step_a, step_b);
+  if (turn == 0) return;  // Strips, which end at the sides of the square.
+  for (const Vec corner : corners) {
+    const double p = cross(step_b, corner - apart) / turn;
+    const double q = cross(step_a, corner - apart) / turn;
+    if (p >= 0 && p <= 1 && q >= 0 && q <= 1) include(p, q);
+  }
 }
 
 }  // namespace quadrille::geometry
