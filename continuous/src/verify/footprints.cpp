@@ -209,19 +209,30 @@ FootprintPair::FootprintPair(const Body& a, const Body& b) : a_(a), b_(b) {
   }
   far_ = radius_ + farthest(core_a) + farthest(core_b);
   core_ = sum_of(std::move(core_a), std::move(core_b));
+  for (std::size_t k = 0; k < core_.size(); ++k) {
+    const FlatPoint along = core_[(k + 1) % core_.size()] - core_[k];
+    if (const long double size = length(along); size > 0) sides_.push_back({core_[k], along, size});
+  }
 }
 
+// From outside, the nearest point is on a side that has the point beyond it.
 long double FootprintPair::distance(FlatPoint p) const {
-  long double outside = -std::numeric_limits<long double>::infinity();
-  long double nearest = std::numeric_limits<long double>::infinity();
-  for (std::size_t k = 0; k < core_.size(); ++k) {
-    const FlatPoint from = core_[k], to = core_[(k + 1) % core_.size()];
-    const FlatPoint along = to - from;
-    const long double size = length(along);
-    if (size > 0) outside = std::max(outside, cross(p - from, along) / size);
-    nearest = std::min(nearest, length(p - between(from, to, nearest_share(p, from, to))));
+  long double inside = -std::numeric_limits<long double>::infinity();
+  long double square = std::numeric_limits<long double>::infinity();
+  for (const Side& side : sides_) {
+    const FlatPoint at = p - side.from;
+    const long double area = cross(at, side.along), ahead = dot(at, side.along);
+    if (area <= 0) {
+      inside = std::max(inside, area / side.size);
+      continue;
+    }
+    const long double whole = side.size * side.size;
+    const FlatPoint beyond = at - side.along;
+    square = std::min(square, ahead <= 0       ? dot(at, at)
+                              : ahead >= whole ? dot(beyond, beyond)
+                                               : area * area / whole);
   }
-  return core_.size() > 1 && outside < 0 ? outside : nearest;
+  return square < std::numeric_limits<long double>::infinity() ? std::sqrt(square) : inside;
 }
 
 // Whether some moment is less than a length unit outside of each side, or inside: more than
@@ -229,12 +240,9 @@ long double FootprintPair::distance(FlatPoint p) const {
 // is.
 bool FootprintPair::may_enter_core(FlatPoint from, FlatPoint to) const {
   long double low = 0, high = 1;
-  for (std::size_t k = 0; k < core_.size(); ++k) {
-    const FlatPoint along = core_[(k + 1) % core_.size()] - core_[k];
-    const long double size = length(along);
-    if (!(size > 0)) continue;
-    const long double first = cross(from - core_[k], along) / size - 1;
-    const long double last = cross(to - core_[k], along) / size - 1;
+  for (const Side& side : sides_) {
+    const long double first = cross(from - side.from, side.along) / side.size - 1;
+    const long double last = cross(to - side.from, side.along) / side.size - 1;
     if (first >= 0 && last >= 0) return false;
     if (first > 0) low = std::max(low, first / (first - last));
     if (last > 0) high = std::min(high, first / (first - last));
@@ -249,12 +257,9 @@ long double FootprintPair::deepest_share(FlatPoint from, FlatPoint to) const {
     long double first, growth;
   };
   std::vector<Outside> sides;
-  for (std::size_t k = 0; k < core_.size(); ++k) {
-    const FlatPoint along = core_[(k + 1) % core_.size()] - core_[k];
-    const long double size = length(along);
-    if (size > 0)
-      sides.push_back({cross(from - core_[k], along) / size, cross(to - from, along) / size});
-  }
+  for (const Side& side : sides_)
+    sides.push_back({cross(from - side.from, side.along) / side.size,
+                     cross(to - from, side.along) / side.size});
   Outside top = *std::max_element(sides.begin(), sides.end(), [](Outside x, Outside y) {
     return std::tie(x.first, x.growth) < std::tie(y.first, y.growth);
   });

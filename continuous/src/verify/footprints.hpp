@@ -66,6 +66,11 @@ class FootprintPair {
   // polygon and the mirror image of b's, added up; a single point for two discs.
   long double radius_ = 0;
   std::vector<FlatPoint> core_;
+  struct Side {
+    FlatPoint from, along;
+    long double size;  // length
+  };
+  std::vector<Side> sides_;  // of the core
 };
 
 }  // namespace quadrille::continuous
