@@ -60,19 +60,34 @@ bool BodyPair::Shape::meet_at_ends(const Motion& a, const Motion& b) const {
   return false;
 }
 
-bool BodyPair::Shape::is_aside(const RelativePath& path) const {
-  const Vec along = path.end - path.begin;
-  const double length = norm(along);
+bool BodyPair::Shape::keeps_apart(Vec direction, const RelativePath& path) const {
+  const double length = norm(direction);
   if (!(length > path.error)) return false;
-  const Vec across = (1 / length) * Vec{-along.y, along.x};
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+  const Vec n = (1 / length) * direction;
+  double support = -std::numeric_limits<double>::infinity();
+  for (const Vec corner : vecs_) support = std::max(support, dot(n, corner - path.begin));
+  return std::min(0.0, dot(n, path.end - path.begin)) - support >=
+         static_cast<double>(reach_.count()) + path.error;
+}
+
+// The nearest points of a convex polygon and a way that does not meet it: an end of the way and a
+// point of a side, see outside(), or a corner and a point of the way.
+bool BodyPair::Shape::is_apart(const RelativePath& path) const {
+  if (outside(path) >= static_cast<double>(reach_.count()) + path.error) return true;
+  const Vec along = path.end - path.begin;
+  const double square = dot(along, along);
+  double least = std::numeric_limits<double>::infinity();
+  Vec between;
   for (const Vec corner : vecs_) {
-    const double side = dot(across, corner - path.begin);
-    least = std::min(least, side);
-    most = std::max(most, side);
+    const Vec to_corner = corner - path.begin;
+    const double share = square > 0 ? std::clamp(dot(to_corner, along) / square, 0.0, 1.0) : 0;
+    const Vec from_corner = share * along - to_corner;
+    const double apart = dot(from_corner, from_corner);
+    if (apart < least) least = apart, between = from_corner;
   }
-  const double bound = static_cast<double>(reach_.count()) + path.error;
-  return least >= bound || most <= -bound;
+  if (reach_ > 0) return keeps_apart(between, path);
+  // Where a corner touches the way, `between` is all rounding.
+  return keeps_apart({-along.y, along.x}, path) || keeps_apart({along.y, -along.x}, path);
 }
 
 double BodyPair::Shape::depth(const RelativePath& path) const {
@@ -107,12 +122,11 @@ double BodyPair::Shape::distance(const RelativePath& path) const {
   return least;
 }
 
-// Most paths that stay away are beyond a side, or have the polygon on one side of them; around the
-// corners, where discs are, FCL has to find a direction.
+// Where the path stays away, doubles find a direction that proves it nearly always; FCL is asked
+// for another one before exact arithmetic is.
 int BodyPair::Shape::filter(const RelativePath& path) const {
-  if (outside(path) >= static_cast<double>(reach_.count()) + path.error) return -1;
   if (meets(path)) return 1;
-  return is_aside(path) || advancement_.proves_apart(path) ? -1 : 0;
+  return is_apart(path) || advancement_.proves_apart(path) ? -1 : 0;
 }
 
 // The grown polygon is the union of the polygon, a disc around each corner, and a rectangle on each

@@ -44,8 +44,11 @@ class BodyPair::Shape {
   [[nodiscard]] bool meets(const RelativePath& path) const;
   // How far the path stays outside of one of the sides; not positive if it does of none.
   [[nodiscard]] double outside(const RelativePath& path) const;
-  // Whether the polygon is farther than the bodies' reach to one side of the path.
-  [[nodiscard]] bool is_aside(const RelativePath& path) const;
+  // Whether straight lines normal to a direction keep the path from coming within the bodies'
+  // reach.
+  [[nodiscard]] bool keeps_apart(Vec direction, const RelativePath& path) const;
+  // Whether some direction does.
+  [[nodiscard]] bool is_apart(const RelativePath& path) const;
   // How deep the path gets into the polygon; negative if it does not meet it.
   [[nodiscard]] double depth(const RelativePath& path) const;
 
