@@ -8,6 +8,7 @@
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/under_way.hpp"
 #include "session/episodes.hpp"
+#include "session/lemma_store.hpp"
 #include "solve/inheritance.hpp"
 
 namespace quadrille::continuous {
@@ -28,7 +29,8 @@ struct Session::Parts {
       : roadmap(std::move(the_roadmap)),
         resolution(the_resolution),
         obstacles(std::move(the_obstacles)),
-        store(roadmap) {}
+        store(roadmap),
+        lemmas(roadmap) {}
 
   [[nodiscard]] std::optional<Error> refuse(const Agent& agent) const;
   [[nodiscard]] std::optional<Ticks> duration(const Edge& edge, const Agent& agent) const;
@@ -42,6 +44,7 @@ struct Session::Parts {
   Situation now;
   SceneStore store;
   Episodes episodes;
+  LemmaStore lemmas;
 };
 
 std::optional<Error> Session::Parts::refuse(const Agent& agent) const {
@@ -166,14 +169,17 @@ Result<SolveOutcome> Session::solve(const SolveOptions& options) {
   const auto instance = this->instance();
   if (!instance) return instance.error();
   parts_->store.adopt(*instance);
+  std::optional<Learned> legacy;
   const Inheritance inheritance{&parts_->store,
                                 parts_->episodes.bounds(parts_->now, options.objective),
-                                parts_->episodes.drafts(parts_->now, *instance)};
+                                parts_->episodes.drafts(parts_->now, *instance),
+                                parts_->lemmas.learned(parts_->now), &legacy};
   SolveOptions traced = options;
   traced.explain = options.explain || options.threads == 1;
   auto outcome = continuous::solve(*instance, traced, inheritance);
   if (!outcome) return outcome;
   parts_->episodes.add(parts_->now, options.objective, *outcome);
+  if (legacy && !outcome->internal_error) parts_->lemmas.put(parts_->now, *std::move(legacy));
   if (!options.explain) outcome->attribution.reset();
   return outcome;
 }

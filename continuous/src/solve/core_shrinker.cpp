@@ -37,6 +37,10 @@ bool CoreShrinker::is_core(const LevelCore& core, const IdVector<AgentId, Cost>&
   return is_refuted;
 }
 
+bool CoreShrinker::is_core(const LevelCore& candidate, const IdVector<AgentId, Cost>& ceilings) {
+  return is_core(candidate, ceilings, kDropBudget);
+}
+
 CoreShrinker::Ladder CoreShrinker::ladder(const Level& level, Cost ceiling) const {
   Ladder ladder{level.cost, {}};
   // Beyond the ceiling all levels say the same.

@@ -18,6 +18,9 @@ class CoreShrinker {
   /// costs more than its ceiling, and hits no costs that `core` does not hit. Empty: there is no
   /// such plan. When the limits are met, what has been reached.
   [[nodiscard]] LevelCore shrink(LevelCore core, const IdVector<AgentId, Cost>& ceilings);
+  /// Whether that is a core, as far as a short search can tell; then the problem has the core.
+  /// Requires levels above the free costs.
+  [[nodiscard]] bool is_core(const LevelCore& candidate, const IdVector<AgentId, Cost>& ceilings);
   /// Whose ceilings the last result rests on, if the problem keeps them. Increasing.
   [[nodiscard]] const std::vector<AgentId>& ceilings_of_core() const noexcept {
     return ceilings_of_core_;

@@ -12,6 +12,7 @@
 #include "solve/auditors.hpp"
 #include "solve/cost_problem.hpp"
 #include "solve/cover_search.hpp"
+#include "solve/lemma_keeper.hpp"
 #include "solve/makespan_search.hpp"
 #include "theory/lemma_recorder.hpp"
 #include "theory/theory.hpp"
@@ -21,10 +22,11 @@ namespace {
 
 class CostRun final : private sat::YieldPoint, private Correspondent {
  public:
-  CostRun(const SolveOptions& options, const CostReport& known, LimitMonitor& limits,
-          Companion* companion)
+  CostRun(const SolveOptions& options, const CostReport& known, const Inheritance& inheritance,
+          LimitMonitor& limits, Companion* companion)
       : options_(options),
         known_(known),
+        inheritance_(inheritance),
         limits_(limits),
         companion_(companion),
         progress_(options.on_progress, options.progress_interval_s, limits) {
@@ -66,6 +68,11 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
       recorder.emplace(model, engine_options.observer);
       engine_options.observer = &*recorder;
     }
+    std::optional<LemmaKeeper> keeper;
+    if (inheritance_.legacy != nullptr) {
+      keeper.emplace(model, engine_options.observer);
+      engine_options.observer = &*keeper;
+    }
     sat::Engine engine(in_search ? &theory : nullptr, engine_options);
     engine_ = &engine;
     CostProblem problem(model, engine, theory, in_search, this, auditors.of_cores());
@@ -75,14 +82,19 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     CostTrace* const traced = recorder ? &trace : nullptr;
     CostReport report;
     try {
-      report = options_.objective == Objective::sum_of_costs
-                   ? search_by_covers({problem, known_, spared, role, options_.seed, limits_,
-                                       outcome_.statistics, *this, traced})
-                   : search_makespan(problem, known_, limits_, outcome_.statistics, *this, traced);
+      EngineWriter writer(engine);
+      take_up(inheritance_.learned.lemmas, model, writer);
+      report =
+          options_.objective == Objective::sum_of_costs
+              ? search_by_covers({problem, known_, spared, role, options_.seed, limits_,
+                                  outcome_.statistics, *this, inheritance_.learned.cores, traced})
+              : search_makespan(problem, known_, limits_, outcome_.statistics, *this, traced);
     } catch (const LimitReached&) {
       if (recorder) explain(*recorder, std::move(trace), plan_ != nullptr);
+      if (keeper) bequeath(*keeper);
       throw;
     }
+    if (keeper) bequeath(*keeper);
     if (recorder) explain(*recorder, std::move(trace), plan_ || report.plan);
     outcome_.lower_bound = std::max(outcome_.lower_bound, report.lower_bound);
     engine.add_statistics(outcome_.statistics);
@@ -114,6 +126,11 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     outcome_.attribution->sites = recorder.sites();
   }
 
+  void bequeath(const LemmaKeeper& keeper) {
+    Learned learned{keeper.stock(), std::move(learned_cores_)};
+    *inheritance_.legacy = std::move(learned);
+  }
+
   [[nodiscard]] Cost cost_of(const Plan& plan) const { return cost(plan, options_.objective); }
 
   void keep(std::shared_ptr<const Plan> plan, Cost cost) {
@@ -135,6 +152,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     return std::exchange(heard_, {});
   }
   void report_core(const LevelCore& core) override {
+    if (inheritance_.legacy != nullptr) learned_cores_.push_back(core);
     if (companion_ != nullptr && !options_.debug.audit)
       cores_.push_back(std::make_shared<const LevelCore>(core));
   }
@@ -207,6 +225,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
 
   const SolveOptions& options_;
   const CostReport& known_;
+  const Inheritance& inheritance_;
   LimitMonitor& limits_;
   Companion* const companion_;
   SolveOutcome outcome_;
@@ -215,8 +234,9 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
   std::shared_ptr<const Plan> plan_;  // the best one
   Cost plan_cost_ = 0;
   std::vector<std::shared_ptr<const LevelCore>> cores_;
-  News heard_;                          // and not yet passed on to the search
-  std::vector<std::size_t> num_heard_;  // cores, by teller
+  std::vector<LevelCore> learned_cores_;  // to be left
+  News heard_;                            // and not yet passed on to the search
+  std::vector<std::size_t> num_heard_;    // cores, by teller
   std::optional<Cost> told_cost_;
   ProgressReporter progress_;
   double next_plan_s_ = 0;
@@ -225,8 +245,9 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
 }  // namespace
 
 SolveOutcome search_alone(Scene& scene, const SolveOptions& options, const CostReport& known,
-                          LimitMonitor& limits, Companion* companion) {
-  return CostRun(options, known, limits, companion).run(scene);
+                          LimitMonitor& limits, Companion* companion,
+                          const Inheritance& inheritance) {
+  return CostRun(options, known, inheritance, limits, companion).run(scene);
 }
 
 void keep_best(const SolveOptions& options, SolveOutcome& outcome) {

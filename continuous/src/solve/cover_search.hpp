@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "quadrille/core/attribution.hpp"
@@ -34,15 +35,17 @@ struct SumSearchContext {
   LimitMonitor& limits;
   Statistics& statistics;  ///< Adds to `cores`.
   Correspondent& correspondent;
+  /// To be tried before others: it need not be known that they are cores.
+  std::span<const LevelCore> candidates;
   CostTrace* trace = nullptr;  ///< Filled in unless null, also when a limit is met.
 };
 
 /// Finds a plan of least sum of costs by implicit hitting sets (Davies and Bacchus 2011, CP): the
 /// cheapest costs that hit all known cores are the agents' caps; either there is a plan within
-/// them, or there is a new core. The known plan is improved first; where cores are many, turns take
-/// place that improve it again and try bounds on the sum of all costs. Beside others it begins as
-/// its role says. Integer costs may be as large as they like. Ends
-/// by itself if the clauses allow no plan at all, which need not happen where none exists.
+/// them, or there is a new core. The known plan is improved first, if there are no candidates to be
+/// tried; where cores are many, turns take place that improve it again and try bounds on the sum of
+/// all costs. Beside others it begins as its role says. Integer costs may be as large as they like.
+/// Ends by itself if the clauses allow no plan at all, which need not happen where none exists.
 /// Deterministic as long as no limit is met, and as the correspondent is.
 [[nodiscard]] CostReport search_by_covers(const SumSearchContext& context);
 

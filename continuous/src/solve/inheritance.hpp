@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "cover/core_table.hpp"
 #include "paths/scene_store.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/solver.hpp"
+#include "solve/lemma_stock.hpp"
 
 namespace quadrille::continuous {
 
@@ -16,12 +19,22 @@ struct GroupBound {
   Cost cost = 0;
 };
 
+/// What a search by clauses has learned.
+struct Learned {
+  LemmaStock lemmas;             ///< All hold, up to what is doubtful.
+  std::vector<LevelCore> cores;  ///< Nothing follows from them: they are tried first.
+};
+
 /// What earlier solves on the same roadmap leave to one.
 struct Inheritance {
   SceneStore* store = nullptr;  ///< Null, or one that has adopted the instance.
   std::vector<GroupBound> bounds;
   /// Paths of some of the agents, which obey all rules and do not collide; empty for the others.
   std::vector<IdVector<AgentId, Path>> drafts;
+  Learned learned = {};
+  /// Unless null: where a search by clauses leaves what it has learned, with what of `learned` it
+  /// has taken up. Not touched if there is none, or if callbacks throw.
+  std::optional<Learned>* legacy = nullptr;
 };
 
 /// As continuous::solve, with what is known already.

@@ -188,8 +188,9 @@ bool Phases::learn(Cost bound, std::optional<Plan> plan) {
 void Phases::search(Scene& scene) {
   const CostReport known{sat::SearchEnd::stopped, lower(), std::move(plan_)};
   std::optional<Attribution> charges = std::move(outcome_.attribution);
-  outcome_ = options_.threads > 1 ? search_side_by_side(scene, options_, known, limits_, account_)
-                                  : search_alone(scene, options_, known, limits_, nullptr);
+  outcome_ = options_.threads > 1
+                 ? search_side_by_side(scene, options_, known, limits_, account_, {}, inheritance_)
+                 : search_alone(scene, options_, known, limits_, nullptr, inheritance_);
   outcome_.rests_on_known_bound = known_ > floor_ && outcome_.lower_bound <= known_;
   if (charges) take_traced(*charges, outcome_);
 }

@@ -44,8 +44,8 @@ SolveOptions options_of(const SolveOptions& options, std::size_t worker) {
 
 SolveOutcome search_side_by_side(Scene& scene, const SolveOptions& options, const CostReport& known,
                                  LimitMonitor& limits,
-                                 const std::shared_ptr<ResourceAccount>& account,
-                                 const Pace& pace) {
+                                 const std::shared_ptr<ResourceAccount>& account, const Pace& pace,
+                                 const Inheritance& inheritance) {
   Rounds<News> rounds(options.threads, pace.round, options.race, pace.lag);
   bool has_second = true;
   const auto role_of = [&](std::size_t worker) {
@@ -56,7 +56,8 @@ SolveOutcome search_side_by_side(Scene& scene, const SolveOptions& options, cons
   const auto solve = [&](std::size_t worker) {
     WorkerCompanion companion(rounds, worker, role_of(worker));
     const SolveOptions own_options = options_of(options, worker);
-    if (worker == 0) return search_alone(scene, own_options, known, limits, &companion);
+    if (worker == 0)
+      return search_alone(scene, own_options, known, limits, &companion, inheritance);
     LimitMonitor own_limits(options.limits, account);
     own_limits.set_cancel(&rounds.over());
     try {

@@ -6,6 +6,7 @@
 
 #include "quadrille/continuous/solver.hpp"
 #include "solve/cost_report.hpp"
+#include "solve/inheritance.hpp"
 #include "theory/model.hpp"
 
 namespace quadrille::continuous {
@@ -21,8 +22,8 @@ struct Pace {
 };
 
 /// Several searches as by search_alone, each in a thread of its own: the first one, in the calling
-/// thread with `scene` and `limits`, raises the bound; the second one makes the plan cheaper, and
-/// then finds cores for the first one, as further ones do. They exchange bounds, plans
+/// thread with `scene`, `limits` and `inheritance`, raises the bound; the second one makes the plan
+/// cheaper, and then finds cores for the first one, as further ones do. They exchange bounds, plans
 /// and cores. The first proof is the answer. `account`: that of `limits`. Requires options.threads
 /// > 1.
 ///
@@ -31,6 +32,7 @@ struct Pace {
 [[nodiscard]] SolveOutcome search_side_by_side(Scene& scene, const SolveOptions& options,
                                                const CostReport& known, LimitMonitor& limits,
                                                const std::shared_ptr<ResourceAccount>& account,
-                                               const Pace& pace = {});
+                                               const Pace& pace = {},
+                                               const Inheritance& inheritance = {});
 
 }  // namespace quadrille::continuous

@@ -22,7 +22,8 @@ namespace {
 /// A session that is changed at random.
 class RandomSession {
  public:
-  explicit RandomSession(std::uint32_t seed) : random_(seed), session_(begin(seed)) {}
+  RandomSession(std::uint32_t seed, const RandomOptions& options)
+      : random_(seed), session_(begin(seed, options)) {}
 
   Session& session() { return session_; }
   [[nodiscard]] const Roadmap& roadmap() const { return *roadmap_; }
@@ -61,13 +62,7 @@ class RandomSession {
   }
 
  private:
-  Session begin(std::uint32_t seed) {
-    RandomOptions options;
-    options.num_vertices = 7 + seed % 3;
-    options.num_agents = 3;
-    options.edge_percent = 65;
-    options.max_radius = 5;
-    options.deadline_percent = 5;
+  Session begin(std::uint32_t seed, const RandomOptions& options) {
     const Instance first = random_instance(seed, options);
     roadmap_ = first.shared_roadmap();
     Session session(roadmap_, first.resolution(), first.obstacles());
@@ -119,6 +114,8 @@ class RandomSession {
 
 struct Tally {
   int optimal = 0, infeasible = 0, refused = 0, open = 0, without_search = 0;
+  /// Solves with lemmas about collisions that never looked for any.
+  int from_lemmas = 0;
 };
 
 void expect_equal(const Instance& instance, const SolveOptions& options, const SolveOutcome& warm,
@@ -147,16 +144,29 @@ void expect_equal(const Instance& instance, const SolveOptions& options, const S
   ASSERT_EQ(warm.cost, cold.cost);
   ++(warm.status == Status::optimal ? tally.optimal : tally.infeasible);
   if (warm.statistics.sat_calls < cold.statistics.sat_calls) ++tally.without_search;
+  if (warm.statistics.collision_clauses > 0 && warm.statistics.checks == 0) ++tally.from_lemmas;
+}
+
+RandomOptions small_roadmap(std::uint32_t seed) {
+  RandomOptions options;
+  options.num_vertices = 7 + seed % 3;
+  options.num_agents = 3;
+  options.edge_percent = 65;
+  options.max_radius = 5;
+  options.deadline_percent = 5;
+  return options;
 }
 
 /// Changes and solves, again and again.
-void run_session(std::uint32_t seed, const SolveOptions& options, int num_edits, Tally& tally) {
-  RandomSession random(seed);
+void run_session(RandomSession random, const SolveOptions& options, int num_edits, Tally& tally) {
   for (int k = 0; k < num_edits; ++k) {
     random.edit();
     if (testing::Test::HasFatalFailure()) return;
     const auto instance = random.session().instance();
-    const auto warm = random.session().solve(options);
+    SolveOptions audited = options;
+    // Every lemma is derived again, and every core: those of earlier solves, too.
+    audited.debug.audit = k % 2 == 0;
+    const auto warm = random.session().solve(audited);
     ASSERT_EQ(warm.has_value(), instance.has_value());
     if (!instance) {
       ASSERT_EQ(warm.error().message, instance.error().message);
@@ -183,10 +193,11 @@ TEST(Session, AnswersAreThoseOfSolvesThatKnowNothing) {
     if (seed % 4 != 0) options.joint_work = options.route_work = 0;
     options.limits.conflicts = 300;
     options.limits.looks = 1000;
-    run_session(seed, options, kEdits, tally);
+    run_session(RandomSession(seed, small_roadmap(seed)), options, kEdits, tally);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(tally.optimal, tally.open);
+  // Where no plan exists, which nothing proves, the limits decide.
+  EXPECT_GT(3 * tally.optimal, tally.open);
   EXPECT_GT(tally.without_search, 0);
   RecordProperty("optimal", tally.optimal);
   RecordProperty("infeasible", tally.infeasible);
@@ -195,12 +206,41 @@ TEST(Session, AnswersAreThoseOfSolvesThatKnowNothing) {
   RecordProperty("without_search", tally.without_search);
 }
 
+// Where clauses have something to do: lemmas outlive changes, and all that do are derived again.
+TEST(Session, LemmasLiveOn) {
+  Tally tally;
+  for (std::uint32_t seed = 1; seed <= support::scaled(8); ++seed) {
+    SCOPED_TRACE(seed);
+    RandomOptions roadmap;
+    roadmap.num_vertices = 10;
+    roadmap.num_agents = 4;
+    roadmap.size = 60;
+    roadmap.edge_percent = 60;
+    roadmap.max_radius = 5;
+    roadmap.deadline_percent = 5;
+    SolveOptions options;
+    options.objective = seed % 5 == 0 ? Objective::makespan : Objective::sum_of_costs;
+    options.system = seed % 4 == 0 ? System::smt_cbs : System::dpll;
+    options.joint_work = options.route_work = 0;
+    options.limits.conflicts = 100;
+    options.limits.looks = 6000;
+    run_session(RandomSession(1000 + seed, roadmap), options, 20, tally);
+    if (HasFatalFailure()) return;
+  }
+  // Where no plan exists, which nothing proves, the limits decide.
+  EXPECT_GT(3 * tally.optimal, tally.open);
+  EXPECT_GT(tally.from_lemmas, 0);
+  RecordProperty("optimal", tally.optimal);
+  RecordProperty("open", tally.open);
+  RecordProperty("from_lemmas", tally.from_lemmas);
+}
+
 // What is cut short anywhere, or thrown out of, leaves a session that is as good as before.
 TEST(Session, LimitsAndExceptionsDoNoHarm) {
   Tally tally;
   for (std::uint32_t seed = 100; seed < 100 + support::scaled(20); ++seed) {
     SCOPED_TRACE(seed);
-    RandomSession random(seed);
+    RandomSession random(seed, small_roadmap(seed));
     SolveOptions options;
     options.limits.conflicts = 300;
     options.limits.looks = 1000;

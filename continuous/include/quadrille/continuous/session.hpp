@@ -20,12 +20,13 @@ using MemberId = StrongId<struct MemberTag>;
 
 /// A roadmap and agents that change, and are solved again after each change. What the answers rest
 /// on lives on: what is in whose way, the distances to goals, the lower bounds of groups of agents
-/// of whom nothing has changed (docs/soundness.md, section 13), and the last plans, which are
-/// mended instead of made anew. Costs and proofs are those of `solve` for `instance()`; among plans
-/// of the same cost it may be another one, which depends on what was solved before.
+/// of whom nothing has changed, the last plans, which are mended instead of made anew, and lemmas
+/// and cores of the last search by clauses (docs/soundness.md, section 13). Costs and proofs are
+/// those of `solve` for `instance()`; among plans of the same cost it may be another one, which
+/// depends on what was solved before.
 ///
 /// For one thread at a time; several sessions may solve at once. Memory: contacts of all moves that
-/// searches have come to, and the last 16 answers.
+/// searches have come to, the last 16 answers, and up to 3,000 lemmas and as many cores.
 class Session {
  public:
   /// Requires a roadmap. The rest is as in Instance::make.
