@@ -68,22 +68,29 @@ void BanTable::ask(BanSource& source) {
   enabled_.push_back(1);
   source_ = &source;
   asked_.resize(index_.size(), 0);
+  asked_from_.resize(index_.size());
   if (++session_ == 0) {  // all numbers have been used
     std::fill(asked_.begin(), asked_.end(), 0);
     session_ = 1;
   }
 }
 
-void BanTable::ask_for(std::size_t resource) {
-  if (asked_[resource] == session_) return;
+void BanTable::ask_for(std::size_t resource, Ticks from) {
+  const bool is_known = asked_[resource] == session_;
+  if (is_known && asked_from_[resource] <= from) return;
   asked_[resource] = session_;
+  asked_from_[resource] = from;
   answer_.clear();
   if (resource < num_edges_)
-    source_->list_starts(EdgeId(resource), answer_);
+    source_->list_starts(EdgeId(resource), from, answer_);
   else
     source_->list_stays(VertexId(resource - num_edges_), answer_);
   if (answer_.empty()) return;
   Place& place = place_of(resource);
+  if (is_known) {  // from later on; what `forbidden_starts` gave is stale
+    place.entries.clear();
+    place.version = 0;
+  }
   for (const TickInterval& when : answer_) place.entries.push_back({when, 0});
 }
 

@@ -62,8 +62,9 @@ class PathUses {
 class BanSource {
  public:
   virtual ~BanSource() = default;
-  /// Appends all ticks at which the agent may not begin to move along the edge.
-  virtual void list_starts(EdgeId e, std::vector<TickInterval>& bans) = 0;
+  /// Appends all ticks, `from` or later, at which the agent may not begin to move along the edge;
+  /// perhaps earlier ones.
+  virtual void list_starts(EdgeId e, Ticks from, std::vector<TickInterval>& bans) = 0;
   /// Appends all stretches during which the agent may not be at the vertex.
   virtual void list_stays(VertexId v, std::vector<TickInterval>& bans) = 0;
 };
@@ -93,12 +94,13 @@ class BanTable {
   };
   /// Index of a place with bans, or kFree. Switched-off slots count.
   static constexpr std::uint32_t kFree = 0xffffffffu;
-  [[nodiscard]] std::uint32_t starts_of(EdgeId e) {
-    if (source_ != nullptr) ask_for(e.index());
+  /// Of a table that asks, bans before `from` may be missing.
+  [[nodiscard]] std::uint32_t starts_of(EdgeId e, Ticks from = 0) {
+    if (source_ != nullptr) ask_for(e.index(), from);
     return index_[e.index()];
   }
   [[nodiscard]] std::uint32_t stays_of(VertexId v) {
-    if (source_ != nullptr) ask_for(num_edges_ + v.index());
+    if (source_ != nullptr) ask_for(num_edges_ + v.index(), 0);
     return index_[num_edges_ + v.index()];
   }
 
@@ -134,7 +136,7 @@ class BanTable {
   [[nodiscard]] bool refresh(Place& place);
   void put(const Ban& ban, std::uint32_t slot);
   [[nodiscard]] Place& place_of(std::size_t resource);
-  void ask_for(std::size_t resource);
+  void ask_for(std::size_t resource, Ticks from);
 
   std::size_t num_edges_;
   std::vector<std::uint32_t> index_;  // by edge, then by vertex: into places_, or kFree
@@ -145,6 +147,7 @@ class BanTable {
 
   BanSource* source_ = nullptr;
   std::vector<std::uint32_t> asked_;  // by resource: in which session it was asked for
+  std::vector<Ticks> asked_from_;     // by resource: its bans from then on are here
   std::uint32_t session_ = 0;
   std::vector<TickInterval> answer_;
 };

@@ -137,7 +137,7 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
     if (least + extra >= bound) return;
     ++num_edges_;
     const Ticks rest = task.distances[w];
-    const std::uint32_t start_place = bans.starts_of(e), stay_place = bans.stays_of(w);
+    const std::uint32_t start_place = bans.starts_of(e, node.arrive), stay_place = bans.stays_of(w);
     const auto& forbidden =
         start_place == BanTable::kFree ? kNothingForbidden : bans.forbidden_starts(start_place);
     const auto& stays = stay_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(stay_place);

@@ -146,7 +146,7 @@ void SpatialTraffic::list_standing(const Ban& least, std::vector<TickInterval>& 
 }
 
 // As BansAround, seen from the place instead of from the path.
-void SpatialTraffic::list_starts(EdgeId e, std::vector<TickInterval>& bans) {
+void SpatialTraffic::list_starts(EdgeId e, Ticks from, std::vector<TickInterval>& bans) {
   const Instance& instance = scene_.instance();
   list_standing(Ban::start(e, kFirst), bans);
   const Edge& edge = instance.roadmap().edge(e);
@@ -155,6 +155,7 @@ void SpatialTraffic::list_starts(EdgeId e, std::vector<TickInterval>& bans) {
   for_each_near(box, [&](const Passage& passage) {
     const ClassId other = entries_[passage.path].c;
     const Step& step = passage.step;
+    if (step.end < from) return;  // Nobody who starts after the end of a step collides with it.
     if (step.is_move) {
       if (const auto& offsets = scene_.contacts().offsets(other, step.edge, asking_, e))
         bans.push_back(starts_against(*offsets, step.begin));

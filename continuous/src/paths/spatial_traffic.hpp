@@ -43,7 +43,7 @@ class SpatialTraffic final : public Traffic, private BanSource {
 
   /// Those of moving obstacles at the place of `least`, which is before all of them.
   void list_standing(const Ban& least, std::vector<TickInterval>& bans) const;
-  void list_starts(EdgeId e, std::vector<TickInterval>& bans) override;
+  void list_starts(EdgeId e, Ticks from, std::vector<TickInterval>& bans) override;
   void list_stays(VertexId v, std::vector<TickInterval>& bans) override;
 
   [[nodiscard]] Box box_of(const Point& p, const Point& q, Length reach) const;

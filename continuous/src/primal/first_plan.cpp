@@ -21,7 +21,7 @@ constexpr int kMaxOrdersOfDraft = 10;
 bool obeys(BanTable& bans, const std::vector<Step>& steps) {
   return std::all_of(steps.begin(), steps.end(), [&](const Step& step) {
     if (step.is_move) {
-      const std::uint32_t place = bans.starts_of(step.edge);
+      const std::uint32_t place = bans.starts_of(step.edge, step.begin);
       if (place == BanTable::kFree) return true;
       const auto& forbidden = bans.forbidden_starts(place);
       return std::none_of(forbidden.begin(), forbidden.end(), [&](const TickInterval& when) {
