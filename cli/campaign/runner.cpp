@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 namespace quadrille::cli::campaign {
 namespace {
 
 /// A job that somebody's signal ends so often is not tried again.
 constexpr int kTries = 2;
+/// A signal for all processes of a task may reach the jobs before it reaches us.
+constexpr std::chrono::seconds kHold(1);
 /// How long those who wait for others sleep.
 constexpr std::chrono::milliseconds kPause(200);
 /// Without a terminal.
@@ -60,9 +63,10 @@ bool Runner::update() {
 Runner::End Runner::run() {
   bool fine = update();
   while (fine && !interrupted()) {
-    fine = start_jobs();
+    if (!held_.empty() && Clock::now() >= held_until_) fine = settle();
+    if (fine && held_.empty()) fine = start_jobs();
     if (!fine) break;
-    if (active_.empty()) {
+    if (active_.empty() && held_.empty()) {
       if (elsewhere_.empty() || !options_.wait_for_others) break;
       std::this_thread::sleep_for(kPause);
       elsewhere_.clear();
@@ -81,7 +85,7 @@ Runner::End Runner::run() {
 }
 
 bool Runner::start_jobs() {
-  while (active_.size() < options_.processes) {
+  while (active_.size() < options_.processes && !interrupted()) {
     std::set<std::size_t> taken = busy_;
     taken.insert(elsewhere_.begin(), elsewhere_.end());
     const auto job = schedule_.next(taken);
@@ -125,38 +129,64 @@ void Runner::wait_a_little() const {
 
 bool Runner::tend() {
   for (std::size_t i = 0; i < active_.size();) {
-    const auto ended = active_[i].child.watch();
+    auto ended = active_[i].child.watch();
     if (!ended) {
       ++i;
       continue;
     }
     const std::size_t job = active_[i].job;
     active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(i));
-    const bool fine = finish(job, *ended);
-    busy_.erase(job);
-    store_.release(list_.jobs[job].name);
-    if (!fine) return false;
-    // What others have finished may have opened something.
-    elsewhere_.clear();
+    const auto row = make_row(list_.jobs[job], *ended);
+    if (!row) {
+      hold(job, *std::move(ended));
+      continue;
+    }
+    if (!finish(job, *row)) return false;
   }
   return true;
 }
 
-bool Runner::finish(std::size_t number, const Ended& ended) {
-  const Job& job = list_.jobs[number];
-  auto row = make_row(job, ended);
-  if (!row) {
-    if (interrupted()) return true;  // It was us: the job is open again.
-    if (++kills_[number] < kTries) return true;
-    row = failed_row(job, ended,
-                     ended.signal != 0
-                         ? fmt::format("ended by signal {} {} times", ended.signal, kTries)
-                         : fmt::format("interrupted by somebody {} times", kTries));
+void Runner::hold(std::size_t job, Ended ended) {
+  held_.push_back({job, std::move(ended)});
+  held_until_ = Clock::now() + kHold;
+}
+
+bool Runner::settle() {
+  for (const Held& held : std::exchange(held_, {}))
+    if (!settle(held.job, held.ended)) return false;
+  return true;
+}
+
+bool Runner::settle(std::size_t number, const Ended& ended) {
+  if (++kills_[number] < kTries) {
+    let_go(number);
+    return true;
   }
-  if (auto error = store_.append(to_line(*row))) return fail(*error);
-  line_.clear();
-  console_.print(describe_row(job, *row));
-  return update();
+  return finish(number,
+                failed_row(list_.jobs[number], ended,
+                           ended.signal != 0
+                               ? fmt::format("ended by signal {} {} times", ended.signal, kTries)
+                               : fmt::format("interrupted by somebody {} times", kTries)));
+}
+
+bool Runner::finish(std::size_t number, const Row& row) {
+  bool fine = true;
+  if (auto error = store_.append(to_line(row))) {
+    fine = fail(*error);
+  } else {
+    line_.clear();
+    console_.print(describe_row(list_.jobs[number], row));
+    fine = update();
+  }
+  let_go(number);
+  return fine;
+}
+
+void Runner::let_go(std::size_t job) {
+  busy_.erase(job);
+  store_.release(list_.jobs[job].name);
+  // What others have finished may have opened something.
+  elsewhere_.clear();
 }
 
 void Runner::stop_all() {
@@ -169,6 +199,8 @@ void Runner::stop_all() {
       tend();
     }
   }
+  // It was us: they are open again, and it was no try.
+  for (const Held& held : std::exchange(held_, {})) let_go(held.job);
 }
 
 void Runner::report(bool now) {

@@ -47,6 +47,10 @@ class Runner {
     std::size_t job;
     Child child;
   };
+  struct Held {
+    std::size_t job;
+    Ended ended;
+  };
 
   [[nodiscard]] bool interrupted() const { return *options_.interrupt; }
   bool fail(const Error& error);
@@ -57,7 +61,13 @@ class Runner {
   void wait_a_little() const;
   /// Looks after the processes. False on an error.
   bool tend();
-  bool finish(std::size_t job, const Ended& ended);
+  /// Somebody's signal ended a job: nothing is begun until it is certain that it was not for us.
+  void hold(std::size_t job, Ended ended);
+  /// Decides about the jobs that were held. False on an error.
+  bool settle();
+  bool settle(std::size_t job, const Ended& ended);
+  bool finish(std::size_t job, const Row& row);
+  void let_go(std::size_t job);
   void stop_all();
   void report(bool now);
 
@@ -69,7 +79,9 @@ class Runner {
   ProgressLine line_;
   Follower follower_;
   std::vector<Active> active_;
-  std::set<std::size_t> busy_;       // run by us
+  std::vector<Held> held_;
+  Clock::time_point held_until_;     // if there are any
+  std::set<std::size_t> busy_;       // run by us, or held
   std::set<std::size_t> elsewhere_;  // claimed by others when we last looked
   std::map<std::size_t, int> kills_;
   Clock::time_point reported_ = Clock::now();

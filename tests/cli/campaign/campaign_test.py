@@ -240,6 +240,26 @@ class Trouble(CampaignCase):
         self.assertEqual(resumed.returncode, 30)
         self.assertGreaterEqual(len(self.rows()), 4)
 
+    def test_a_signal_for_all_that_reaches_the_workers_first_begins_nothing(self):
+        # Slurm signals the processes of a task one after the other, in any order.
+        for behaviour, sent in (("sleep", signal.SIGTERM), ("sleep", signal.SIGKILL),
+                                ("polite", signal.SIGTERM)):
+            manifest = self.manifest("1:8:1", systems=self.fake(behaviour), name=behaviour + ".yaml")
+            with self.subTest(behaviour=behaviour, sent=sent):
+                before = sum(self.starts().values())
+                run = self.start("campaign", "run", manifest, "--jobs", "2")
+                wait_until(lambda: sum(self.starts().values()) == before + 2)
+                workers = children_of(run.pid)
+                for worker in workers:
+                    os.kill(worker, sent)
+                wait_until(lambda: not set(workers) & set(children_of(run.pid)))
+                time.sleep(0.3)
+                run.terminate()
+                out, err = run.communicate(timeout=PATIENCE)
+                self.assertEqual(run.returncode, 30, out + err)
+                self.assertEqual(sum(self.starts().values()), before + 2, "one more was begun")
+                self.assertEqual(self.rows(behaviour + ".campaign"), {})
+
     def test_limits_are_enforced_from_outside(self):
         for behaviour, limits, stop in (("deaf", "wall: 0.3", "wall-time"),
                                         ("spin", "cpu: 0.3", "cpu-time"),

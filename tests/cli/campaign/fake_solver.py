@@ -5,6 +5,7 @@
 Each start appends a line with the instance to the file of --log, so that a test can count them.
 """
 import os
+import signal
 import sys
 import time
 
@@ -33,6 +34,8 @@ def main():
     agents = int(value("--agents", "0"))
     log = value("--log")
     tries = 0
+    if behaviour == "polite":  # before anybody can know that it runs
+        signal.signal(signal.SIGTERM, lambda *_: answer("unknown", stop="interrupt"))
     if log:
         with open(log, "a+", encoding="utf-8") as file:
             file.write(f"{scenario} {agents}\n")
@@ -44,16 +47,14 @@ def main():
         sys.exit(70)
     elif behaviour == "sleep-at-first" and tries == 1:
         time.sleep(60)
-    elif behaviour == "sleep":
+    elif behaviour in ("sleep", "polite"):
         time.sleep(60)
     elif behaviour == "nap":
         time.sleep(0.1)
     elif behaviour == "deaf":
-        import signal
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         time.sleep(60)
     elif behaviour == "spin":
-        import signal
         signal.signal(signal.SIGXCPU, signal.SIG_IGN)
         while True:
             pass
