@@ -39,6 +39,15 @@ void LeafProgram::unload(const CoverLeaf& leaf) {
 bool LeafProgram::is_known(const CoverLeaf& leaf) {
   if (!leaf.branch) return false;
   load(leaf);
+  find_parts(leaf);
+  unload(leaf);
+  for (std::size_t c = 0; c < table_->num_cores(); ++c)
+    if (covered(table_->rows_of(c)) < 1 - kTiny) return false;
+  return true;
+}
+
+/// Of the leaf's fractional cover, in the leaf at work.
+void LeafProgram::find_parts(const CoverLeaf& leaf) {
   const std::vector<Level>& levels = table_->rows();
   part_.assign(levels.size(), 0);
   auto share = leaf.shares.begin();
@@ -50,13 +59,12 @@ bool LeafProgram::is_known(const CoverLeaf& leaf) {
       part = share->level.agent == level.agent ? share->part : 0;
     part_[r] = level.cost <= low_[level.agent] ? 1 : level.cost < high_[level.agent] ? part : 0;
   }
-  unload(leaf);
-  for (std::size_t c = 0; c < table_->num_cores(); ++c) {
-    double covered = 0;
-    for (const std::uint32_t r : table_->rows_of(c)) covered += part_[r];
-    if (covered < 1 - kTiny) return false;
-  }
-  return true;
+}
+
+double LeafProgram::covered(std::span<const std::uint32_t> rows) const {
+  double covered = 0;
+  for (const std::uint32_t r : rows) covered += part_[r];
+  return covered;
 }
 
 bool LeafProgram::solve(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs) {
@@ -71,9 +79,13 @@ bool LeafProgram::solve_loaded(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs) 
   for (const CoverLeaf::Range& range : leaf.ranges)
     base += low_[range.agent] - free_costs_[range.agent];
   if (!collect()) return false;
-  make_program();
-  const PackingSolution solution = solve_packing(program_);
-  effort_ += solution.effort;
+  choose_tight(leaf);
+  PackingSolution solution;
+  do {
+    make_program();
+    solution = solve_packing(program_);
+    effort_ += solution.effort + static_cast<std::int64_t>(active_.size());
+  } while (choose_violated(solution.dual));
   leaf.bound = std::max(leaf.bound, base + certified_bound(solution.primal));
   costs = low_;
   round(solution.dual, leaf, costs);
@@ -98,12 +110,45 @@ bool LeafProgram::collect() {
   return true;
 }
 
+// Most cores have no say in the optimum: the program has those that the last fractional cover,
+// which may be that of a larger leaf, does not cover or only just; then those that its own does
+// not cover, until it covers all. The optimum is that of the program with all of them.
+void LeafProgram::choose_tight(const CoverLeaf& leaf) {
+  find_parts(leaf);
+  chosen_.clear();
+  is_chosen_.assign(active_begins_.size() - 1, 0);
+  choose_below(1 + kTiny);
+}
+
+/// False: the fractional cover of the program, with these shares by row, covers all active cores.
+bool LeafProgram::choose_violated(const std::vector<double>& dual) {
+  const std::vector<Level>& levels = table_->rows();
+  part_.assign(levels.size(), 0);
+  std::size_t row = rows_.size();
+  for (std::size_t r = levels.size(); r-- > 0;) {
+    if (r + 1 < levels.size() && levels[r + 1].agent == levels[r].agent) part_[r] = part_[r + 1];
+    for (; row > 0 && rows_[row - 1] >= levels[r]; --row) part_[r] += dual[row - 1];
+  }
+  return choose_below(1 - kTiny);
+}
+
+bool LeafProgram::choose_below(double part) {
+  const std::size_t before = chosen_.size();
+  for (std::size_t c = 0; c < is_chosen_.size(); ++c) {
+    if (is_chosen_[c] != 0 || covered(active_rows(c)) >= part) continue;
+    is_chosen_[c] = 1;
+    chosen_.push_back(c);
+  }
+  return chosen_.size() > before;
+}
+
 // One row per level: what the cores ask for that the agent hits there or below is at most what
 // the level costs.
 void LeafProgram::make_program() {
   const std::vector<Level>& levels = table_->rows();
   number_.assign(levels.size(), kNoRow);
-  for (const std::uint32_t r : active_) number_[r] = 0;
+  for (const std::size_t c : chosen_)
+    for (const std::uint32_t r : active_rows(c)) number_[r] = 0;
   rows_.clear();
   program_.capacity.clear();
   for (std::size_t r = 0; r < levels.size(); ++r) {
@@ -114,12 +159,10 @@ void LeafProgram::make_program() {
   }
   program_.column_begins.assign(1, 0);
   program_.column_rows.clear();
-  for (std::size_t c = 0; c + 1 < active_begins_.size(); ++c) {
-    for (std::size_t k = active_begins_[c]; k < active_begins_[c + 1]; ++k) {
-      const AgentId agent = levels[active_[k]].agent;
-      for (auto row = number_[active_[k]]; row < rows_.size() && rows_[row].agent == agent; ++row)
+  for (const std::size_t c : chosen_) {
+    for (const std::uint32_t r : active_rows(c))
+      for (auto row = number_[r]; row < rows_.size() && rows_[row].agent == levels[r].agent; ++row)
         program_.column_rows.push_back(row);
-    }
     program_.column_begins.push_back(program_.column_rows.size());
   }
 }

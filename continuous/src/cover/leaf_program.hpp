@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cover/core_table.hpp"
@@ -34,7 +35,9 @@ struct CoverLeaf {
   /// times the share that it has or lacks, whichever is less. None exactly if the low ends hit all
   /// cores.
   std::optional<Level> branch;
-  std::vector<Share> shares;  ///< By falling level, in the leaf; none where it is 0.
+  /// By falling level; none where it is 0. Those of a leaf that was split serve its parts to begin
+  /// with, although they may be outside of their ranges.
+  std::vector<Share> shares;
 };
 
 /// The linear programs of the leaves of one group of agents.
@@ -70,6 +73,14 @@ class LeafProgram {
   void unload(const CoverLeaf& leaf);
   [[nodiscard]] bool solve_loaded(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
   [[nodiscard]] bool collect();
+  [[nodiscard]] std::span<const std::uint32_t> active_rows(std::size_t c) const {
+    return {active_.data() + active_begins_[c], active_.data() + active_begins_[c + 1]};
+  }
+  void find_parts(const CoverLeaf& leaf);
+  [[nodiscard]] double covered(std::span<const std::uint32_t> rows) const;
+  void choose_tight(const CoverLeaf& leaf);
+  [[nodiscard]] bool choose_violated(const std::vector<double>& dual);
+  bool choose_below(double part);
   void make_program();
   [[nodiscard]] Cost certified_bound(const std::vector<double>& multipliers);
   void round(const std::vector<double>& dual, CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
@@ -80,6 +91,8 @@ class LeafProgram {
   // Cores that the low ends do not hit: their rows in the table, as far as these are in the leaf.
   std::vector<std::uint32_t> active_;
   std::vector<std::size_t> active_begins_;
+  std::vector<std::size_t> chosen_;  // active cores that are in the program
+  std::vector<char> is_chosen_;      // by active core
   std::vector<std::uint32_t> number_;  // by row of the table: its number in the program
   std::vector<Level> rows_;            // of the program
   Packing program_;
@@ -87,7 +100,7 @@ class LeafProgram {
   std::int64_t effort_ = 0;
   // Scratch:
   std::vector<Cost> units_, used_;
-  std::vector<double> part_;
+  std::vector<double> part_;  // by row of the table: of the agent at that level or above
 };
 
 }  // namespace quadrille::continuous

@@ -25,7 +25,6 @@ bool implies(const LevelCore& a, const LevelCore& b) {
 std::pair<CoverLeaf, CoverLeaf> split(CoverLeaf leaf) {
   const Level level = *leaf.branch;
   leaf.branch.reset();
-  leaf.shares.clear();
   auto range = std::lower_bound(leaf.ranges.begin(), leaf.ranges.end(), level.agent,
                                 [](const auto& r, AgentId i) { return r.agent < i; });
   if (range == leaf.ranges.end() || range->agent != level.agent)

@@ -32,8 +32,6 @@ class LevelCover {
   [[nodiscard]] const IdVector<AgentId, Cost>& costs() const noexcept { return costs_; }
   /// Their sum: no costs that hit all cores of that call have a smaller one.
   [[nodiscard]] Cost total() const noexcept { return total_; }
-  /// Costs that hit all cores, found fast; their sum need not be least.
-  [[nodiscard]] IdVector<AgentId, Cost> quick_costs() const { return completed(costs_); }
   /// `costs`, raised and lowered until they hit all cores and none can be lowered alone. Requires
   /// costs of at least the free costs.
   [[nodiscard]] IdVector<AgentId, Cost> completed(IdVector<AgentId, Cost> costs) const;

@@ -68,12 +68,15 @@ class Tableau {
     return cells_[row * width_ + column];
   }
 
-  [[nodiscard]] std::size_t leaving_row(std::size_t entering) const {
+  /// Reads the entering column into `entering_`.
+  [[nodiscard]] std::size_t leaving_row(std::size_t entering) {
+    entering_.clear();
     std::size_t best = rows_;
     double best_ratio = 0;
-    for (std::size_t r = 0; r < rows_; ++r) {
+    for (std::size_t r = 0; r <= rows_; ++r) {
       const double step = at(r, entering);
-      if (step <= kTiny) continue;
+      entering_.push_back(step);
+      if (step <= kTiny || r == rows_) continue;
       const double ratio = at(r, columns_) / step;
       if (best == rows_ || ratio < best_ratio) {
         best = r;
@@ -86,26 +89,31 @@ class Tableau {
   void pivot(std::size_t leaving, std::size_t entering) {
     double* const pivot_row = &at(leaving, 0);
     const double inverse = 1 / pivot_row[entering];
-    for (std::size_t c = 0; c < width_; ++c) pivot_row[c] *= inverse;
-    pivot_row[entering] = inverse;
+    pivot_row[entering] = 0;
     nonzero_.clear();
-    for (std::size_t c = 0; c < width_; ++c)
-      if (c != entering && pivot_row[c] != 0) nonzero_.push_back(c);
+    for (std::size_t c = 0; c < width_; ++c) {
+      if (pivot_row[c] == 0) continue;
+      pivot_row[c] *= inverse;
+      nonzero_.push_back(c);
+    }
+    pivot_row[entering] = inverse;
     for (std::size_t r = 0; r <= rows_; ++r) {
-      double* const row = &at(r, 0);
-      const double factor = row[entering];
+      const double factor = entering_[r];
       if (r == leaving || factor == 0) continue;
+      double* const row = &at(r, 0);
       for (const std::size_t c : nonzero_) row[c] -= factor * pivot_row[c];
       row[entering] = -factor * inverse;
       effort_ += static_cast<std::int64_t>(nonzero_.size());
     }
+    effort_ += static_cast<std::int64_t>(rows_ + width_);
     std::swap(basic_[leaving], other_[entering]);
   }
 
   std::size_t rows_, columns_, width_;
   std::vector<double> cells_;
   std::vector<std::size_t> basic_, other_;  // variables; from columns_ on slacks
-  std::vector<std::size_t> nonzero_;
+  std::vector<std::size_t> nonzero_;  // of the pivot row
+  std::vector<double> entering_;      // by row
   double scale_ = 1;
   std::int64_t effort_ = 0;
 };

@@ -30,10 +30,10 @@ struct Packing {
 struct PackingSolution {
   std::vector<double> primal;  ///< u, by column.
   std::vector<double> dual;    ///< Price of each row; in each column they are 1 or more together.
-  std::int64_t effort = 0;     ///< Cells of the tableau that were changed.
+  std::int64_t effort = 0;     ///< Cells of the tableau that were looked at or changed.
 };
 
-/// The simplex method on a dense tableau: rows times columns per pivot. It ends after many more
+/// The simplex method on a dense tableau: rows times columns per pivot, less where it is sparse. It ends after many more
 /// pivots than were ever needed, with a solution that is feasible and perhaps not optimal, of
 /// prices that are perhaps too low. Deterministic.
 [[nodiscard]] PackingSolution solve_packing(const Packing& packing);

@@ -20,8 +20,6 @@ using Core = LevelCore;
 
 /// Conflicts of a question whether known clauses refute something.
 constexpr sat::SolveBudget kNextBudget{1000, {}};
-/// Covers by greed between two exact ones.
-constexpr int kMaxQuickRounds = 50;
 /// Steps for a better plan at each turn, and at once before the first core.
 constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000;
 /// Of drawn costs: how many agents keep what they cost at last, conflicts of a question, and how
@@ -102,7 +100,7 @@ class CoverSearch {
         report_.end = End::found;
         return report_;
       }
-      if (!learn_cores() && end_without_plans()) return report_;
+      if (!learn_disjoint_cores(above(cover_.costs())) && end_without_plans()) return report_;
       if (!solve_cover()) return report_;
       if (context_.statistics.cores >= next_improvement_) {
         next_improvement_ = kNever;
@@ -265,18 +263,9 @@ class CoverSearch {
     return ceilings;
   }
 
-  /// After a refuted solve: its core and others that the known clauses give. False: one is empty.
-  bool learn_cores() {
-    Core below = above(cover_.costs());
-    for (int round = 0;; ++round) {
-      if (!learn_disjoint_cores(std::move(below))) return false;
-      if (round == kMaxQuickRounds || limits_.exhausted()) return true;
-      below = above(cover_.quick_costs());
-      if (!is_refuted(below)) return true;
-    }
-  }
-
-  /// After a refutation of `below`: cores without common agents, as long as some are found.
+  /// After a refutation of `below`: cores without common agents, as long as the known clauses give
+  /// some. Further ones, of costs that hit these by greed, would come faster than covers, and raise
+  /// the bound less. False: one is empty.
   bool learn_disjoint_cores(Core below) {
     while (true) {
       const IdVector<AgentId, Cost> highest = ceilings();
