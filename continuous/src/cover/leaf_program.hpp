@@ -91,8 +91,8 @@ class LeafProgram {
   // Cores that the low ends do not hit: their rows in the table, as far as these are in the leaf.
   std::vector<std::uint32_t> active_;
   std::vector<std::size_t> active_begins_;
-  std::vector<std::size_t> chosen_;  // active cores that are in the program
-  std::vector<char> is_chosen_;      // by active core
+  std::vector<std::size_t> chosen_;    // active cores that are in the program
+  std::vector<char> is_chosen_;        // by active core
   std::vector<std::uint32_t> number_;  // by row of the table: its number in the program
   std::vector<Level> rows_;            // of the program
   Packing program_;

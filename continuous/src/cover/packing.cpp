@@ -112,8 +112,8 @@ class Tableau {
   std::size_t rows_, columns_, width_;
   std::vector<double> cells_;
   std::vector<std::size_t> basic_, other_;  // variables; from columns_ on slacks
-  std::vector<std::size_t> nonzero_;  // of the pivot row
-  std::vector<double> entering_;      // by row
+  std::vector<std::size_t> nonzero_;        // of the pivot row
+  std::vector<double> entering_;            // by row
   double scale_ = 1;
   std::int64_t effort_ = 0;
 };

@@ -33,9 +33,9 @@ struct PackingSolution {
   std::int64_t effort = 0;     ///< Cells of the tableau that were looked at or changed.
 };
 
-/// The simplex method on a dense tableau: rows times columns per pivot, less where it is sparse. It ends after many more
-/// pivots than were ever needed, with a solution that is feasible and perhaps not optimal, of
-/// prices that are perhaps too low. Deterministic.
+/// The simplex method on a dense tableau: rows times columns per pivot, less where it is sparse. It
+/// ends after many more pivots than were ever needed, with a solution that is feasible and perhaps
+/// not optimal, of prices that are perhaps too low. Deterministic.
 [[nodiscard]] PackingSolution solve_packing(const Packing& packing);
 
 }  // namespace quadrille::continuous

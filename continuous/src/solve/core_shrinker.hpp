@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "solve/cost_problem.hpp"
@@ -40,11 +41,13 @@ class CoreShrinker {
                              const sat::SolveBudget& budget);
   void raise(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
   [[nodiscard]] Ladder ladder(const Level& level, Cost ceiling) const;
+  [[nodiscard]] bool drops_pay() const;
   void drop(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
 
   CostProblem& problem_;
   LimitMonitor& limits_;
   std::vector<AgentId> ceilings_of_core_;
+  std::int64_t num_shrunk_ = 0, num_dropped_ = 0, num_kept_ = 0;  // cores; levels
 };
 
 }  // namespace quadrille::continuous

@@ -82,6 +82,8 @@ class CostProblem {
   /// cheaper than an incumbent which is known here, too. It is not audited.
   void take_core(const std::vector<Level>& core);
 
+  /// The engine's elementary steps so far.
+  [[nodiscard]] std::int64_t effort() const { return engine_.effort(); }
   [[nodiscard]] Model& model() noexcept { return model_; }
 
  private:

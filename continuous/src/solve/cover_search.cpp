@@ -30,7 +30,7 @@ constexpr unsigned kKeptPercent = 85;
 constexpr sat::SolveBudget kGuessBudget{2000, {}};
 constexpr int kMaxMisses = 20;
 /// Elementary steps of a search for plans, and of the cover, that take as long as one of an engine.
-constexpr std::int64_t kPlanStepsOfSearch = 2, kCoverStepsOfSearch = 64;
+constexpr std::int64_t kPlanStepsOfSearch = 2, kCoverStepsOfSearch = 20;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 /// Of a search that begins with candidates: steps for a better plan before it tries them, as one
 /// was mended, and new cores after which the plan is improved like others. Measured in sessions of
@@ -100,7 +100,7 @@ class CoverSearch {
         report_.end = End::found;
         return report_;
       }
-      if (!learn_disjoint_cores(above(cover_.costs())) && end_without_plans()) return report_;
+      if (!learn_cores() && end_without_plans()) return report_;
       if (!solve_cover()) return report_;
       if (context_.statistics.cores >= next_improvement_) {
         next_improvement_ = kNever;
@@ -137,7 +137,9 @@ class CoverSearch {
   }
 
   bool solve_cover() {
+    const std::int64_t before = cover_.effort();
     const bool is_solved = cover_.solve(limits_);
+    next_cover_ = problem_.effort() + (cover_.effort() - before) / kCoverStepsOfSearch;
     count(cover_, kCoverStepsOfSearch, seen_cover_effort_);
     return is_solved;
   }
@@ -263,9 +265,21 @@ class CoverSearch {
     return ceilings;
   }
 
+  /// After a refuted solve: its core and others. Those of exact covers raise the bound by most.
+  /// Where covers take as long as cores, further ones of costs that hit these by greed come first.
+  /// False: there is no plan.
+  bool learn_cores() {
+    Core below = above(cover_.costs());
+    while (true) {
+      if (!learn_disjoint_cores(std::move(below))) return false;
+      if (problem_.effort() >= next_cover_ || limits_.exhausted()) return true;
+      below = above(cover_.completed(cover_.costs()));
+      if (!is_refuted(below)) return true;
+    }
+  }
+
   /// After a refutation of `below`: cores without common agents, as long as the known clauses give
-  /// some. Further ones, of costs that hit these by greed, would come faster than covers, and raise
-  /// the bound less. False: one is empty.
+  /// some. False: one is empty.
   bool learn_disjoint_cores(Core below) {
     while (true) {
       const IdVector<AgentId, Cost> highest = ceilings();
@@ -330,7 +344,8 @@ class CoverSearch {
   bool has_new_cores_ = false;  // that came from others
   std::int64_t next_improvement_ = kNever;
   std::int64_t next_turn_ = 30, turn_conflicts_ = 0;
-  Cost step_ = 0;  // between the proven bound and the next sum to be tried
+  std::int64_t next_cover_ = 0;  // the problem's effort
+  Cost step_ = 0;                // between the proven bound and the next sum to be tried
   std::int64_t seen_plan_effort_ = 0, seen_cover_effort_ = 0;  // that were told
 };
 
