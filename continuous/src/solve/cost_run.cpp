@@ -80,6 +80,13 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     const Role role = companion_ != nullptr ? companion_->role() : Role::all;
     CostTrace trace;
     CostTrace* const traced = recorder ? &trace : nullptr;
+    const auto conclude = [&](bool has_plan) {
+      if (keeper) bequeath(*keeper);
+      if (recorder) explain(*recorder, std::move(trace), has_plan);
+      engine.add_statistics(outcome_.statistics);
+      outcome_.statistics.checks = theory.num_checks();
+      engine_ = nullptr;
+    };
     CostReport report;
     try {
       EngineWriter writer(engine);
@@ -90,16 +97,11 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
                                   outcome_.statistics, *this, inheritance_.learned.cores, traced})
               : search_makespan(problem, known_, limits_, outcome_.statistics, *this, traced);
     } catch (const LimitReached&) {
-      if (recorder) explain(*recorder, std::move(trace), plan_ != nullptr);
-      if (keeper) bequeath(*keeper);
+      conclude(plan_ != nullptr);
       throw;
     }
-    if (keeper) bequeath(*keeper);
-    if (recorder) explain(*recorder, std::move(trace), plan_ || report.plan);
+    conclude(plan_ || report.plan);
     outcome_.lower_bound = std::max(outcome_.lower_bound, report.lower_bound);
-    engine.add_statistics(outcome_.statistics);
-    outcome_.statistics.checks = theory.num_checks();
-    engine_ = nullptr;
     if (const auto complaint = auditors.complaint()) {
       outcome_.internal_error = Error{ErrorCode::internal, *complaint, {}};
     } else if (report.end == sat::SearchEnd::exhausted) {

@@ -78,6 +78,27 @@ TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
   }
 }
 
+// Searches of paths look at the limits, too, and are left by an exception.
+TEST(SolverLimits, WhatWasDoneIsToldWhereverItIsCut) {
+  RandomOptions random;
+  random.num_vertices = 150;
+  random.num_agents = 20;
+  random.size = 400;
+  random.edge_percent = 4;
+  const Instance instance = random_instance(3, random);
+  int num_with_cores = 0;
+  for (std::int64_t looks = 116'000; looks <= 128'000; looks += 4000) {
+    SolveOptions options;
+    options.joint_work = options.route_work = 0;
+    options.limits.looks = looks;
+    const SolveOutcome outcome = solve(instance, options).value();
+    if (outcome.statistics.cores == 0) continue;
+    ++num_with_cores;
+    EXPECT_GT(outcome.statistics.sat_calls, 0) << looks;
+  }
+  EXPECT_GE(num_with_cores, 2);
+}
+
 // Progress is told between two solves or slices of one: the bound grows, and is one.
 TEST(SolverLimits, ProgressIsToldInOrder) {
   int num_told = 0;
