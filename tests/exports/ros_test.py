@@ -69,10 +69,10 @@ def close(a, b):
 
 with tempfile.TemporaryDirectory() as folder:
     instance, plan = f"{folder}/instance.json", f"{folder}/plan.json"
-    samples = 0
-    for seed in range(3):
+    samples = heights = 0
+    for seed, *space in ((0,), (1,), (2,), (0, "--altitude", "4"), (1, "--altitude", "4")):
         run("generate", "--kind", "roadmap", "--vertices", "30", "--agents", "6", "--mixed", "--seed", str(seed),
-            "--instance-output", instance)
+            *space, "--instance-output", instance)
         run("solve", "--instance", instance, "--gap", "1000", "--quiet", "--plan", plan, codes=(0, 10))
         export = ["export", "--instance", instance, "--rate", "5", plan, "--to"]
         rows = [{key: float(value) for key, value in row.items()}
@@ -90,14 +90,25 @@ with tempfile.TemporaryDirectory() as folder:
             assert len(of_agent) == len(trajectory.points) == len(path.poses)
             for row, point, pose in zip(of_agent, trajectory.points, path.poses):
                 place, speed = point.transforms[0].translation, point.velocities[0].linear
-                assert (place.x, place.y) == (pose.pose.position.x, pose.pose.position.y)
+                position = pose.pose.position
+                assert (place.x, place.y, place.z) == (position.x, position.y, position.z)
                 assert close(place.x, row["x"]) and close(place.y, row["y"])
                 assert close(speed.x, row["vx"]) and close(speed.y, row["vy"])
+                assert ("z" in row) == bool(space)
+                assert close(place.z, row.get("z", 0)) and close(speed.z, row.get("vz", 0))
+                heights += place.z > 0 and speed.z != 0
                 assert abs(point.time_from_start.to_sec() - row["time"]) < 1e-9
                 assert abs(pose.header.stamp.to_sec() - row["time"]) < 1e-9
                 assert pose.header.frame_id == "map"
                 samples += 1
+            for row, after in zip(of_agent, of_agent[1:]):  # Velocities are those of what comes next.
+                for axis in "xyz" if space else "xy":
+                    step = row["v" + axis] * (after["time"] - row["time"])
+                    assert abs(row[axis] + step - after[axis]) < 1e-6, (row, after)
+            last = path.poses[-1].pose.position
+            assert [last.x, last.y, last.z][:len(stops[agent][-1]["at"])] == stops[agent][-1]["at"]
             assert abs(path.poses[-1].header.stamp.to_sec() - stops[agent][-1]["arrive"]) < 1e-9
             refuses(Path, {**of_path, "frame": "map"})
             refuses(MultiDOFJointTrajectory, {**of_trajectory, "joint_names": [1]})
     assert samples > 200, samples
+    assert heights > 50, heights
