@@ -101,10 +101,10 @@ void tamper(Draw& draw, const Instance& instance, Plan& plan) {
   }
 }
 
-// With QUADRILLE_TEST_SCALE=5 these are 10,000 plans.
+// 10,000 plans.
 TEST(SecondOpinion, AgreesWithVerifyOnPlansGoodAndTampered) {
   Comparison comparison;
-  const auto num_instances = static_cast<std::uint32_t>(support::scaled(200));
+  const auto num_instances = static_cast<std::uint32_t>(support::scaled(1000));
   for (std::uint32_t seed = 0; seed < num_instances; ++seed) {
     test::RandomOptions random;
     random.num_agents = 2 + seed % 3;
