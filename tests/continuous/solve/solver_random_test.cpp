@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "continuous/support/oracle_check.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/generator.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "support/environment.hpp"
 
@@ -77,6 +79,59 @@ INSTANTIATE_TEST_SUITE_P(All, SolverRandom,
                                                           Objective::makespan),
                                           testing::Values(System::dpll, System::smt_cbs)),
                          name);
+
+/// On instances that are too large for the oracle, half of them in space, the others with polygons.
+class SystemsAgree : public testing::TestWithParam<Objective> {};
+
+TEST_P(SystemsAgree, WithPolygonsAndInSpace) {
+  const auto count = static_cast<int>(support::scaled(500));
+  int in_space = 0, optimal = 0;
+  for (int seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomInstanceOptions random;
+    random.num_vertices = 14 + static_cast<std::size_t>(seed) % 7;
+    random.num_agents = 2 + static_cast<std::size_t>(seed) / 2 % 3;
+    random.width = random.height = 8'000'000;
+    random.radius = 300'000;
+    random.mixed = true;
+    if (seed % 2 == 0) random.altitude = 3'000'000;
+    const Instance instance = random_instance(random, static_cast<std::uint64_t>(seed)).value();
+    const auto answer = [&](System system) {
+      SolveOptions options;
+      options.objective = GetParam();
+      options.system = system;
+      options.limits.conflicts = 2000;
+      options.limits.looks = 3000;  // Some are hard.
+      SolveOutcome outcome = solve(instance, options).value();
+      EXPECT_FALSE(outcome.internal_error) << outcome.internal_error->to_string();
+      EXPECT_TRUE(!outcome.plan || verify(instance, *outcome.plan).valid());
+      return outcome;
+    };
+    const SolveOutcome inside = answer(System::dpll), after = answer(System::smt_cbs);
+    for (const auto& [a, b] : {std::pair(&inside, &after), std::pair(&after, &inside)}) {
+      EXPECT_TRUE(!a->plan || b->status != Status::infeasible);
+      EXPECT_TRUE(!a->cost || b->lower_bound <= *a->cost);
+    }
+    const auto is_proof = [](const SolveOutcome& outcome) {
+      return outcome.status == Status::optimal || outcome.status == Status::infeasible;
+    };
+    in_space += instance.is_flat() ? 0 : 1;
+    if (!is_proof(inside) || !is_proof(after)) continue;
+    optimal += inside.plan ? 1 : 0;
+    ASSERT_EQ(inside.status, after.status);
+    ASSERT_EQ(inside.cost, after.cost);
+  }
+  RecordProperty("optimal", optimal);
+  EXPECT_GE(2 * in_space, count);
+  EXPECT_GE(2 * optimal, count);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SystemsAgree,
+                         testing::Values(Objective::sum_of_costs, Objective::makespan),
+                         [](const testing::TestParamInfo<Objective>& param) {
+                           return std::string(param.param == Objective::makespan ? "Makespan"
+                                                                                 : "SumOfCosts");
+                         });
 
 }  // namespace
 }  // namespace quadrille::continuous::test
