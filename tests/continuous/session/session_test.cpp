@@ -209,7 +209,9 @@ TEST(Session, AnswersAreThoseOfSolvesThatKnowNothing) {
 // Where clauses have something to do: lemmas outlive changes, and all that do are derived again.
 TEST(Session, LemmasLiveOn) {
   Tally tally;
-  for (std::uint32_t seed = 1; seed <= support::scaled(8); ++seed) {
+  // Fewer say nothing: of the first one's situations most have no plan.
+  const std::size_t count = std::max<std::size_t>(support::scaled(8), 3);
+  for (std::uint32_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE(seed);
     RandomOptions roadmap;
     roadmap.num_vertices = 10;
