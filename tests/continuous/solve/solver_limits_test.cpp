@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "continuous/formats/file_support.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "support/environment.hpp"
@@ -76,6 +78,16 @@ TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
   if (stride <= 2) {
     EXPECT_GT(num_plans, 0);
   }
+}
+
+// Where no plan is known, costs that hit all cores by greed may rise for ever: the cheapest ones
+// have to come in between.
+TEST(SolverLimits, CoversByGreedHaveAnEnd) {
+  const Instance instance = read_instance_json(test::data("greedy_covers_rise.json")).value();
+  SolveOptions options;
+  options.system = System::smt_cbs;
+  options.limits.looks = 200'000;
+  EXPECT_EQ(solve(instance, options).value().status, Status::optimal);
 }
 
 // Searches of paths look at the limits, too, and are left by an exception.
