@@ -55,27 +55,35 @@ bool PathPlanner::begin(AgentId agent, const Reservations& reservations, Timeste
 }
 
 void PathPlanner::expand(LabelIndex from) {
-  const auto near = instance_.graph().neighbours(labels_[from].vertex);
+  const Label& label = labels_[from];
+  Origin origin{label.vertex, from, label.time + 1, label.gap_end, label.vertex};
+  if (label.parent != kNoLabel) {
+    const Label& parent = labels_[label.parent];
+    if (parent.gap_end >= origin.first) {
+      origin.back = parent.vertex;
+      origin.back_gap = parent.gap;
+      origin.back_gap_end = parent.gap_end;
+    }
+  }
+  const auto near = instance_.graph().neighbours(origin.vertex);
   // A random first neighbour makes a random path among many of the same length.
   const std::size_t shift = ties_.draw(near.size());
-  for (std::size_t k = shift; k < near.size(); ++k) reach(from, near[k]);
-  for (std::size_t k = 0; k < shift; ++k) reach(from, near[k]);
+  for (std::size_t k = shift; k < near.size(); ++k) reach(origin, near[k]);
+  for (std::size_t k = 0; k < shift; ++k) reach(origin, near[k]);
 }
 
 /// Adds the arrivals in all gaps of a neighbour that overlap the rest of the label's gap.
-void PathPlanner::reach(LabelIndex from, VertexId to) {
+void PathPlanner::reach(const Origin& origin, VertexId to) {
   const Timestep distance = row_[to];
-  const Label label = labels_[from];
-  const Timestep first = label.time + 1;
-  const Timestep last = std::min(label.gap_end, latest_ - distance - 1) + 1;
+  const Timestep first = origin.first;
+  const Timestep last = std::min(origin.gap_end, latest_ - distance - 1) + 1;
   if (first > last) return;
   const auto stays = reservations_->stays(to);
   std::size_t gap = 0;
-  if (label.parent != kNoLabel && labels_[label.parent].vertex == to &&
-      labels_[label.parent].gap_end >= first) {
+  if (origin.back == to) {
     // Where it comes from, it was earlier; only the gaps after that one are left.
-    if (labels_[label.parent].gap_end >= last) return;
-    gap = labels_[label.parent].gap + 1;
+    if (origin.back_gap_end >= last) return;
+    gap = origin.back_gap + 1;
   } else {
     gap = reservations_->first_ending_from(to, first);
   }
@@ -89,8 +97,8 @@ void PathPlanner::reach(LabelIndex from, VertexId to) {
     if (arrival > end) continue;
     // Whoever leaves for the label's vertex when the agent comes would swap with it. The label's
     // gap ends then, so waiting does not help.
-    if (before != nullptr && arrival == begin && before->next == label.vertex) continue;
-    add(to, static_cast<std::uint32_t>(gap), arrival, end, from, distance);
+    if (before != nullptr && arrival == begin && before->next == origin.vertex) continue;
+    add(to, static_cast<std::uint32_t>(gap), arrival, end, origin.from, distance);
   }
 }
 

@@ -42,6 +42,16 @@ class PathPlanner {
     LabelIndex next_here;  // Labels of the same vertex.
     bool outdated;         // An earlier arrival in the same gap is known.
   };
+  /// What an expansion knows of its label.
+  struct Origin {
+    VertexId vertex;
+    LabelIndex from;
+    Timestep first;  // Arrival of who leaves at once.
+    Timestep gap_end;
+    VertexId back;  // Where it came from, if the gap there has not ended; else `vertex`.
+    std::uint32_t back_gap = 0;
+    Timestep back_gap_end = 0;
+  };
   struct Head {
     std::uint32_t search = 0;
     LabelIndex first = kNoLabel;
@@ -49,7 +59,7 @@ class PathPlanner {
 
   bool begin(AgentId agent, const Reservations& reservations, Timestep latest);
   void expand(LabelIndex from);
-  void reach(LabelIndex from, VertexId to);
+  void reach(const Origin& origin, VertexId to);
   void add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end, LabelIndex parent,
            Timestep distance);
   [[nodiscard]] bool is_goal(const Label& label) const {

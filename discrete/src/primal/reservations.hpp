@@ -51,7 +51,7 @@ class Reservations {
     const Stay* first = stays_[v].data();
     for (std::size_t count = stays_[v].size(); count > 0;) {
       const std::size_t half = (count + 1) / 2;
-      first += first[half - 1].end < t ? half : 0;
+      first += half & (std::size_t{0} - static_cast<std::size_t>(first[half - 1].end < t));
       count -= half;
     }
     return static_cast<std::size_t>(first - stays_[v].data());
