@@ -25,16 +25,13 @@ std::vector<AgentId> Neighbourhoods::choose(Rule rule, std::size_t size, AgentId
       walker = chosen_[static_cast<std::size_t>(random_.below(chosen_.size()))];
     }
   } else if (rule == Rule::place) {
-    chosen_.take_around(random_vertex_of(seed), size, reservations_, random_);
+    const Path& path = paths_[seed];
+    const auto t = static_cast<Timestep>(random_.below(path.size()));
+    chosen_.take_around(position(path, t), t, size, reservations_);
   } else {
     fill_up(size);
   }
   return chosen_.release();
-}
-
-VertexId Neighbourhoods::random_vertex_of(AgentId agent) {
-  const Path& path = paths_[agent];
-  return path[static_cast<std::size_t>(random_.below(path.size()))];
 }
 
 /// A random walk that leaves the agent's path at a random time and could still make it arrive

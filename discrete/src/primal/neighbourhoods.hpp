@@ -18,7 +18,7 @@ class Neighbourhoods {
  public:
   enum class Rule {
     delayed,  ///< A delayed agent, and those in its way when it tries to be faster.
-    place,    ///< Agents that pass a part of the map.
+    place,    ///< Agents that pass a part of the map at about the same time.
     any,      ///< Any agents.
   };
 
@@ -34,7 +34,6 @@ class Neighbourhoods {
  private:
   void walk(AgentId agent, std::size_t size);
   void fill_up(std::size_t size);
-  [[nodiscard]] VertexId random_vertex_of(AgentId agent);
 
   const Instance& instance_;
   const GoalDistances& distances_;

