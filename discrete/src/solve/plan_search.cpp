@@ -24,6 +24,15 @@ constexpr std::int64_t kFirstDraftShare = 4;
 constexpr std::int64_t kPatience = 1'600'000;
 /// Per cent. With a smaller one the first draft is repaired in the time that plans have anyway.
 constexpr double kHopefulGap = 0.2;
+/// Per cent. With a smaller one it is as a rule the proof that is missing.
+constexpr double kDeadEndGap = 3;
+
+/// Per cent; none where a plan has refuted the bound, which is one of the user's then. Requires an
+/// incumbent.
+double gap_of(const Incumbent& incumbent) {
+  const Cost lower = incumbent.lower();
+  return gap_percent(std::max(*incumbent.upper(), lower), lower);
+}
 
 }  // namespace
 
@@ -49,14 +58,23 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
   Incumbent& incumbent = context_.incumbent;
   effort_ = 0;
-  if (!improver_)
+  if (!improver_) {
+    second_chance_.emplace(context_.instance, context_.distances, context_.objective,
+                           incumbent.plan(), context_.seed);
     improver_.emplace(context_.instance, context_.distances, context_.objective, incumbent.plan(),
                       context_.seed);
-  else if (*incumbent.upper() < improver_->cost())
+  } else if (*incumbent.upper() < improver_->cost()) {
     improver_->restart_from(incumbent.plan());
+  }
   const std::int64_t effort =
       is_at_first_draft() ? *slice.effort / kFirstDraftShare : *slice.effort;
-  if (improve(*improver_, effort)) incumbent.offer(improver_->plan());
+  if (has_second_chance())
+    take_second_chance(effort);
+  else if (improve(*improver_, effort))
+    incumbent.offer(improver_->plan());
+  if (!is_at_first_draft() && gap_of(incumbent) >= kDeadEndGap)
+    second_chance_->watch(improver_->effort(), *incumbent.upper(),
+                          *incumbent.upper() - incumbent.lower());
   // The more drafts have resisted, the more of the time the incumbent gets.
   const bool is_turn =
       repair_.patience() == 1 || repair_.patience() * repair_.effort() <= improver_->effort();
@@ -70,6 +88,14 @@ bool PlanImprovement::improve(PlanImprover& improver, std::int64_t effort) {
   const bool is_better = improver.improve(effort, context_.limits);
   effort_ += improver.effort() - before;
   return is_better;
+}
+
+void PlanImprovement::take_second_chance(std::int64_t effort) {
+  Incumbent& incumbent = context_.incumbent;
+  const std::int64_t before = second_chance_->effort();
+  if (const auto plan = second_chance_->advance(effort, context_.limits, *incumbent.upper()))
+    incumbent.offer(*plan);
+  effort_ += second_chance_->effort() - before;
 }
 
 void PlanImprovement::improve_draft(std::int64_t effort) {
@@ -117,8 +143,7 @@ void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>
       static_cast<void>(improvement_.advance({.effort = slice}));
       credit_ -= std::max(slice, improvement_.effort());
       // What is left was for the draft.
-      if (is_hopeful_ && !improvement_.is_at_first_draft())
-        credit_ = std::min<std::int64_t>(credit_, 0);
+      if (is_hopeful_ && !improvement_.is_hopeful()) credit_ = std::min<std::int64_t>(credit_, 0);
     } else {
       const std::int64_t before_it = first_plan_.effort();
       static_cast<void>(first_plan_.advance({.effort = slice}));
@@ -126,9 +151,7 @@ void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>
     }
   }
   seen_upper_ = incumbent.upper();
-  if (before)
-    gain_.count_plans(credit - credit_, *before - *seen_upper_,
-                      gap_percent(*seen_upper_, incumbent.lower()));
+  if (before) gain_.count_plans(credit - credit_, *before - *seen_upper_, gap_of(incumbent));
 }
 
 void PlanSearch::begin() {
@@ -153,8 +176,8 @@ void PlanSearch::count_search(std::int64_t search_effort) {
   Cost gain = incumbent.lower() - seen_lower_;
   if (seen_upper_) gain += *seen_upper_ - *incumbent.upper();
   gain_.count_search(effort, gain);
-  is_hopeful_ = improvement_.is_at_first_draft() && search_effort >= kPatience &&
-                gap_percent(*incumbent.upper(), incumbent.lower()) >= kHopefulGap;
+  is_hopeful_ =
+      improvement_.is_hopeful() && search_effort >= kPatience && gap_of(incumbent) >= kHopefulGap;
   credit_ += is_hopeful_ ? MarginalGain::most_due(effort) : gain_.due(effort);
   seen_effort_ = search_effort;
   seen_lower_ = incumbent.lower();
