@@ -10,38 +10,41 @@
 namespace quadrille::continuous {
 namespace {
 
-/// As in LeafProgram: what the cores ask for that an agent hits at a level or below is at most what
-/// the level costs.
-Packing packing_of(const IdVector<AgentId, Cost>& free_costs, const CoreTable& table) {
+using Columns = std::vector<std::vector<std::uint32_t>>;
+
+/// By core the rows of its levels and of higher ones of the same agents. As in LeafProgram: what
+/// the cores ask for that an agent hits at a level or below is at most what the level costs.
+Columns columns_of(const CoreTable& table) {
   const std::vector<Level>& rows = table.rows();
-  Packing packing;
-  for (const Level& row : rows)
-    packing.capacity.push_back(static_cast<double>(row.cost - free_costs[row.agent]));
-  packing.column_begins.assign(1, 0);
-  for (std::size_t c = 0; c < table.num_cores(); ++c) {
+  Columns columns(table.num_cores());
+  for (std::size_t c = 0; c < columns.size(); ++c)
     for (const std::uint32_t first : table.rows_of(c))
       for (auto r = first; r < rows.size() && rows[r].agent == rows[first].agent; ++r)
-        packing.column_rows.push_back(r);
-    packing.column_begins.push_back(packing.column_rows.size());
-  }
-  return packing;
+        columns[c].push_back(r);
+  return columns;
 }
 
 /// Whole multipliers near those of the solution that exceed no row; then more, as far as there is
 /// room.
-std::vector<Cost> round_down(const IdVector<AgentId, Cost>& free_costs, const CoreTable& table,
-                             const Packing& packing) {
-  const PackingSolution solution = solve_packing(packing);
+std::vector<Cost> round_down(const IdVector<AgentId, Cost>& free_costs, const CoreTable& table) {
   std::vector<Cost> room;
   for (const Level& row : table.rows()) room.push_back(row.cost - free_costs[row.agent]);
-  std::vector<Cost> units(table.num_cores(), 0);
+  Cost largest = 1;
+  for (const Cost cost : room) largest = std::max(largest, cost);
+  Packing packing(static_cast<double>(largest));
+  for (const Cost cost : room) static_cast<void>(packing.add_row(static_cast<double>(cost), {}));
+  const Columns columns = columns_of(table);
+  for (const auto& rows : columns) static_cast<void>(packing.add_column(rows, 1));
+  packing.solve();
+  std::vector<Cost> units(columns.size(), 0);
   const auto add = [&](std::size_t core, Cost wanted) {
-    for (const std::uint32_t r : packing.rows_of(core)) wanted = std::min(wanted, room[r]);
-    for (const std::uint32_t r : packing.rows_of(core)) room[r] -= wanted;
+    for (const std::uint32_t r : columns[core]) wanted = std::min(wanted, room[r]);
+    for (const std::uint32_t r : columns[core]) room[r] -= wanted;
     units[core] += wanted;
   };
+  const std::vector<double> primal = packing.primal();
   for (std::size_t c = 0; c < units.size(); ++c)
-    if (solution.primal[c] > 0) add(c, static_cast<Cost>(solution.primal[c]));
+    if (primal[c] > 0) add(c, static_cast<Cost>(primal[c]));
   for (std::size_t c = 0; c < units.size(); ++c) add(c, std::numeric_limits<Cost>::max());
   return units;
 }
@@ -51,7 +54,7 @@ std::vector<Cost> round_down(const IdVector<AgentId, Cost>& free_costs, const Co
 std::vector<CoverShare> share_out(const IdVector<AgentId, Cost>& free_costs,
                                   std::span<const LevelCore* const> cores, Cost bound) {
   const CoreTable table(cores);
-  const std::vector<Cost> units = round_down(free_costs, table, packing_of(free_costs, table));
+  const std::vector<Cost> units = round_down(free_costs, table);
   std::vector<CoverShare> shares;
   std::vector<AgentId> all;
   for (std::size_t c = 0; c < units.size(); ++c) {

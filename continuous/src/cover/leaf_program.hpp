@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cover/core_table.hpp"
+#include "cover/half_sums.hpp"
 #include "cover/packing.hpp"
 
 namespace quadrille::continuous {
@@ -40,6 +41,12 @@ struct CoverLeaf {
   std::vector<Share> shares;
 };
 
+/// A sum that follows from the cores of a group of agents.
+struct CoverSum {
+  LevelSum sum;
+  bool was_used = true;  ///< A bound has rested on it lately.
+};
+
 /// The linear programs of the leaves of one group of agents.
 class LeafProgram {
  public:
@@ -48,6 +55,10 @@ class LeafProgram {
   /// The cores that what follows is about: none is empty, and all levels are above the free costs.
   /// `table` lives as long.
   void set_cores(const CoreTable& table);
+  /// Sums that follow from the cores, which are in the programs too. Solve adds some where there
+  /// are many programs. Those that were of no use since the last such call, and those with a level
+  /// that no core has, are taken out. To be called after set_cores; `sums` lives as long.
+  void set_sums(std::vector<CoverSum>& sums);
 
   /// Whether the leaf, which has not changed since it was solved, has a level to split it at, and
   /// its fractional cover covers all cores, those that came later too: then its linear program
@@ -76,30 +87,58 @@ class LeafProgram {
   [[nodiscard]] std::span<const std::uint32_t> active_rows(std::size_t c) const {
     return {active_.data() + active_begins_[c], active_.data() + active_begins_[c + 1]};
   }
+  [[nodiscard]] std::size_t num_all() const {
+    return table_->num_cores() + (sums_ == nullptr ? 0 : sums_->size());
+  }
+  [[nodiscard]] std::span<const std::uint32_t> rows_of(std::size_t c) const;
+  [[nodiscard]] int least(std::size_t c) const;
+  [[nodiscard]] bool activate(std::size_t c);
+  void list_rows(const LevelSum& sum);
+  void solve_program();
+  [[nodiscard]] bool add_sums();
+  void note_uses(const std::vector<double>& multipliers);
   void find_parts(const CoverLeaf& leaf);
   [[nodiscard]] double covered(std::span<const std::uint32_t> rows) const;
   void choose_tight(const CoverLeaf& leaf);
   [[nodiscard]] bool choose_violated(const std::vector<double>& dual);
-  bool choose_below(double part);
-  void make_program();
+  bool choose_below(double excess);
+  void begin_program();
+  void extend_program();
+  void add_row(std::uint32_t row);
+  void list_rows(std::size_t active, std::vector<std::uint32_t>& rows) const;
+  void list_columns();
+  [[nodiscard]] std::span<const std::uint32_t> column(std::size_t c) const {
+    return {columns_.data() + column_begins_[c], columns_.data() + column_begins_[c + 1]};
+  }
+  [[nodiscard]] Cost room(const Level& level) const { return level.cost - low_[level.agent]; }
   [[nodiscard]] Cost certified_bound(const std::vector<double>& multipliers);
   void round(const std::vector<double>& dual, CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
 
   IdVector<AgentId, Cost> free_costs_;
   const CoreTable* table_ = nullptr;
-  IdVector<AgentId, Cost> low_, high_;  // of the leaf at work
-  // Cores that the low ends do not hit: their rows in the table, as far as these are in the leaf.
+  IdVector<AgentId, Cost> low_, high_;     // of the leaf at work
+  std::vector<CoverSum>* sums_ = nullptr;  // none if null
+  std::vector<std::uint32_t> sum_rows_;    // their levels in the table
+  std::vector<std::size_t> sum_begins_{0};
+  // Cores and then sums that the low ends do not hit: their rows in the table, as far as these are
+  // in the leaf, how many of these are reached at least, and which they are.
   std::vector<std::uint32_t> active_;
   std::vector<std::size_t> active_begins_;
+  std::vector<int> active_least_;
+  std::vector<std::size_t> active_numbers_;
   std::vector<std::size_t> chosen_;    // active cores that are in the program
   std::vector<char> is_chosen_;        // by active core
   std::vector<std::uint32_t> number_;  // by row of the table: its number in the program
-  std::vector<Level> rows_;            // of the program
   Packing program_;
+  std::vector<std::uint32_t> rows_;     // of the table, by number in the program
+  std::vector<std::uint32_t> columns_;  // of the program: in which of its rows each is
+  std::vector<std::size_t> column_begins_;
   bool is_integral_ = false;
+  int num_solved_ = 0;  // since the sums were set
   std::int64_t effort_ = 0;
   // Scratch:
   std::vector<Cost> units_, used_;
+  std::vector<std::uint32_t> listed_;
   std::vector<double> part_;  // by row of the table: of the agent at that level or above
 };
 

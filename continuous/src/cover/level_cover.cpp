@@ -80,10 +80,11 @@ bool LevelCover::solve(LimitMonitor& limits) {
   // A tree of a group serves any group that contains it: others' cores and costs only add to its
   // bounds. Of several, the one with the most work in it is kept.
   for (Group& group : groups) {
-    for (const Group& old : groups_)
-      if (root(old.agents.front()) == root(group.agents.front()) &&
-          old.open.size() > group.open.size())
-        group.open = old.open;
+    for (const Group& old : groups_) {
+      if (root(old.agents.front()) != root(group.agents.front())) continue;
+      group.sums.insert(group.sums.end(), old.sums.begin(), old.sums.end());
+      if (old.open.size() > group.open.size()) group.open = old.open;
+    }
     if (group.open.empty()) group.open.emplace_back();
     group.table = CoreTable(group.cores);
     group.best = costs_;
@@ -114,6 +115,7 @@ bool LevelCover::solve(Group& group, LimitMonitor& limits) {
     std::push_heap(group.open.begin(), group.open.end(), is_later);
   };
   program_.set_cores(group.table);
+  program_.set_sums(group.sums);
   group.cost = price(group, group.best);
   while (true) {
     QUADRILLE_REQUIRE(!group.open.empty(), "raising every level hits all cores");

@@ -50,6 +50,7 @@ class LevelCover {
     std::vector<AgentId> agents;
     std::vector<const LevelCore*> cores;
     CoreTable table;              // of the cores
+    std::vector<CoverSum> sums;   // that follow from the cores
     std::vector<CoverLeaf> open;  // a heap, the least bound first
     IdVector<AgentId, Cost> best;
     Cost cost = 0;  // what its agents pay above their free costs in `best`

@@ -2,128 +2,178 @@
 #include "cover/packing.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <cmath>
+#include <utility>
 
 namespace quadrille::continuous {
 namespace {
 
 constexpr double kTiny = 1e-9;
+/// What is less is what rounding left of 0.
+constexpr double kNothing = 1e-12;
+/// Slightly different right sides keep the method from going round in circles.
+constexpr double kDifference = 1e-13;
 
-/// Rows for the constraints and a last one for the objective; the last column is the right side.
-/// All slack variables are basic at first, which is feasible.
-class Tableau {
- public:
-  explicit Tableau(const Packing& packing)
-      : rows_(packing.capacity.size()),
-        columns_(packing.num_columns()),
-        width_(columns_ + 1),
-        cells_((rows_ + 1) * width_, 0.0),
-        basic_(rows_),
-        other_(columns_) {
-    double largest = 1;
-    for (const double c : packing.capacity) largest = std::max(largest, c);
-    for (std::size_t r = 0; r < rows_; ++r) {
-      // Slightly different right sides keep the method from going round in circles.
-      at(r, columns_) = packing.capacity[r] / largest +
-                        1e-11 * static_cast<double>(r + 1) / static_cast<double>(rows_ + 1);
-      basic_[r] = columns_ + r;
-    }
-    for (std::size_t c = 0; c < columns_; ++c) {
-      for (const std::uint32_t r : packing.rows_of(c)) at(r, c) = 1;
-      at(rows_, c) = -1;
-      other_[c] = c;
-    }
-    scale_ = largest;
-  }
+/// Where one cell in so many of the pivot row is not 0, all are gone through: that is done several
+/// at a time.
+constexpr std::size_t kDense = 5;
 
-  void solve() {
-    // Many times what is ever needed; an unfinished solution is of less use, but does no harm.
-    const std::size_t max_pivots = 50 * (rows_ + columns_) + 1000;
-    for (std::size_t k = 0; k < max_pivots; ++k) {
-      const double* const objective = &at(rows_, 0);
-      const auto entering =
-          static_cast<std::size_t>(std::min_element(objective, objective + columns_) - objective);
-      if (columns_ == 0 || objective[entering] > -kTiny) return;
-      const std::size_t leaving = leaving_row(entering);
-      if (leaving == rows_) return;
-      pivot(leaving, entering);
-    }
-  }
-
-  [[nodiscard]] PackingSolution solution() const {
-    PackingSolution result{std::vector<double>(columns_, 0), std::vector<double>(rows_, 0),
-                           effort_};
-    for (std::size_t r = 0; r < rows_; ++r)
-      if (basic_[r] < columns_) result.primal[basic_[r]] = scale_ * at(r, columns_);
-    for (std::size_t c = 0; c < columns_; ++c)
-      if (other_[c] >= columns_) result.dual[other_[c] - columns_] = at(rows_, c);
-    return result;
-  }
-
- private:
-  [[nodiscard]] double& at(std::size_t row, std::size_t column) {
-    return cells_[row * width_ + column];
-  }
-  [[nodiscard]] const double& at(std::size_t row, std::size_t column) const {
-    return cells_[row * width_ + column];
-  }
-
-  /// Reads the entering column into `entering_`.
-  [[nodiscard]] std::size_t leaving_row(std::size_t entering) {
-    entering_.clear();
-    std::size_t best = rows_;
-    double best_ratio = 0;
-    for (std::size_t r = 0; r <= rows_; ++r) {
-      const double step = at(r, entering);
-      entering_.push_back(step);
-      if (step <= kTiny || r == rows_) continue;
-      const double ratio = at(r, columns_) / step;
-      if (best == rows_ || ratio < best_ratio) {
-        best = r;
-        best_ratio = ratio;
-      }
-    }
-    return best;
-  }
-
-  void pivot(std::size_t leaving, std::size_t entering) {
-    double* const pivot_row = &at(leaving, 0);
-    const double inverse = 1 / pivot_row[entering];
-    pivot_row[entering] = 0;
-    nonzero_.clear();
-    for (std::size_t c = 0; c < width_; ++c) {
-      if (pivot_row[c] == 0) continue;
-      pivot_row[c] *= inverse;
-      nonzero_.push_back(c);
-    }
-    pivot_row[entering] = inverse;
-    for (std::size_t r = 0; r <= rows_; ++r) {
-      const double factor = entering_[r];
-      if (r == leaving || factor == 0) continue;
-      double* const row = &at(r, 0);
-      for (const std::size_t c : nonzero_) row[c] -= factor * pivot_row[c];
-      row[entering] = -factor * inverse;
-      effort_ += static_cast<std::int64_t>(nonzero_.size());
-    }
-    effort_ += static_cast<std::int64_t>(rows_ + width_);
-    std::swap(basic_[leaving], other_[entering]);
-  }
-
-  std::size_t rows_, columns_, width_;
-  std::vector<double> cells_;
-  std::vector<std::size_t> basic_, other_;  // variables; from columns_ on slacks
-  std::vector<std::size_t> nonzero_;        // of the pivot row
-  std::vector<double> entering_;            // by row
-  double scale_ = 1;
-  std::int64_t effort_ = 0;
-};
+void subtract(double* __restrict row, const double* __restrict other, double factor,
+              std::size_t size) {
+  for (std::size_t c = 0; c < size; ++c) row[c] -= factor * other[c];
+}
 
 }  // namespace
 
-PackingSolution solve_packing(const Packing& packing) {
-  Tableau tableau(packing);
-  tableau.solve();
-  return tableau.solution();
+Packing::Packing(double scale) : scale_(scale) {}
+
+// The new slack is basic. Basic variables in the row are replaced by what their own rows say they
+// are: u = right - sum of cells times others.
+std::uint32_t Packing::add_row(double capacity, std::span<const std::uint32_t> columns) {
+  const auto number = static_cast<std::uint32_t>(slacks_.size());
+  const std::size_t row = num_rows();
+  cells_.resize((row + 1) * stride_, 0.0);
+  right_.push_back(capacity / scale_ + kDifference * static_cast<double>(number + 1));
+  for (const std::uint32_t c : columns) {
+    const Place& u = us_[c];
+    if (!u.is_basic) {
+      at(row, u.at) += 1;
+      continue;
+    }
+    for (std::size_t k = 0; k < num_columns(); ++k) at(row, k) -= at(u.at, k);
+    right_[row] -= right_[u.at];
+    effort_ += static_cast<std::int64_t>(num_columns());
+  }
+  right_[row] = std::max(right_[row], 0.0);
+  basic_.push_back({true, number});
+  slacks_.push_back({true, row});
+  return number;
+}
+
+// The new u is 0 and no basic variable. A row of the tableau is the original rows times the
+// inverse of the basis, whose columns are those of the slacks.
+std::uint32_t Packing::add_column(std::span<const std::uint32_t> rows, double worth) {
+  const auto number = static_cast<std::uint32_t>(us_.size());
+  const std::size_t column = num_columns();
+  if (column == stride_) {
+    const std::size_t wider = std::max<std::size_t>(16, 2 * stride_);
+    std::vector<double> cells(num_rows() * wider, 0.0);
+    for (std::size_t r = 0; r < num_rows(); ++r)
+      std::copy_n(cells_.begin() + static_cast<std::ptrdiff_t>(r * stride_), column,
+                  cells.begin() + static_cast<std::ptrdiff_t>(r * wider));
+    cells_ = std::move(cells);
+    stride_ = wider;
+  }
+  objective_.push_back(-worth);
+  for (const std::uint32_t r : rows) {
+    const Place& slack = slacks_[r];
+    if (slack.is_basic) {
+      at(slack.at, column) += 1;
+      continue;
+    }
+    for (std::size_t k = 0; k < num_rows(); ++k) at(k, column) += at(k, slack.at);
+    objective_[column] += objective_[slack.at];
+    effort_ += static_cast<std::int64_t>(num_rows());
+  }
+  weights_.push_back(1 / (1 + static_cast<double>(rows.size())));
+  other_.push_back({false, number});
+  us_.push_back({false, column});
+  return number;
+}
+
+void Packing::solve() {
+  // Many times what is ever needed; an unfinished solution is of less use, but does no harm.
+  const std::size_t max_pivots = 50 * (num_rows() + num_columns()) + 1000;
+  for (std::size_t k = 0; k < max_pivots; ++k) {
+    const std::size_t entering = entering_column();
+    if (entering == num_columns()) return;
+    const std::size_t leaving = leaving_row(entering);
+    if (leaving == num_rows()) return;
+    pivot(leaving, entering);
+  }
+}
+
+/// The one with most to gain for the rows that it takes room in; `num_columns()` if there is none.
+/// Measured on the covers of six hard instances: half the steps, as against the most to gain alone.
+std::size_t Packing::entering_column() const {
+  std::size_t entering = num_columns();
+  double best = 0;
+  for (std::size_t c = 0; c < num_columns(); ++c) {
+    if (objective_[c] > -kTiny) continue;
+    const double gain = objective_[c] * (other_[c].is_slack ? 1 : weights_[other_[c].number]);
+    if (gain >= best) continue;
+    best = gain;
+    entering = c;
+  }
+  return entering;
+}
+
+/// Reads the entering column into `entering_`.
+std::size_t Packing::leaving_row(std::size_t entering) {
+  entering_.clear();
+  std::size_t best = num_rows();
+  double best_ratio = 0;
+  for (std::size_t r = 0; r < num_rows(); ++r) {
+    const double step = at(r, entering);
+    entering_.push_back(step);
+    if (step <= kTiny) continue;
+    const double ratio = right_[r] / step;
+    if (best == num_rows() || ratio < best_ratio) {
+      best = r;
+      best_ratio = ratio;
+    }
+  }
+  return best;
+}
+
+void Packing::pivot(std::size_t leaving, std::size_t entering) {
+  double* const pivot_row = &at(leaving, 0);
+  const double inverse = 1 / pivot_row[entering];
+  pivot_row[entering] = 0;
+  nonzero_.clear();
+  for (std::size_t c = 0; c < num_columns(); ++c) {
+    if (std::abs(pivot_row[c]) < kNothing) {
+      pivot_row[c] = 0;
+      continue;
+    }
+    pivot_row[c] *= inverse;
+    nonzero_.push_back(c);
+  }
+  const bool is_dense = kDense * nonzero_.size() > num_columns();
+  pivot_row[entering] = inverse;
+  right_[leaving] *= inverse;
+  const auto eliminate = [&](double* row, double factor) {
+    if (is_dense)
+      subtract(row, pivot_row, factor, num_columns());
+    else
+      for (const std::size_t c : nonzero_) row[c] -= factor * pivot_row[c];
+    row[entering] = -factor * inverse;
+    effort_ += static_cast<std::int64_t>(nonzero_.size());
+  };
+  for (std::size_t r = 0; r < num_rows(); ++r) {
+    if (r == leaving || entering_[r] == 0) continue;
+    eliminate(&at(r, 0), entering_[r]);
+    right_[r] -= entering_[r] * right_[leaving];
+  }
+  eliminate(objective_.data(), objective_[entering]);
+  effort_ += static_cast<std::int64_t>(num_rows() + num_columns());
+  std::swap(basic_[leaving], other_[entering]);
+  place(basic_[leaving]) = {true, leaving};
+  place(other_[entering]) = {false, entering};
+}
+
+std::vector<double> Packing::primal() const {
+  std::vector<double> primal(num_columns(), 0);
+  for (std::size_t r = 0; r < num_rows(); ++r)
+    if (!basic_[r].is_slack) primal[basic_[r].number] = scale_ * right_[r];
+  return primal;
+}
+
+std::vector<double> Packing::dual() const {
+  std::vector<double> dual(num_rows(), 0);
+  for (std::size_t c = 0; c < num_columns(); ++c)
+    if (other_[c].is_slack) dual[other_[c].number] = objective_[c];
+  return dual;
 }
 
 }  // namespace quadrille::continuous
