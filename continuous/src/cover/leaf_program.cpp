@@ -11,9 +11,9 @@ namespace {
 constexpr Cost kFraction = 1024;
 constexpr double kTiny = 1e-6;
 /// Sums are looked for where there are more programs than so many, at each so many, and until there
-/// are so many. Measured on the cores of six hard instances, 600 to 900 of each: a fifth to a half
-/// of the programs, and 0.2 (`dense`, task 4) to 1.15 times the time; with up to 200 sums there are
-/// fewer programs, and these take longer.
+/// are so many. Measured on the cores of six hard instances, 600 to 900 of each: 0.1 to 0.66 of the
+/// programs, and 0.22 (`dense`, task 4) to 1.4 times the time; with up to 200 sums there are fewer
+/// programs, and these take longer.
 constexpr int kProgramsBeforeSums = 20;
 constexpr std::size_t kSumsPerProgram = 3, kMostSums = 100;
 
@@ -26,7 +26,6 @@ LeafProgram::LeafProgram(const IdVector<AgentId, Cost>& free_costs)
 
 void LeafProgram::set_cores(const CoreTable& table) {
   table_ = &table;
-  number_.assign(table.rows().size(), kNoRow);
   sums_ = nullptr;
 }
 
