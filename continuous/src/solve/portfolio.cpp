@@ -73,11 +73,9 @@ SolveOutcome search_side_by_side(Scene& scene, const SolveOptions& options, cons
   limits.set_cancel(&rounds.over());
   std::vector<SolveOutcome> outcomes;
   try {
-    outcomes = solve_side_by_side<SolveOutcome>(
-        rounds, solve, [](std::size_t) { return true; },
-        [&](std::size_t worker) {
-          if (worker == 1) has_second = false;  // The first one does it all.
-        });
+    outcomes = solve_side_by_side<SolveOutcome>(rounds, solve, [&](std::size_t worker) {
+      if (worker == 1) has_second = false;  // The first one does it all.
+    });
   } catch (...) {
     limits.set_cancel(nullptr);
     throw;

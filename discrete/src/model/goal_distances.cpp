@@ -2,6 +2,8 @@
 #include "quadrille/discrete/goal_distances.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <utility>
 
 #include "model/breadth_first.hpp"
 
@@ -29,33 +31,80 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
                                                          LimitMonitor& limits,
                                                          std::size_t most_plain) {
   std::shared_ptr<GoalDistances> table(new GoalDistances());
+  if (!table->prepare(instance, limits, most_plain)) return nullptr;
+  BreadthFirst search(instance.graph());
+  for (const AgentId agent : instance.agent_ids())
+    if (!table->fill(agent, instance.agents()[agent].goal, search, limits)) return nullptr;
+  return table;
+}
+
+bool GoalDistances::prepare(const Instance& instance, LimitMonitor& limits,
+                            std::size_t most_plain) {
   const Graph& graph = instance.graph();
-  table->group(graph);
+  group(graph);
   const std::size_t agents = instance.num_agents(), size = graph.num_vertices();
-  const std::size_t bytes = table->num_bytes(), groups = table->group_centre_.size();
+  const std::size_t bytes = num_bytes(), groups = group_centre_.size();
   const bool is_plain = agents * size * sizeof(std::uint16_t) <= most_plain &&
                         (size <= kNoWay || most_moves(graph) < kNoWay);
   if (!limits.has_room_for(
           agents * (is_plain ? size * sizeof(std::uint16_t) : bytes + groups * sizeof(Timestep))))
-    return nullptr;
-  table->plain_.resize(is_plain ? agents * size : 0);
-  table->bits_.resize(is_plain ? 0 : agents * bytes);
-  table->centres_.resize(is_plain ? 0 : agents * groups);
-  BreadthFirst search(graph);
-  for (const AgentId agent : instance.agent_ids()) {
-    if (limits.exhausted_now() || !search.run(instance.agents()[agent].goal, &limits))
-      return nullptr;
-    const std::vector<Timestep>& distances = search.distances();
-    if (is_plain)
-      std::transform(distances.begin(), distances.end() - 1,
-                     table->plain_.data() + agent.index() * size, [](Timestep distance) {
-                       return static_cast<std::uint16_t>(std::min<Timestep>(distance, kNoWay));
-                     });
-    else
-      table->pack(distances, table->bits_.data() + agent.index() * bytes,
-                  table->centres_.data() + agent.index() * groups);
+    return false;
+  plain_.resize(is_plain ? agents * size : 0);
+  bits_.resize(is_plain ? 0 : agents * bytes);
+  centres_.resize(is_plain ? 0 : agents * groups);
+  return true;
+}
+
+bool GoalDistances::fill(AgentId agent, VertexId goal, BreadthFirst& search, LimitMonitor& limits) {
+  if (limits.exhausted_now() || !search.run(goal, &limits)) return false;
+  const std::vector<Timestep>& distances = search.distances();
+  if (plain_.empty()) {
+    pack(distances, bits_.data() + agent.index() * num_bytes(),
+         centres_.data() + agent.index() * group_centre_.size());
+    return true;
   }
-  return table;
+  std::transform(distances.begin(), distances.end() - 1,
+                 plain_.data() + agent.index() * groups_.size(), [](Timestep distance) {
+                   return static_cast<std::uint16_t>(std::min<Timestep>(distance, kNoWay));
+                 });
+  return true;
+}
+
+std::shared_ptr<const GoalDistances> GoalDistancesInTheMaking::join(LimitMonitor& limits) {
+  const std::size_t agents = instance_.num_agents();
+  std::unique_lock lock(mutex_);
+  if (table_ == nullptr) {
+    std::shared_ptr<GoalDistances> table(new GoalDistances());
+    if (!table->prepare(instance_, limits, GoalDistances::kMostPlain)) return nullptr;
+    table_ = std::move(table);
+    for (std::size_t k = agents; k > 0; --k) left_.emplace_back(k - 1);
+  }
+  BreadthFirst search(instance_.graph());
+  while (num_done_ < agents) {
+    if (left_.empty()) {  // Others are at the last ones, which they may not finish.
+      changed_.wait(lock);
+      continue;
+    }
+    const AgentId agent = left_.back();
+    left_.pop_back();
+    lock.unlock();
+    bool is_done = false;
+    std::exception_ptr failure;
+    try {
+      is_done = table_->fill(agent, instance_.agents()[agent].goal, search, limits);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    lock.lock();
+    if (is_done)
+      ++num_done_;
+    else
+      left_.push_back(agent);
+    if (left_.empty() || !is_done || num_done_ == agents) changed_.notify_all();
+    if (failure) std::rethrow_exception(failure);
+    if (!is_done) return nullptr;
+  }
+  return table_;
 }
 
 /// Puts every vertex into a group with one at most kRadius away.

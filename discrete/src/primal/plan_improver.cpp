@@ -39,10 +39,17 @@ PlanImprover::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
 
 void PlanImprover::Impl::restart_from(const Plan& plan) {
   QUADRILLE_REQUIRE(plan.paths.size() == instance_.num_agents(), "one path per agent");
-  for (const Path& path : plan_.paths) reservations_.remove(path);
-  plan_ = plan;
-  trim(plan_);
-  for (const AgentId agent : instance_.agent_ids()) reservations_.add(agent, plan_.paths[agent]);
+  Plan next = plan;
+  trim(next);
+  // As a rule most paths are the same.
+  std::vector<AgentId> differing;
+  for (const AgentId agent : instance_.agent_ids()) {
+    if (!plan_.paths.empty() && plan_.paths[agent] == next.paths[agent]) continue;
+    differing.push_back(agent);
+    if (!plan_.paths.empty()) reservations_.remove(plan_.paths[agent]);
+  }
+  plan_ = std::move(next);
+  for (const AgentId agent : differing) reservations_.add(agent, plan_.paths[agent]);
   count_costs();
 }
 

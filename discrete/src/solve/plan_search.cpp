@@ -25,13 +25,25 @@ constexpr std::int64_t kPatience = 1'600'000;
 /// Per cent. With a smaller one the first draft is repaired in the time that plans have anyway.
 constexpr double kHopefulGap = 0.2;
 /// Per cent. With a smaller one it is as a rule the proof that is missing.
-constexpr double kDeadEndGap = 3;
+constexpr double kDeadEndGap = 3, kHelpedGap = 0.5;
 
 /// Per cent; none where a plan has refuted the bound, which is one of the user's then. Requires an
 /// incumbent.
 double gap_of(const Incumbent& incumbent) {
   const Cost lower = incumbent.lower();
   return gap_percent(std::max(*incumbent.upper(), lower), lower);
+}
+
+/// Who makes only a part of the first plan makes plans beside another one, where it has nothing
+/// better to do.
+bool is_helper(const PlanSearchContext& context) {
+  return context.part == PrimalSearch::Part::first_guide;
+}
+
+/// Two that improve a plan do not do so by the same steps.
+PlanSearchContext for_improvement(PlanSearchContext context) {
+  if (is_helper(context)) context.seed = ~context.seed;
+  return context;
 }
 
 }  // namespace
@@ -115,7 +127,7 @@ void PlanImprovement::improve_draft(std::int64_t effort) {
 }
 
 PlanSearch::PlanSearch(const PlanSearchContext& context)
-    : context_(context), first_plan_(context), improvement_(context) {
+    : context_(context), first_plan_(context), improvement_(for_improvement(context)) {
   std::int64_t steps = 0;
   for (const AgentId i : context.instance.agent_ids())
     steps += (*context.distances)(i, context.instance.agents()[i].start);
@@ -128,30 +140,49 @@ bool PlanSearch::start() {
          !context_.limits.exhausted_now();
 }
 
-void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>& draft) {
+void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>& draft,
+                         const std::function<void()>& after_slice) {
   count_search(search_effort);
   // As long as one path of everybody, so that there are several neighbourhoods in it; short where
   // turns would be rare.
   const std::int64_t slice = credit_ >= long_slice_ ? long_slice_ : kLeastSlice;
   if (credit_ < slice) return;
   const Incumbent& incumbent = context_.incumbent;
+  const bool has_nothing_to_do = incumbent.upper()
+                                     ? is_helper(context_) && gap_of(incumbent) < kHelpedGap
+                                     : first_plan_.is_over();
+  if (has_nothing_to_do) {
+    credit_ = 0;
+    return;
+  }
   const std::int64_t credit = credit_;
-  const std::optional<Cost> before = incumbent.upper();
-  if (before) improvement_.offer_draft(draft);
+  const std::optional<Cost> first = incumbent.upper();
+  Cost gain = 0;
+  if (first && draft) improvement_.offer_draft(draft);
   while (credit_ >= slice && !incumbent.are_closed() && !context_.limits.exhausted()) {
-    if (incumbent.upper()) {
+    std::int64_t spent = 0;
+    if (const std::optional<Cost> before = incumbent.upper()) {
       static_cast<void>(improvement_.advance({.effort = slice}));
-      credit_ -= std::max(slice, improvement_.effort());
+      gain += *before - *incumbent.upper();
+      spent = std::max(slice, improvement_.effort());
+      credit_ -= spent;
       // What is left was for the draft.
       if (is_hopeful_ && !improvement_.is_hopeful()) credit_ = std::min<std::int64_t>(credit_, 0);
     } else {
       const std::int64_t before_it = first_plan_.effort();
       static_cast<void>(first_plan_.advance({.effort = slice}));
-      credit_ -= std::max(slice, first_plan_.effort() - before_it);
+      spent = std::max(slice, first_plan_.effort() - before_it);
+      credit_ -= spent;
     }
+    effort_ += spent;
+    if (after_slice) after_slice();
   }
   seen_upper_ = incumbent.upper();
-  if (before) gain_.count_plans(credit - credit_, *before - *seen_upper_, gap_of(incumbent));
+  if (first) gain_.count_plans(credit - credit_, gain, gap_of(incumbent));
+}
+
+void PlanSearch::hear(Cost less) {
+  if (seen_upper_) *seen_upper_ -= less;
 }
 
 void PlanSearch::begin() {

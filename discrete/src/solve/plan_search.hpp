@@ -103,8 +103,15 @@ class PlanSearch {
   /// it is hard to find and others should have their turn.
   [[nodiscard]] bool start();
   /// To be called often with the steps of the search so far. `draft` tells the paths that the
-  /// search had at last, see Run::draft.
-  void advance(std::int64_t search_effort, const std::function<Plan()>& draft);
+  /// search had at last, see Run::draft; null: they are for another one. `after_slice`, unless
+  /// null, is called again and again.
+  void advance(std::int64_t search_effort, const std::function<Plan()>& draft,
+               const std::function<void()>& after_slice);
+  /// The incumbent is so much cheaper by what others told: nobody here gained that. Before the
+  /// first one, nothing.
+  void hear(Cost less);
+  /// Steps of `advance` so far.
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
   /// Instead of both, where a search in another thread has all the time that it needs. First the
   /// guided searches, to the end.
   void begin();
@@ -122,7 +129,8 @@ class PlanSearch {
   std::int64_t long_slice_;
   std::int64_t credit_ = 0;       // steps for plans that are due
   std::int64_t seen_effort_ = 0;  // of the search, counted
-  bool is_hopeful_ = false;       // credit is for the first draft
+  std::int64_t effort_ = 0;
+  bool is_hopeful_ = false;  // credit is for the first draft
   Cost seen_lower_ = 0;
   std::optional<Cost> seen_upper_;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,14 +21,12 @@ constexpr std::int64_t kLag = 1;
 
 /// What all workers share.
 struct Shared {
-  Shared(const Instance& the_instance, const SolveOptions& options, std::int64_t round)
-      : instance(the_instance), rounds(options.threads, round, options.race, kLag) {}
+  Shared(const Instance& instance, const SolveOptions& options, std::int64_t round)
+      : rounds(options.threads, round, options.race, kLag), distances(instance) {}
 
-  const Instance& instance;
   Rounds<News> rounds;
   const std::shared_ptr<ResourceAccount> account = std::make_shared<ResourceAccount>();
-  std::mutex mutex;
-  std::shared_ptr<const GoalDistances> distances;
+  GoalDistancesInTheMaking distances;
 };
 
 class WorkerCompanion final : public Companion {
@@ -44,10 +41,7 @@ class WorkerCompanion final : public Companion {
   const std::atomic<bool>& cancelled() const override { return shared_.rounds.over(); }
   std::shared_ptr<ResourceAccount> account() const override { return shared_.account; }
   std::shared_ptr<const GoalDistances> distances(LimitMonitor& limits) override {
-    const std::lock_guard lock(shared_.mutex);
-    if (shared_.distances == nullptr)
-      shared_.distances = GoalDistances::make(shared_.instance, limits);
-    return shared_.distances;
+    return shared_.distances.join(limits);
   }
 
  private:
@@ -96,11 +90,13 @@ SolveOutcome solve_portfolio(const Instance& instance, const SolveOptions& optio
         WorkerCompanion companion(shared, worker, role_of(worker, has_planner));
         return solve_alone(instance, options_of(options, tuner, worker), tuner, &companion);
       },
-      [&](std::size_t worker) { return role_of(worker, has_planner) != Role::plans; },
       [&](std::size_t worker) {
         if (worker == 1) has_planner = false;  // The first one looks for plans itself.
       });
   const auto rests = [](const SolveOutcome& outcome) { return outcome.rests_on_known_bound; };
+  // Who looks for plans ends all when its plan is as cheap as the bounds that it heard ask for. The
+  // search is that of others.
+  if (has_planner) outcomes[1].statistics = outcomes[0].statistics;
   const bool rest_all = std::all_of(outcomes.begin(), outcomes.end(), rests);
   SolveOutcome answer = combine(std::move(outcomes), shared.rounds.winner(), options.gap_percent);
   answer.rests_on_known_bound = rest_all && answer.lower_bound == options.known_lower_bound;

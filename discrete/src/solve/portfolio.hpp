@@ -35,7 +35,7 @@ class Companion {
   [[nodiscard]] virtual const std::atomic<bool>& cancelled() const = 0;
   /// Of all searches that run side by side.
   [[nodiscard]] virtual std::shared_ptr<ResourceAccount> account() const = 0;
-  /// Computed once for all. Null when a limit was met.
+  /// Computed by all together, once. Null when a limit was met.
   [[nodiscard]] virtual std::shared_ptr<const GoalDistances> distances(LimitMonitor& limits) = 0;
 };
 

@@ -2,11 +2,13 @@
 #include "solve/search.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
 #include <utility>
 
+#include "primal/plan_merger.hpp"
 #include "quadrille/core/progress.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/sat/cost_search.hpp"
@@ -111,9 +113,11 @@ class Search final : private sat::YieldPoint {
       else
         plans_->begin();
     }
-    if (role_ == Role::bound) plans_.reset();
     exchange(0);
-    if (role_ != Role::plans) yield();
+    if (role_ == Role::plans)
+      consider_stop();
+    else
+      yield();
   }
 
   /// What the agents cost when each is alone. Without `distances`, because a limit was met, of as
@@ -144,6 +148,7 @@ class Search final : private sat::YieldPoint {
       effort += plans_->work([this] { return draft_ ? *std::exchange(draft_, nullptr) : Plan(); });
       exchange(effort);
       incumbent_.raise(heard_lower_);
+      consider_stop();
     }
   }
 
@@ -152,9 +157,26 @@ class Search final : private sat::YieldPoint {
     const auto heard = companion_->on_effort(effort, [this] { return news(); });
     if (!heard) return;
     heard_lower_ = std::max(heard_lower_, heard->lower);
-    if (heard->plan) incumbent_.offer(*heard->plan);
+    if (heard->plan && heard->plan != heard_plan_) hear(heard->plan);
     draft_ = heard->draft;
     others_ended_ = heard->others_ended;
+  }
+
+  /// Both may have been made from one plan, and differ in what was done since. Where one is as good
+  /// as the other, all take that of the one whose role plans are, so that they do not drift apart:
+  /// the closer two plans are, the more of their parts can be merged.
+  void hear(const std::shared_ptr<const Plan>& plan) {
+    heard_plan_ = plan;
+    const std::optional<Cost> before = incumbent_.upper();
+    if (!before) {
+      incumbent_.offer(*plan);
+      return;
+    }
+    if (!merger_) merger_.emplace(instance_);
+    const Plan& own = incumbent_.plan();
+    incumbent_.offer(role_ == Role::plans ? merger_->merge(own, *plan, options_.objective)
+                                          : merger_->merge(*plan, own, options_.objective));
+    if (plans_) plans_->hear(*before - *incumbent_.upper());
   }
 
   [[nodiscard]] News news() {
@@ -174,13 +196,30 @@ class Search final : private sat::YieldPoint {
   // sat::YieldPoint
   void yield() override {
     if (run_ != nullptr) {
-      const std::int64_t effort = run_->engine().effort();
-      exchange(effort);
-      if (plans_) plans_->advance(effort, [this] { return run_->draft(); });
+      exchange_while_searching();
+      if (plans_) make_plans(run_->engine().effort());
     }
     consider_stop();
     report_progress();
     report_plan();
+  }
+
+  void exchange_while_searching() {
+    exchange(run_->engine().effort() + (plans_ ? plans_->effort() : 0));
+  }
+
+  /// Beside one whose role they are, plans are made where that gains more than the bound does;
+  /// drafts are left to it.
+  void make_plans(std::int64_t search_effort) {
+    std::function<Plan()> draft;
+    if (role_ == Role::both) draft = [this] { return run_->draft(); };
+    std::function<void()> after_slice;
+    if (companion_ != nullptr)
+      after_slice = [this] {
+        exchange_while_searching();
+        consider_stop();
+      };
+    plans_->advance(search_effort, draft, after_slice);
   }
 
   /// Ends the search when the bounds meet, or are as close as was asked for.
@@ -260,6 +299,8 @@ class Search final : private sat::YieldPoint {
   const Cost known_;  // by the user
   Cost free_bound_ = 0;
   std::optional<PlanSearch> plans_;
+  std::optional<PlanMerger> merger_;
+  std::shared_ptr<const Plan> heard_plan_;
   const Run* run_ = nullptr;  // when it is prepared
   double next_plan_s_ = 0;
   std::optional<Cost> reported_cost_;

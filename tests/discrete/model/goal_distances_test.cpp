@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <thread>
+#include <vector>
+
 #include "support/distances.hpp"
 #include "support/generators.hpp"
 
@@ -72,6 +76,47 @@ TEST(GoalDistances, KnowWhereThereIsNoWay) {
   EXPECT_EQ((*distances_of(instance))(AgentId(0), VertexId(5)), kUnreachable);
   expect_right(instance, *distances_of(instance), 3);
   expect_right(instance, *packed_distances_of(instance), 3);
+}
+
+TEST(GoalDistances, AreTheSameFromSeveralThreads) {
+  support::Random random(2);
+  for (int round = 0; round < 50 && !testing::Test::HasFatalFailure(); ++round) {
+    const Instance instance = support::random_grid(random, {5, 30, 30, 1, 9});
+    GoalDistancesInTheMaking making(instance);
+    std::vector<std::shared_ptr<const GoalDistances>> tables(3);
+    {
+      std::vector<std::jthread> threads;
+      for (auto& table : tables)
+        threads.emplace_back([&making, &table] {
+          LimitMonitor limits{Limits{}};
+          table = making.join(limits);
+        });
+    }
+    for (const auto& table : tables) ASSERT_EQ(table, tables.front());
+    expect_right(instance, *tables.front());
+  }
+}
+
+// What one leaves that meets a limit is done by the others.
+TEST(GoalDistances, OfSeveralThreadsAreNoneForWhoMeetsALimit) {
+  for (int round = 0; round < 20; ++round) {
+    const Instance instance = line(30'000);
+    GoalDistancesInTheMaking making(instance);
+    std::shared_ptr<const GoalDistances> table;
+    {
+      const std::jthread other([&] {
+        LimitMonitor limits{Limits{}};
+        table = making.join(limits);
+      });
+      Limits few;
+      few.looks = round % 4;
+      LimitMonitor limits(few);
+      const auto mine = making.join(limits);
+      EXPECT_EQ(mine == nullptr, limits.reason() != StopReason::none);
+    }
+    ASSERT_NE(table, nullptr);
+    expect_right(instance, *table, 1000);
+  }
 }
 
 TEST(GoalDistances, StopAtLimits) {

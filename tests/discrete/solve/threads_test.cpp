@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "quadrille/core/portfolio.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "solve/portfolio.hpp"
@@ -143,6 +144,9 @@ TEST(Threads, WhatIsHeardNeverWorsensTheAnswer) {
       EXPECT_LE(outcome.lower_bound, truth.cost) << instance_text(instance);
       ASSERT_TRUE(outcome.plan) << instance_text(instance);
       ASSERT_TRUE(verify(instance, *outcome.plan).valid());
+      if (outcome.status == Status::optimal) {
+        EXPECT_EQ(outcome.cost, truth.cost);
+      }
       if (role == Role::plans) continue;
       ++num_heard;
       EXPECT_EQ(outcome.status, Status::optimal) << instance_text(instance);
@@ -150,6 +154,25 @@ TEST(Threads, WhatIsHeardNeverWorsensTheAnswer) {
     }
   }
   EXPECT_GE(num_heard, scaled(300));
+}
+
+// Who looks for plans knows itself when its plan is good enough, and does not wait for the others.
+TEST(Threads, WhoMakesPlansEndsAtTheGap) {
+  const Instance instance = crowd(14, 75, 4);
+  News news;
+  for (const AgentId i : instance.agent_ids())
+    news.lower +=
+        distances_from(instance.graph(), instance.agents()[i].goal)[instance.agents()[i].start];
+  Prompter prompter(Role::plans, 0, news);
+  prompter.instance = &instance;
+  SolveOptions options;
+  options.gap_percent = 20;
+  options.limits.looks = 1'000'000;
+  const SolveOutcome outcome = solve_alone(instance, options, tuner_for(instance), &prompter);
+  EXPECT_EQ(outcome.stop, StopReason::gap);
+  ASSERT_TRUE(outcome.plan);
+  EXPECT_TRUE(is_proof(outcome));
+  EXPECT_TRUE(is_within_gap(options.gap_percent, *outcome.cost, outcome.lower_bound));
 }
 
 TEST(Threads, ABoundAboveAPlanIsAnInternalError) {

@@ -75,13 +75,12 @@ template <class SolveOutcome>
 
 /// Searches of one instance side by side, each in a thread of its own, the first one in the calling
 /// thread. `solve(worker)` is one search, whose companion arrives at the rounds;
-/// `may_prove(worker)` tells whether its proof counts; `on_missing(worker)` is called when there is
-/// no thread for it. Returns all outcomes, for `combine`. Rethrows what the first of them threw
-/// that threw at all, except std::bad_alloc: the others may still come to an end then.
+/// `on_missing(worker)` is called when there is no thread for it. Returns all outcomes, for
+/// `combine`. Rethrows what the first of them threw that threw at all, except std::bad_alloc: the
+/// others may still come to an end then.
 template <class SolveOutcome, class News>
 [[nodiscard]] std::vector<SolveOutcome> solve_side_by_side(
     Rounds<News>& rounds, const std::function<SolveOutcome(std::size_t)>& solve,
-    const std::function<bool(std::size_t)>& may_prove,
     const std::function<void(std::size_t)>& on_missing) {
   std::vector<SolveOutcome> outcomes(rounds.num_workers());
   std::vector<std::exception_ptr> failures(rounds.num_workers());
@@ -98,7 +97,7 @@ template <class SolveOutcome, class News>
     // Whose plan and bound are wrong has to be seen, and must not be believed.
     News last;
     if (!failures[worker] && !outcome.internal_error) last.lower = outcome.lower_bound;
-    const bool has_proof = !failures[worker] && may_prove(worker) && is_proof(outcome);
+    const bool has_proof = !failures[worker] && is_proof(outcome);
     rounds.end(worker, has_proof, std::move(last));
   };
   {

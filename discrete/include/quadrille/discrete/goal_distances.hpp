@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "quadrille/core/export.hpp"
@@ -12,6 +14,8 @@
 QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
+
+class BreadthFirst;
 
 /// The number of moves from every vertex to every agent's goal. Immutable, to be shared by all who
 /// search the same instance, from any thread.
@@ -86,9 +90,15 @@ class GoalDistances {
   }
 
  private:
+  friend class GoalDistancesInTheMaking;
   static constexpr std::uint16_t kNoWay = UINT16_MAX;
   static constexpr Timestep kRadius = 7;
   GoalDistances() = default;
+  /// Makes room. False: a limit was met.
+  [[nodiscard]] bool prepare(const Instance& instance, LimitMonitor& limits,
+                             std::size_t most_plain);
+  /// Fills in the distances of one agent. False: a limit was met.
+  [[nodiscard]] bool fill(AgentId agent, VertexId goal, BreadthFirst& search, LimitMonitor& limits);
   void group(const Graph& graph);
   [[nodiscard]] std::size_t num_bytes() const noexcept { return (groups_.size() + 1) / 2; }
   /// Packs the distances by vertex.
@@ -100,6 +110,25 @@ class GoalDistances {
   std::vector<std::uint16_t> plain_;  // Empty: packed.
   std::vector<std::uint8_t> bits_;    // Four of each vertex.
   std::vector<Timestep> centres_;
+};
+
+/// A table that several threads make together. The same table, whoever does how much.
+class GoalDistancesInTheMaking {
+ public:
+  /// `instance` outlives the object.
+  explicit GoalDistancesInTheMaking(const Instance& instance) : instance_(instance) {}
+
+  /// To be called by each of the threads, once. Helps until the table is there. Null when one of
+  /// the caller's limits was met: what it has left is done by the others.
+  [[nodiscard]] std::shared_ptr<const GoalDistances> join(LimitMonitor& limits);
+
+ private:
+  const Instance& instance_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::shared_ptr<GoalDistances> table_;
+  std::vector<AgentId> left_;  // that nobody is at
+  std::size_t num_done_ = 0;   // agents
 };
 
 }  // namespace quadrille::discrete
