@@ -55,13 +55,13 @@ double HalfSums::saved(const Line& a, const Line& b) {
   return saved;
 }
 
-double HalfSums::saved(const Line& a, const Line& b, const Line& c) {
+/// The terms of two, as if of one.
+void HalfSums::merge(const Line& a, const Line& b) {
   merged_.terms.resize(a.terms.size() + b.terms.size());
   std::merge(a.terms.begin(), a.terms.end(), b.terms.begin(), b.terms.end(), merged_.terms.begin(),
              [](const Term& x, const Term& y) {
                return x.agent < y.agent || (x.agent == y.agent && x.part > y.part);
              });
-  return saved(merged_, c);
 }
 
 std::vector<LevelSum> HalfSums::find(std::size_t most) {
@@ -95,13 +95,16 @@ void HalfSums::look(std::size_t a, std::size_t b, std::vector<Found>& found) {
     const double violation = common(a, b) - excess - (n - 1) / 2.0;
     if (violation > kLeastViolation) found.push_back({violation, a, b, b});
   }
+  bool is_merged = false;
   for (std::size_t c = b + 1; c < lines_.size(); ++c) {
     const int all = n + lines_[c].summand.least;
     if (all % 2 == 0) continue;
     const double needed = excess + lines_[c].excess + (all - 1) / 2.0;
     ++effort_;
     if (common(a, b) + common(a, c) + common(b, c) <= needed + kLeastViolation) continue;
-    const double violation = saved(lines_[a], lines_[b], lines_[c]) - needed;
+    if (!is_merged) merge(lines_[a], lines_[b]);
+    is_merged = true;
+    const double violation = saved(merged_, lines_[c]) - needed;
     if (violation > kLeastViolation) found.push_back({violation, a, b, c});
   }
 }

@@ -61,7 +61,7 @@ class HalfSums {
     std::size_t a, b, c;  // lines; b twice if there are two
   };
   [[nodiscard]] double saved(const Line& a, const Line& b);
-  [[nodiscard]] double saved(const Line& a, const Line& b, const Line& c);
+  void merge(const Line& a, const Line& b);
   void look(std::size_t a, std::size_t b, std::vector<Found>& found);
   [[nodiscard]] double common(std::size_t a, std::size_t b) const {
     return common_[a * lines_.size() + b];

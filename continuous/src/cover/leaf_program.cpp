@@ -12,57 +12,66 @@ constexpr Cost kFraction = 1024;
 constexpr double kTiny = 1e-6;
 /// Sums are looked for where there are more programs than so many, at each so many, and until there
 /// are so many. Measured on the cores of six hard instances, 600 to 900 of each: 0.1 to 0.66 of the
-/// programs, and 0.22 (`dense`, task 4) to 1.4 times the time; with up to 200 sums there are fewer
-/// programs, and these take longer.
+/// programs; up to 300 sums take 1.09 times the time, up to 150 as long.
 constexpr int kProgramsBeforeSums = 20;
-constexpr std::size_t kSumsPerProgram = 3, kMostSums = 100;
+constexpr std::size_t kSumsPerProgram = 3, kMostSums = 200;
+/// Of so many calls in which a sum is there it is of use once, or goes.
+constexpr int kCallsPerUse = 4;
+constexpr double kMostExcess = 1e-6;
+constexpr std::uint32_t kNone = LevelSimplex::kGone;
+/// Of the kernels that leaves keep, the oldest ones are given up: 32 MB.
+constexpr std::size_t kMostCells = 1 << 22;
 
 }  // namespace
 
 LeafProgram::LeafProgram(const IdVector<AgentId, Cost>& free_costs)
     : free_costs_(free_costs),
       low_(free_costs),
-      high_(free_costs.size(), CoverLeaf::Range().high) {}
+      high_(free_costs.size(), CoverLeaf::Range().high),
+      simplex_(free_costs) {}
 
-void LeafProgram::set_cores(const CoreTable& table) {
+void LeafProgram::set_cores(const CoreTable& table, std::span<const std::uint32_t> numbers) {
   table_ = &table;
   sums_ = nullptr;
+  simplex_.set_levels(table.rows());
+  columns_.clear();
+  numbers_.clear();
+  const std::uint32_t next = next_core_;
+  for (std::size_t c = 0; c < table.num_cores(); ++c) {
+    const std::uint32_t column = simplex_.add_column(table.rows_of(c), 1);
+    const auto number = numbers.empty() ? next + static_cast<std::uint32_t>(c) : numbers[c];
+    numbers_.push_back(number);
+    columns_.resize(number + 1, kNone);
+    columns_[number] = column;
+    next_core_ = number + 1;
+  }
 }
 
 void LeafProgram::set_sums(std::vector<CoverSum>& sums) {
   const std::vector<Level>& levels = table_->rows();
+  const bool is_due = num_set_++ % kCallsPerUse == 0;
   std::erase_if(sums, [&](const CoverSum& known) {
-    return !known.was_used ||
+    return (is_due && !known.was_used) ||
            !std::all_of(known.sum.levels.begin(), known.sum.levels.end(), [&](const Level& level) {
              return std::binary_search(levels.begin(), levels.end(), level);
            });
   });
   sums_ = &sums;
-  sum_rows_.clear();
-  sum_begins_.assign(1, 0);
   for (CoverSum& known : sums) {
     list_rows(known.sum);
-    known.was_used = false;
+    if (is_due) known.was_used = false;
   }
   num_solved_ = 0;
 }
 
+/// And makes them a column.
 void LeafProgram::list_rows(const LevelSum& sum) {
   const std::vector<Level>& levels = table_->rows();
+  listed_.clear();
   for (const Level& level : sum.levels)
-    sum_rows_.push_back(static_cast<std::uint32_t>(
+    listed_.push_back(static_cast<std::uint32_t>(
         std::lower_bound(levels.begin(), levels.end(), level) - levels.begin()));
-  sum_begins_.push_back(sum_rows_.size());
-}
-
-std::span<const std::uint32_t> LeafProgram::rows_of(std::size_t c) const {
-  if (c < table_->num_cores()) return table_->rows_of(c);
-  const std::size_t k = c - table_->num_cores();
-  return {sum_rows_.data() + sum_begins_[k], sum_rows_.data() + sum_begins_[k + 1]};
-}
-
-int LeafProgram::least(std::size_t c) const {
-  return c < table_->num_cores() ? 1 : (*sums_)[c - table_->num_cores()].sum.least;
+  static_cast<void>(simplex_.add_column(listed_, sum.least));
 }
 
 void LeafProgram::load(const CoverLeaf& leaf) {
@@ -84,8 +93,8 @@ bool LeafProgram::is_known(const CoverLeaf& leaf) {
   load(leaf);
   find_parts(leaf);
   unload(leaf);
-  for (std::size_t c = 0; c < num_all(); ++c)
-    if (covered(rows_of(c)) < least(c) - kTiny) return false;
+  for (std::size_t c = 0; c < simplex_.num_columns(); ++c)
+    if (covered(c) < simplex_.least(c) - kTiny) return false;
   return true;
 }
 
@@ -104,9 +113,9 @@ void LeafProgram::find_parts(const CoverLeaf& leaf) {
   }
 }
 
-double LeafProgram::covered(std::span<const std::uint32_t> rows) const {
+double LeafProgram::covered(std::size_t column) const {
   double covered = 0;
-  for (const std::uint32_t r : rows) covered += part_[r];
+  for (const std::uint32_t r : simplex_.rows_of(column)) covered += part_[r];
   return covered;
 }
 
@@ -118,234 +127,272 @@ bool LeafProgram::solve(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs) {
 }
 
 bool LeafProgram::solve_loaded(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs) {
-  Cost base = 0;
+  simplex_.begin(low_, high_);
+  if (!has_levels()) return false;
+  Cost base = 0;  // of agents that no core has
   for (const CoverLeaf::Range& range : leaf.ranges)
     base += low_[range.agent] - free_costs_[range.agent];
-  if (!collect()) return false;
-  choose_tight(leaf);
-  begin_program();
-  solve_program();
+  for (const LevelSimplex::Line& line : simplex_.lines())
+    base -= low_[line.agent] - free_costs_[line.agent];
+  restore(leaf);
+  simplex_.solve();
   if (sums_ != nullptr && ++num_solved_ > kProgramsBeforeSums && sums_->size() < kMostSums &&
       add_sums())
-    solve_program();
-  const std::vector<double> primal = program_.primal();
-  note_uses(primal);
-  list_columns();
-  leaf.bound = std::max(leaf.bound, base + certified_bound(primal));
+    simplex_.solve();
+  const std::vector<double> multipliers = simplex_.multipliers();
+  note_uses(multipliers);
+  leaf.bound = std::max(leaf.bound, base + certified_bound(multipliers));
+  leaf.solution = remember(multipliers);
   costs = low_;
-  round(program_.dual(), leaf, costs);
+  round(leaf, costs);
   return true;
 }
 
-/// The chosen cores, and as many more as have a say.
-void LeafProgram::solve_program() {
-  const std::int64_t before = program_.effort();
-  do {
-    extend_program();
-    program_.solve();
-    effort_ += static_cast<std::int64_t>(active_.size());
-  } while (choose_violated(program_.dual()));
-  effort_ += program_.effort() - before;
+/// False: a core or sum cannot be satisfied within the leaf.
+bool LeafProgram::has_levels() const {
+  for (std::size_t c = 0; c < simplex_.num_columns(); ++c) {
+    int missing = simplex_.least(c);
+    for (const std::uint32_t r : simplex_.rows_of(c)) {
+      if (missing == 0) break;
+      if (r < simplex_.lines()[simplex_.line_of(r)].last) --missing;
+    }
+    if (missing > 0) return false;
+  }
+  return true;
+}
+
+void LeafProgram::restore(const CoverLeaf& leaf) {
+  if (leaf.solution == nullptr) return;
+  const CoverLeaf::Solution& solution = *leaf.solution;
+  LevelSimplex::Basis basis;
+  std::vector<double> multipliers;
+  for (const CoverLeaf::Solution::Column& column : solution.columns) {
+    basis.columns.push_back(column_of(column));
+    multipliers.push_back(column.multiplier);
+  }
+  for (const Level& level : solution.rows) basis.rows.push_back(row_of(level));
+  simplex_.restore(basis, multipliers, solution.kernel.size() > 0 ? &solution.kernel : nullptr);
+}
+
+/// `kNone`: it is gone.
+std::uint32_t LeafProgram::column_of(const CoverLeaf::Solution::Column& column) const {
+  using Kind = CoverLeaf::Solution::Kind;
+  if (column.kind == Kind::low_end) {
+    const std::size_t line = simplex_.line_of(AgentId(column.number));
+    return line < simplex_.lines().size() && simplex_.lines()[line].is_raised
+               ? static_cast<std::uint32_t>(line)
+               : kNone;
+  }
+  if (column.kind == Kind::core) {
+    const bool is_known = column.number < columns_.size() && columns_[column.number] != kNone;
+    return is_known ? simplex_.num_lows() + columns_[column.number] : kNone;
+  }
+  if (sums_ == nullptr) return kNone;
+  const auto sum = std::find_if(sums_->begin(), sums_->end(), [&](const CoverSum& known) {
+    return known.number == column.number;
+  });
+  if (sum == sums_->end()) return kNone;
+  return static_cast<std::uint32_t>(simplex_.num_lows() + table_->num_cores() +
+                                    static_cast<std::size_t>(sum - sums_->begin()));
+}
+
+/// `kNone`: it is gone.
+std::uint32_t LeafProgram::row_of(const Level& level) const {
+  const std::vector<Level>& levels = table_->rows();
+  const std::size_t k = simplex_.line_of(level.agent);
+  if (k == simplex_.lines().size()) return kNone;
+  const LevelSimplex::Line& line = simplex_.lines()[k];
+  if (line.is_raised && line.low == level.cost) return simplex_.low_row(k);
+  const auto end = levels.begin() + line.end;
+  const auto at = std::lower_bound(levels.begin() + line.begin, end, level);
+  return at != end && *at == level ? static_cast<std::uint32_t>(at - levels.begin()) : kNone;
+}
+
+std::shared_ptr<const CoverLeaf::Solution> LeafProgram::remember(
+    const std::vector<double>& multipliers) {
+  using Kind = CoverLeaf::Solution::Kind;
+  auto solution = std::make_shared<CoverLeaf::Solution>();
+  const LevelSimplex::Basis& basis = simplex_.basis();
+  for (std::size_t i = 0; i < basis.columns.size(); ++i) {
+    const double multiplier = std::max(multipliers[i], 0.0);
+    const std::uint32_t c = basis.columns[i];
+    if (c < simplex_.num_lows()) {
+      const auto agent = static_cast<std::uint32_t>(simplex_.lines()[c].agent.value());
+      solution->columns.push_back({Kind::low_end, agent, multiplier});
+    } else if (const std::size_t k = c - simplex_.num_lows(); k < table_->num_cores()) {
+      solution->columns.push_back({Kind::core, numbers_[k], multiplier});
+    } else {
+      const std::uint32_t sum = (*sums_)[k - table_->num_cores()].number;
+      solution->columns.push_back({Kind::sum, sum, multiplier});
+    }
+  }
+  for (const std::uint32_t r : basis.rows) {
+    if (r < table_->rows().size()) {
+      solution->rows.push_back(table_->rows()[r]);
+    } else {
+      const LevelSimplex::Line& line = simplex_.lines()[r - table_->rows().size()];
+      solution->rows.push_back({line.agent, line.low});
+    }
+  }
+  keep_kernel(solution);
+  return solution;
+}
+
+void LeafProgram::keep_kernel(const std::shared_ptr<CoverLeaf::Solution>& solution) {
+  solution->kernel.copy(simplex_.kernel());
+  with_kernel_.push_back({solution, simplex_.kernel().size() * simplex_.kernel().size()});
+  num_cells_ += with_kernel_.back().num_cells;
+  while (num_cells_ > kMostCells) {
+    if (const auto oldest = with_kernel_.front().solution.lock()) oldest->kernel = Kernel();
+    num_cells_ -= with_kernel_.front().num_cells;
+    with_kernel_.pop_front();
+  }
 }
 
 void LeafProgram::note_uses(const std::vector<double>& multipliers) {
+  const std::size_t first = simplex_.num_lows() + table_->num_cores();
   for (std::size_t k = 0; k < multipliers.size(); ++k)
-    if (const std::size_t c = active_numbers_[chosen_[k]];
-        c >= table_->num_cores() && multipliers[k] > kTiny)
-      (*sums_)[c - table_->num_cores()].was_used = true;
-}
-
-/// False: a core cannot be hit within the leaf.
-bool LeafProgram::collect() {
-  active_.clear();
-  active_begins_.assign(1, 0);
-  active_least_.clear();
-  active_numbers_.clear();
-  for (std::size_t c = 0; c < num_all(); ++c)
-    if (!activate(c)) return false;
-  return true;
-}
-
-/// False: that cannot be satisfied within the leaf.
-bool LeafProgram::activate(std::size_t c) {
-  const std::vector<Level>& levels = table_->rows();
-  int missing = least(c);
-  for (const std::uint32_t r : rows_of(c))
-    if (levels[r].cost <= low_[levels[r].agent]) --missing;
-  if (missing <= 0) return true;
-  for (const std::uint32_t r : rows_of(c))
-    if (levels[r].cost > low_[levels[r].agent] && levels[r].cost < high_[levels[r].agent])
-      active_.push_back(r);
-  if (active_.size() < active_begins_.back() + static_cast<std::size_t>(missing)) {
-    active_.resize(active_begins_.back());
-    return false;
-  }
-  active_begins_.push_back(active_.size());
-  active_least_.push_back(missing);
-  active_numbers_.push_back(c);
-  return true;
+    if (const std::size_t c = simplex_.basis().columns[k]; c >= first && multipliers[k] > kTiny)
+      (*sums_)[c - first].was_used = true;
 }
 
 /// Sums that the fractional cover does not satisfy, in the program, too. False: none were found.
 bool LeafProgram::add_sums() {
-  const std::vector<Level>& levels = table_->rows();
-  for (std::size_t r = 0; r < levels.size(); ++r) {
-    const AgentId i = levels[r].agent;
-    if (levels[r].cost <= low_[i]) part_[r] = 1;
-    if (levels[r].cost >= high_[i]) part_[r] = 0;
-  }
-  HalfSums finder(levels, part_);
-  for (const std::size_t c : chosen_)
-    finder.add({rows_of(active_numbers_[c]), least(active_numbers_[c])});
+  const std::vector<double>& parts = simplex_.parts();
+  HalfSums finder(table_->rows(), parts);
+  for (std::size_t c = 0; c < simplex_.num_columns(); ++c)
+    if (simplex_.excess(simplex_.num_lows() + static_cast<std::uint32_t>(c)) < kMostExcess)
+      finder.add({simplex_.rows_of(c), simplex_.least(c)});
   const std::vector<LevelSum> found = finder.find(kSumsPerProgram);
   effort_ += finder.effort();
-  const std::size_t before = chosen_.size();
+  bool is_more = false;
   for (const LevelSum& sum : found) {
     if (std::any_of(sums_->begin(), sums_->end(), [&](const auto& k) { return k.sum == sum; }))
       continue;
-    sums_->push_back({sum, false});
+    sums_->push_back({sum, false, next_sum_++});
     list_rows(sum);
-    const std::size_t num_active = active_numbers_.size();
     // Where it cannot be satisfied the cores cannot be hit: that is left to the leaf's parts.
-    if (!activate(num_all() - 1) || active_numbers_.size() == num_active) continue;
-    is_chosen_.push_back(1);
-    chosen_.push_back(num_active);
+    is_more = true;
   }
-  return chosen_.size() > before;
+  return is_more;
 }
 
-// Most cores have no say in the optimum: the program has those that the last fractional cover,
-// which may be that of a larger leaf, does not cover or only just; then those that its own does
-// not cover, until it covers all. The optimum is that of the program with all of them.
-void LeafProgram::choose_tight(const CoverLeaf& leaf) {
-  find_parts(leaf);
-  chosen_.clear();
-  is_chosen_.assign(active_begins_.size() - 1, 0);
-  choose_below(kTiny);
+/// Visits the rows of the leaf that a column is in, as often as it is.
+template <class Visit>
+void LeafProgram::visit_rows(std::uint32_t column, const Visit& visit) const {
+  const auto lines = simplex_.lines();
+  const auto visit_from = [&](std::size_t at, std::uint32_t level) {
+    const LevelSimplex::Line& line = lines[at];
+    if (level < line.first && line.is_raised) visit(simplex_.low_row(at));
+    for (std::uint32_t r = std::max(level, line.first); r < line.last; ++r) visit(r);
+  };
+  if (column < simplex_.num_lows()) {
+    visit(simplex_.low_row(column));
+    for (std::uint32_t r = lines[column].first; r < lines[column].last; ++r) visit(r);
+    return;
+  }
+  for (const std::uint32_t level : simplex_.rows_of(column - simplex_.num_lows()))
+    visit_from(simplex_.line_of(level), level);
 }
 
-/// False: the fractional cover of the program, with these shares by row, covers all active cores.
-bool LeafProgram::choose_violated(const std::vector<double>& dual) {
+Cost LeafProgram::room(std::uint32_t row) const {
   const std::vector<Level>& levels = table_->rows();
-  part_.assign(levels.size(), 0);
-  for (std::size_t r = levels.size(); r-- > 0;) {
-    if (r + 1 < levels.size() && levels[r + 1].agent == levels[r].agent) part_[r] = part_[r + 1];
-    if (number_[r] != kNoRow) part_[r] += dual[number_[r]];
+  if (row < levels.size()) return levels[row].cost - free_costs_[levels[row].agent];
+  const LevelSimplex::Line& line = simplex_.lines()[row - levels.size()];
+  return line.low - free_costs_[line.agent];
+}
+
+/// What the rows of the leaf are asked for. Says whether it is too much of one.
+bool LeafProgram::find_used(const std::vector<Cost>& units) {
+  const std::vector<std::uint32_t>& columns = simplex_.basis().columns;
+  used_.assign(table_->rows().size() + simplex_.num_lows(), 0);
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    if (columns[k] < simplex_.num_lows())
+      used_[simplex_.low_row(columns[k])] += units[k];
+    else
+      for (const std::uint32_t r : simplex_.rows_of(columns[k] - simplex_.num_lows()))
+        used_[r] += units[k];
   }
-  return choose_below(-kTiny);
-}
-
-bool LeafProgram::choose_below(double excess) {
-  const std::size_t before = chosen_.size();
-  for (std::size_t c = 0; c < is_chosen_.size(); ++c) {
-    if (is_chosen_[c] != 0 || covered(active_rows(c)) >= active_least_[c] + excess) continue;
-    is_chosen_[c] = 1;
-    chosen_.push_back(c);
+  bool is_exceeded = false;
+  for (std::size_t k = 0; k < simplex_.num_lows(); ++k) {
+    const LevelSimplex::Line& line = simplex_.lines()[k];
+    const std::uint32_t low = simplex_.low_row(k);
+    for (std::uint32_t r = line.begin; r < line.first; ++r) used_[low] += used_[r];
+    if (line.is_raised && used_[low] > room(low) * kFraction) is_exceeded = true;
+    Cost sum = used_[low];
+    for (std::uint32_t r = line.first; r < line.last; ++r) {
+      used_[r] = sum += used_[r];
+      if (sum > room(r) * kFraction) is_exceeded = true;
+    }
   }
-  return chosen_.size() > before;
+  return is_exceeded;
 }
 
-/// Without rows and columns.
-void LeafProgram::begin_program() {
-  Cost largest = 1;
-  for (const std::uint32_t r : active_) largest = std::max(largest, room(table_->rows()[r]));
-  program_ = Packing(static_cast<double>(largest));
-  number_.assign(table_->rows().size(), kNoRow);
-  rows_.clear();
-}
-
-// One row per level: what the cores ask for that the agent hits there or below is at most what
-// the level costs. A row that comes later is kept by the columns before: those in it are in the
-// row of the next lower level, too, which costs less.
-void LeafProgram::extend_program() {
-  const std::size_t before = program_.num_columns();
-  for (std::size_t k = before; k < chosen_.size(); ++k)
-    for (const std::uint32_t r : active_rows(chosen_[k]))
-      if (number_[r] == kNoRow) add_row(r);
-  for (std::size_t k = before; k < chosen_.size(); ++k) {
-    listed_.clear();
-    list_rows(chosen_[k], listed_);
-    static_cast<void>(program_.add_column(listed_, active_least_[chosen_[k]]));
-  }
-}
-
-void LeafProgram::add_row(std::uint32_t row) {
-  const Level& level = table_->rows()[row];
-  listed_.clear();
-  for (std::size_t k = 0; k < program_.num_columns(); ++k)
-    for (const std::uint32_t r : active_rows(chosen_[k]))
-      if (r <= row && table_->rows()[r].agent == level.agent)
-        listed_.push_back(static_cast<std::uint32_t>(k));
-  number_[row] = program_.add_row(static_cast<double>(room(level)), listed_);
-  rows_.push_back(row);
-}
-
-/// The rows of the program that an active core is in, as often as it is.
-void LeafProgram::list_rows(std::size_t active, std::vector<std::uint32_t>& rows) const {
-  const std::vector<Level>& levels = table_->rows();
-  for (const std::uint32_t first : active_rows(active))
-    for (auto r = first; r < levels.size() && levels[r].agent == levels[first].agent; ++r)
-      if (number_[r] != kNoRow) rows.push_back(number_[r]);
-}
-
-void LeafProgram::list_columns() {
-  columns_.clear();
-  column_begins_.assign(1, 0);
-  for (std::size_t k = 0; k < program_.num_columns(); ++k) {
-    list_rows(chosen_[k], columns_);
-    column_begins_.push_back(columns_.size());
-  }
-}
-
-/// A lower bound on what the agents pay above their low ends, from multipliers of any quality: if
-/// in integers they exceed no row, their sum is one. For each core is hit by some agent, and for
-/// each agent the row of the highest level that it reaches says that the cores it hits ask for
-/// no more than it pays.
+/// A lower bound on what the agents of the program pay above their free costs, from multipliers of
+/// any quality: if in integers they exceed no row, their sum is one. For each core is hit by some
+/// agent, and for each agent the row of the highest level that it reaches, or of its low end, says
+/// that the cores it hits, and its low end, ask for no more than it pays.
 Cost LeafProgram::certified_bound(const std::vector<double>& multipliers) {
-  units_.clear();
+  const std::vector<std::uint32_t>& columns = simplex_.basis().columns;
+  std::vector<Cost> units;
   for (const double u : multipliers)
-    units_.push_back(u > 0 ? static_cast<Cost>(u * static_cast<double>(kFraction)) : 0);
-  used_.assign(rows_.size(), 0);
-  for (std::size_t c = 0; c < units_.size(); ++c)
-    for (const std::uint32_t r : column(c)) used_[r] += units_[c];
+    units.push_back(u > 0 ? static_cast<Cost>(u * static_cast<double>(kFraction)) : 0);
+  const bool is_exceeded = find_used(units);
   // What a row is asked for too much is cut from the columns as they come.
   Cost sum = 0;
-  for (std::size_t c = 0; c < units_.size(); ++c) {
+  for (std::size_t k = 0; k < units.size(); ++k) {
     Cost cut = 0;
-    for (const std::uint32_t r : column(c))
-      cut = std::max(cut, used_[r] - room(table_->rows()[rows_[r]]) * kFraction);
-    cut = std::min(cut, units_[c]);
-    if (cut > 0)
-      for (const std::uint32_t r : column(c)) used_[r] -= cut;
-    sum += (units_[c] - cut) * active_least_[chosen_[c]];
+    if (is_exceeded)
+      visit_rows(columns[k],
+                 [&](std::uint32_t r) { cut = std::max(cut, used_[r] - room(r) * kFraction); });
+    cut = std::min(cut, units[k]);
+    if (cut > 0) visit_rows(columns[k], [&](std::uint32_t r) { used_[r] -= cut; });
+    const int worth =
+        columns[k] < simplex_.num_lows() ? 1 : simplex_.least(columns[k] - simplex_.num_lows());
+    sum += (units[k] - cut) * worth;
   }
   return (sum + kFraction - 1) / kFraction;  // costs are integers
 }
 
 /// Costs near the fractional cover, and the most undecided level.
-void LeafProgram::round(const std::vector<double>& dual, CoverLeaf& leaf,
-                        IdVector<AgentId, Cost>& costs) {
+void LeafProgram::round(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs) {
   leaf.branch.reset();
-  if (!active_.empty()) leaf.branch = table_->rows()[active_.front()];
-  is_integral_ = true;
   leaf.shares.clear();
   const std::vector<Level>& levels = table_->rows();
-  double best = 0, share = 0;
-  for (std::size_t r = levels.size(); r-- > 0;) {
-    const Level& row = levels[r];
-    if (r + 1 == levels.size() || levels[r + 1].agent != row.agent) share = 0;
-    if (number_[r] == kNoRow) continue;
-    share += dual[number_[r]];  // how much of the agent is at this level or above
-    if (share > 0) leaf.shares.push_back({row, share});
-    const double undecided = std::min(share, 1 - share);
-    const double score = undecided * static_cast<double>(room(row));
-    if (undecided > kTiny && score > best) {
-      best = score;
-      leaf.branch = row;
-      is_integral_ = false;
+  double best = 0;
+  const auto lines = simplex_.lines();
+  for (std::size_t k = lines.size(); k-- > 0;)
+    for (std::uint32_t r = lines[k].last; r-- > lines[k].first;) {
+      if (!simplex_.is_tight(r)) continue;
+      const Level& row = levels[r];
+      const double share = simplex_.parts()[r];
+      if (share > 0) leaf.shares.push_back({row, share});
+      const double undecided = std::min(share, 1 - share);
+      const double score = undecided * static_cast<double>(row.cost - low_[row.agent]);
+      if (undecided > kTiny && score > best) {
+        best = score;
+        leaf.branch = row;
+      }
+      if (share >= 0.5) costs[row.agent] = std::max(costs[row.agent], row.cost);
     }
-    if (share >= 0.5) costs[row.agent] = std::max(costs[row.agent], row.cost);
+  is_integral_ = !leaf.branch;
+  if (is_integral_) leaf.branch = open_level();
+}
+
+/// A level of the leaf of a core that the low ends do not hit.
+std::optional<Level> LeafProgram::open_level() const {
+  const std::vector<Level>& levels = table_->rows();
+  for (std::size_t c = 0; c < table_->num_cores(); ++c) {
+    std::optional<Level> level;
+    bool is_hit = false;
+    for (const std::uint32_t r : table_->rows_of(c)) {
+      const LevelSimplex::Line& line = simplex_.lines()[simplex_.line_of(r)];
+      if (r < line.first) is_hit = true;
+      if (r < line.last && !level) level = levels[r];
+    }
+    if (!is_hit) return level;
   }
+  return std::nullopt;
 }
 
 }  // namespace quadrille::continuous

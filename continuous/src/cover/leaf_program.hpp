@@ -2,14 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "cover/core_table.hpp"
 #include "cover/half_sums.hpp"
-#include "cover/packing.hpp"
+#include "cover/level_simplex.hpp"
 
 namespace quadrille::continuous {
 
@@ -26,6 +28,19 @@ struct CoverLeaf {
     Level level;
     double part = 0;
   };
+  /// The solution of a linear program.
+  struct Solution {
+    enum class Kind : std::uint8_t { low_end, core, sum };
+    struct Column {
+      Kind kind = Kind::core;
+      std::uint32_t number =
+          0;  ///< Of the agent; of the core, as the program was told; of the sum.
+      double multiplier = 0;
+    };
+    std::vector<Column> columns;
+    std::vector<Level> rows;  ///< Those that the multipliers fill.
+    Kernel kernel;            ///< Of these; empty if it was given up.
+  };
   /// In all costs of the leaf that hit all cores, the agents pay at least this above their free
   /// costs.
   Cost bound = 0;
@@ -36,15 +51,17 @@ struct CoverLeaf {
   /// times the share that it has or lacks, whichever is less. None exactly if the low ends hit all
   /// cores.
   std::optional<Level> branch;
-  /// By falling level; none where it is 0. Those of a leaf that was split serve its parts to begin
-  /// with, although they may be outside of their ranges.
+  /// By falling level; none where it is 0.
   std::vector<Share> shares;
+  /// The next linear program begins with it, that of the leaf with other cores or of a part of it.
+  std::shared_ptr<const Solution> solution;
 };
 
 /// A sum that follows from the cores of a group of agents.
 struct CoverSum {
   LevelSum sum;
-  bool was_used = true;  ///< A bound has rested on it lately.
+  bool was_used = true;      ///< A bound has rested on it lately.
+  std::uint32_t number = 0;  ///< By which leaves remember it: none of another one's.
 };
 
 /// The linear programs of the leaves of one group of agents.
@@ -53,10 +70,11 @@ class LeafProgram {
   explicit LeafProgram(const IdVector<AgentId, Cost>& free_costs);
 
   /// The cores that what follows is about: none is empty, and all levels are above the free costs.
-  /// `table` lives as long.
-  void set_cores(const CoreTable& table);
+  /// `table` lives as long. The numbers, which increase, are those by which leaves remember cores
+  /// from call to call; by default they are new, and leaves remember none.
+  void set_cores(const CoreTable& table, std::span<const std::uint32_t> numbers = {});
   /// Sums that follow from the cores, which are in the programs too. Solve adds some where there
-  /// are many programs. Those that were of no use since the last such call, and those with a level
+  /// are many programs. Those that were of no use for some such calls, and those with a level
   /// that no core has, are taken out. To be called after set_cores; `sums` lives as long.
   void set_sums(std::vector<CoverSum>& sums);
 
@@ -72,73 +90,59 @@ class LeafProgram {
   /// which need not hit all cores. False: no costs of the leaf hit all cores; nothing has changed
   /// then.
   [[nodiscard]] bool solve(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
+  /// What the agents of the cores pay at least above their free costs in the leaf that was solved
+  /// last, from multipliers of its solution's columns; of any quality, but then it is low.
+  [[nodiscard]] Cost certified_bound(const std::vector<double>& multipliers);
   /// Whether the last solution was integral: then `costs` hit all cores, and none of the leaf that
   /// do are cheaper, as far as floating point can tell.
   [[nodiscard]] bool is_integral() const noexcept { return is_integral_; }
   /// Elementary steps of all linear programs so far.
-  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+  [[nodiscard]] std::int64_t effort() const noexcept { return effort_ + simplex_.effort(); }
 
  private:
-  static constexpr std::uint32_t kNoRow = 0xffffffffU;
   void load(const CoverLeaf& leaf);
   void unload(const CoverLeaf& leaf);
   [[nodiscard]] bool solve_loaded(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
-  [[nodiscard]] bool collect();
-  [[nodiscard]] std::span<const std::uint32_t> active_rows(std::size_t c) const {
-    return {active_.data() + active_begins_[c], active_.data() + active_begins_[c + 1]};
-  }
-  [[nodiscard]] std::size_t num_all() const {
-    return table_->num_cores() + (sums_ == nullptr ? 0 : sums_->size());
-  }
-  [[nodiscard]] std::span<const std::uint32_t> rows_of(std::size_t c) const;
-  [[nodiscard]] int least(std::size_t c) const;
-  [[nodiscard]] bool activate(std::size_t c);
   void list_rows(const LevelSum& sum);
-  void solve_program();
+  [[nodiscard]] bool has_levels() const;
+  void restore(const CoverLeaf& leaf);
+  [[nodiscard]] std::uint32_t column_of(const CoverLeaf::Solution::Column& column) const;
+  [[nodiscard]] std::uint32_t row_of(const Level& level) const;
+  [[nodiscard]] std::shared_ptr<const CoverLeaf::Solution> remember(
+      const std::vector<double>& multipliers);
+  void keep_kernel(const std::shared_ptr<CoverLeaf::Solution>& solution);
   [[nodiscard]] bool add_sums();
   void note_uses(const std::vector<double>& multipliers);
   void find_parts(const CoverLeaf& leaf);
-  [[nodiscard]] double covered(std::span<const std::uint32_t> rows) const;
-  void choose_tight(const CoverLeaf& leaf);
-  [[nodiscard]] bool choose_violated(const std::vector<double>& dual);
-  bool choose_below(double excess);
-  void begin_program();
-  void extend_program();
-  void add_row(std::uint32_t row);
-  void list_rows(std::size_t active, std::vector<std::uint32_t>& rows) const;
-  void list_columns();
-  [[nodiscard]] std::span<const std::uint32_t> column(std::size_t c) const {
-    return {columns_.data() + column_begins_[c], columns_.data() + column_begins_[c + 1]};
-  }
-  [[nodiscard]] Cost room(const Level& level) const { return level.cost - low_[level.agent]; }
-  [[nodiscard]] Cost certified_bound(const std::vector<double>& multipliers);
-  void round(const std::vector<double>& dual, CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
+  [[nodiscard]] double covered(std::size_t column) const;
+  [[nodiscard]] bool find_used(const std::vector<Cost>& units);
+  template <class Visit>
+  void visit_rows(std::uint32_t column, const Visit& visit) const;
+  [[nodiscard]] Cost room(std::uint32_t row) const;
+  void round(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
+  [[nodiscard]] std::optional<Level> open_level() const;
 
   IdVector<AgentId, Cost> free_costs_;
   const CoreTable* table_ = nullptr;
   IdVector<AgentId, Cost> low_, high_;     // of the leaf at work
   std::vector<CoverSum>* sums_ = nullptr;  // none if null
-  std::vector<std::uint32_t> sum_rows_;    // their levels in the table
-  std::vector<std::size_t> sum_begins_{0};
-  // Cores and then sums that the low ends do not hit: their rows in the table, as far as these are
-  // in the leaf, how many of these are reached at least, and which they are.
-  std::vector<std::uint32_t> active_;
-  std::vector<std::size_t> active_begins_;
-  std::vector<int> active_least_;
-  std::vector<std::size_t> active_numbers_;
-  std::vector<std::size_t> chosen_;    // active cores that are in the program
-  std::vector<char> is_chosen_;        // by active core
-  std::vector<std::uint32_t> number_;  // by row of the table: its number in the program
-  Packing program_;
-  std::vector<std::uint32_t> rows_;     // of the table, by number in the program
-  std::vector<std::uint32_t> columns_;  // of the program: in which of its rows each is
-  std::vector<std::size_t> column_begins_;
+  LevelSimplex simplex_;                   // the cores and then the sums are its columns
+  std::vector<std::uint32_t> numbers_;     // of the cores
+  std::vector<std::uint32_t> columns_;     // by number of a core
+  std::uint32_t next_core_ = 0, next_sum_ = 0;
+  struct Kept {
+    std::weak_ptr<CoverLeaf::Solution> solution;
+    std::size_t num_cells = 0;
+  };
+  std::deque<Kept> with_kernel_;  // as they came
+  std::size_t num_cells_ = 0;     // of their kernels
   bool is_integral_ = false;
   int num_solved_ = 0;  // since the sums were set
+  int num_set_ = 0;     // how often they were
   std::int64_t effort_ = 0;
   // Scratch:
-  std::vector<Cost> units_, used_;
   std::vector<std::uint32_t> listed_;
+  std::vector<Cost> used_;
   std::vector<double> part_;  // by row of the table: of the agent at that level or above
 };
 

@@ -59,15 +59,19 @@ void LevelCover::add(LevelCore core) {
     parent_[std::max(a, b)] = std::min(a, b);
   }
   if (std::any_of(cores_.begin(), cores_.end(),
-                  [&](const LevelCore& known) { return implies(known, core); }))
+                  [&](const KnownCore& known) { return implies(known.levels, core); }))
     return;
-  std::erase_if(cores_, [&](const LevelCore& known) { return implies(core, known); });
-  cores_.push_back(std::move(core));
+  std::erase_if(cores_, [&](const KnownCore& known) { return implies(core, known.levels); });
+  cores_.push_back({std::move(core), next_number_++});
 }
 
 std::vector<LevelCover::Group> LevelCover::make_groups() const {
   std::map<AgentId, Group> by_root;
-  for (const LevelCore& core : cores_) by_root[root(core.front().agent)].cores.push_back(&core);
+  for (const KnownCore& core : cores_) {
+    Group& group = by_root[root(core.levels.front().agent)];
+    group.cores.push_back(&core.levels);
+    group.numbers.push_back(core.number);
+  }
   for (const AgentId i : IdRange<AgentId>(free_costs_.size()))
     if (const auto at = by_root.find(root(i)); at != by_root.end()) at->second.agents.push_back(i);
   std::vector<Group> groups;
@@ -80,10 +84,10 @@ bool LevelCover::solve(LimitMonitor& limits) {
   // A tree of a group serves any group that contains it: others' cores and costs only add to its
   // bounds. Of several, the one with the most work in it is kept.
   for (Group& group : groups) {
-    for (const Group& old : groups_) {
+    for (Group& old : groups_) {
       if (root(old.agents.front()) != root(group.agents.front())) continue;
       group.sums.insert(group.sums.end(), old.sums.begin(), old.sums.end());
-      if (old.open.size() > group.open.size()) group.open = old.open;
+      if (old.open.size() > group.open.size()) group.open = std::move(old.open);
     }
     if (group.open.empty()) group.open.emplace_back();
     group.table = CoreTable(group.cores);
@@ -114,7 +118,7 @@ bool LevelCover::solve(Group& group, LimitMonitor& limits) {
     group.open.push_back(std::move(leaf));
     std::push_heap(group.open.begin(), group.open.end(), is_later);
   };
-  program_.set_cores(group.table);
+  program_.set_cores(group.table, group.numbers);
   program_.set_sums(group.sums);
   group.cost = price(group, group.best);
   while (true) {
@@ -167,7 +171,7 @@ std::vector<CoverShare> LevelCover::shares() const {
 
 IdVector<AgentId, Cost> LevelCover::completed(IdVector<AgentId, Cost> costs) const {
   std::vector<const LevelCore*> cores;
-  for (const LevelCore& core : cores_) cores.push_back(&core);
+  for (const KnownCore& core : cores_) cores.push_back(&core.levels);
   CoreTable(cores).complete(free_costs_, costs);
   return costs;
 }

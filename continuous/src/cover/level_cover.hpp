@@ -49,9 +49,10 @@ class LevelCover {
   struct Group {
     std::vector<AgentId> agents;
     std::vector<const LevelCore*> cores;
-    CoreTable table;              // of the cores
-    std::vector<CoverSum> sums;   // that follow from the cores
-    std::vector<CoverLeaf> open;  // a heap, the least bound first
+    std::vector<std::uint32_t> numbers;  // of the cores, in the order in which they came
+    CoreTable table;                     // of the cores
+    std::vector<CoverSum> sums;          // that follow from the cores
+    std::vector<CoverLeaf> open;         // a heap, the least bound first
     IdVector<AgentId, Cost> best;
     Cost cost = 0;  // what its agents pay above their free costs in `best`
   };
@@ -65,7 +66,12 @@ class LevelCover {
 
   IdVector<AgentId, Cost> free_costs_;
   IdVector<AgentId, AgentId> parent_;  // agents that ever shared a core have the same root
-  std::vector<LevelCore> cores_;
+  struct KnownCore {
+    LevelCore levels;
+    std::uint32_t number = 0;
+  };
+  std::vector<KnownCore> cores_;
+  std::uint32_t next_number_ = 0;
   std::vector<Group> groups_;  // of the last solve, for their trees
   IdVector<AgentId, Cost> costs_;
   Cost total_ = 0;

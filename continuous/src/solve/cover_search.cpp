@@ -33,7 +33,7 @@ constexpr unsigned kKeptPercent = 85;
 constexpr sat::SolveBudget kGuessBudget{2000, {}};
 constexpr int kMaxMisses = 20;
 /// Elementary steps of a search for plans, and of the cover, that take as long as one of an engine.
-constexpr std::int64_t kPlanStepsOfSearch = 2, kCoverStepsOfSearch = 20;
+constexpr std::int64_t kPlanStepsOfSearch = 2, kCoverStepsOfSearch = 40;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 /// Of a search that begins with candidates: steps for a better plan before it tries them, as one
 /// was mended, and new cores after which the plan is improved like others. Measured in sessions of

@@ -163,6 +163,91 @@ TEST(LeafProgram, KnowsLeavesThatStayAsTheyAre) {
   EXPECT_GE(num_unknown, scaled(3000) / 20);
 }
 
+TEST(LeafProgram, BoundsFromAnyMultipliers) {
+  std::size_t num_raised = 0;
+  for (std::size_t seed = 0; seed < scaled(1000); ++seed) {
+    SCOPED_TRACE(seed);
+    const LeafCase c = LeafCase::draw(seed);
+    const CoreTable table(c.input.pointers());
+    LeafProgram program(c.input.free_costs);
+    program.set_cores(table);
+    CoverLeaf leaf = c.leaf;
+    Costs costs;
+    if (!program.solve(leaf, costs)) continue;
+    const std::optional<Cost> least = least_price(c.input, c.leaf);
+    Random random(seed);
+    for (int k = 0; k < 5; ++k) {
+      std::vector<double> multipliers;
+      double sum = 0;
+      for (const auto& column : leaf.solution->columns) {
+        const double factor = 0.5 * static_cast<double>(random.between(1, 6));
+        multipliers.push_back(factor * (column.multiplier + static_cast<double>(c.step)));
+        sum += multipliers.back();
+      }
+      ASSERT_LE(program.certified_bound(multipliers), *least);
+      num_raised += static_cast<std::size_t>(sum > static_cast<double>(*least));
+    }
+  }
+  EXPECT_GE(num_raised, scaled(1000));
+}
+
+/// A part of the leaf: an agent reaches a level, or stays below it.
+CoverLeaf part_of(Random& random, const LevelCores& input, CoverLeaf leaf) {
+  const AgentId agent = random.pick(random.pick(input.cores)).agent;
+  const CoverLeaf::Range range = range_of(input, leaf, agent);
+  const Cost cost = random.pick(input.levels_of(agent));
+  if (cost <= range.low || cost >= range.high) return leaf;
+  auto at = std::lower_bound(leaf.ranges.begin(), leaf.ranges.end(), agent,
+                             [](const auto& r, AgentId i) { return r.agent < i; });
+  if (at == leaf.ranges.end() || at->agent != agent) at = leaf.ranges.insert(at, {agent});
+  if (random.percent(50))
+    at->low = cost;
+  else
+    at->high = cost;
+  return leaf;
+}
+
+// From leaf to part, while cores come and go, each begins with the solution before.
+TEST(LeafProgram, GoesOnFromSolutions) {
+  std::size_t num_solved = 0;
+  for (std::size_t seed = 0; seed < scaled(3000); ++seed) {
+    SCOPED_TRACE(seed);
+    LeafCase c = LeafCase::draw(seed);
+    if (c.input.cores.empty()) continue;
+    Random random(seed);
+    const std::vector<LevelCore> cores = c.input.cores;
+    LeafProgram program(c.input.free_costs);
+    CoverLeaf leaf;
+    for (int k = 0; k < 8; ++k) {
+      const auto gone = random.percent(50) ? 0U : 30U;
+      std::vector<std::uint32_t> numbers;
+      c.input.cores.clear();
+      for (std::uint32_t n = 0; n < cores.size(); ++n)
+        if (!random.percent(gone)) {
+          c.input.cores.push_back(cores[n]);
+          numbers.push_back(n);
+        }
+      if (c.input.cores.empty()) break;
+      const CoreTable table(c.input.pointers());
+      program.set_cores(table, numbers);
+      leaf = part_of(random, c.input, std::move(leaf));
+      leaf.bound = 0;
+      CoverLeaf anew = leaf;
+      anew.solution = nullptr;
+      const std::optional<Cost> least = least_price(c.input, leaf);
+      Costs costs;
+      ASSERT_EQ(program.solve(leaf, costs), least.has_value());
+      if (!least) break;
+      expect_solved(c, leaf, costs, program.is_integral(), *least);
+      ASSERT_TRUE(program.solve(anew, costs));
+      EXPECT_LE(std::abs(leaf.bound - anew.bound), static_cast<Cost>(c.loss()) + 1);
+      if (testing::Test::HasFailure()) return;
+      ++num_solved;
+    }
+  }
+  EXPECT_GE(num_solved, scaled(3000) * 2);
+}
+
 TEST(LeafProgram, SplitsHalves) {
   // Three agents, each pair of which has a core: 1.5, and so 2 in integers.
   const LevelCores input{{0, 0, 0},
