@@ -5,46 +5,39 @@
 #include <limits>
 #include <utility>
 
-#include "cover/packing.hpp"
+#include "cover/level_simplex.hpp"
 
 namespace quadrille::continuous {
 namespace {
 
-using Columns = std::vector<std::vector<std::uint32_t>>;
-
-/// By core the rows of its levels and of higher ones of the same agents. As in LeafProgram: what
-/// the cores ask for that an agent hits at a level or below is at most what the level costs.
-Columns columns_of(const CoreTable& table) {
-  const std::vector<Level>& rows = table.rows();
-  Columns columns(table.num_cores());
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    for (const std::uint32_t first : table.rows_of(c))
-      for (auto r = first; r < rows.size() && rows[r].agent == rows[first].agent; ++r)
-        columns[c].push_back(r);
-  return columns;
-}
-
-/// Whole multipliers near those of the solution that exceed no row; then more, as far as there is
-/// room.
+/// Whole multipliers of the cores near those of the linear program of all costs, see LevelSimplex,
+/// that keep to its rows; then more, as far as there is room.
 std::vector<Cost> round_down(const IdVector<AgentId, Cost>& free_costs, const CoreTable& table) {
+  const std::vector<Level>& levels = table.rows();
+  LevelSimplex simplex(free_costs);
+  simplex.set_levels(levels);
+  for (std::size_t c = 0; c < table.num_cores(); ++c)
+    static_cast<void>(simplex.add_column(table.rows_of(c), 1));
+  simplex.begin(free_costs,
+                IdVector<AgentId, Cost>(free_costs.size(), std::numeric_limits<Cost>::max()));
+  simplex.solve();
   std::vector<Cost> room;
-  for (const Level& row : table.rows()) room.push_back(row.cost - free_costs[row.agent]);
-  Cost largest = 1;
-  for (const Cost cost : room) largest = std::max(largest, cost);
-  Packing packing(static_cast<double>(largest));
-  for (const Cost cost : room) static_cast<void>(packing.add_row(static_cast<double>(cost), {}));
-  const Columns columns = columns_of(table);
-  for (const auto& rows : columns) static_cast<void>(packing.add_column(rows, 1));
-  packing.solve();
-  std::vector<Cost> units(columns.size(), 0);
+  for (const Level& level : levels) room.push_back(level.cost - free_costs[level.agent]);
+  std::vector<Cost> units(table.num_cores(), 0);
   const auto add = [&](std::size_t core, Cost wanted) {
-    for (const std::uint32_t r : columns[core]) wanted = std::min(wanted, room[r]);
-    for (const std::uint32_t r : columns[core]) room[r] -= wanted;
+    // An agent that reaches the level of a core reaches those above it, as far as room goes.
+    std::vector<std::size_t> rows;
+    for (const std::size_t first : table.rows_of(core))
+      for (std::size_t r = first; r < levels.size() && levels[r].agent == levels[first].agent; ++r)
+        rows.push_back(r);
+    for (const std::size_t r : rows) wanted = std::min(wanted, room[r]);
+    for (const std::size_t r : rows) room[r] -= wanted;
     units[core] += wanted;
   };
-  const std::vector<double> primal = packing.primal();
-  for (std::size_t c = 0; c < units.size(); ++c)
-    if (primal[c] > 0) add(c, static_cast<Cost>(primal[c]));
+  const std::vector<double> multipliers = simplex.multipliers();
+  for (std::size_t k = 0; k < multipliers.size(); ++k)
+    if (multipliers[k] > 0)
+      add(simplex.basis().columns[k] - simplex.num_lows(), static_cast<Cost>(multipliers[k]));
   for (std::size_t c = 0; c < units.size(); ++c) add(c, std::numeric_limits<Cost>::max());
   return units;
 }
