@@ -76,8 +76,11 @@ std::shared_ptr<const GoalDistances> GoalDistancesInTheMaking::join(LimitMonitor
   if (table_ == nullptr) {
     std::shared_ptr<GoalDistances> table(new GoalDistances());
     if (!table->prepare(instance_, limits, GoalDistances::kMostPlain)) return nullptr;
+    std::vector<AgentId> left;
+    for (std::size_t k = agents; k > 0; --k) left.emplace_back(k - 1);
+    // Memory may run out before, not between these.
+    left_ = std::move(left);
     table_ = std::move(table);
-    for (std::size_t k = agents; k > 0; --k) left_.emplace_back(k - 1);
   }
   BreadthFirst search(instance_.graph());
   while (num_done_ < agents) {
