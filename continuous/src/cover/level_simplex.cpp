@@ -16,6 +16,9 @@ constexpr double kDifference = 1e-13;
 }  // namespace
 
 void LevelSimplex::set_levels(const std::vector<Level>& levels) {
+  // What the last leaf left speaks of other rows and columns.
+  basis_ = {};
+  candidates_.clear();
   levels_ = levels;
   lines_.clear();
   line_of_.clear();
