@@ -25,7 +25,7 @@ std::vector<Cost> round_down(const IdVector<AgentId, Cost>& free_costs, const Co
   for (const Level& level : levels) room.push_back(level.cost - free_costs[level.agent]);
   std::vector<Cost> units(table.num_cores(), 0);
   const auto add = [&](std::size_t core, Cost wanted) {
-    // An agent that reaches the level of a core reaches those above it, as far as room goes.
+    // What a core asks for counts at its level and at the agent's higher ones, see LevelSimplex.
     std::vector<std::size_t> rows;
     for (const std::size_t first : table.rows_of(core))
       for (std::size_t r = first; r < levels.size() && levels[r].agent == levels[first].agent; ++r)

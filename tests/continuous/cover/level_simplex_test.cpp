@@ -19,10 +19,18 @@ using Costs = IdVector<AgentId, Cost>;
 
 constexpr double kTiny = 1e-6;
 
-/// A leaf that no core is impossible in: the ends of the agents' ranges.
+/// The ends of the agents' ranges in a leaf, in which each core has a level.
 struct Ends {
   Costs low, high;
 };
+
+LevelSimplex simplex_of(const LevelCores& input, const CoreTable& table) {
+  LevelSimplex simplex(input.free_costs);
+  simplex.set_levels(table.rows());
+  for (std::size_t c = 0; c < table.num_cores(); ++c)
+    static_cast<void>(simplex.add_column(table.rows_of(c), 1));
+  return simplex;
+}
 
 Ends all_costs(const LevelCores& input) {
   return {input.free_costs, Costs(input.free_costs.size(), std::numeric_limits<Cost>::max())};
@@ -110,10 +118,7 @@ void expect_optimal(const LevelCores& input, const CoreTable& table, LevelSimple
 void expect_optimal(Random& random, const LevelCores& input, bool in_leaf) {
   const auto pointers = input.pointers();
   const CoreTable table(pointers);
-  LevelSimplex simplex(input.free_costs);
-  simplex.set_levels(table.rows());
-  for (std::size_t c = 0; c < table.num_cores(); ++c)
-    static_cast<void>(simplex.add_column(table.rows_of(c), 1));
+  LevelSimplex simplex = simplex_of(input, table);
   Ends ends = all_costs(input);
   if (in_leaf) ends = draw_ends(random, input);
   simplex.begin(ends.low, ends.high);
@@ -149,10 +154,7 @@ TEST(LevelSimplex, TakesHalves) {
     input.cores.push_back({{AgentId(a), 15}, {AgentId(b), 15}});
   const auto pointers = input.pointers();
   const CoreTable table(pointers);
-  LevelSimplex simplex(input.free_costs);
-  simplex.set_levels(table.rows());
-  for (std::size_t c = 0; c < table.num_cores(); ++c)
-    static_cast<void>(simplex.add_column(table.rows_of(c), 1));
+  LevelSimplex simplex = simplex_of(input, table);
   const Ends ends = all_costs(input);
   simplex.begin(ends.low, ends.high);
   simplex.solve();
