@@ -112,6 +112,20 @@ class Visit {
     assert.deepEqual(this.faults, []);
   }
 
+  /** Until the map has the same size and the same scale in two frames: what was opened beside it may change both. */
+  async settled() {
+    const look = `new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+      const { width, height } = document.getElementById("map").getBoundingClientRect();
+      done([width, height, ...quadrille.pixel(0)].join(" "));
+    })))`;
+    const end = Date.now() + 10_000;
+    let last = "";
+    for (let now = await this.page.evaluate(look); now !== last; now = await this.page.evaluate(look)) {
+      assert.ok(Date.now() < end, "the map keeps changing its size");
+      last = now;
+    }
+  }
+
   /** @param {string} id */
   text(id) {
     return this.page.locator(`#${id}`).textContent();

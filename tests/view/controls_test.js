@@ -178,6 +178,7 @@ test("touch: a tap selects, two fingers zoom", async () => {
   const [x, y] = await onPage(page, 2);
   await page.touchscreen.tap(x, y);
   assert.equal(await visit.selected(), 2);
+  await visit.settled();
   const session = await visit.context.newCDPSession(page);
   const apart = async () => {
     const [a, b] = [await onPage(page, 0), await onPage(page, 2)];
