@@ -14,6 +14,9 @@ using sat::Verdict;
 /// both 11.7 s and 0.12 % (`dense` and `sparse` lose).
 constexpr sat::SolveBudget kRaiseBudget{20, 60}, kDropBudget{100, 350};
 
+/// Tests of all levels of a core at once, besides that of the next thresholds.
+constexpr int kMostJointTests = 3;
+
 /// Tests that fail take most of the time of the drops, and on sparse maps nearly all do: there are
 /// so many to begin with and for each level that could be dropped. One core in eight is tested
 /// anyway.
@@ -57,42 +60,93 @@ CoreShrinker::Ladder CoreShrinker::ladder(const Level& level, Cost ceiling) cons
   return ladder;
 }
 
+std::size_t CoreShrinker::Ladder::within(Cost rise) const {
+  return static_cast<std::size_t>(std::upper_bound(higher.begin(), higher.end(), lowest + rise) -
+                                  higher.begin());
+}
+
+std::vector<std::size_t> CoreShrinker::Climb::goods() const {
+  std::vector<std::size_t> goods;
+  for (const Ladder& ladder : ladders) goods.push_back(ladder.good);
+  return goods;
+}
+
+void CoreShrinker::raise(LevelCore& core, const IdVector<AgentId, Cost>& ceilings) {
+  Climb climb{std::move(core), {}};
+  for (const Level& level : climb.core)
+    climb.ladders.push_back(ladder(level, ceilings[level.agent]));
+  raise_together(climb, ceilings);
+  raise_singly(climb, ceilings);
+  core = std::move(climb.core);
+  Cost least = kAnyCost;
+  for (const Ladder& ladder : climb.ladders)
+    least = std::min(least, ladder.cost(ladder.good) - ladder.lowest);
+  if (core.empty()) return;
+  usual_rise_ = usual_rise_ == 0 ? least : usual_rise_ + (least - usual_rise_) / 10;
+}
+
+// One test for all levels instead of one for each: the next thresholds, which nearly always
+// succeed, and then about as much as it was with the cores before.
+void CoreShrinker::raise_together(Climb& climb, const IdVector<AgentId, Cost>& ceilings) {
+  std::vector<std::size_t> next;
+  for (const Ladder& ladder : climb.ladders)
+    next.push_back(std::min<std::size_t>(1, ladder.higher.size()));
+  static_cast<void>(has_raised(climb, next, ceilings));
+  if (usual_rise_ == 0) return;
+  bool has_succeeded = false, has_failed = false;
+  Cost rise = usual_rise_;
+  for (int test = 0; test < kMostJointTests && !(has_succeeded && has_failed); ++test) {
+    std::vector<std::size_t> goods;
+    for (const Ladder& ladder : climb.ladders)
+      goods.push_back(std::max(ladder.good, ladder.within(rise)));
+    const bool succeeds = has_raised(climb, goods, ceilings);
+    (succeeds ? has_succeeded : has_failed) = true;
+    rise = succeeds ? std::min(2 * rise, kAnyCost) : rise / 2;
+  }
+}
+
 // A cover hits a core where that is cheapest: so the level that has risen least is raised next, by
 // steps that grow and then shrink again. Much of what is not needed goes on the way.
-void CoreShrinker::raise(LevelCore& core, const IdVector<AgentId, Cost>& ceilings) {
-  std::vector<Ladder> ladders;
-  for (const Level& level : core) ladders.push_back(ladder(level, ceilings[level.agent]));
+void CoreShrinker::raise_singly(Climb& climb, const IdVector<AgentId, Cost>& ceilings) {
   while (true) {
-    std::size_t at = core.size();
+    std::size_t at = climb.core.size();
     Cost least = 0;
-    for (std::size_t k = 0; k < core.size(); ++k) {
-      const Cost risen = core[k].cost - ladders[k].lowest;
-      if (ladders[k].is_done() || (at < core.size() && risen >= least)) continue;
+    for (std::size_t k = 0; k < climb.core.size(); ++k) {
+      const Ladder& ladder = climb.ladders[k];
+      const Cost risen = ladder.cost(ladder.good) - ladder.lowest;
+      if (ladder.is_done() || (at < climb.core.size() && risen >= least)) continue;
       at = k;
       least = risen;
     }
-    if (at == core.size()) return;
-    Ladder& ladder = ladders[at];
-    ladder.step = std::min(ladder.step, ladder.bad - ladder.good - 1);
-    LevelCore raised = core;
-    raised[at].cost = ladder.higher[ladder.good + ladder.step - 1];
-    if (!is_core(raised, ceilings, kRaiseBudget)) {
-      ladder.bad = ladder.good + ladder.step;
-      ladder.step = std::max<std::size_t>(ladder.step / 2, 1);
-      continue;
-    }
-    ladder.good += ladder.step;
-    ladder.step *= 2;
-    // Some of the others may not be needed.
-    core.clear();
-    std::vector<Ladder> left;
-    for (std::size_t k = 0; k < raised.size(); ++k) {
-      if (!has(problem_.core(), raised[k])) continue;
-      core.push_back(raised[k]);
-      left.push_back(std::move(ladders[k]));
-    }
-    ladders = std::move(left);
+    if (at == climb.core.size()) return;
+    Ladder& ladder = climb.ladders[at];
+    const std::size_t step = std::min(ladder.step, ladder.bad - ladder.good - 1);
+    const std::size_t bad = ladder.good + step;
+    std::vector<std::size_t> goods = climb.goods();
+    goods[at] = bad;
+    ladder.step = 2 * step;
+    if (has_raised(climb, goods, ceilings)) continue;
+    ladder.bad = bad;
+    ladder.step = std::max<std::size_t>(step / 2, 1);
   }
+}
+
+bool CoreShrinker::has_raised(Climb& climb, const std::vector<std::size_t>& goods,
+                              const IdVector<AgentId, Cost>& ceilings) {
+  if (goods == climb.goods()) return true;
+  LevelCore raised = climb.core;
+  for (std::size_t k = 0; k < raised.size(); ++k) raised[k].cost = climb.ladders[k].cost(goods[k]);
+  if (!is_core(raised, ceilings, kRaiseBudget)) return false;
+  // Some of the others may not be needed.
+  Climb left;
+  for (std::size_t k = 0; k < raised.size(); ++k) {
+    if (!has(problem_.core(), raised[k])) continue;
+    left.core.push_back(raised[k]);
+    left.ladders.push_back(std::move(climb.ladders[k]));
+    left.ladders.back().good = goods[k];
+  }
+  climb = std::move(left);
+  return true;
 }
 
 bool CoreShrinker::drops_pay() const {

@@ -35,11 +35,30 @@ class CoreShrinker {
     // Of `higher`, counted from 1: with the first `good` it is a core, with number `bad` it is not.
     std::size_t good = 0, bad = 1, step = 1;
     [[nodiscard]] bool is_done() const { return good + 1 >= bad; }
+    /// Where the first `number` thresholds lead to.
+    [[nodiscard]] Cost cost(std::size_t number) const {
+      return number == 0 ? lowest : higher[number - 1];
+    }
+    /// How many thresholds are at most so far above where the level began.
+    [[nodiscard]] std::size_t within(Cost rise) const;
+  };
+  /// A core with the ladders of its levels.
+  struct Climb {
+    LevelCore core;
+    std::vector<Ladder> ladders;
+    /// How many thresholds each level has been raised by.
+    [[nodiscard]] std::vector<std::size_t> goods() const;
   };
 
   [[nodiscard]] bool is_core(const LevelCore& core, const IdVector<AgentId, Cost>& ceilings,
                              const sat::SolveBudget& budget);
   void raise(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
+  void raise_together(Climb& climb, const IdVector<AgentId, Cost>& ceilings);
+  void raise_singly(Climb& climb, const IdVector<AgentId, Cost>& ceilings);
+  /// Whether that is still a core with so many thresholds, none below `good`. Then it has these,
+  /// and is without the levels that are not needed.
+  bool has_raised(Climb& climb, const std::vector<std::size_t>& goods,
+                  const IdVector<AgentId, Cost>& ceilings);
   [[nodiscard]] Ladder ladder(const Level& level, Cost ceiling) const;
   [[nodiscard]] bool drops_pay() const;
   void drop(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
@@ -47,6 +66,7 @@ class CoreShrinker {
   CostProblem& problem_;
   LimitMonitor& limits_;
   std::vector<AgentId> ceilings_of_core_;
+  Cost usual_rise_ = 0;  // of the level that rises least, lately
   std::int64_t num_shrunk_ = 0, num_dropped_ = 0, num_kept_ = 0;  // cores; levels
 };
 
