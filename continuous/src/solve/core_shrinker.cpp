@@ -121,12 +121,12 @@ void CoreShrinker::raise_singly(Climb& climb, const IdVector<AgentId, Cost>& cei
     if (at == climb.core.size()) return;
     Ladder& ladder = climb.ladders[at];
     const std::size_t step = std::min(ladder.step, ladder.bad - ladder.good - 1);
-    const std::size_t bad = ladder.good + step;
+    const std::size_t tried = ladder.good + step;
     std::vector<std::size_t> goods = climb.goods();
-    goods[at] = bad;
+    goods[at] = tried;
     ladder.step = 2 * step;
     if (has_raised(climb, goods, ceilings)) continue;
-    ladder.bad = bad;
+    ladder.bad = tried;
     ladder.step = std::max<std::size_t>(step / 2, 1);
   }
 }
