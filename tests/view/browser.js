@@ -112,7 +112,7 @@ class Visit {
     assert.deepEqual(this.faults, []);
   }
 
-  /** Until the map has the same size and the same scale in two frames: what was opened beside it may change both. */
+  /** Until the map has the same size and scale twice: what is opened beside it changes both. */
   async settled() {
     const look = `new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
       const { width, height } = document.getElementById("map").getBoundingClientRect();
