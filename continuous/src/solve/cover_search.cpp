@@ -204,14 +204,11 @@ class CoverSearch {
   /// can be refuted at once, as they nearly always can: cores of those are stronger.
   Verdict ask() {
     asked_ = towards_plan();
-    if (asked_ != cover_.costs()) {
-      const Verdict verdict =
-          problem_.solve({.below = above(asked_), .budget = kInnerBudget}, limits_);
-      if (verdict == Verdict::unsat) return verdict;
-      if (verdict == Verdict::sat && cost(problem_.plan(), kSum) < cost(*report_.plan, kSum))
-        report_.plan = problem_.plan();
-      asked_ = cover_.costs();
-    }
+    const Question inner{
+        .below = above(asked_), .budget = kInnerBudget, .search = Question::Search::quick};
+    if (asked_ != cover_.costs() && problem_.solve(inner, limits_) == Verdict::unsat)
+      return Verdict::unsat;
+    asked_ = cover_.costs();
     return problem_.solve({.below = above(asked_)}, limits_);
   }
 
