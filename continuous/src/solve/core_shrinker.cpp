@@ -14,7 +14,8 @@ using sat::Verdict;
 /// both 11.7 s and 0.12 % (`dense` and `sparse` lose).
 constexpr sat::SolveBudget kRaiseBudget{20, 60}, kDropBudget{100, 350};
 
-/// Tests of all levels of a core at once, besides that of the next thresholds.
+/// Tests of all levels of a core at once, besides that of the next thresholds. What they are worth
+/// stands in docs/performance.md.
 constexpr int kMostJointTests = 3;
 
 /// Tests that fail take most of the time of the drops, and on sparse maps nearly all do: there are
@@ -78,10 +79,9 @@ void CoreShrinker::raise(LevelCore& core, const IdVector<AgentId, Cost>& ceiling
   raise_together(climb, ceilings);
   raise_singly(climb, ceilings);
   core = std::move(climb.core);
-  Cost least = kAnyCost;
-  for (const Ladder& ladder : climb.ladders)
-    least = std::min(least, ladder.cost(ladder.good) - ladder.lowest);
   if (core.empty()) return;
+  Cost least = kAnyCost;
+  for (const Ladder& ladder : climb.ladders) least = std::min(least, ladder.risen());
   usual_rise_ = usual_rise_ == 0 ? least : usual_rise_ + (least - usual_rise_) / 10;
 }
 
@@ -91,7 +91,7 @@ void CoreShrinker::raise_together(Climb& climb, const IdVector<AgentId, Cost>& c
   std::vector<std::size_t> next;
   for (const Ladder& ladder : climb.ladders)
     next.push_back(std::min<std::size_t>(1, ladder.higher.size()));
-  static_cast<void>(has_raised(climb, next, ceilings));
+  has_raised(climb, next, ceilings);
   if (usual_rise_ == 0) return;
   bool has_succeeded = false, has_failed = false;
   Cost rise = usual_rise_;
@@ -113,10 +113,9 @@ void CoreShrinker::raise_singly(Climb& climb, const IdVector<AgentId, Cost>& cei
     Cost least = 0;
     for (std::size_t k = 0; k < climb.core.size(); ++k) {
       const Ladder& ladder = climb.ladders[k];
-      const Cost risen = ladder.cost(ladder.good) - ladder.lowest;
-      if (ladder.is_done() || (at < climb.core.size() && risen >= least)) continue;
+      if (ladder.is_done() || (at < climb.core.size() && ladder.risen() >= least)) continue;
       at = k;
-      least = risen;
+      least = ladder.risen();
     }
     if (at == climb.core.size()) return;
     Ladder& ladder = climb.ladders[at];

@@ -39,6 +39,7 @@ class CoreShrinker {
     [[nodiscard]] Cost cost(std::size_t number) const {
       return number == 0 ? lowest : higher[number - 1];
     }
+    [[nodiscard]] Cost risen() const { return cost(good) - lowest; }
     /// How many thresholds are at most so far above where the level began.
     [[nodiscard]] std::size_t within(Cost rise) const;
   };
@@ -66,7 +67,7 @@ class CoreShrinker {
   CostProblem& problem_;
   LimitMonitor& limits_;
   std::vector<AgentId> ceilings_of_core_;
-  Cost usual_rise_ = 0;  // of the level that rises least, lately
+  Cost usual_rise_ = 0;  // in ticks, of the level of a core that rises least, lately; 0: unknown
   std::int64_t num_shrunk_ = 0, num_dropped_ = 0, num_kept_ = 0;  // cores; levels
 };
 

@@ -25,7 +25,8 @@ constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000;
 /// Covers by greed between two cheapest ones, whatever these take: where no plan is known, costs by
 /// greed may rise for ever.
 constexpr int kMaxGreedyRounds = 50;
-/// Of questions between the cheapest cover and the plan: which part of the way, and conflicts.
+/// Of questions between the cheapest cover and the plan (docs/performance.md): which part of the
+/// way, and conflicts.
 constexpr Cost kInnerPart = 7;
 constexpr sat::SolveBudget kInnerBudget{50, {}};
 /// Of drawn costs: how many agents keep what they cost at last, conflicts of a question, and how
@@ -201,7 +202,8 @@ class CoverSearch {
   }
 
   /// Whether there is a plan at the costs of the cheapest cover. First whether somewhat higher ones
-  /// can be refuted at once, as they nearly always can: cores of those are stronger.
+  /// can be refuted at once, as they nearly always can: cores of those are stronger. Pairs are not
+  /// searched then: what that refuses at higher costs would delay the search that is needed.
   Verdict ask() {
     asked_ = towards_plan();
     const Question inner{
