@@ -15,6 +15,16 @@ const FLAGS = [
 ];
 
 /**
+ * Each frame is drawn this much later, in ms: on a busy machine a page lags behind what was asked of
+ * it, and a test that reads before the page has drawn fails there only. So it fails here.
+ */
+const FRAME_DELAY = 40;
+const slowFrames = `(() => {
+  const request = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => window.setTimeout(() => request(draw), ${FRAME_DELAY});
+})()`;
+
+/**
  * Until the expression is true, for ten seconds at most. The page's policy forbids what
  * waitForFunction does when it has to ask twice.
  * @param {import("playwright-core").Page} page
@@ -78,6 +88,7 @@ export class Laboratory {
       colorScheme: options.dark ? "dark" : "light",
       deviceScaleFactor: options.ratio ?? 1,
     });
+    await context.addInitScript(slowFrames);
     const page = await context.newPage();
     page.setDefaultTimeout(60000);
     const visit = new Visit(context, page);
@@ -94,7 +105,7 @@ export class Laboratory {
 }
 
 /** One page that is open. */
-class Visit {
+export class Visit {
   /**
    * @param {import("playwright-core").BrowserContext} context
    * @param {import("playwright-core").Page} page
@@ -112,7 +123,10 @@ class Visit {
     assert.deepEqual(this.faults, []);
   }
 
-  /** Until the map has the same size and scale twice: what is opened beside it changes both. */
+  /**
+   * Until what was asked of the page is drawn, and the map has the same size and scale twice: what is
+   * opened beside it changes both.
+   */
   async settled() {
     const look = `new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
       const { width, height } = document.getElementById("map").getBoundingClientRect();
@@ -126,11 +140,16 @@ class Visit {
     }
   }
 
-  /** @param {string} id */
-  text(id) {
+  /**
+   * What the page shows in an element.
+   * @param {string} id
+   */
+  async text(id) {
+    await this.settled();
     return this.page.locator(`#${id}`).textContent();
   }
 
+  /** The moment and the selection change at once, before they are drawn. */
   time() {
     return this.page.evaluate("quadrille.time()");
   }

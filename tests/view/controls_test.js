@@ -5,6 +5,8 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { Laboratory, until } from "./browser.js";
 
+/** @import {Visit} from "./browser.js" */
+
 /** @type {Laboratory} */
 let laboratory;
 let good = "";
@@ -57,8 +59,10 @@ test("keys: steps, ends, speed, selection, theme, help", async () => {
   await page.keyboard.press("Home");
   assert.equal(await visit.time(), 0);
   for (let k = 0; k < 9; ++k) await page.keyboard.press("]");
+  await visit.settled();
   assert.equal(await page.locator("#speed").inputValue(), "50");
   for (let k = 0; k < 12; ++k) await page.keyboard.press("[");
+  await visit.settled();
   assert.equal(await page.locator("#speed").inputValue(), "0.1");
   await page.keyboard.press(".");
   await page.keyboard.press(".");
@@ -91,7 +95,7 @@ test("a click on an agent shows its path, free cost and delay", async () => {
   const visit = await laboratory.visit(bad);
   const { page } = visit;
   await page.evaluate("quadrille.seek(2.5)");
-  await clickAgent(page, 1);
+  await clickAgent(visit, 1);
   assert.equal(await visit.selected(), 1);
   await until(page, "document.getElementById('agent-facts').innerText !== ''");
   const facts = await page.locator("#agent-facts").innerText();
@@ -150,21 +154,22 @@ test("search finds agents and places, and says what it does not find", async () 
 test("zoom and pan; a zoom keeps what is under the pointer; follow keeps the agent in the middle", async () => {
   const visit = await laboratory.visit(good);
   const { page } = visit;
-  const [x, y] = await onPage(page, 1);
+  const [x, y] = await onPage(visit, 1);
   await page.mouse.move(x, y);
   await page.mouse.wheel(0, -400);
   await page.evaluate("quadrille.seek(0)");
-  const zoomed = await onPage(page, 1);
+  const zoomed = await onPage(visit, 1);
   assert.ok(Math.hypot(zoomed[0] - x, zoomed[1] - y) < 1, `${zoomed} is not ${[x, y]}`);
   await page.mouse.down();
   await page.mouse.move(x - 30, y - 20, { steps: 3 });
   await page.mouse.up();
-  const panned = await onPage(page, 1);
+  const panned = await onPage(visit, 1);
   assert.ok(Math.hypot(panned[0] - (x - 30), panned[1] - (y - 20)) < 6);
   assert.equal(await visit.selected(), null);
   await page.keyboard.press(".");
   await page.keyboard.press("f");
   await page.evaluate("quadrille.seek(2.5)");
+  await visit.settled();
   const middle = await page.evaluate(
     "[document.getElementById('map').clientWidth / 2, document.getElementById('map').clientHeight / 2]");
   const [px, py] = await page.evaluate("quadrille.pixel(0)");
@@ -175,13 +180,12 @@ test("zoom and pan; a zoom keeps what is under the pointer; follow keeps the age
 test("touch: a tap selects, two fingers zoom", async () => {
   const visit = await laboratory.visit(good, { touch: true, viewport: { width: 420, height: 800 } });
   const { page } = visit;
-  const [x, y] = await onPage(page, 2);
+  const [x, y] = await onPage(visit, 2);
   await page.touchscreen.tap(x, y);
   assert.equal(await visit.selected(), 2);
-  await visit.settled();
   const session = await visit.context.newCDPSession(page);
   const apart = async () => {
-    const [a, b] = [await onPage(page, 0), await onPage(page, 2)];
+    const [a, b] = [await onPage(visit, 0), await onPage(visit, 2)];
     return Math.hypot(a[0] - b[0], a[1] - b[1]);
   };
   const earlier = await apart();
@@ -235,21 +239,22 @@ test("everything that can be operated has a name", async () => {
 });
 
 /**
- * Where an agent is in the window.
- * @param {import("playwright-core").Page} page
+ * Where an agent is drawn in the window.
+ * @param {Visit} visit
  * @param {number} agent
  * @returns {Promise<[number, number]>}
  */
-async function onPage(page, agent) {
-  const box = await page.locator("#map").boundingBox();
-  const [x, y] = await page.evaluate(`quadrille.pixel(${agent})`);
+async function onPage(visit, agent) {
+  await visit.settled();
+  const box = await visit.page.locator("#map").boundingBox();
+  const [x, y] = await visit.page.evaluate(`quadrille.pixel(${agent})`);
   return [box.x + x, box.y + y];
 }
 
 /**
- * @param {import("playwright-core").Page} page
+ * @param {Visit} visit
  * @param {number} agent
  */
-async function clickAgent(page, agent) {
-  await page.mouse.click(...await onPage(page, agent));
+async function clickAgent(visit, agent) {
+  await visit.page.mouse.click(...await onPage(visit, agent));
 }

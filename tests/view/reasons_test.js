@@ -65,6 +65,7 @@ test("without a plan: the sentence, the agents, and the place in red", async () 
   assert.ok(await page.locator("#violations").isHidden());
   assert.deepEqual(await page.locator("#obstruction-list button").allTextContents(),
     ["agent 0: (1, 0) to (6, 0)", "agent 1: (5, 0) to (2, 0)"]);
+  await visit.settled();
   const [x, y] = await page.evaluate("quadrille.pixelOf(4, 0)");
   const [r, g] = (await pixel(page, "map", x, y + 8)).split(" ").map(Number);
   assert.ok(r > g + 40, `${r} ${g}`);
@@ -93,6 +94,7 @@ test("without a plan on a roadmap: the vertices that both have to pass, and road
   const { page } = visit;
   assert.equal(await visit.text("obstruction-text"), `${explanation}.`);
   assert.equal(await page.locator("#obstruction-list button").count(), 2);
+  await visit.settled();
   const isRed = async (/** @type {number} */ x, /** @type {number} */ y) => {
     const [px, py] = await page.evaluate(`quadrille.pixelOf(${x}, ${y})`);
     const [r, g] = (await pixel(page, "map", px, py + 5)).split(" ").map(Number);
@@ -136,6 +138,7 @@ test("heat: the map is coloured at the places of the sites, on demand", async ()
   const visit = await laboratory.visit(page_of_result);
   const { page } = visit;
   await page.evaluate("quadrille.seek(quadrille.end)");  // agents are at their goals
+  await visit.settled();
   const vertices = result.attribution.sites.map((/** @type {any} */ site) => site.place.from);
   const taken = result.plan.map((/** @type {any} */ path) => String(path[path.length - 1]));
   const free = vertices.find((/** @type {any} */ place) => !taken.includes(String(place)));
