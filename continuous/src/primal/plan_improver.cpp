@@ -15,6 +15,14 @@ constexpr std::size_t kMaxChosen = 8;
 /// Steps without gain after which it pays no more: some to begin with, and so many for each step up
 /// to the last gain. Measured: 4,000,000 instead of 2,000,000 changes little.
 constexpr std::int64_t kLeastPatience = 2'000'000, kPatience = 2;
+/// After so many steps, and where no more than this part of the cost is left above the free costs,
+/// a turn pays if it gains this part of what is left. A proof is near then, and where many agents
+/// have far to go, something is gained all the time: the warehouse (k = 3) took 20 s for the last
+/// 0.04 % of 135 and 155 agents' plans, and takes 4 and 10 s whole with that (with a quarter or a
+/// twentieth to gain 4 and 11, 5 and 10). Where more is left, plans close the gap faster than
+/// cores.
+constexpr std::int64_t kLongWork = 8'000'000;
+constexpr Cost kSmallPart = 200, kGainedPart = 10;
 
 }  // namespace
 
@@ -27,13 +35,13 @@ PlanImprover::PlanImprover(Scene& scene, Plan plan)
       free_steps_(scene.instance().num_agents()),
       agents_(scene.instance().num_agents()) {}
 
-bool PlanImprover::is_done() const {
-  const Instance& instance = scene_.instance();
-  if (instance.num_agents() < 2) return true;
-  Cost free_costs = 0;
-  for (const AgentId i : instance.agent_ids()) free_costs += scene_.free_cost(i);
-  return cost_ <= free_costs;
+Cost PlanImprover::excess() const {
+  Cost excess = cost_;
+  for (const AgentId i : scene_.instance().agent_ids()) excess -= scene_.free_cost(i);
+  return excess;
 }
+
+bool PlanImprover::is_done() const { return scene_.instance().num_agents() < 2 || excess() <= 0; }
 
 void PlanImprover::restart_from(Plan plan) {
   plan_ = std::move(plan);
@@ -42,11 +50,14 @@ void PlanImprover::restart_from(Plan plan) {
 }
 
 bool PlanImprover::pays() const {
-  return !is_done() && effort() < kLeastPatience + kPatience * last_gain_;
+  return !is_done() && effort() < kLeastPatience + kPatience * last_gain_ &&
+         (effort() < kLongWork || excess() > cost_ / kSmallPart ||
+          turn_gain_ >= excess() / kGainedPart);
 }
 
 bool PlanImprover::improve(std::int64_t more_effort) {
   const std::int64_t enough = effort() + more_effort;
+  turn_gain_ = 0;
   if (is_done()) return false;
   const Instance& instance = scene_.instance();
   try {
@@ -66,6 +77,7 @@ bool PlanImprover::improve(std::int64_t more_effort) {
     return false;
   }
   plan_ = std::move(improved);
+  turn_gain_ = cost_ - cost;
   cost_ = cost;
   return true;
 }

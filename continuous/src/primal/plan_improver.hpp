@@ -23,7 +23,8 @@ class PlanImprover {
   /// Goes on for about so much effort. True if the plan is cheaper now. Stops early when the limits
   /// of the scene are met.
   bool improve(std::int64_t effort);
-  /// It has not been without gain for as long as all before took, and some more.
+  /// It has not been without gain for as long as all before took, and some more; and if little is
+  /// left above the free costs, the last turn has gained a good part of that.
   [[nodiscard]] bool pays() const;
   /// Goes on from another plan, a cheaper one that was found elsewhere for instance.
   void restart_from(Plan plan);
@@ -45,6 +46,8 @@ class PlanImprover {
     Traffic::Handle place = 0;  // in the traffic
     bool is_under_way = false;  // it has one
   };
+  /// What the plan costs above the free costs.
+  [[nodiscard]] Cost excess() const;
   void load_paths();
   /// Steps of its path, and the path into the traffic.
   void put(AgentId i, AgentState& agent);
@@ -70,6 +73,7 @@ class PlanImprover {
   bool is_loaded_ = false;                           // The paths are those of the plan.
   IdVector<AgentId, AgentState> agents_;
   Random random_{1};
+  Cost turn_gain_ = 0;          // Of the last turn.
   std::int64_t last_gain_ = 0;  // Effort.
   std::int64_t effort_ = 0;     // Without that of the finder.
 };

@@ -20,8 +20,9 @@ using Core = LevelCore;
 
 /// Conflicts of a question whether known clauses refute something.
 constexpr sat::SolveBudget kNextBudget{1000, {}};
-/// Steps for a better plan at each turn, and at once before the first core.
-constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000;
+/// Steps for a better plan at each turn; before the first core a quarter of all before, within
+/// these limits: after each turn the plan is verified, and others are told.
+constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000, kMostEffort = 8'000'000;
 /// Covers by greed between two cheapest ones, whatever these take: where no plan is known, costs by
 /// greed may rise for ever.
 constexpr int kMaxGreedyRounds = 50;
@@ -158,7 +159,7 @@ class CoverSearch {
   bool improve_at_first() {
     do {
       if (is_closed()) return true;
-      improve(kFirstEffort);
+      improve(std::clamp(improver_ ? improver_->effort() / 4 : 0, kFirstEffort, kMostEffort));
     } while (improver_ && improver_->pays() && !limits_.exhausted_now());
     return false;
   }
