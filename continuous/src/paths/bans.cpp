@@ -167,4 +167,30 @@ const std::vector<BanTable::SafeStay>& BanTable::safe_stays(std::uint32_t index)
   return place.safe;
 }
 
+std::optional<std::size_t> first_broken(const Instance& instance, AgentId agent,
+                                        const TimedPath& path, BanTable& bans) {
+  std::size_t first = BanTable::kStanding;
+  const auto look = [&](std::uint32_t place, const auto& is_broken) {
+    if (place == BanTable::kFree) return;
+    for (const BanTable::Entry& entry : bans.entries(place))
+      if (entry.slot < first && is_broken(entry.when)) first = entry.slot;
+  };
+  const auto look_at_stay = [&](VertexId v, Ticks arrive, Ticks depart) {
+    look(bans.stays_of(v), [&](const TickInterval& ban) { return ban.meets(arrive, depart); });
+  };
+  const ClassId c = instance.class_of(agent);
+  VertexId at = instance.agent(agent).start;
+  Ticks since = 0;
+  for (const Move& move : path.moves) {
+    look_at_stay(at, since, move.start);
+    look(bans.starts_of(move.edge),
+         [&](const TickInterval& ban) { return ban.contains(move.start); });
+    at = instance.roadmap().edge(move.edge).to;
+    since = move.start + instance.duration(c, move.edge);
+  }
+  look_at_stay(at, since, instance.agent(agent).leaves ? since : kForever);
+  if (first == BanTable::kStanding) return std::nullopt;
+  return first;
+}
+
 }  // namespace quadrille::continuous

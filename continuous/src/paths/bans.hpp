@@ -4,6 +4,7 @@
 #include <bitset>
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -151,5 +152,10 @@ class BanTable {
   std::uint32_t session_ = 0;
   std::vector<TickInterval> answer_;
 };
+
+/// The first slot of the table, switched on or not, with a ban that the path breaks. In time
+/// proportional to the bans of the places on its way.
+[[nodiscard]] std::optional<std::size_t> first_broken(const Instance& instance, AgentId agent,
+                                                      const TimedPath& path, BanTable& bans);
 
 }  // namespace quadrille::continuous

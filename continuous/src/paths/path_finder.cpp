@@ -21,15 +21,15 @@ const std::vector<BanTable::SafeStay> kAlwaysSafe{{0, kForever}};
 
 }  // namespace
 
-// Of equal estimates the one that is nearer to its end comes first.
+// Of equal keys the one that is nearer to its end comes first.
 bool PathFinder::is_later(const Entry& a, const Entry& b) {
-  if (a.estimate != b.estimate) return a.estimate > b.estimate;
+  if (a.key != b.key) return a.key > b.key;
   if (a.arrive != b.arrive) return a.arrive < b.arrive;
   return a.node < b.node;
 }
 
-void PathFinder::begin(const PathTask& task) {
-  static_cast<void>(task);
+void PathFinder::begin(Order order) {
+  order_ = order;
   ++num_runs_;
   ++run_;
   nodes_.clear();
@@ -60,20 +60,30 @@ std::size_t PathFinder::state(BanTable& bans, VertexId v, std::uint32_t stay) {
   return first_state_[place] + stay;
 }
 
-void PathFinder::visit(const Node& node, Ticks estimate) {
+void PathFinder::visit(const Node& node, Ticks rest) {
   if (++num_visits_ % 64 == 0 && limits_ != nullptr) limits_->check();
   nodes_.push_back(node);
-  push(estimate, static_cast<std::uint32_t>(nodes_.size() - 1));
+  push(order_ == Order::cheapest_first ? node.arrive + rest : rest,
+       static_cast<std::uint32_t>(nodes_.size() - 1));
 }
 
-void PathFinder::push(Ticks estimate, std::uint32_t node) {
-  heap_.push_back({estimate, nodes_[node].arrive, node});
+void PathFinder::push(Ticks key, std::uint32_t node) {
+  heap_.push_back({key, nodes_[node].arrive, node});
   std::push_heap(heap_.begin(), heap_.end(), is_later);
 }
 
 std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Ticks bound,
-                                      TimedPath* path, std::vector<char>* relevant) {
-  begin(task);
+                                      TimedPath* path) {
+  return search(Order::cheapest_first, task, bans, bound, path);
+}
+
+bool PathFinder::find_any(const PathTask& task, BanTable& bans, Ticks bound, TimedPath* path) {
+  return search(Order::nearest_first, task, bans, bound, path).has_value();
+}
+
+std::optional<Ticks> PathFinder::search(Order order, const PathTask& task, BanTable& bans,
+                                        Ticks bound, TimedPath* path) {
+  begin(order);
   const Agent& agent = instance_.agent(task.agent);
   bound = std::min(bound, arrival_bound(instance_, task.agent));
   const bool is_goal = agent.start == agent.goal;
@@ -83,10 +93,7 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
   if (least >= bound) return std::nullopt;
   const std::uint32_t start_place = bans.stays_of(agent.start);
   const auto& stays = start_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(start_place);
-  if (stays.empty() || stays.front().from > 0 || stays.front().until < release) {
-    if (relevant != nullptr) blame_start(bans, start_place, release, *relevant);
-    return std::nullopt;
-  }
+  if (stays.empty() || stays.front().from > 0 || stays.front().until < release) return std::nullopt;
   if (is_goal && release > 0 && stays.front().until == kForever) {
     if (path != nullptr) *path = {{}, 0};
     return Ticks{0};
@@ -95,11 +102,10 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
   const std::size_t first = state(bans, agent.start, 0);
   best_[first] = release;
   stamp_[first] = run_;
-  visit({agent.start, 0, release, stays.front().until, kNoParent, {}},
-        release + task.distances[agent.start]);
+  visit({agent.start, 0, release, stays.front().until, kNoParent, {}}, task.distances[agent.start]);
   while (!heap_.empty()) {
     std::pop_heap(heap_.begin(), heap_.end(), is_later);
-    const auto [estimate, arrive, index] = heap_.back();
+    const auto [key, arrive, index] = heap_.back();
     heap_.pop_back();
     const Node node = nodes_[index];
     if (best_[state(bans, node.vertex, node.stay)] < node.arrive) continue;
@@ -107,23 +113,9 @@ std::optional<Ticks> PathFinder::find(const PathTask& task, BanTable& bans, Tick
       if (path != nullptr) trace(index, *path);
       return node.arrive;
     }
-    const bool is_first = estimate == arrive + task.distances[node.vertex];
-    if (relevant != nullptr && is_first) mark(task, bans, node, bound, *relevant);
-    expand(task, bans, index, estimate, bound);
+    expand(task, bans, index, order == Order::cheapest_first ? key : bound - 1, bound);
   }
   return std::nullopt;
-}
-
-// Only the bans of the time before the release are to blame, and one of them is enough.
-void PathFinder::blame_start(BanTable& bans, std::uint32_t place, Ticks release,
-                             std::vector<char>& relevant) {
-  std::optional<std::uint32_t> blamed;
-  for (const BanTable::Entry& entry : bans.entries(place)) {
-    if (!bans.is_enabled(entry.slot) || !entry.when.meets(0, release)) continue;
-    if (entry.slot == BanTable::kStanding) return;
-    if (!blamed) blamed = entry.slot;
-  }
-  if (blamed) relevant[*blamed] = 1;
 }
 
 void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t index, Ticks estimate,
@@ -155,39 +147,12 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
       if (stamp_[s] == run_ && best_[s] <= arrive) continue;
       stamp_[s] = run_;
       best_[s] = arrive;
-      visit({w, k, arrive, stay->until, index, {e, start}}, arrive + rest);
+      visit({w, k, arrive, stay->until, index, {e, start}}, rest);
     }
   }
   if (at == detours.size() || least + detours[at].extra >= bound) return;
   nodes_[index].num_expanded = at;
   push(least + detours[at].extra, index);
-}
-
-// A slot is irrelevant if nowhere on the way from a visited state it keeps a departure or arrival
-// from happening that could still lead to the goal before `bound`: without all irrelevant slots the
-// search would visit the same states.
-void PathFinder::mark(const PathTask& task, BanTable& bans, const Node& node, Ticks bound,
-                      std::vector<char>& relevant) const {
-  const auto mark_entries = [&](std::uint32_t place, Ticks from, Ticks to) {
-    if (place == BanTable::kFree) return;
-    for (const BanTable::Entry& entry : bans.entries(place))
-      if (entry.slot != BanTable::kStanding && bans.is_enabled(entry.slot) &&
-          entry.when.begin <= to && entry.when.end >= from)
-        relevant[entry.slot] = 1;
-  };
-  // What ends this stay, unless it is too late to go on then. At the goal an agent could stay.
-  const bool is_goal = node.vertex == instance_.agent(task.agent).goal;
-  if (node.leave_by < kForever && (is_goal || node.leave_by + task.distances[node.vertex] < bound))
-    mark_entries(bans.stays_of(node.vertex), node.leave_by,
-                 is_goal ? kForever : bound - task.distances[node.vertex]);
-  const Ticks least = node.arrive + task.distances[node.vertex];
-  for (const auto& [e, w, duration, extra] : task.detours.from(node.vertex)) {
-    if (least + extra >= bound) break;
-    const Ticks rest = task.distances[w];
-    const Ticks last_start = std::min(node.leave_by, bound - rest - duration - 1);
-    mark_entries(bans.starts_of(e), node.arrive, last_start);
-    mark_entries(bans.stays_of(w), node.arrive + duration, last_start + duration);
-  }
 }
 
 void PathFinder::trace(std::uint32_t node, TimedPath& path) const {

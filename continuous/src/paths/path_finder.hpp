@@ -30,12 +30,14 @@ class PathFinder {
       : instance_(instance), limits_(limits) {}
 
   /// Arrival of the cheapest path that arrives before `bound` and by the agent's deadline; nullopt
-  /// if there is none. `path`, unless null, receives it. `relevant`, unless null, is marked by
-  /// slot: no path arrives before `bound` even if only the marked slots are switched on. Without
-  /// result only.
+  /// if there is none. `path`, unless null, receives it.
   [[nodiscard]] std::optional<Ticks> find(const PathTask& task, BanTable& bans, Ticks bound,
-                                          TimedPath* path, std::vector<char>* relevant = nullptr);
+                                          TimedPath* path);
+  /// Whether there is such a path. The first one that is found will do, and what is nearest to the
+  /// goal is looked at first: where there are some, takes a part of the time of `find`.
+  [[nodiscard]] bool find_any(const PathTask& task, BanTable& bans, Ticks bound, TimedPath* path);
 
+  [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] std::int64_t num_runs() const noexcept { return num_runs_; }
   /// Of states, in all runs.
   [[nodiscard]] std::int64_t num_visits() const noexcept { return num_visits_; }
@@ -52,27 +54,28 @@ class PathFinder {
     Move move;                       // that led here
     std::uint32_t num_expanded = 0;  // of the detours from here
   };
+  enum class Order { cheapest_first, nearest_first };
   struct Entry {
-    Ticks estimate, arrive;
+    Ticks key;  // the least goes first: by `order_` what the way costs at least, or its rest
+    Ticks arrive;
     std::uint32_t node;
   };
   static bool is_later(const Entry& a, const Entry& b);
 
-  static void blame_start(BanTable& bans, std::uint32_t place, Ticks release,
-                          std::vector<char>& relevant);
-  void begin(const PathTask& task);
+  std::optional<Ticks> search(Order order, const PathTask& task, BanTable& bans, Ticks bound,
+                              TimedPath* path);
+  void begin(Order order);
   /// Takes the moves with which the way is no longer than `estimate`.
   void expand(const PathTask& task, BanTable& bans, std::uint32_t node, Ticks estimate,
               Ticks bound);
-  void push(Ticks estimate, std::uint32_t node);
-  void visit(const Node& node, Ticks estimate);
+  void push(Ticks key, std::uint32_t node);
+  void visit(const Node& node, Ticks rest);
   [[nodiscard]] std::size_t state(BanTable& bans, VertexId v, std::uint32_t stay);
-  void mark(const PathTask& task, BanTable& bans, const Node& node, Ticks bound,
-            std::vector<char>& relevant) const;
   void trace(std::uint32_t node, TimedPath& path) const;
 
   const Instance& instance_;
   LimitMonitor* limits_;
+  Order order_ = Order::cheapest_first;
   std::vector<Node> nodes_;
   std::vector<Entry> heap_;
   // States of vertices without bans come first, by vertex; others as they are met.

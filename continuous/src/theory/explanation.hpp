@@ -12,17 +12,21 @@ class Explainer {
  public:
   explicit Explainer(PathFinder& finder) : finder_(finder) {}
 
-  /// Switches slots of `bans`, all of which are on, off until no path arrives before `bound` but
-  /// switching off any other one would give one. Requires that there is no path before `bound`.
-  /// The slots left are appended to `slots`; all are switched on again afterwards.
+  /// Slots of `bans`, all of which are on, that are enough to keep all paths from arriving before
+  /// `bound`, while without any one of them some path would. Requires that there is no path before
+  /// `bound`. The slots are appended to `slots`, in order; all are switched on again afterwards.
+  ///
+  /// As long as there is a path around the slots that were taken, the first one that it breaks is
+  /// taken, too. Two searches for each slot that is taken, most of which find a path. In the order
+  /// in which literals became false, explanations of early ones take the solver back further.
   void explain(const PathTask& task, BanTable& bans, Ticks bound, std::vector<std::size_t>& slots);
 
  private:
-  [[nodiscard]] bool has_path(const PathTask& task, BanTable& bans, Ticks bound);
+  void drop_unneeded(const PathTask& task, BanTable& bans, Ticks bound);
 
   PathFinder& finder_;
-  std::vector<char> relevant_;
-  std::vector<std::size_t> candidates_;
+  TimedPath path_;
+  std::vector<std::size_t> enough_;
 };
 
 }  // namespace quadrille::continuous
