@@ -6,18 +6,27 @@
 namespace quadrille::continuous {
 namespace {
 
-/// Steps of one search.
-constexpr std::int64_t kMaxSteps = 30'000'000;
-/// Of searches with obstacles, of which many are made.
-constexpr std::int64_t kMaxStepsInReduction = 3'000'000;
+/// Steps of one search to begin with, and how many times as many after one that was cut: where two
+/// agents have much room, refuting one pair of caps takes up to 25,000,000 steps, and without that
+/// there is no end of collisions.
+constexpr std::int64_t kFirstSteps = 4'000'000, kMoreSteps = 4;
+/// Steps for dropping obstacles, and for each raise: so many, or so many times what the refutation
+/// took. With 10,000,000 or 4 times less is raised: den520d (k = 3, task 1, 62 agents) takes 5 to
+/// 10 s instead of 3.3.
+constexpr std::int64_t kStepsForMore = 30'000'000, kRefutationsForMore = 8;
+/// Of one test while obstacles are dropped; at least kFirstSteps.
+constexpr std::int64_t kRefutationsPerTest = 2;
+/// All searches of pairs together: so many steps, and one for so many of the path searches, which
+/// take twice as long. More are in vain where many pairs are near each other.
+constexpr std::int64_t kFirstEffort = 12'000'000, kPathStepsPerStep = 2;
 
 constexpr std::int64_t kSmallPart = 64;
+/// Of one move: the first raise that is tried, as higher ones are searched in larger pieces.
+constexpr std::int64_t kFirstRaise = 4;
 /// Most pairs need no such search: the clauses do as well, and for less. Measured: on den520d with
 /// 40 and in the warehouse with 60 agents, searches of pairs make seconds of more than 30 s; on
 /// room64, where cores come from many agents, they are worth nothing.
 constexpr int kFirstTry = 64;
-/// Steps to begin with, and per call. A search that finds nothing is paid for.
-constexpr std::int64_t kFirstCredit = 12'000'000, kCreditPerCall = 1'000;
 
 PairSearch::Party searched(const PairLemmas::Party& party) {
   return {party.agent, as_ticks(party.cap)};
@@ -40,15 +49,15 @@ PairLemmas::Party PairLemmas::in_time(Party party) const {
 }
 
 bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
-  credit_ += kCreditPerCall;
   if (++record.count < std::max(record.next_try, kFirstTry)) return false;
-  if (i.cap >= kAnyCost || j.cap >= kAnyCost || kFirstCredit + credit_ < 0) return false;
-  record.next_try = 2 * record.count;
-  const std::int64_t before = search_.effort();
+  if (i.cap >= kAnyCost || j.cap >= kAnyCost) return false;
+  if (search_.effort() > kFirstEffort + path_effort_ / kPathStepsPerStep) return false;
+  if (record.steps == 0) record.steps = kFirstSteps;
+  steps_ = record.steps;
+  is_cut_ = false;
   const bool is_added = try_pair(record, i, j, writer);
-  const std::int64_t cost = search_.effort() - before;
-  credit_ -= is_added ? cost / 2 : cost;
-  if (is_added) record.next_try = record.count + 1;
+  record.next_try = is_added ? record.count + 1 : 2 * record.count;
+  if (!is_added && is_cut_) record.steps *= kMoreSteps;
   return is_added;
 }
 
@@ -72,7 +81,16 @@ bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, Formul
 }
 
 bool PairLemmas::is_refuted(const Party& i, const Party& j) {
-  return search_.refuted_raise(searched(i), searched(j), 0, kMaxStepsInReduction) > 0;
+  const std::int64_t before = search_.effort();
+  const bool is_refuted = search_.refuted_raise(searched(i), searched(j), 0, steps_) > 0;
+  const std::int64_t spent = search_.effort() - before;
+  if (is_refuted) refutation_ = spent;
+  if (!is_refuted && spent > steps_) is_cut_ = true;
+  return is_refuted;
+}
+
+std::int64_t PairLemmas::steps_for_more() const {
+  return std::max(kStepsForMore, kRefutationsForMore * refutation_);
 }
 
 void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
@@ -86,6 +104,8 @@ void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
 }
 
 void PairLemmas::reduce(const Party& i, const Party& j) {
+  const std::int64_t last = search_.effort() + steps_for_more();
+  steps_ = std::max(kFirstSteps, kRefutationsPerTest * refutation_);
   struct Slot {
     std::size_t side, slot;
   };
@@ -97,6 +117,7 @@ void PairLemmas::reduce(const Party& i, const Party& j) {
   };
   for (std::size_t chunk = std::max<std::size_t>(slots.size() / 2, 1); !slots.empty(); chunk /= 2) {
     for (std::size_t at = 0; at < slots.size();) {
+      if (search_.effort() > last) return;
       const std::size_t end = std::min(at + chunk, slots.size());
       enable(at, end, false);
       if (is_refuted(i, j)) {
@@ -126,7 +147,13 @@ void PairLemmas::add_clauses(const Party& i, const Party& j, FormulaWriter& writ
 
 void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second) {
   if (is_second) search_.swap_bans();
-  const Ticks raise = search_.refuted_raise(party, other, max_raise(party.agent), kMaxSteps);
+  const Ticks most = max_raise(party.agent);
+  Ticks raise = 0;
+  for (Ticks tried = most / kFirstRaise;; tried = most) {
+    const Ticks refuted = search_.refuted_raise(party, other, tried, steps_for_more());
+    raise = std::max(raise, refuted);
+    if (refuted <= tried || tried == most) break;
+  }
   if (is_second) search_.swap_bans();
   party.cap += std::max<Ticks>(raise, 1) - 1;
 }

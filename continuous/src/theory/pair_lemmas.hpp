@@ -29,6 +29,9 @@ class PairLemmas {
   /// `i.active`: only these. True as above.
   bool note_explanation(const Party& i, const Party& j, FormulaWriter& writer);
 
+  /// To be told how many steps all path searches have made: searches of pairs make at most a part
+  /// of that, besides some to begin with.
+  void set_path_effort(std::int64_t steps) noexcept { path_effort_ = steps; }
   /// Steps that all searches of pairs have made.
   [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
 
@@ -36,16 +39,20 @@ class PairLemmas {
   struct Record {
     int count = 0;
     int next_try = 0;
+    std::int64_t steps = 0;                   // of one search; 0: it has not been tried
     std::vector<std::pair<Cost, Cost>> open;  // caps that other agents have to join in to refute
   };
   /// With a cap that is not after the deadline.
   [[nodiscard]] Party in_time(Party party) const;
   bool note(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
   bool try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
+  /// Within `steps_`.
   [[nodiscard]] bool is_refuted(const Party& i, const Party& j);
+  /// What may be spent to make more of a refutation.
+  [[nodiscard]] std::int64_t steps_for_more() const;
   /// Makes obstacles that the two do not owe to each other slots of the search.
   void load(const Party& party, AgentId other, std::size_t side);
-  /// Switches slots off as long as the caps are refuted.
+  /// Switches slots off as long as the caps are refuted, and it does not take too long.
   void reduce(const Party& i, const Party& j);
   void add_clauses(const Party& i, const Party& j, FormulaWriter& writer);
   void raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second);
@@ -55,7 +62,10 @@ class PairLemmas {
   Model& model_;
   PairSearch search_;
   std::map<std::pair<AgentId, AgentId>, Record> collisions_, explanations_;
-  std::int64_t credit_ = 0;
+  std::int64_t path_effort_ = 0;
+  std::int64_t steps_ = 0;             // of the next search at most
+  std::int64_t refutation_ = 0;        // steps of the last search that refuted
+  bool is_cut_ = false;                // a search since the last note has made all of its steps
   std::vector<ObstacleId> loaded_[2];  // by side, slot
 };
 
