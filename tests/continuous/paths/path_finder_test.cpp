@@ -107,6 +107,33 @@ TEST(PathFinder, FindsTheLeastArrivalOrAnyBeforeTheBound) {
   EXPECT_GT(dearer, 30);
 }
 
+TEST(FirstBroken, IsTheFirstSlotWithABanThatThePathBreaks) {
+  int broken = 0, kept = 0, later = 0;
+  for (std::uint32_t seed = 0; seed < support::scaled(1000) && !testing::Test::HasFailure();
+       ++seed) {
+    Trial trial(4'000'000 + seed);
+    SCOPED_TRACE(testing::Message()
+                 << "seed " << 4'000'000 + seed << ": " << describe(trial.instance));
+    for (std::size_t slot = 0; slot < trial.slots.size(); ++slot) trial.bans.enable(slot, false);
+    PathFinder finder(trial.instance);
+    TimedPath path;
+    if (!finder.find(trial.scene.task(kAgent), trial.bans, kForever, &path)) continue;
+    PathUses uses;
+    uses.assign(trial.instance, kAgent, path);
+    const auto at = std::find_if(trial.slots.begin(), trial.slots.end(),
+                                 [&](const auto& bans) { return uses.breaks(bans); });
+    std::optional<std::size_t> expected;
+    if (at != trial.slots.end()) expected = static_cast<std::size_t>(at - trial.slots.begin());
+    EXPECT_EQ(first_broken(trial.instance, kAgent, path, trial.bans), expected);
+    ++(expected ? broken : kept);
+    later += expected.value_or(0) > 0 ? 1 : 0;
+  }
+  if (support::scaled(1000) < 1000) return;
+  EXPECT_GT(broken, 300);
+  EXPECT_GT(kept, 50);
+  EXPECT_GT(later, 100);
+}
+
 TEST(ContinuousExplainer, NamesBansThatPreventAnArrivalAndNoneToSpare) {
   int explained = 0;
   for (std::uint32_t seed = 0; seed < support::scaled(1500) && !testing::Test::HasFailure();
