@@ -34,7 +34,8 @@ class PathFinder {
   [[nodiscard]] std::optional<Ticks> find(const PathTask& task, BanTable& bans, Ticks bound,
                                           TimedPath* path);
   /// Whether there is such a path. The first one that is found will do, and what is nearest to the
-  /// goal is looked at first: where there are some, takes a part of the time of `find`.
+  /// goal is looked at first: where there are some, takes a part of the time of `find`. Where there
+  /// is none, a place may be looked at again each time that an earlier arrival turns up.
   [[nodiscard]] bool find_any(const PathTask& task, BanTable& bans, Ticks bound, TimedPath* path);
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }

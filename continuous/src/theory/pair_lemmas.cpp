@@ -11,8 +11,8 @@ namespace {
 /// there is no end of collisions.
 constexpr std::int64_t kFirstSteps = 4'000'000, kMoreSteps = 4;
 /// Steps for dropping obstacles, and for each raise: so many, or so many times what the refutation
-/// took. With 10,000,000 or 4 times less is raised: den520d (k = 3, task 1, 62 agents) takes 5 to
-/// 10 s instead of 3.3.
+/// took. With less, less is raised: with 10,000,000 instead of 30,000,000 den520d (k = 3, task 1,
+/// 62 agents) took 8.4 instead of 3.1 s, with 4 refutations besides 10.4 s.
 constexpr std::int64_t kStepsForMore = 30'000'000, kRefutationsForMore = 8;
 /// Of one test while obstacles are dropped; at least kFirstSteps.
 constexpr std::int64_t kRefutationsPerTest = 2;
@@ -21,7 +21,8 @@ constexpr std::int64_t kRefutationsPerTest = 2;
 constexpr std::int64_t kFirstEffort = 12'000'000, kPathStepsPerStep = 2;
 
 constexpr std::int64_t kSmallPart = 64;
-/// Of one move: the first raise that is tried, as higher ones are searched in larger pieces.
+/// The first raise that is tried is such a part of one move: higher ones are searched in larger
+/// pieces, and refute less.
 constexpr std::int64_t kFirstRaise = 4;
 /// Most pairs need no such search: the clauses do as well, and for less. Measured: on den520d with
 /// 40 and in the warehouse with 60 agents, searches of pairs make seconds of more than 30 s; on
