@@ -53,10 +53,13 @@ bool CoreShrinker::is_core(const LevelCore& candidate, const IdVector<AgentId, C
 
 CoreShrinker::Ladder CoreShrinker::ladder(const Level& level, Cost ceiling) const {
   Ladder ladder{level.cost, {}};
-  // Beyond the ceiling all levels say the same.
+  // Beyond the ceiling all levels say the same: that is the last one, even if no lemma speaks of it.
+  // Without it, costs that only what is beyond the ceiling refutes would rise tick by tick.
   for (auto next = problem_.next_threshold(level.agent, level.cost); next && *next <= ceiling + 1;
        next = problem_.next_threshold(level.agent, *next))
     ladder.higher.push_back(*next);
+  if (ceiling < kAnyCost && ladder.cost(ladder.higher.size()) <= ceiling)
+    ladder.higher.push_back(ceiling + 1);
   ladder.bad = ladder.higher.size() + 1;
   return ladder;
 }

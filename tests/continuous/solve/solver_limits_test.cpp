@@ -8,6 +8,7 @@
 
 #include "continuous/formats/file_support.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/generator.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
@@ -149,6 +150,21 @@ TEST(SolverLimits, BetterPlansAreTold) {
     EXPECT_LE(outcome.cost, last);
   }
   EXPECT_GE(num_told, 12);
+}
+
+// Where agent 1 has to cost as much as in the plan, each tick below was a core of its own: no lemma
+// speaks of a cost between.
+TEST(ContinuousBounds, DoNotRiseTickByTick) {
+  RandomInstanceOptions discs;
+  discs.num_vertices = 25;
+  discs.num_agents = 16;
+  discs.mixed = true;
+  SolveOptions options;
+  options.route_work = options.joint_work = 0;
+  options.limits.cpu_s = 60;
+  const SolveOutcome outcome = solve(random_instance(discs, 4).value(), options).value();
+  EXPECT_EQ(outcome.status, Status::optimal);
+  EXPECT_LT(outcome.statistics.cores, 1000);
 }
 
 }  // namespace
