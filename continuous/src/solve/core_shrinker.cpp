@@ -40,8 +40,8 @@ LevelCore CoreShrinker::shrink(LevelCore core, const IdVector<AgentId, Cost>& ce
 bool CoreShrinker::is_core(const LevelCore& core, const IdVector<AgentId, Cost>& ceilings,
                            const sat::SolveBudget& budget) {
   const bool is_refuted =
-      !limits_.exhausted() && problem_.solve({core, ceilings, {}, budget, Question::Search::quick},
-                                             limits_) == Verdict::unsat;
+      !limits_.exhausted() &&
+      problem_.solve({core, ceilings, budget, Question::Search::quick}, limits_) == Verdict::unsat;
   // Whatever is a core takes the place of the one before.
   if (is_refuted) ceilings_of_core_ = problem_.ceilings_of_core();
   return is_refuted;
@@ -53,8 +53,8 @@ bool CoreShrinker::is_core(const LevelCore& candidate, const IdVector<AgentId, C
 
 CoreShrinker::Ladder CoreShrinker::ladder(const Level& level, Cost ceiling) const {
   Ladder ladder{level.cost, {}};
-  // Beyond the ceiling all levels say the same: that is the last one, even if no lemma speaks of it.
-  // Without it, costs that only what is beyond the ceiling refutes would rise tick by tick.
+  // Beyond the ceiling all levels say the same: that is the last one, even if no lemma speaks of
+  // it. Without it, costs that only what is beyond the ceiling refutes would rise tick by tick.
   for (auto next = problem_.next_threshold(level.agent, level.cost); next && *next <= ceiling + 1;
        next = problem_.next_threshold(level.agent, *next))
     ladder.higher.push_back(*next);

@@ -38,37 +38,24 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
   asked.mode = theory_in_search_ && !is_known_only ? Mode::always : Mode::never;
   // What quick tests ask is often hopeless, and a search of a pair would find no answer.
   asked.uses_pair_lemmas = question.search == Search::full;
-  Assumptions assumptions{question.below, {}};
+  std::vector<Level> assumed = question.below;
   IdVector<AgentId, Cost> ceilings(model_.instance().num_agents(), kAnyCost);
   if (!question.ceilings.empty() && !is_known_only) ceilings = question.ceilings;
-  if (question.total) {
-    // What the others cost at least is not there to be spent.
-    Cost rest = *question.total;
-    for (const AgentId i : model_.instance().agent_ids()) rest -= model_.free_cost(i);
-    core_.clear();
-    if (rest < 0) return Verdict::unsat;
-    for (const AgentId i : model_.instance().agent_ids())
-      ceilings[i] = std::min(ceilings[i], model_.free_cost(i) + rest);
-    asked.total = *question.total;
-    asked.above_total = model_.total_above(*question.total, writer_);
-    assumptions.also = ~asked.above_total;
-  }
   for (const Level& level : question.below) ceilings[level.agent] = kAnyCost;
   for (const AgentId i : model_.instance().agent_ids())
-    if (ceilings[i] < kAnyCost) assumptions.levels.push_back({i, ceilings[i] + 1});
+    if (ceilings[i] < kAnyCost) assumed.push_back({i, ceilings[i] + 1});
   theory_.ask(asked);
-  Verdict verdict = solve_assuming(question, assumptions, limits);
+  Verdict verdict = solve_assuming(question, assumed, limits);
   while (verdict == Verdict::sat && !is_known_only && !accept_model())
-    verdict = solve_assuming(question, assumptions, limits);
+    verdict = solve_assuming(question, assumed, limits);
   return verdict;
 }
 
-Verdict CostProblem::solve_assuming(const Question& question, const Assumptions& assumptions,
+Verdict CostProblem::solve_assuming(const Question& question, const std::vector<Level>& assumed,
                                     LimitMonitor& limits) {
   std::vector<Lit> literals;
-  for (const Level& level : assumptions.levels)
+  for (const Level& level : assumed)
     literals.push_back(~model_.above(level.agent, level.cost - 1, writer_));
-  if (assumptions.also.valid()) literals.push_back(assumptions.also);
   const Verdict verdict = solve_in_slices(literals, limits, question.budget);
   if (yield_point_ != nullptr) yield_point_->yield();
   core_.clear();
@@ -81,8 +68,8 @@ Verdict CostProblem::solve_assuming(const Question& question, const Assumptions&
     for (std::size_t k = 0; k < question.below.size(); ++k)
       if (has_failed(k)) core_.push_back(question.below[k]);
     if (keeps_ceilings_)
-      for (std::size_t k = question.below.size(); k < assumptions.levels.size(); ++k)
-        if (has_failed(k)) ceilings_of_core_.push_back(assumptions.levels[k].agent);
+      for (std::size_t k = question.below.size(); k < assumed.size(); ++k)
+        if (has_failed(k)) ceilings_of_core_.push_back(assumed[k].agent);
   }
   return verdict;
 }

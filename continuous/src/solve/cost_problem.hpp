@@ -31,8 +31,6 @@ struct Question {
   std::vector<Level> below = {};
   /// The other agents cost at most so much (kAnyCost: anything). Empty: anything.
   IdVector<AgentId, Cost> ceilings = {};
-  /// All costs sum up to at most this.
-  std::optional<Cost> total = {};
   /// When to give up.
   sat::SolveBudget budget = {};
 
@@ -62,8 +60,7 @@ class CostProblem {
   /// The plan that the last solve with verdict sat found, unless it was of known clauses only.
   [[nodiscard]] const Plan& plan() const { return *theory_.accepted(); }
   /// After verdict unsat, some of the levels in `below`: one of them is reached in every plan that
-  /// is cheaper than the incumbent, keeps to the ceilings, and costs no more than the total. Empty:
-  /// there is no such plan.
+  /// is cheaper than the incumbent and keeps to the ceilings. Empty: there is no such plan.
   [[nodiscard]] const std::vector<Level>& core() const noexcept { return core_; }
   /// From now on, remembers whose ceilings a core rests on.
   void keep_ceilings_of_core() { keeps_ceilings_ = true; }
@@ -87,12 +84,10 @@ class CostProblem {
   [[nodiscard]] Model& model() noexcept { return model_; }
 
  private:
-  struct Assumptions {
-    std::vector<Level> levels;  ///< First those of the question's `below`.
-    sat::Lit also;
-  };
+  /// `assumed`: each costs less than its level; first those of the question's `below`.
   [[nodiscard]] sat::Verdict solve_assuming(const Question& question,
-                                            const Assumptions& assumptions, LimitMonitor& limits);
+                                            const std::vector<Level>& assumed,
+                                            LimitMonitor& limits);
   [[nodiscard]] sat::Verdict solve_in_slices(const std::vector<sat::Lit>& assumptions,
                                              LimitMonitor& limits, const sat::SolveBudget& budget);
   [[nodiscard]] bool accept_model();

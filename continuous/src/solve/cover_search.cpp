@@ -30,6 +30,8 @@ constexpr int kMaxGreedyRounds = 50;
 /// way, and conflicts.
 constexpr Cost kInnerPart = 7;
 constexpr sat::SolveBudget kInnerBudget{50, {}};
+/// Of a question for any plan, where none is known.
+constexpr sat::SolveBudget kAnyPlanBudget{1000, {}};
 /// Of drawn costs: how many agents keep what they cost at last, conflicts of a question, and how
 /// many in a row may be of no use. Measured with two threads that do not wait, eight hard rows of
 /// four families, mean wall time: 50 % 5.0 s, 70 % 4.7 s, 85 % 4.1 s, 93 % 4.5 s, 98 % 4.6 s; one
@@ -114,7 +116,7 @@ class CoverSearch {
         next_improvement_ = kNever;
         if (improve_at_first()) return report_;
       }
-      if (context_.statistics.cores >= next_turn_ && take_turn_with_sums()) return report_;
+      if (context_.statistics.cores >= next_turn_ && look_for_plan()) return report_;
     }
   }
 
@@ -232,42 +234,17 @@ class CoverSearch {
     return true;
   }
 
-  /// Closes in on the least cost from both sides by bounds on the sum of costs, as far as some
-  /// conflicts go. True if that ended the search.
-  bool take_turn_with_sums() {
+  /// From time to time a better plan, or any one: without a plan there are no ceilings. True if
+  /// that ended the search.
+  bool look_for_plan() {
+    const std::int64_t cores = context_.statistics.cores;
+    next_turn_ = cores + std::max<std::int64_t>(cores / 4, 1);
     improve(kEffort);
-    next_turn_ =
-        context_.statistics.cores + std::max<std::int64_t>(context_.statistics.cores / 4, 1);
-    // Half as many conflicts as the search with covers has had, and some to begin with.
-    const std::int64_t before = limits_.conflicts();
-    const std::int64_t last_conflict =
-        before + (before - turn_conflicts_) / 2 + 300 - turn_conflicts_;
-    const bool has_ended = close_in(last_conflict);
-    turn_conflicts_ += limits_.conflicts() - before;
-    return has_ended;
-  }
-
-  bool close_in(std::int64_t last_conflict) {
-    if (step_ == 0) step_ = std::max<Cost>(report_.lower_bound / 64, 1);
-    while (!limits_.exhausted() && !is_closed()) {
-      const std::int64_t left = last_conflict - limits_.conflicts();
-      if (left <= 0) return false;
-      Cost total = report_.lower_bound + step_;
-      if (report_.plan) total = std::min(total, cost(*report_.plan, kSum) - 1);
-      const Verdict verdict = problem_.solve(
-          {.total = total, .budget = {.conflicts = static_cast<int>(left)}}, limits_);
-      if (verdict == Verdict::unknown) {
-        step_ = std::max<Cost>(step_ / 4, 1);
-        return false;
-      }
-      if (verdict == Verdict::sat) {
-        report_.plan = problem_.plan();
-      } else {
-        raise_bound(total + 1);
-        step_ *= 2;
-      }
-    }
-    return true;
+    if (report_.plan) return is_closed();
+    const Verdict verdict = problem_.solve({.budget = kAnyPlanBudget}, limits_);
+    if (verdict == Verdict::unsat) return end_without_plans();
+    if (verdict == Verdict::sat) report_.plan = problem_.plan();
+    return is_closed();
   }
 
   [[nodiscard]] IdVector<AgentId, Cost> free_costs() const {
@@ -319,7 +296,7 @@ class CoverSearch {
         return std::any_of(core.begin(), core.end(),
                            [&](const auto& used) { return used.agent == level.agent; });
       });
-      if (below.empty() || limits_.exhausted() || !is_refuted(below)) return true;
+      if (below.empty() || limits_.exhausted_now() || !is_refuted(below)) return true;
     }
   }
 
@@ -373,10 +350,9 @@ class CoverSearch {
   CostReport report_;
   bool has_new_cores_ = false;  // that came from others
   std::int64_t next_improvement_ = kNever;
-  std::int64_t next_turn_ = 30, turn_conflicts_ = 0;
-  std::int64_t next_cover_ = 0;    // the problem's effort
-  IdVector<AgentId, Cost> asked_;  // costs of the last question
-  Cost step_ = 0;                  // between the proven bound and the next sum to be tried
+  std::int64_t next_turn_ = 30;
+  std::int64_t next_cover_ = 0;                                // the problem's effort
+  IdVector<AgentId, Cost> asked_;                              // costs of the last question
   std::int64_t seen_plan_effort_ = 0, seen_cover_effort_ = 0;  // that were told
 };
 

@@ -11,7 +11,6 @@ KnownPlanAuditor::KnownPlanAuditor(const Model& model, const Plan& plan) : model
     const TimedPath path = without_stops(instance, i, plan.paths[i]);
     PathUses uses;
     uses.assign(instance, i, path);
-    total_ += as_cost(path.arrival);
     paths_.push_back(path);
     uses_.push_back(uses);
   }
@@ -23,9 +22,6 @@ bool KnownPlanAuditor::holds(sat::Lit lit) const {
   switch (meaning.kind) {
     case Model::VariableKind::auxiliary:
       return true;
-    case Model::VariableKind::total:
-      value = total_ > meaning.cost;
-      return value == lit.positive();
     case Model::VariableKind::cost:
       value = as_cost(paths_[meaning.agent].arrival) >= meaning.cost;
       return value == lit.positive();

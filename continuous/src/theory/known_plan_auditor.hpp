@@ -29,7 +29,6 @@ class KnownPlanAuditor final : public sat::ClauseObserver {
   const Model& model_;
   IdVector<AgentId, TimedPath> paths_;
   IdVector<AgentId, PathUses> uses_;
-  Cost total_ = 0;
   std::optional<std::string> complaint_;
 };
 

@@ -76,7 +76,7 @@ void LemmaAuditor::on_lemma(const sat::Lemma& lemma) {
       wrong = audit_order(lemma);
       break;
     case sat::LemmaKind::counting:
-      wrong = audit_budget(lemma);
+      wrong = "this theory counts nothing";
       break;
     case sat::LemmaKind::core:
       return;
@@ -277,30 +277,9 @@ std::string LemmaAuditor::audit_order(const sat::Lemma& lemma) const {
   if (lemma.clause.size() != 2) return "an order has two sides";
   const auto stronger = model_.variable(lemma.clause[0]), weaker = model_.variable(lemma.clause[1]);
   const bool holds = stronger.kind == weaker.kind && stronger.agent == weaker.agent &&
-                     (stronger.kind == Kind::cost || stronger.kind == Kind::total) &&
-                     !lemma.clause[0].positive() && lemma.clause[1].positive() &&
-                     stronger.cost >= weaker.cost;
+                     stronger.kind == Kind::cost && !lemma.clause[0].positive() &&
+                     lemma.clause[1].positive() && stronger.cost >= weaker.cost;
   return holds ? "" : "an order that does not hold";
-}
-
-// What is claimed of some agents, and free costs for the others, sum up to more than the total.
-std::string LemmaAuditor::audit_budget(const sat::Lemma& lemma) const {
-  if (lemma.clause.empty()) return "a budget without a total";
-  const auto total = model_.variable(lemma.clause[0]);
-  if (total.kind != Kind::total || !lemma.clause[0].positive()) return "a budget has a total";
-  IdVector<AgentId, Cost> costs;
-  for (const AgentId i : model_.instance().agent_ids()) costs.push_back(model_.free_cost(i));
-  for (const sat::Lit lit : lemma.clause.subspan(1)) {
-    const auto meaning = model_.variable(lit);
-    if (meaning.kind != Kind::cost || lit.positive()) return "a budget is spent by costs";
-    costs[meaning.agent] = std::max(costs[meaning.agent], meaning.cost);
-  }
-  Cost left = total.cost;
-  for (const Cost cost : costs) {
-    left -= cost;
-    if (left < 0) return "";
-  }
-  return "a budget that is not spent";
 }
 
 }  // namespace quadrille::continuous

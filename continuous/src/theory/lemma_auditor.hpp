@@ -35,7 +35,6 @@ class LemmaAuditor final : public sat::ClauseObserver {
   [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma);
   [[nodiscard]] std::string audit_pair(const sat::Lemma& lemma);
   [[nodiscard]] std::string audit_order(const sat::Lemma& lemma) const;
-  [[nodiscard]] std::string audit_budget(const sat::Lemma& lemma) const;
   /// Whether the literals of the usages say what their bans say, and whether the clause has them.
   [[nodiscard]] std::string audit_usages(const sat::Lemma& lemma) const;
   [[nodiscard]] std::string audit_goal_bans(const Obstacle& obstacle, AgentId resident,

@@ -19,7 +19,6 @@ void Model::remember(Lit lit, const Variable& variable) {
   const auto index = static_cast<std::size_t>(lit.variable());
   if (variables_.size() <= index) variables_.resize(index + 1);
   variables_[index] = variable;
-  if (variable.kind == VariableKind::total) return;
   literals_.push_back(lit.positive() ? lit : ~lit);
 }
 
@@ -59,21 +58,6 @@ Model::Threshold& Model::threshold(AgentId agent, Cost cost, FormulaWriter& writ
   if (index > 0) order(made, known[index - 1].at_least);
   if (index + 1 < known.size()) order(known[index + 1].at_least, made);
   return known[index];
-}
-
-Lit Model::total_above(Cost total, FormulaWriter& writer) {
-  const auto known = totals_.find(total);
-  if (known != totals_.end()) return known->second;
-  const Lit made = writer.new_lit();
-  const auto at = totals_.emplace(total, made).first;
-  remember(made, {VariableKind::total, AgentId(), total, ObstacleId()});
-  const auto order = [&](Lit stronger, Lit weaker) {
-    const Lit clause[] = {~stronger, weaker};
-    writer.add({sat::LemmaKind::order, clause, {}, false});
-  };
-  if (at != totals_.begin()) order(made, std::prev(at)->second);
-  if (std::next(at) != totals_.end()) order(std::next(at)->second, made);
-  return made;
 }
 
 ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, AgentId partner,

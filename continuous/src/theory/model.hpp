@@ -81,9 +81,6 @@ class Model {
     return thresholds_[agent];
   }
 
-  /// The literal "the sum of all costs is more than `total`".
-  [[nodiscard]] sat::Lit total_above(Cost total, FormulaWriter& writer);
-
   /// The obstacle with these bans, made at the first call. `is_new` tells. `partner` joins its
   /// partners.
   [[nodiscard]] ObstacleId usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
@@ -92,11 +89,11 @@ class Model {
   [[nodiscard]] ObstacleId keep_off_goal(AgentId agent, AgentId resident, Ticks tick,
                                          FormulaWriter& writer, bool& is_new);
 
-  enum class VariableKind { auxiliary, usage, cost, total };
+  enum class VariableKind { auxiliary, usage, cost };
   struct Variable {
     VariableKind kind = VariableKind::auxiliary;
     AgentId agent;
-    Cost cost = 0;        // cost: true says "costs this or more"; total: "all cost more"
+    Cost cost = 0;        // cost: true says "costs this or more"
     ObstacleId obstacle;  // usage: true says that it is forbidden
   };
   /// auxiliary for variables that are not of this model.
@@ -111,7 +108,6 @@ class Model {
   Scene& scene_;
   IdVector<ObstacleId, Obstacle> obstacles_;
   IdVector<AgentId, std::vector<Threshold>> thresholds_;
-  std::map<Cost, sat::Lit> totals_;
   std::map<std::pair<AgentId, std::vector<Ban>>, ObstacleId> usages_;
   std::map<std::tuple<AgentId, AgentId, Ticks>, ObstacleId> goals_;
   std::vector<Variable> variables_;  // by variable

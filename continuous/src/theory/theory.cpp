@@ -153,49 +153,6 @@ void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const ObstacleIds& bla
   }
 }
 
-// The costs of some agents alone are too much: so they are in every plan that costs them as much.
-bool ContinuousTheory::check_budget(FormulaWriter& writer) {
-  if (question_.total >= kAnyCost) return true;
-  const auto delay = [&](AgentId i) { return current_cost(i) - model_.free_cost(i); };
-  Cost slack = -question_.total - 1;
-  std::vector<AgentId> delayed;
-  for (const AgentId i : model_.instance().agent_ids()) {
-    slack += model_.free_cost(i) + delay(i);
-    if (delay(i) > 0) delayed.push_back(i);
-  }
-  if (slack < 0) return true;
-  // Small delays need no mention where the others' are enough.
-  std::stable_sort(delayed.begin(), delayed.end(),
-                   [&](AgentId a, AgentId b) { return delay(a) < delay(b); });
-  std::vector<Lit> clause{question_.above_total};
-  for (const AgentId i : delayed) {
-    if (delay(i) <= slack) {
-      slack -= delay(i);
-      continue;
-    }
-    const Lit claim = claim_cost(i, writer);
-    if (!claim.valid()) return check_budget(writer);  // the sum was wrong
-    clause.push_back(~claim);
-  }
-  writer.add({sat::LemmaKind::counting, clause, {}, false});
-  return false;
-}
-
-Lit ContinuousTheory::claim_cost(AgentId i, FormulaWriter& writer) {
-  const Cost cost = current_cost(i);
-  const Lit claim = model_.at_least(i, cost, writer);
-  // No path is cheaper as long as paths are changed only when they have to be; but what is not so
-  // must not be claimed.
-  if (trail_.value(claim) == Truth::is_true) return claim;
-  const auto cheaper = search(i, cost);
-  if (cheaper.path() != nullptr) {
-    trail_.replace_path(i, remember(i, *cheaper.path()));
-    return {};
-  }
-  explain_bound(i, cheaper, cost, writer);
-  return claim;
-}
-
 // ---- checks -------------------------------------------------------------------------------------
 
 void ContinuousTheory::check(sat::Effort effort, sat::TheoryContext& context) {
@@ -207,7 +164,7 @@ void ContinuousTheory::check(sat::Effort effort, sat::TheoryContext& context) {
   CountingWriter writer(target);
   trail_.notice(model_.obstacles());
   if (effort == sat::Effort::partial)
-    static_cast<void>(replan_all(writer) && check_budget(writer));
+    static_cast<void>(replan_all(writer));
   else
     check_paths(writer);
 }
@@ -242,7 +199,7 @@ std::vector<Encounter> ContinuousTheory::encounters() {
 // this has to look again, because an unchanged formula would count as consent.
 void ContinuousTheory::check_paths(CountingWriter& writer) {
   while (true) {
-    if (!replan_all(writer) || writer.has_written() || !check_budget(writer)) return;
+    if (!replan_all(writer) || writer.has_written()) return;
     ++num_checks_;
     const std::vector<Encounter> found = encounters();
     if (found.empty()) {

@@ -45,10 +45,6 @@ class ContinuousTheory final : public sat::Theory {
     Mode mode = Mode::always;
     /// Whether agents that collide again and again are searched together.
     bool uses_pair_lemmas = true;
-    /// Assignments in which the costs of all paths sum up to more than `total` are refuted by
-    /// lemmas that contain `above_total`, the literal that allows it. kAnyCost: none are.
-    Cost total = kAnyCost;
-    sat::Lit above_total;
   };
   /// Between solves: the question of the next one. Forgets the accepted paths.
   void ask(const Question& question) {
@@ -93,11 +89,6 @@ class ContinuousTheory final : public sat::Theory {
   [[nodiscard]] KnownPathRef remember(AgentId i, const TimedPath& path);
   /// What i costs at least: its path does, or literals say so.
   [[nodiscard]] Cost current_cost(AgentId i) const;
-  /// False if the paths cost more than the total in question; lemmas say so then.
-  bool check_budget(FormulaWriter& writer);
-  /// The literal that i costs as much as its path, after explaining why. No literal if the path was
-  /// not a cheapest one; then it is now.
-  [[nodiscard]] sat::Lit claim_cost(AgentId i, FormulaWriter& writer);
   void check_paths(CountingWriter& writer);
   /// True if a lemma of the two agents excludes the encounter.
   bool note_collision(const Encounter& encounter, FormulaWriter& writer);

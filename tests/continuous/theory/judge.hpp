@@ -109,8 +109,8 @@ class Situation {
 };
 
 struct Count {
-  std::size_t silent = 0, conflicts = 0, accepted = 0, rejected = 0, told = 0, over_budget = 0,
-              dead = 0, audited = 0;
+  std::size_t silent = 0, conflicts = 0, accepted = 0, rejected = 0, told = 0, dead = 0,
+              audited = 0;
 };
 
 /// The theory between the host and a judge.
@@ -173,12 +173,6 @@ class JudgedTheory final : public sat::Theory {
           open.push_back(threshold.at_least);
     return open;
   }
-  [[nodiscard]] Cost total_cost(const Situation& now) const {
-    Cost sum = 0;
-    for (const AgentId i : model_.instance().agent_ids())
-      sum += std::max(as_cost(theory_.path(i).arrival), now.floor(i));
-    return sum;
-  }
   [[nodiscard]] static bool has_conflict(const support::RecordingContext& said,
                                          const Situation& now) {
     return std::any_of(said.lemmas.begin(), said.lemmas.end(),
@@ -193,9 +187,6 @@ class JudgedTheory final : public sat::Theory {
       EXPECT_TRUE(is_conflict) << "an agent without a path went unnoticed";
     } else if (!is_conflict) {
       expect_good_paths(now);
-      if (total_cost(now) <= question_.total) return;
-      ++count_.over_budget;
-      EXPECT_TRUE(std::count(said.kinds.begin(), said.kinds.end(), sat::LemmaKind::counting) > 0);
     }
   }
   /// A new path that costs more than a bound that lemmas speak of comes with a lemma that refutes
@@ -228,7 +219,6 @@ class JudgedTheory final : public sat::Theory {
     ++count_.accepted;
     EXPECT_TRUE(now.all_have_paths());
     expect_good_paths(now);
-    EXPECT_LE(total_cost(now), question_.total);
     ASSERT_TRUE(theory_.accepted());
     EXPECT_TRUE(verify(model_.instance(), *theory_.accepted()).valid());
     for (const AgentId i : model_.instance().agent_ids())

@@ -168,17 +168,6 @@ TEST_F(LemmaAuditorOnACrossing, SeesAnOrderTheWrongWayRound) {
   EXPECT_TRUE(said_of({sat::LemmaKind::order, {~weaker, stronger}, {}}));
 }
 
-TEST_F(LemmaAuditorOnACrossing, SeesABudgetThatIsNotSpent) {
-  Model& model = encounters_.model();
-  // Both cost 100 alone.
-  const Lit cost = model.at_least(AgentId(0), 110, encounters_.writer());
-  const Lit within = model.total_above(209, encounters_.writer());
-  const Lit beyond = model.total_above(210, encounters_.writer());
-  EXPECT_EQ(said_of({sat::LemmaKind::counting, {within, ~cost}, {}}), std::nullopt);
-  EXPECT_THAT(said_of({sat::LemmaKind::counting, {beyond, ~cost}, {}}).value_or(""),
-              HasSubstr("not spent"));
-}
-
 TEST(LemmaAuditor, SeesALemmaOfAPairThatIsATickTooStrong) {
   // The two pass each other if one of them waits for 6 ticks: offsets from -5 to 5 are unsafe.
   Encounters encounters(

@@ -42,26 +42,19 @@ Case draw_case(std::uint32_t seed) {
   }
 }
 
-/// Derives path lemmas and budget lemmas again, and compares all with known plans.
+/// Derives path lemmas again, and compares all with known plans.
 class Auditor {
  public:
   Auditor(const Model& model, const std::vector<Plan>& plans, Count& count)
       : model_(model), count_(count) {
     for (const Plan& plan : plans) of_plans_.emplace_back(model, plan);
   }
-  /// "Above" allows a sum of costs of more than `total`.
-  void set_budget(Cost total, Lit above) {
-    total_ = total;
-    above_ = above;
-  }
   void on_lemma(const sat::Lemma& lemma) {
     for (KnownPlanAuditor& auditor : of_plans_) {
-      if (lemma.kind == sat::LemmaKind::counting) continue;
       auditor.on_lemma(lemma);
       EXPECT_EQ(auditor.complaint().value_or(""), "");
     }
     if (lemma.kind == sat::LemmaKind::path) derive_path_lemma(lemma);
-    if (lemma.kind == sat::LemmaKind::counting) derive_budget_lemma(lemma);
   }
 
  private:
@@ -94,23 +87,10 @@ class Auditor {
     bans.insert(bans.end(), standing.begin(), standing.end());
     EXPECT_GE(least_arrival(model_.instance(), *agent, bans).value_or(kForever), as_ticks(bound));
   }
-  void derive_budget_lemma(const sat::Lemma& lemma) const {
-    Cost least = 0;
-    for (const AgentId i : model_.instance().agent_ids()) least += model_.free_cost(i);
-    for (const Lit lit : lemma.clause) {
-      if (lit == above_) continue;
-      const auto meaning = model_.variable(lit);
-      ASSERT_TRUE(meaning.kind == Model::VariableKind::cost && !lit.positive());
-      least += meaning.cost - model_.free_cost(meaning.agent);
-    }
-    EXPECT_GT(least, total_);
-  }
 
   const Model& model_;
   Count& count_;
   std::vector<KnownPlanAuditor> of_plans_;
-  Cost total_ = kAnyCost;
-  Lit above_;
 };
 
 class Session final : private FormulaWriter {
@@ -137,19 +117,11 @@ class Session final : private FormulaWriter {
   [[nodiscard]] Lit new_lit() override { return driver_.new_lit(); }
   void add(const sat::Lemma& lemma) override { driver_.add(lemma); }
 
-  /// Between solves: a bound on the sum, and bounds on some agents, which are assumed.
+  /// Between solves: bounds on some agents, which are assumed.
   void begin_solve() {
     ContinuousTheory::Question question;
     if (random_.percent(20)) question.mode = ContinuousTheory::Question::Mode::complete;
-    if (random_.percent(50)) {
-      question.total = static_cast<Cost>(random_.below(40));
-      for (const AgentId i : model_.instance().agent_ids()) question.total += model_.free_cost(i);
-      question.above_total = model_.total_above(question.total, *this);
-    }
-    const Lit above = question.above_total;
-    auditor_.set_budget(question.total, above);
     theory_.ask(question);
-    if (above.valid()) driver_.assume(~above);
     for (const AgentId i : model_.instance().agent_ids())
       if (random_.percent(50)) {
         const Cost cap = model_.free_cost(i) + static_cast<Cost>(random_.below(40));
@@ -202,7 +174,6 @@ TEST_P(ContinuousTheoryCallbacks, AgreeWithARecomputation) {
   EXPECT_GT(count.accepted, sequences / 10);
   EXPECT_GT(count.rejected, sequences / 20);
   EXPECT_GT(count.told, sequences / 20);
-  EXPECT_GT(count.over_budget, sequences / 50);
   EXPECT_GT(count.audited, sequences / 2);
   EXPECT_LT(count.dead, sequences / 2);
 }
