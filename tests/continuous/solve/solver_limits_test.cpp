@@ -156,13 +156,14 @@ TEST(SolverLimits, BetterPlansAreTold) {
 // speaks of a cost between.
 TEST(ContinuousBounds, DoNotRiseTickByTick) {
   RandomInstanceOptions discs;
-  discs.num_vertices = 25;
-  discs.num_agents = 16;
+  discs.num_vertices = 12;
+  discs.num_agents = 3;
   discs.mixed = true;
   SolveOptions options;
+  options.system = System::smt_cbs;
   options.route_work = options.joint_work = 0;
-  options.limits.cpu_s = 60;
-  const SolveOutcome outcome = solve(random_instance(discs, 4).value(), options).value();
+  options.limits.cpu_s = 5;
+  const SolveOutcome outcome = solve(random_instance(discs, 2).value(), options).value();
   EXPECT_EQ(outcome.status, Status::optimal);
   EXPECT_LT(outcome.statistics.cores, 1000);
 }
