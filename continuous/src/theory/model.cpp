@@ -2,7 +2,6 @@
 #include "theory/model.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "quadrille/core/contract.hpp"
