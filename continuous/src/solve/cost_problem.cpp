@@ -78,8 +78,9 @@ Verdict CostProblem::solve_in_slices(const std::vector<Lit>& assumptions, LimitM
                                      const sat::SolveBudget& budget) {
   const std::int64_t end = limits.conflicts() + budget.conflicts.value_or(0);
   sat::SolveBudget slice = budget;
-  // The decisions of a slice are not known: such solves are short and stay in one piece.
-  const bool is_sliced = !budget.decisions;
+  // The decisions of a slice are not known: such solves are short and stay in one piece, as do
+  // those with an effort of their own.
+  const bool is_sliced = !budget.decisions && !budget.effort;
   while (true) {
     if (is_sliced) slice.effort = kSlice;
     if (is_sliced && budget.conflicts)

@@ -27,9 +27,10 @@ constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000, kMostEffort 
 /// greed may rise for ever.
 constexpr int kMaxGreedyRounds = 50;
 /// Of questions between the cheapest cover and the plan (docs/performance.md): which part of the
-/// way, and conflicts.
+/// way, conflicts, and elementary steps, a hundredth of a second: where two agents have much room,
+/// a conflict takes a tenth of a second, and pairs are not searched in such questions.
 constexpr Cost kInnerPart = 7;
-constexpr sat::SolveBudget kInnerBudget{50, {}};
+constexpr sat::SolveBudget kInnerBudget{50, {}, 200'000};
 /// Of a question for any plan, where none is known.
 constexpr sat::SolveBudget kAnyPlanBudget{1000, {}};
 /// Of drawn costs: how many agents keep what they cost at last, conflicts of a question, and how

@@ -16,14 +16,18 @@ constexpr std::int64_t kFirstSteps = 4'000'000, kMoreSteps = 4;
 constexpr std::int64_t kStepsForMore = 30'000'000, kRefutationsForMore = 8;
 /// Of one test while obstacles are dropped; at least kFirstSteps.
 constexpr std::int64_t kRefutationsPerTest = 2;
-/// All searches of pairs together: so many steps, and one for so many of the path searches, which
-/// take twice as long. More are in vain where many pairs are near each other.
-constexpr std::int64_t kFirstEffort = 12'000'000, kPathStepsPerStep = 2;
+/// All searches of pairs that refute nothing: so many steps, and one for so many of the path
+/// searches, which take twice as long. More are in vain where many pairs are near each other. Those
+/// that refute do not count: what they take would keep the next one waiting, while collisions of
+/// the same two come without end.
+constexpr std::int64_t kFirstWaste = 12'000'000, kPathStepsPerStep = 2;
 
 constexpr std::int64_t kSmallPart = 64;
 /// The first raise that is tried is such a part of one move: higher ones are searched in larger
-/// pieces, and refute less.
-constexpr std::int64_t kFirstRaise = 4;
+/// pieces, and refute less. Where it refutes nothing, lower ones are tried, each such a part of the
+/// one before: otherwise caps would rise tick by tick.
+constexpr std::int64_t kFirstRaise = 4, kLowerRaise = 4;
+constexpr int kMostLowerRaises = 3;
 /// Most pairs need no such search: the clauses do as well, and for less. Measured: on den520d with
 /// 40 and in the warehouse with 60 agents, searches of pairs make seconds of more than 30 s; on
 /// room64, where cores come from many agents, they are worth nothing.
@@ -52,11 +56,13 @@ PairLemmas::Party PairLemmas::in_time(Party party) const {
 bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
   if (++record.count < std::max(record.next_try, kFirstTry)) return false;
   if (i.cap >= kAnyCost || j.cap >= kAnyCost) return false;
-  if (search_.effort() > kFirstEffort + path_effort_ / kPathStepsPerStep) return false;
+  if (wasted_ > kFirstWaste + path_effort_ / kPathStepsPerStep) return false;
   if (record.steps == 0) record.steps = kFirstSteps;
   steps_ = record.steps;
   is_cut_ = false;
+  const std::int64_t before = search_.effort();
   const bool is_added = try_pair(record, i, j, writer);
+  if (!is_added) wasted_ += search_.effort() - before;
   record.next_try = is_added ? record.count + 1 : 2 * record.count;
   if (!is_added && is_cut_) record.steps *= kMoreSteps;
   return is_added;
@@ -149,11 +155,16 @@ void PairLemmas::add_clauses(const Party& i, const Party& j, FormulaWriter& writ
 void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other, bool is_second) {
   if (is_second) search_.swap_bans();
   const Ticks most = max_raise(party.agent);
-  Ticks raise = 0;
-  for (Ticks tried = most / kFirstRaise;; tried = most) {
-    const Ticks refuted = search_.refuted_raise(party, other, tried, steps_for_more());
-    raise = std::max(raise, refuted);
-    if (refuted <= tried || tried == most) break;
+  const auto refuted = [&](Ticks tried) {
+    return search_.refuted_raise(party, other, tried, steps_for_more());
+  };
+  Ticks tried = most / kFirstRaise;
+  Ticks raise = refuted(tried);
+  if (raise > tried) raise = std::max(raise, refuted(most));
+  // One tick is what is refuted anyway.
+  for (int lower = 0; raise <= 1 && lower < kMostLowerRaises; ++lower) {
+    tried = tried / kLowerRaise;
+    raise = std::max(raise, refuted(tried));
   }
   if (is_second) search_.swap_bans();
   party.cap += std::max<Ticks>(raise, 1) - 1;

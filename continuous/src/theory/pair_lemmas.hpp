@@ -29,8 +29,8 @@ class PairLemmas {
   /// `i.active`: only these. True as above.
   bool note_explanation(const Party& i, const Party& j, FormulaWriter& writer);
 
-  /// To be told how many steps all path searches have made: searches of pairs make at most a part
-  /// of that, besides some to begin with.
+  /// To be told how many steps all path searches have made: searches of pairs that refute nothing
+  /// make at most a part of that, besides some to begin with.
   void set_path_effort(std::int64_t steps) noexcept { path_effort_ = steps; }
   /// Steps that all searches of pairs have made.
   [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
@@ -63,6 +63,7 @@ class PairLemmas {
   PairSearch search_;
   std::map<std::pair<AgentId, AgentId>, Record> collisions_, explanations_;
   std::int64_t path_effort_ = 0;
+  std::int64_t wasted_ = 0;            // steps of searches that refuted nothing
   std::int64_t steps_ = 0;             // of the next search at most
   std::int64_t refutation_ = 0;        // steps of the last search that refuted
   bool is_cut_ = false;                // a search since the last note has made all of its steps
