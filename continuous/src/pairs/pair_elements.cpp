@@ -50,7 +50,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
     if (known == kForever) {
       side.reached.push_back(v);
       side.first_edge[v.index()] = side.end_edge[v.index()] = 0;
-      side.stay_matters[v.index()] = side.may_matter_later[v.index()] = 0;
+      side.stay_matters[v.index()] = 0;
     }
     known = ticks;
     queue.emplace(ticks, v);
@@ -69,7 +69,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
       const Ticks rest = distances[roadmap.edge(e).to], duration = instance.duration(side.c, e);
       if (rest >= kForever) continue;
       const Ticks by_cap = party.cap - rest - duration;
-      TimedEdge edge{e, ticks, by_cap + raise, by_cap, false};
+      TimedEdge edge{e, ticks, by_cap + raise, by_cap};
       // From its cap on at the latest the other one stands at its goal, unless it leaves.
       const auto w = instance.agent(other.agent).leaves
                          ? std::nullopt
@@ -110,12 +110,12 @@ void PairSearch::find_contacts(Side& x, Side& y) {
       if (y.from_start[tail.index()] > e.last + duration) continue;
       for (auto k = y.first_edge[tail.index()]; k < y.end_edge[tail.index()]; ++k) {
         TimedEdge& other = y.edges[k];
-        if (other.edge != f || (e.matters && other.matters)) continue;
+        if (other.edge != f || (e.may_collide && other.may_collide)) continue;
         const Ticks least = other.first - e.last, most = other.last - e.first;
         if (least > duration || most < -instance.duration(y.c, f)) continue;
         const auto offsets = scene_.contacts().offsets(x.c, e.edge, y.c, f);
         if (offsets && offsets->overlaps(TickInterval::closed(least, most)))
-          e.matters = other.matters = true;
+          e.may_collide = other.may_collide = true;
       }
     }
     for (const VertexId v : near.vertices) {
@@ -124,7 +124,7 @@ void PairSearch::find_contacts(Side& x, Side& y) {
       if (arrive > e.last + duration) continue;
       const auto w = scene_.contacts().window(x.c, e.edge, y.c, v);
       if (w && arrive < e.last + w->end && leave_by(y, v) > e.first + w->begin) {
-        e.matters = true;
+        e.may_collide = true;
         y.stay_matters[v.index()] = 1;
       }
     }
@@ -183,7 +183,10 @@ void PairSearch::make_elements(Side& side) {
   const Roadmap& roadmap = instance.roadmap();
   const VertexId start = instance.agent(side.agent).start;
   side.elements.clear();
-  for (const VertexId v : side.reached) side.next[v.index()].is_known = false;
+  for (const VertexId v : side.reached) {
+    side.next[v.index()].is_known = false;
+    side.may_matter_later[v.index()] = 0;
+  }
   side.elements.push_back(
       {false, true, side.stay_matters[start.index()] != 0, EdgeId(), start, 0, 0, 0, 0});
   side.elements.push_back(
@@ -194,7 +197,7 @@ void PairSearch::make_elements(Side& side) {
       TimedEdge& e = side.edges[k];
       const VertexId to = roadmap.edge(e.edge).to;
       const bool stay_matters = side.stay_matters[to.index()] != 0;
-      e.matters = e.matters || stay_matters || side.stay_matters[v.index()] != 0 ||
+      e.matters = e.may_collide || stay_matters || side.stay_matters[v.index()] != 0 ||
                   is_banned(*side.bans, e.edge);
       const Ticks duration = instance.duration(side.c, e.edge);
       list_allowed(side, e);

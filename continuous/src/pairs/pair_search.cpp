@@ -49,20 +49,17 @@ void PairSearch::Reached::grow() {
     if (slot.key != 0) slots_[find(slot.key - 1)] = slot;
 }
 
-bool PairSearch::are_far(EdgeId e, VertexId from, VertexId to, Length reach) const {
-  const Roadmap& roadmap = scene_.instance().roadmap();
-  const Edge& edge = roadmap.edge(e);
-  const Point &p0 = roadmap.position(edge.from), &p1 = roadmap.position(edge.to);
-  const Point &q0 = roadmap.position(from), &q1 = roadmap.position(to);
-  const auto apart = [&](Length Point::*axis) {
-    return std::min(p0.*axis, p1.*axis) - std::max(q0.*axis, q1.*axis) >= reach ||
-           std::min(q0.*axis, q1.*axis) - std::max(p0.*axis, p1.*axis) >= reach;
-  };
-  return apart(&Point::x) || apart(&Point::y);
+PairSearch::PairSearch(Scene& scene)
+    : scene_(scene),
+      bans_{BanTable(scene.instance().roadmap()), BanTable(scene.instance().roadmap())} {}
+
+PairSearch::Box PairSearch::box(VertexId v) const {
+  const Point& p = scene_.instance().roadmap().position(v);
+  return {p.x, p.x, p.y, p.y};
 }
 
 Contacts::Window PairSearch::window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach) {
-  if (are_far(e, v, v, reach)) return std::nullopt;
+  if (are_far(boxes_[e.index()], box(v), reach)) return std::nullopt;
   return scene_.contacts().window(a, e, b, v);
 }
 
@@ -81,8 +78,7 @@ PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start
   Ticks both = raise_for_start(first_s);
   Steps result{{kForever, 0, 0}, {0, first_s, first_t}};
   if (b.is_move) {
-    const Edge& edge = instance.roadmap().edge(b.edge);
-    if (!are_far(next.edge, edge.from, edge.to, reach)) {
+    if (!are_far(boxes_[next.edge.index()], boxes_[b.edge.index()], reach)) {
       const auto offsets = scene_.contacts().offsets(x.c, next.edge, y.c, b.edge);
       if (offsets && offsets->first() <= 0) {
         // t - s is before the first unsafe offset or after the last one.
@@ -157,8 +153,9 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
         visit(k, raise_for_end(to, first), first, start_y);
         continue;
       }
-      const Steps s = steps(x, a, start_x, to, first, y, b, start_y);
-      for (const Step& step : {s.late, s.early}) visit(k, step.raise, step.start, step.other_start);
+      const auto [late, early] = steps(x, a, start_x, to, first, y, b, start_y);
+      visit(k, late.raise, late.start, late.other_start);
+      visit(k, early.raise, early.start, early.other_start);
     }
   }
 }
@@ -174,16 +171,32 @@ bool PairSearch::next_raise() {
   return !open_.empty();
 }
 
+bool PairSearch::prepare(const Party& i, const Party& j, Ticks max_raise) {
+  const Prepared wanted{i, j, max_raise};
+  if (prepared_ == wanted) return true;
+  prepared_.reset();
+  if (boxes_.empty())
+    for (const Edge& edge : scene_.instance().roadmap().edges()) {
+      const Box a = box(edge.from), b = box(edge.to);
+      boxes_.push_back({std::min(a.left, b.left), std::max(a.right, b.right),
+                        std::min(a.bottom, b.bottom), std::max(a.top, b.top)});
+    }
+  Side &first = sides_[0], &second = sides_[1];
+  if (!collect_edges(i, max_raise, j, 0, first) || !collect_edges(j, 0, i, max_raise, second))
+    return false;
+  effort_ += static_cast<std::int64_t>(first.edges.size() + second.edges.size());
+  find_contacts(first, second);
+  find_contacts(second, first);
+  prepared_ = wanted;
+  return true;
+}
+
 Ticks PairSearch::refuted_raise(const Party& i, const Party& j, Ticks max_raise,
                                 std::int64_t max_steps) {
   Side &first = sides_[0], &second = sides_[1];
   first.bans = &bans_[0];
   second.bans = &bans_[1];
-  if (!collect_edges(i, max_raise, j, 0, first) || !collect_edges(j, 0, i, max_raise, second))
-    return 0;
-  effort_ += static_cast<std::int64_t>(first.edges.size() + second.edges.size());
-  find_contacts(first, second);
-  find_contacts(second, first);
+  if (!prepare(i, j, max_raise)) return 0;
   make_elements(first);
   make_elements(second);
   reached_.clear();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,13 +25,12 @@ namespace quadrille::continuous {
 /// order of the caps that they need, and so finds the highest cap for which it fails.
 class PairSearch {
  public:
-  explicit PairSearch(Scene& scene)
-      : scene_(scene),
-        bans_{BanTable(scene.instance().roadmap()), BanTable(scene.instance().roadmap())} {}
+  explicit PairSearch(Scene& scene);
 
   struct Party {
     AgentId agent;
     Ticks cap = 0;  ///< It arrives at this tick or earlier. At least its free cost.
+    friend bool operator==(const Party&, const Party&) = default;
   };
   /// Some r in [0, max_raise + 1]: no plan has both cost(i) < i.cap + r and cost(j) <= j.cap.
   /// Tries at most about `max_steps` steps, fewer if the limits of the scene are met.
@@ -62,7 +62,8 @@ class PairSearch {
     EdgeId edge;
     Ticks first = 0, last = 0;     // starts, at the largest raise
     Ticks last_without_raise = 0;  // grows with the raise until it is `last`
-    bool matters = false;
+    bool may_collide = false;      // with something that the other agent can do
+    bool matters = false;          // that, or bans or a stay that matters make it matter
   };
   /// How an agent goes on from a vertex by edges that do not matter.
   struct Way {
@@ -119,6 +120,9 @@ class PairSearch {
     std::size_t size_ = 0;
   };
 
+  /// Edges and contacts of both, which do not depend on the bans, unless they are those of the last
+  /// search. False: there is too much of it.
+  bool prepare(const Party& i, const Party& j, Ticks max_raise);
   /// `raise`: of the cap of `party`; `other_raise`: of the other's. One of them is 0. False: there
   /// is too much of it.
   bool collect_edges(const Party& party, Ticks raise, const Party& other, Ticks other_raise,
@@ -153,11 +157,26 @@ class PairSearch {
                             Ticks first_s, Side& y, const Element& b, Ticks first_t);
   /// What `element` needs to end at `tick` or later.
   [[nodiscard]] static Ticks raise_for_end(const Element& element, Ticks tick);
-  [[nodiscard]] bool are_far(EdgeId e, VertexId from, VertexId to, Length reach) const;
+  /// The box around a move or a stay.
+  struct Box {
+    Length left, right, bottom, top;
+  };
+  [[nodiscard]] static bool are_far(const Box& a, const Box& b, Length reach) {
+    return a.left - b.right >= reach || b.left - a.right >= reach || a.bottom - b.top >= reach ||
+           b.bottom - a.top >= reach;
+  }
+  [[nodiscard]] Box box(VertexId v) const;
   [[nodiscard]] Contacts::Window window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach);
 
   Scene& scene_;
   BanTable bans_[2];
+  std::vector<Box> boxes_;  // by edge; none before the first search
+  struct Prepared {
+    Party i, j;
+    Ticks max_raise = 0;
+    friend bool operator==(const Prepared&, const Prepared&) = default;
+  };
+  std::optional<Prepared> prepared_;  // whom the sides' edges and contacts are about
   std::vector<TickInterval> forbidden_, allowed_;
   Side sides_[2];
   Reached reached_;
