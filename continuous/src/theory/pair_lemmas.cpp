@@ -63,7 +63,9 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   const std::int64_t before = search_.effort();
   const bool is_added = try_pair(record, i, j, writer);
   if (!is_added) wasted_ += search_.effort() - before;
-  record.next_try = is_added ? record.count + 1 : 2 * record.count;
+  // Every other collision becomes clauses, whatever is refuted: where the two have no plan at all,
+  // caps would rise for ever, and clauses may prove it.
+  record.next_try = is_added ? record.count + 2 : 2 * record.count;
   if (!is_added && is_cut_) record.steps *= kMoreSteps;
   return is_added;
 }
