@@ -32,6 +32,12 @@ constexpr int kMostLowerRaises = 3;
 /// 40 and in the warehouse with 60 agents, searches of pairs make seconds of more than 30 s; on
 /// room64, where cores come from many agents, they are worth nothing.
 constexpr int kFirstTry = 64;
+/// Caps that were refuted and come again, with other obstacles, are left to clauses until there are
+/// so many times as many collisions: den520d (k = 3, task 5, 62 agents) takes 14 s instead of more
+/// than 30, task 1 with 69 agents 23 instead of 28. After other refutations every other collision
+/// becomes clauses: where the two have no plan at all, caps would rise for ever, and clauses may
+/// prove it.
+constexpr int kAgain = 4;
 
 PairSearch::Party searched(const PairLemmas::Party& party) {
   return {party.agent, as_ticks(party.cap)};
@@ -63,9 +69,12 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   const std::int64_t before = search_.effort();
   const bool is_added = try_pair(record, i, j, writer);
   if (!is_added) wasted_ += search_.effort() - before;
-  // Every other collision becomes clauses, whatever is refuted: where the two have no plan at all,
-  // caps would rise for ever, and clauses may prove it.
-  record.next_try = is_added ? record.count + 2 : 2 * record.count;
+  const std::pair caps{i.cap, j.cap};
+  if (!is_added || record.refuted == caps)
+    record.next_try = (is_added ? kAgain : 2) * record.count;
+  else
+    record.next_try = record.count + 2;
+  if (is_added) record.refuted = caps;
   if (!is_added && is_cut_) record.steps *= kMoreSteps;
   return is_added;
 }

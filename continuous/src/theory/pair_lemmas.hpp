@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,7 +40,8 @@ class PairLemmas {
   struct Record {
     int count = 0;
     int next_try = 0;
-    std::int64_t steps = 0;                   // of one search; 0: it has not been tried
+    std::optional<std::pair<Cost, Cost>> refuted;  // caps, the last time
+    std::int64_t steps = 0;                        // of one search; 0: it has not been tried
     std::vector<std::pair<Cost, Cost>> open;  // caps that other agents have to join in to refute
   };
   /// With a cap that is not after the deadline.
