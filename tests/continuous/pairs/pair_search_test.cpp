@@ -111,6 +111,43 @@ TEST(PairSearch, RefutesNoPlanThatObeysTheBans) {
   expect_many(count);
 }
 
+/// What it keeps from the search before does not depend on the bans.
+TEST(PairSearch, FindsWhatANewOneFinds) {
+  int changes = 0;
+  for (std::uint32_t seed = 0; seed < support::scaled(250); ++seed) {
+    const Instance instance = random_pair(7'000'000 + seed);
+    LimitMonitor limits({});
+    Scene scene(instance, limits);
+    Draw draw(seed);
+    for (const Plan& plan : known_plans(instance, 2)) {
+      const AgentId i(0), j(1);
+      const Cost cost_i = cost(plan.paths[i]);
+      const PairSearch::Party first{i, as_ticks(draw.number(scene.free_cost(i), cost_i))};
+      const PairSearch::Party second{j, as_ticks(cost(plan.paths[j]))};
+      const Ticks max_raise = draw.ticks(0, 60);
+      PairSearch search(scene);
+      std::optional<Ticks> last;
+      for (std::uint32_t round = 0; round < 4; ++round) {
+        PairSearch other(scene);
+        for (PairSearch* each : {&search, &other}) {
+          Draw bans(4 * seed + round);
+          for (const std::size_t side : {0U, 1U}) {
+            const AgentId agent = side == 0 ? i : j;
+            each->bans(side).clear(scene.standing_bans(agent));
+            add_bans(instance, agent, plan.paths[agent], bans, each->bans(side));
+          }
+        }
+        const Ticks found = search.refuted_raise(first, second, max_raise, kManySteps);
+        ASSERT_EQ(found, other.refuted_raise(first, second, max_raise, kManySteps))
+            << "seed " << 7'000'000 + seed << ", round " << round << ": " << describe(instance);
+        changes += last && *last != found ? 1 : 0;
+        last = found;
+      }
+    }
+  }
+  EXPECT_GT(changes, 0);
+}
+
 TEST(BlockedAgents, HaveNoPlan) {
   int solvable = 0, blocked = 0;
   for (std::uint32_t seed = 0; seed < support::scaled(500); ++seed) {
