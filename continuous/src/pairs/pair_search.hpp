@@ -157,7 +157,7 @@ class PairSearch {
                             Ticks first_s, Side& y, const Element& b, Ticks first_t);
   /// What `element` needs to end at `tick` or later.
   [[nodiscard]] static Ticks raise_for_end(const Element& element, Ticks tick);
-  /// The box around a move or a stay.
+  /// The box around a move or a stay, seen from above: what is far apart there is so in space.
   struct Box {
     Length left, right, bottom, top;
   };

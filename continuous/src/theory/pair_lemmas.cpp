@@ -11,8 +11,8 @@ namespace {
 /// there is no end of collisions.
 constexpr std::int64_t kFirstSteps = 4'000'000, kMoreSteps = 4;
 /// Steps for dropping obstacles, and for each raise: so many, or so many times what the refutation
-/// took. With less, less is raised: with 10,000,000 instead of 30,000,000 den520d (k = 3, task 1,
-/// 62 agents) took 8.4 instead of 3.1 s, with 4 refutations besides 10.4 s.
+/// took. With less, less is raised: with 4 refutations den520d (k = 3, task 3, 62 agents) takes
+/// more than 60 instead of 22 s.
 constexpr std::int64_t kStepsForMore = 30'000'000, kRefutationsForMore = 8;
 /// Of one test while obstacles are dropped; at least kFirstSteps.
 constexpr std::int64_t kRefutationsPerTest = 2;

@@ -105,6 +105,35 @@ class PairLemmaAudit {
   Count& count_;
 };
 
+/// Which of so many collisions of two agents at their free costs become a clause about the pair.
+std::vector<int> refuted_collisions(const Instance& instance, int num_collisions) {
+  LimitMonitor limits({});
+  Scene scene(instance, limits);
+  Model model(scene);
+  Collector writer;
+  PairLemmas lemmas(model);
+  const AgentId i(0), j(1);
+  std::vector<int> refuted;
+  for (int k = 1; k <= num_collisions; ++k)
+    if (lemmas.note_collision({i, model.free_cost(i)}, {j, model.free_cost(j)}, writer))
+      refuted.push_back(k);
+  return refuted;
+}
+
+// Clauses about single collisions are made, too, the more the longer the same caps come again:
+// where two agents have no plan, only those may prove it.
+TEST(PairLemmas, LeaveCollisionsToClauses) {
+  int num_refuted = 0;
+  for (std::uint32_t seed = 7'000'000; seed < 7'000'060; ++seed) {
+    const std::vector<int> refuted = refuted_collisions(random_pair(seed), 300);
+    if (refuted.empty()) continue;
+    EXPECT_EQ(refuted, (std::vector<int>{kCollisions, kCollisions + 2, 4 * (kCollisions + 2)}))
+        << "seed " << seed;
+    ++num_refuted;
+  }
+  EXPECT_GT(num_refuted, 0);
+}
+
 TEST(PairLemmas, ExcludeNoPlan) {
   const auto instances = static_cast<std::uint32_t>(support::scaled(300));
   Count count;
