@@ -15,9 +15,8 @@ constexpr std::int64_t kFirstSteps = 50'000, kMoreSteps = 4, kMostSteps = std::i
 /// refutations den520d (k = 3, task 3, 62 agents) takes more than 60 instead of 22 s.
 constexpr std::int64_t kSearchesForMore = 8, kMostStepsForMore = 30'000'000,
                        kRefutationsForMore = 8;
-/// Of one test while obstacles are dropped: what the search was allowed, or so many times what the
-/// refutation took.
-constexpr std::int64_t kRefutationsPerTest = 2;
+/// Of one test while obstacles are dropped: so many, or so many times what the refutation took.
+constexpr std::int64_t kStepsPerTest = 4'000'000, kRefutationsPerTest = 2;
 /// A search that refutes nothing is repeated with intervals half as long, if it took no more than
 /// such a part of its steps, and intervals are not yet as short as what they have to tell apart.
 /// Without that, caps of two agents who have to change sides (sparse, task 3, agents 4 and 17) rose
@@ -153,7 +152,7 @@ void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
 
 void PairLemmas::reduce(const Party& i, const Party& j) {
   const std::int64_t last = search_.effort() + steps_for_more();
-  steps_ = std::max(steps_, kRefutationsPerTest * refutation_);
+  steps_ = std::max(kStepsPerTest, kRefutationsPerTest * refutation_);
   struct Slot {
     std::size_t side, slot;
   };
