@@ -10,9 +10,6 @@
 namespace quadrille::continuous {
 namespace {
 
-/// Starts of one move that are not the earliest are split into so many intervals for the largest
-/// slack.
-constexpr std::int64_t kPieces = 2;
 constexpr std::size_t kMaxEdges = 50'000;
 
 }  // namespace
@@ -25,7 +22,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
   side.c = instance.class_of(party.agent);
   side.cap = party.cap;
   const Ticks slack = party.cap + raise - as_ticks(scene_.free_cost(party.agent));
-  side.width = std::max<Ticks>((slack + Ticks(kPieces - 1)) / kPieces, 1);
+  side.slack = slack;
   for (const VertexId v : side.reached) side.from_start[v.index()] = kForever;
   side.reached.clear();
   side.edges.clear();
@@ -91,7 +88,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
 
 Ticks PairSearch::leave_by(const Side& side, VertexId v) const {
   const Agent& agent = scene_.instance().agent(side.agent);
-  if (v == agent.goal) return agent.leaves ? Ticks{-1} : kForever;
+  if (v == agent.goal) return agent.leaves ? -kForever : kForever;
   Ticks last = -1;
   for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k)
     last = std::max(last, side.edges[k].last);
@@ -178,11 +175,16 @@ bool PairSearch::is_banned(BanTable& bans, EdgeId e) const {
          bans.stays_of(edge.to) != BanTable::kFree;
 }
 
+Ticks PairSearch::width_of(const Side& side) const {
+  return std::max<Ticks>(std::min<Ticks>((side.slack + Ticks(1)) / 2, width_), 1);
+}
+
 void PairSearch::make_elements(Side& side) {
   const Instance& instance = scene_.instance();
   const Roadmap& roadmap = instance.roadmap();
   const VertexId start = instance.agent(side.agent).start;
   side.elements.clear();
+  const Ticks width = width_of(side);
   for (const VertexId v : side.reached) {
     side.next[v.index()].is_known = false;
     side.may_matter_later[v.index()] = 0;
@@ -204,7 +206,7 @@ void PairSearch::make_elements(Side& side) {
       // The earliest start is by itself.
       for (const TickInterval& starts : allowed_)
         for (Ticks first = starts.first(), last = first; first <= starts.last();
-             first = last + 1, last = std::min(first + side.width - 1, starts.last()))
+             first = last + 1, last = std::min(first + width - 1, starts.last()))
           side.elements.push_back({true, e.matters, stay_matters, e.edge, to, first, last, duration,
                                    e.last_without_raise});
       if (e.matters && side.may_matter_later[v.index()] == 0) {

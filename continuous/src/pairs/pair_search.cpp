@@ -99,14 +99,20 @@ PairSearch::Steps PairSearch::steps(const Side& x, const Element& a, Ticks start
     // `next` sets out where b stands in its way: b comes late.
     if (const auto w = window(x.c, next.edge, y.c, b.to, reach); w && w->begin < 0)
       both = std::max(both, raise_for_end(b, first_s + w->end - b.duration));
-    // a's move passed where b stands: b comes late.
-    if (a.is_move)
-      if (const auto w = window(x.c, a.edge, y.c, b.to, reach); w && w->begin < a.duration)
-        both = std::max(both, raise_for_end(b, start_a + w->end - b.duration));
+    both = std::max(both, raise_to_pass(x, a, start_a, y, b));
   }
   result.late.raise = std::max(result.late.raise, both);
   result.early.raise = std::max(result.early.raise, both);
   return result;
+}
+
+Ticks PairSearch::raise_to_pass(const Side& x, const Element& a, Ticks start_a, const Side& y,
+                                const Element& b) {
+  if (!a.is_move || !b.stay_matters) return Ticks{0};
+  const Instance& instance = scene_.instance();
+  const auto w = window(x.c, a.edge, y.c, b.to, instance.reach(x.c) + instance.reach(y.c));
+  if (!w || w->begin >= a.duration) return Ticks{0};
+  return raise_for_end(b, start_a + w->end - b.duration);
 }
 
 bool PairSearch::costs_more(const Pending& a, const Pending& b) {
@@ -140,8 +146,10 @@ void PairSearch::advance(Side& x, std::uint32_t at_x, Ticks start_x, Side& y, st
     }
   };
   const Next& next = next_of(x, a.to);
-  if (const Ticks raise = raise_for_done(x, a, start_x, next); raise < kForever)
-    visit(kDone, raise, start_x, start_y);
+  if (Ticks raise = raise_for_done(x, a, start_x, next); raise < kForever) {
+    if (at_y != kDone) raise = std::max(raise, raise_to_pass(x, a, start_x, y, b));
+    visit(kDone, raise, std::max(start_x + a.duration, start_y), start_y);
+  }
   for (const Way& way : next.ways) {
     const Ticks arrive = start_x + a.duration + way.ticks;
     for (auto k = x.first_element[way.vertex.index()]; k < x.end_element[way.vertex.index()]; ++k) {

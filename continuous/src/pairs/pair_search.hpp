@@ -37,6 +37,12 @@ class PairSearch {
   [[nodiscard]] Ticks refuted_raise(const Party& i, const Party& j, Ticks max_raise,
                                     std::int64_t max_steps);
 
+  /// Starts that are not the earliest are split into intervals of so many ticks, or of half the
+  /// slack of the cap if that is less. Short ones refute more, and take longer.
+  void set_width(Ticks width) noexcept { width_ = width; }
+  /// Of the longest intervals of the last search.
+  [[nodiscard]] Ticks width() const { return std::max(width_of(sides_[0]), width_of(sides_[1])); }
+
   /// Bans that agent i (0) and agent j (1) obey; none at first.
   [[nodiscard]] BanTable& bans(std::size_t side) { return bans_[side]; }
   void swap_bans() { std::swap(bans_[0], bans_[1]); }
@@ -46,7 +52,7 @@ class PairSearch {
 
  private:
   /// A move that begins at a tick from `first` to `last`. The first element is the stay at the
-  /// start, the second one says that nothing more matters.
+  /// start, the second one says that nothing more matters, from the end of the last move on.
   struct Element {
     bool is_move = false;
     bool matters = false;
@@ -83,7 +89,7 @@ class PairSearch {
     ClassId c;
     AgentId agent;
     BanTable* bans = nullptr;
-    Ticks width = 1;               // of the intervals
+    Ticks slack = 0;               // at the largest raise
     std::vector<TimedEdge> edges;  // in the order of their tails
     std::vector<Element> elements;
     std::vector<Next> next;  // by vertex
@@ -130,6 +136,7 @@ class PairSearch {
   [[nodiscard]] Ticks leave_by(const Side& side, VertexId v) const;
   void find_contacts(Side& x, Side& y);
   void make_elements(Side& side);
+  [[nodiscard]] Ticks width_of(const Side& side) const;
   /// Starts of `e` that obey the bans, as far as these depend on the one move.
   void list_allowed(const Side& side, const TimedEdge& e);
   [[nodiscard]] bool is_banned(BanTable& bans, EdgeId e) const;
@@ -155,6 +162,10 @@ class PairSearch {
   };
   [[nodiscard]] Steps steps(const Side& x, const Element& a, Ticks start_a, const Element& next,
                             Ticks first_s, Side& y, const Element& b, Ticks first_t);
+  /// What it takes that a's move, which has ended, has not passed where b stands until then: b is
+  /// late.
+  [[nodiscard]] Ticks raise_to_pass(const Side& x, const Element& a, Ticks start_a, const Side& y,
+                                    const Element& b);
   /// What `element` needs to end at `tick` or later.
   [[nodiscard]] static Ticks raise_for_end(const Element& element, Ticks tick);
   /// The box around a move or a stay, seen from above: what is far apart there is so in space.
@@ -195,6 +206,7 @@ class PairSearch {
   /// Goes on with the least raise that is pending. False: there is none.
   bool next_raise();
 
+  Ticks width_ = kForever;
   Ticks max_raise_ = 0;           // or what reaches both ends
   Ticks raise_ = 0;               // up to which steps have been taken
   std::vector<Open> open_;        // a heap, the earliest first: to be visited

@@ -6,16 +6,23 @@
 namespace quadrille::continuous {
 namespace {
 
-/// Steps of one search to begin with, and how many times as many after one that was cut: where two
-/// agents have much room, refuting one pair of caps takes up to 25,000,000 steps, and without that
-/// there is no end of collisions.
-constexpr std::int64_t kFirstSteps = 4'000'000, kMoreSteps = 4;
-/// Steps for dropping obstacles, and for each raise: so many, or so many times what the refutation
-/// took. With less, less is raised: with 4 refutations den520d (k = 3, task 3, 62 agents) takes
-/// more than 60 instead of 22 s.
-constexpr std::int64_t kStepsForMore = 30'000'000, kRefutationsForMore = 8;
-/// Of one test while obstacles are dropped; at least kFirstSteps.
+/// Steps of one search to begin with, and how many times as many after one that refuted nothing:
+/// most pairs are refuted for little or never, but where two agents have much room, refuting one
+/// pair of caps takes up to 25,000,000 steps, and without that there is no end of collisions.
+constexpr std::int64_t kFirstSteps = 50'000, kMoreSteps = 4, kMostSteps = std::int64_t{1} << 40;
+/// Steps for dropping obstacles, and for each raise: so many times what the search was allowed, up
+/// to a limit, or so many times what the refutation took. With less, less is raised: with 4
+/// refutations den520d (k = 3, task 3, 62 agents) takes more than 60 instead of 22 s.
+constexpr std::int64_t kSearchesForMore = 8, kMostStepsForMore = 30'000'000,
+                       kRefutationsForMore = 8;
+/// Of one test while obstacles are dropped: what the search was allowed, or so many times what the
+/// refutation took.
 constexpr std::int64_t kRefutationsPerTest = 2;
+/// A search that refutes nothing is repeated with intervals half as long, if it took no more than
+/// such a part of its steps, and intervals are not yet as short as what they have to tell apart.
+/// Without that, caps of two agents who have to change sides (sparse, task 3, agents 4 and 17) rose
+/// tick by tick.
+constexpr std::int64_t kPartForHalf = 8;
 /// All searches of pairs that refute nothing: so many steps, and one for so many of the path
 /// searches, which take twice as long. More are in vain where many pairs are near each other. Those
 /// that refute do not count: what they take would keep the next one waiting, while collisions of
@@ -28,10 +35,9 @@ constexpr std::int64_t kSmallPart = 64;
 /// one before: otherwise caps would rise tick by tick.
 constexpr std::int64_t kFirstRaise = 4, kLowerRaise = 4;
 constexpr int kMostLowerRaises = 3;
-/// Most pairs need no such search: the clauses do as well, and for less. Measured: on den520d with
-/// 40 and in the warehouse with 60 agents, searches of pairs make seconds of more than 30 s; on
-/// room64, where cores come from many agents, they are worth nothing.
-constexpr int kFirstTry = 64;
+/// Most pairs need no such search: the clauses do as well. Those that do need it are worth it
+/// early.
+constexpr int kFirstTry = 4;
 /// Caps that were refuted and come again, with other obstacles, are left to clauses until there are
 /// so many times as many collisions: den520d (k = 3, task 5, 62 agents) takes 14 s instead of more
 /// than 30, task 1 with 69 agents 23 instead of 28. After other refutations every other collision
@@ -65,7 +71,7 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   if (wasted_ > kFirstWaste + path_effort_ / kPathStepsPerStep) return false;
   if (record.steps == 0) record.steps = kFirstSteps;
   steps_ = record.steps;
-  is_cut_ = false;
+  search_.set_width(kForever);
   const std::int64_t before = search_.effort();
   const bool is_added = try_pair(record, i, j, writer);
   if (!is_added) wasted_ += search_.effort() - before;
@@ -75,7 +81,7 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   else
     record.next_try = record.count + 2;
   if (is_added) record.refuted = caps;
-  if (!is_added && is_cut_) record.steps *= kMoreSteps;
+  if (!is_added) record.steps = std::min(kMoreSteps * record.steps, kMostSteps);
   return is_added;
 }
 
@@ -87,11 +93,11 @@ bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, Formul
   const bool is_open = std::any_of(record.open.begin(), record.open.end(), [&](const auto& caps) {
     return i.cap >= caps.first && j.cap >= caps.second;
   });
-  if (is_open || !is_refuted(i, j)) {
+  if (is_open || !refute(i, j)) {
     if (!is_open) record.open.emplace_back(i.cap, j.cap);
     load(i, j.agent, 0);
     load(j, i.agent, 1);
-    if (!is_refuted(i, j)) return false;
+    if (!refute(i, j)) return false;
     reduce(i, j);
   }
   add_clauses(i, j, writer);
@@ -101,14 +107,38 @@ bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, Formul
 bool PairLemmas::is_refuted(const Party& i, const Party& j) {
   const std::int64_t before = search_.effort();
   const bool is_refuted = search_.refuted_raise(searched(i), searched(j), 0, steps_) > 0;
-  const std::int64_t spent = search_.effort() - before;
-  if (is_refuted) refutation_ = spent;
-  if (!is_refuted && spent > steps_) is_cut_ = true;
+  if (is_refuted) refutation_ = search_.effort() - before;
   return is_refuted;
 }
 
+bool PairLemmas::refute(const Party& i, const Party& j) {
+  const Ticks passing = passing_time(i.agent, j.agent);
+  while (true) {
+    const std::int64_t before = search_.effort();
+    if (is_refuted(i, j)) return true;
+    const bool is_long = search_.effort() - before >= steps_ / kPartForHalf;
+    if (is_long || search_.width() <= passing) return false;
+    search_.set_width(search_.width() / 2);
+  }
+}
+
+Ticks PairLemmas::passing_time(AgentId i, AgentId j) {
+  const Instance& instance = model_.instance();
+  Ticks least = kForever;
+  for (const auto& [mover, stander] : {std::pair{i, j}, std::pair{j, i}}) {
+    const ClassId c = instance.class_of(mover), d = instance.class_of(stander);
+    for (const EdgeId e : instance.out_edges(c, instance.agent(mover).start)) {
+      const VertexId to = instance.roadmap().edge(e).to;
+      if (const auto w = model_.scene().contacts().window(c, e, d, to))
+        least = std::min(least, w->end - w->begin);
+    }
+  }
+  return least;
+}
+
 std::int64_t PairLemmas::steps_for_more() const {
-  return std::max(kStepsForMore, kRefutationsForMore * refutation_);
+  return std::max(std::min(kSearchesForMore * steps_, kMostStepsForMore),
+                  kRefutationsForMore * refutation_);
 }
 
 void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
@@ -123,7 +153,7 @@ void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
 
 void PairLemmas::reduce(const Party& i, const Party& j) {
   const std::int64_t last = search_.effort() + steps_for_more();
-  steps_ = std::max(kFirstSteps, kRefutationsPerTest * refutation_);
+  steps_ = std::max(steps_, kRefutationsPerTest * refutation_);
   struct Slot {
     std::size_t side, slot;
   };
@@ -138,7 +168,7 @@ void PairLemmas::reduce(const Party& i, const Party& j) {
       if (search_.effort() > last) return;
       const std::size_t end = std::min(at + chunk, slots.size());
       enable(at, end, false);
-      if (is_refuted(i, j)) {
+      if (refute(i, j)) {
         slots.erase(slots.begin() + static_cast<std::ptrdiff_t>(at),
                     slots.begin() + static_cast<std::ptrdiff_t>(end));
       } else {

@@ -50,6 +50,10 @@ class PairLemmas {
   bool try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
   /// Within `steps_`.
   [[nodiscard]] bool is_refuted(const Party& i, const Party& j);
+  /// The same, with shorter and shorter intervals as long as that takes little.
+  [[nodiscard]] bool refute(const Party& i, const Party& j);
+  /// How long one of them, on some first move, is in the way of the other at the end of it.
+  [[nodiscard]] Ticks passing_time(AgentId i, AgentId j);
   /// What may be spent to make more of a refutation.
   [[nodiscard]] std::int64_t steps_for_more() const;
   /// Makes obstacles that the two do not owe to each other slots of the search.
@@ -68,7 +72,6 @@ class PairLemmas {
   std::int64_t wasted_ = 0;            // steps of searches that refuted nothing
   std::int64_t steps_ = 0;             // of the next search at most
   std::int64_t refutation_ = 0;        // steps of the last search that refuted
-  bool is_cut_ = false;                // a search since the last note has made all of its steps
   std::vector<ObstacleId> loaded_[2];  // by side, slot
 };
 

@@ -8,6 +8,7 @@
 
 #include "continuous/routes/order_search.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "continuous/support/roads.hpp"
 #include "feasibility/feasibility.hpp"
 #include "support/environment.hpp"
 
@@ -50,6 +51,7 @@ void add_bans(const Instance& instance, AgentId agent, const Path& path, Draw& d
 
 struct Count {
   int searches = 0, refuted = 0;
+  int refuted_wide = 0;  ///< With intervals as long as they may be.
 };
 
 /// Caps that the plan exceeds, or just keeps: what is refuted has to end where the plan begins.
@@ -68,16 +70,21 @@ void check(Scene& scene, const Plan& plan, bool has_bans, Draw& draw, Count& cou
       }
       const Cost cap_i = draw.number(scene.free_cost(i), cost_i);
       const Cost cap_j = cost_j + draw.number(0, 2);
-      const Cost raise = as_cost(search.refuted_raise({i, as_ticks(cap_i)}, {j, as_ticks(cap_j)},
-                                                      draw.ticks(0, 60), kManySteps));
-      ASSERT_GE(raise, 0);
-      // No plan has cost(i) < cap_i + raise and cost(j) <= cap_j: this one has.
-      if (raise > 0) {
-        ASSERT_GE(cost_i, cap_i + raise) << "caps " << cap_i << " and " << cap_j << " of agents "
-                                         << first << " and " << 1 - first;
+      const Ticks max_raise = draw.ticks(0, 60);
+      for (const Ticks width : {kForever, draw.ticks(1, 20)}) {
+        search.set_width(width);
+        const Cost raise =
+            as_cost(search.refuted_raise({i, as_ticks(cap_i)}, {j, as_ticks(cap_j)}, max_raise,
+                                         width < kForever ? 50'000 : kManySteps));
+        ASSERT_GE(raise, 0);
+        // No plan has cost(i) < cap_i + raise and cost(j) <= cap_j: this one has.
+        if (raise > 0) {
+          ASSERT_GE(cost_i, cap_i + raise) << "caps " << cap_i << " and " << cap_j << " of agents "
+                                           << first << " and " << 1 - first << ", width " << width;
+        }
+        (width < kForever ? count.refuted : count.refuted_wide) += raise > 0 ? 1 : 0;
       }
       ++count.searches;
-      count.refuted += raise > 0 ? 1 : 0;
     }
   }
 }
@@ -96,8 +103,12 @@ void check_instances(bool has_bans, Count& count) {
   }
 }
 
-/// The test is of no use if nothing is refuted. Measured: 3 to 5 of a hundred.
-void expect_many(const Count& count) { EXPECT_GT(100 * count.refuted, count.searches); }
+/// The test is of no use if nothing is refuted. Measured: a tenth, and a tenth
+/// or a sixth more with short intervals.
+void expect_many(const Count& count) {
+  EXPECT_GT(20 * count.refuted_wide, count.searches);
+  EXPECT_GT(count.refuted, count.refuted_wide);
+}
 
 TEST(PairSearch, RefutesNoPlan) {
   Count count;
@@ -109,6 +120,26 @@ TEST(PairSearch, RefutesNoPlanThatObeysTheBans) {
   Count count;
   check_instances(true, count);
   expect_many(count);
+}
+
+/// In a corridor two agents cannot change places, not either when one of them is at its last move.
+TEST(PairSearch, KnowsTheLastMoveUntilItsEnd) {
+  const auto instance = Instance::make(roadmap({{0, 0}, {20, 0}, {40, 0}}, {{0, 1}, {1, 2}}),
+                                       {agent(0, 2, 2), agent(1, 0, 2)})
+                            .value();
+  LimitMonitor limits({});
+  Scene scene(instance, limits);
+  PairSearch search(scene);
+  const auto party = [&](AgentId i) {
+    return PairSearch::Party{i, as_ticks(scene.free_cost(i) + 10)};
+  };
+  for (const Ticks width : {kForever, Ticks{4}}) {
+    search.set_width(width);
+    EXPECT_EQ(search.refuted_raise(party(AgentId(0)), party(AgentId(1)), Ticks{5}, kManySteps),
+              Ticks{6});
+    EXPECT_EQ(search.refuted_raise(party(AgentId(1)), party(AgentId(0)), Ticks{5}, kManySteps),
+              Ticks{6});
+  }
 }
 
 /// What it keeps from the search before does not depend on the bans.
@@ -137,6 +168,9 @@ TEST(PairSearch, FindsWhatANewOneFinds) {
             add_bans(instance, agent, plan.paths[agent], bans, each->bans(side));
           }
         }
+        const Ticks width = round % 2 == 0 ? kForever : draw.ticks(1, 20);
+        search.set_width(width);
+        other.set_width(width);
         const Ticks found = search.refuted_raise(first, second, max_raise, kManySteps);
         ASSERT_EQ(found, other.refuted_raise(first, second, max_raise, kManySteps))
             << "seed " << 7'000'000 + seed << ", round " << round << ": " << describe(instance);
