@@ -37,8 +37,8 @@ class PairSearch {
   [[nodiscard]] Ticks refuted_raise(const Party& i, const Party& j, Ticks max_raise,
                                     std::int64_t max_steps);
 
-  /// Starts that are not the earliest are split into intervals of so many ticks, or of half the
-  /// slack of the cap if that is less. Short ones refute more, and take longer.
+  /// Starts that are not the earliest are split into intervals of so many ticks (at least 1), or of
+  /// half the slack of the cap if that is less. Short ones refute more, and take longer.
   void set_width(Ticks width) noexcept { width_ = width; }
   /// Of the longest intervals of the last search.
   [[nodiscard]] Ticks width() const { return std::max(width_of(sides_[0]), width_of(sides_[1])); }
@@ -136,6 +136,7 @@ class PairSearch {
   [[nodiscard]] Ticks leave_by(const Side& side, VertexId v) const;
   void find_contacts(Side& x, Side& y);
   void make_elements(Side& side);
+  /// Of the intervals.
   [[nodiscard]] Ticks width_of(const Side& side) const;
   /// Starts of `e` that obey the bans, as far as these depend on the one move.
   void list_allowed(const Side& side, const TimedEdge& e);
@@ -206,7 +207,7 @@ class PairSearch {
   /// Goes on with the least raise that is pending. False: there is none.
   bool next_raise();
 
-  Ticks width_ = kForever;
+  Ticks width_ = kForever;        // of intervals at most
   Ticks max_raise_ = 0;           // or what reaches both ends
   Ticks raise_ = 0;               // up to which steps have been taken
   std::vector<Open> open_;        // a heap, the earliest first: to be visited

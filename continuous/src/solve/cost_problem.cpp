@@ -37,7 +37,7 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
   ContinuousTheory::Question asked;
   asked.mode = theory_in_search_ && !is_known_only ? Mode::always : Mode::never;
   // What quick tests ask is often hopeless, and a search of a pair would find no answer.
-  asked.uses_pair_lemmas = question.search == Search::full;
+  if (question.search == Search::quick) asked.pairs = PairLemmas::Scope::proven;
   std::vector<Level> assumed = question.below;
   IdVector<AgentId, Cost> ceilings(model_.instance().num_agents(), kAnyCost);
   if (!question.ceilings.empty() && !is_known_only) ceilings = question.ceilings;

@@ -23,6 +23,10 @@ class PairLemmas {
     Cost cap = 0;                             ///< kAnyCost: none.
     std::span<const ObstacleId> active = {};  ///< Obstacles whose literals are false.
   };
+  /// Pairs that are searched: all, or those whose last search refuted something. Collisions of
+  /// others do not count.
+  enum class Scope { all, proven };
+  void set_scope(Scope scope) noexcept { scope_ = scope; }
   /// To be told of each collision of two agents with i.agent < j.agent. True: a clause was added
   /// that says that one of the caps is not kept, or that some active obstacle is allowed.
   bool note_collision(const Party& i, const Party& j, FormulaWriter& writer);
@@ -40,6 +44,7 @@ class PairLemmas {
   struct Record {
     int count = 0;
     int next_try = 0;
+    bool is_proven = false;                        // the last search refuted something
     std::optional<std::pair<Cost, Cost>> refuted;  // caps, the last time
     std::int64_t steps = 0;                        // of one search; 0: it has not been tried
     std::vector<std::pair<Cost, Cost>> open;  // caps that other agents have to join in to refute
@@ -66,6 +71,7 @@ class PairLemmas {
   [[nodiscard]] Ticks max_raise(AgentId i) const;
 
   Model& model_;
+  Scope scope_ = Scope::all;
   PairSearch search_;
   std::map<std::pair<AgentId, AgentId>, Record> collisions_, explanations_;
   std::int64_t path_effort_ = 0;

@@ -140,7 +140,7 @@ void ContinuousTheory::explain_bound(AgentId i, const PathSearch::Cheapest& sear
 
 void ContinuousTheory::blame_pairs(AgentId i, Cost bound, const ObstacleIds& blamed,
                                    FormulaWriter& writer) {
-  if (bound >= kAnyCost || !question_.uses_pair_lemmas) return;
+  if (bound >= kAnyCost) return;
   pair_lemmas_.set_path_effort(search_.effort());
   std::map<AgentId, int> due_to;
   for (const ObstacleId id : blamed)
@@ -219,7 +219,6 @@ void ContinuousTheory::check_paths(CountingWriter& writer) {
 }
 
 bool ContinuousTheory::note_collision(const Encounter& e, FormulaWriter& writer) {
-  if (!question_.uses_pair_lemmas) return false;
   pair_lemmas_.set_path_effort(search_.effort());
   const auto party = [&](AgentId i) {
     return PairLemmas::Party{i, trail_.cap(i), trail_.active(i)};

@@ -43,12 +43,13 @@ class ContinuousTheory final : public sat::Theory {
     /// SAT solving.
     enum class Mode { always, complete, never };
     Mode mode = Mode::always;
-    /// Whether agents that collide again and again are searched together.
-    bool uses_pair_lemmas = true;
+    /// Which agents that collide again and again are searched together.
+    PairLemmas::Scope pairs = PairLemmas::Scope::all;
   };
   /// Between solves: the question of the next one. Forgets the accepted paths.
   void ask(const Question& question) {
     question_ = question;
+    pair_lemmas_.set_scope(question.pairs);
     accepted_.reset();
   }
 

@@ -103,8 +103,8 @@ void check_instances(bool has_bans, Count& count) {
   }
 }
 
-/// The test is of no use if nothing is refuted. Measured: a tenth, and a tenth
-/// or a sixth more with short intervals.
+/// The test is of no use if nothing is refuted. Measured: a tenth, and with short
+/// intervals a tenth or a sixth more.
 void expect_many(const Count& count) {
   EXPECT_GT(20 * count.refuted_wide, count.searches);
   EXPECT_GT(count.refuted, count.refuted_wide);

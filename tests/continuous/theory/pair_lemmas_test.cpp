@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "continuous/routes/order_search.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "continuous/support/roads.hpp"
 #include "support/environment.hpp"
 #include "theory/known_plan_auditor.hpp"
 
@@ -105,19 +107,78 @@ class PairLemmaAudit {
   Count& count_;
 };
 
-/// Which of so many collisions of two agents at their free costs become a clause about the pair.
+/// Collisions of the two agents of an instance, each at so much more than its free cost.
+class Collisions {
+ public:
+  explicit Collisions(Instance instance, Cost slack = 0)
+      : instance_(std::move(instance)),
+        scene_(instance_, limits_),
+        model_(scene_),
+        slack_(slack),
+        lemmas_(model_) {}
+
+  /// Whether the next one becomes a clause about the pair.
+  [[nodiscard]] bool next() {
+    const AgentId i(0), j(1);
+    return lemmas_.note_collision({i, model_.free_cost(i) + slack_},
+                                  {j, model_.free_cost(j) + slack_}, writer_);
+  }
+  [[nodiscard]] PairLemmas& lemmas() { return lemmas_; }
+
+ private:
+  Instance instance_;
+  LimitMonitor limits_{{}};
+  Scene scene_;
+  Model model_;
+  Cost slack_;
+  Collector writer_;
+  PairLemmas lemmas_;
+};
+
+/// Which of so many collisions at the free costs become a clause about the pair.
 std::vector<int> refuted_collisions(const Instance& instance, int num_collisions) {
-  LimitMonitor limits({});
-  Scene scene(instance, limits);
-  Model model(scene);
-  Collector writer;
-  PairLemmas lemmas(model);
-  const AgentId i(0), j(1);
+  Collisions collisions(instance);
   std::vector<int> refuted;
   for (int k = 1; k <= num_collisions; ++k)
-    if (lemmas.note_collision({i, model.free_cost(i)}, {j, model.free_cost(j)}, writer))
-      refuted.push_back(k);
+    if (collisions.next()) refuted.push_back(k);
   return refuted;
+}
+
+/// Two agents that have to change sides in a corridor, and cannot.
+Instance corridor() {
+  return Instance::make(roadmap({{0, 0}, {20, 0}, {40, 0}, {60, 0}}, {{0, 1}, {1, 2}, {2, 3}}),
+                        {agent(0, 3, 2), agent(3, 0, 2)})
+      .value();
+}
+
+// With much room, intervals of starts are too long at first to tell that the two meet.
+TEST(PairLemmas, ShortenIntervalsUntilTheyTellWhoPasses) {
+  constexpr Cost kSlack = 50;
+  const Instance instance = corridor();
+  LimitMonitor limits({});
+  Scene scene(instance, limits);
+  PairSearch search(scene);
+  const auto party = [&](AgentId i) {
+    return PairSearch::Party{i, as_ticks(scene.free_cost(i) + kSlack)};
+  };
+  EXPECT_EQ(search.refuted_raise(party(AgentId(0)), party(AgentId(1)), Ticks{0}, 1'000'000),
+            Ticks{0});
+  Collisions collisions(instance, kSlack);
+  // The first search has too few steps.
+  for (int k = 1; k < 2 * kCollisions; ++k) EXPECT_FALSE(collisions.next());
+  EXPECT_TRUE(collisions.next());
+}
+
+TEST(PairLemmas, SearchOnlyProvenPairsWhereTheyAreAskedTo) {
+  Collisions collisions(corridor());
+  collisions.lemmas().set_scope(PairLemmas::Scope::proven);
+  for (int k = 0; k < 3 * kCollisions; ++k) EXPECT_FALSE(collisions.next());
+  collisions.lemmas().set_scope(PairLemmas::Scope::all);
+  for (int k = 1; k < kCollisions; ++k) EXPECT_FALSE(collisions.next());
+  EXPECT_TRUE(collisions.next());
+  collisions.lemmas().set_scope(PairLemmas::Scope::proven);
+  EXPECT_FALSE(collisions.next());
+  EXPECT_TRUE(collisions.next());
 }
 
 // Clauses about single collisions are made, too, the more the longer the same caps come again:
