@@ -56,6 +56,7 @@ class PlanImprover {
     return as_cost(agents_[i].path.arrival) - scene_.free_cost(i);
   }
   [[nodiscard]] std::vector<AgentId> choose();
+  /// In proportion to delays; anybody, if nobody is late.
   [[nodiscard]] AgentId choose_delayed();
   /// They get new paths, if these cost less, or as much in sum.
   /// True if they cost less.

@@ -36,7 +36,8 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
                              (question.search == Search::quick && !theory_in_search_);
   ContinuousTheory::Question asked;
   asked.mode = theory_in_search_ && !is_known_only ? Mode::always : Mode::never;
-  // What quick tests ask is often hopeless, and a search of a pair would find no answer.
+  // What quick tests ask is often hopeless, and a search of a pair would find no answer; but where
+  // one has, the levels of the two and of a third agent would rise tick by tick without it.
   if (question.search == Search::quick) asked.pairs = PairLemmas::Scope::proven;
   std::vector<Level> assumed = question.below;
   IdVector<AgentId, Cost> ceilings(model_.instance().num_agents(), kAnyCost);

@@ -28,7 +28,7 @@ constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000, kMostEffort 
 constexpr int kMaxGreedyRounds = 50;
 /// Of questions between the cheapest cover and the plan (docs/performance.md): which part of the
 /// way, conflicts, and elementary steps, a hundredth of a second: where two agents have much room,
-/// a conflict takes a tenth of a second, and pairs are not searched in such questions.
+/// a conflict takes a tenth of a second, and few pairs are searched in such questions.
 constexpr Cost kInnerPart = 7;
 constexpr sat::SolveBudget kInnerBudget{50, {}, 200'000};
 /// Of a question for any plan, where none is known.
@@ -206,8 +206,8 @@ class CoverSearch {
   }
 
   /// Whether there is a plan at the costs of the cheapest cover. First whether somewhat higher ones
-  /// can be refuted at once, as they nearly always can: cores of those are stronger. Pairs are not
-  /// searched then: what that refuses at higher costs would delay the search that is needed.
+  /// can be refuted at once, as they nearly always can: cores of those are stronger. Only pairs of
+  /// which that refuted something are searched then: others would delay what is needed.
   Verdict ask() {
     asked_ = towards_plan();
     const Question inner{
