@@ -21,8 +21,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
   side.agent = party.agent;
   side.c = instance.class_of(party.agent);
   side.cap = party.cap;
-  const Ticks slack = party.cap + raise - as_ticks(scene_.free_cost(party.agent));
-  side.slack = slack;
+  side.slack = party.cap + raise - as_ticks(scene_.free_cost(party.agent));
   for (const VertexId v : side.reached) side.from_start[v.index()] = kForever;
   side.reached.clear();
   side.edges.clear();

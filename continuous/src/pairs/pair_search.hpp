@@ -40,8 +40,10 @@ class PairSearch {
   /// Starts that are not the earliest are split into intervals of so many ticks (at least 1), or of
   /// half the slack of the cap if that is less. Short ones refute more, and take longer.
   void set_width(Ticks width) noexcept { width_ = width; }
-  /// Of the longest intervals of the last search.
-  [[nodiscard]] Ticks width() const { return std::max(width_of(sides_[0]), width_of(sides_[1])); }
+  /// Of the longest intervals of the last search; 0 if it was not made, as it would be too large.
+  [[nodiscard]] Ticks width() const {
+    return prepared_ ? std::max(width_of(sides_[0]), width_of(sides_[1])) : Ticks{0};
+  }
 
   /// Bans that agent i (0) and agent j (1) obey; none at first.
   [[nodiscard]] BanTable& bans(std::size_t side) { return bans_[side]; }

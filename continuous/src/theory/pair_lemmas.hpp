@@ -57,7 +57,8 @@ class PairLemmas {
   [[nodiscard]] bool is_refuted(const Party& i, const Party& j);
   /// The same, with shorter and shorter intervals as long as that takes little.
   [[nodiscard]] bool refute(const Party& i, const Party& j);
-  /// How long one of them, on some first move, is in the way of the other at the end of it.
+  /// How long one of them, on some first move, is in the way of the other at the end of it; at
+  /// least 1.
   [[nodiscard]] Ticks passing_time(AgentId i, AgentId j);
   /// What may be spent to make more of a refutation.
   [[nodiscard]] std::int64_t steps_for_more() const;
