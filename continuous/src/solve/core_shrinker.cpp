@@ -15,7 +15,7 @@ using sat::Verdict;
 constexpr sat::SolveBudget kRaiseBudget{20, 60}, kDropBudget{100, 350};
 
 /// Tests of all levels of a core at once, besides that of the next thresholds. What they are worth
-/// stands in docs/performance.md.
+/// stands in bench/notebook, continuous-cores.
 constexpr int kMostJointTests = 3;
 
 /// Tests that fail take most of the time of the drops, and on sparse maps nearly all do: there are

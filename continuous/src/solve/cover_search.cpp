@@ -26,7 +26,7 @@ constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000, kMostEffort 
 /// Covers by greed between two cheapest ones, whatever these take: where no plan is known, costs by
 /// greed may rise for ever.
 constexpr int kMaxGreedyRounds = 50;
-/// Of questions between the cheapest cover and the plan (docs/performance.md): which part of the
+/// Of questions between the cheapest cover and the plan (bench/notebook, continuous-cores): which part of the
 /// way, conflicts, and elementary steps, a hundredth of a second: where two agents have much room,
 /// a conflict takes a tenth of a second, and few pairs are searched in such questions.
 constexpr Cost kInnerPart = 7;
