@@ -50,7 +50,7 @@ function(quadrille_add_library folder)
   target_include_directories(${target}
     PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
       "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
-    # Private headers are named with their room: "cost/descent.hpp".
+    # Private headers are named with their room: "cost/relaxation.hpp".
     PRIVATE src)
   target_link_libraries(${target} PUBLIC ${arg_LINK} ${arg_PUBLIC_LINK}
     PRIVATE ${arg_PRIVATE_LINK})
