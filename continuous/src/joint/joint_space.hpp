@@ -46,7 +46,7 @@ struct AgeLimit {
 /// The places of some agents and the events that lead from one to the next, with the limits on the
 /// times at which these may happen. Every plan is a sequence of such events, ordered by time, and
 /// every sequence with times that keep the limits, from the starts to the goals, is a plan.
-/// docs/soundness.md
+/// docs/soundness/continuous.md, 11.20
 class JointSpace {
  public:
   /// At most kMaxJointAgents agents. The scene outlives this.

@@ -18,7 +18,8 @@ struct Route {
 
 /// All ways in which some agents can follow given routes, by the order in which moves and stays
 /// that are in each other's way happen. Every order is a system of difference constraints on the
-/// starts of the moves, whose least solution minimises every agent's arrival at once. soundness.md
+/// starts of the moves, whose least solution minimises every agent's arrival at once.
+/// Soundness 11.18
 class RouteOrders {
  public:
   /// `work` counts down comparisons; when it is below 0 the search ends early.

@@ -34,7 +34,7 @@ struct Situation {
 };
 
 /// The last answers of a session, and what they say about another situation on the same roadmap.
-/// Why that is true: docs/soundness.md, section 13.
+/// Why that is true: docs/soundness/sessions.md.
 class Episodes {
  public:
   /// The answer for a situation.

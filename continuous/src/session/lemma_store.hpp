@@ -11,7 +11,7 @@
 namespace quadrille::continuous {
 
 /// What the last search by clauses has learned, with what it began with, and what of it is true in
-/// another situation on the same roadmap. Why that is so: docs/soundness.md, section 13.
+/// another situation on the same roadmap. Why that is so: docs/soundness/sessions.md.
 class LemmaStore {
  public:
   /// `base`: of the vertices and edges after those of this roadmap nothing is kept.

@@ -42,8 +42,8 @@ struct Obstacle {
 /// In every valid plan, let cost literals be true as the arrivals say, and a usage literal be true
 /// if and only if the agent breaks one of its bans: every clause that this folder makes holds then.
 /// Not so the cores that a cost search adds: they hold in every plan that is cheaper than its
-/// incumbent, and with them all that the solver derives (docs/soundness.md, section 11). Incumbents
-/// only become cheaper, so that what held relative to one holds relative to the next.
+/// incumbent, and with them all that the solver derives (docs/soundness/continuous.md, 11.13).
+/// Incumbents only become cheaper, so that what held relative to one holds relative to the next.
 ///
 /// In lemmas, the resource number of a usage is the index of its obstacle.
 class Model {

@@ -15,9 +15,10 @@
 
 namespace quadrille::discrete {
 
-/// The propositional formula over the agents' MDDs (docs/soundness.md): variables X(i,v,t) "agent i
-/// is in v at t" and C(i,k) "agent i arrives at d_i + k or later", and the clauses that each agent
-/// satisfies on its own. Grows; every clause stays valid when it does, so learned clauses survive.
+/// The propositional formula over the agents' MDDs (docs/soundness/mdd.md): variables X(i,v,t)
+/// "agent i is in v at t" and C(i,k) "agent i arrives at d_i + k or later", and the clauses that
+/// each agent satisfies on its own. Grows; every clause stays valid when it does, so learned
+/// clauses survive.
 ///
 /// A true assignment contains a path per agent. It may have further true X(i,v,t): at most one
 /// vertex per timestep is not demanded, and not needed.

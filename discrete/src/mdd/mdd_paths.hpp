@@ -11,8 +11,8 @@
 namespace quadrille::discrete {
 
 /// The clauses over X(v,t), "the agent is in v at t", that make one agent walk through its MDD
-/// (docs/soundness.md). Grows with the delay that the agent may have; every clause stays valid when
-/// it does.
+/// (docs/soundness/mdd.md). Grows with the delay that the agent may have; every clause stays valid
+/// when it does.
 class MddPaths {
  public:
   /// Where the clauses go, and what the agent's delays are called there.

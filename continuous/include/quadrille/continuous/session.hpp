@@ -21,7 +21,7 @@ using MemberId = StrongId<struct MemberTag>;
 /// A roadmap and agents that change, and are solved again after each change. What the answers rest
 /// on lives on: what is in whose way, the distances to goals, the lower bounds of groups of agents
 /// of whom nothing has changed, the last plans, which are mended instead of made anew, and lemmas
-/// and cores of the last search by clauses (docs/soundness.md, section 13). Costs and proofs are
+/// and cores of the last search by clauses (docs/soundness/sessions.md). Costs and proofs are
 /// those of `solve` for `instance()`; among plans of the same cost it may be another one, which
 /// depends on what was solved before.
 ///

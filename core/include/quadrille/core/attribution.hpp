@@ -82,7 +82,7 @@ struct CollisionSite {
 /// makespan of every plan of H is at least `free_bound` plus the amounts of the raises up to and
 /// with k. So the last one says it all.
 ///
-/// A raise of kind `total` names all agents. Why the claims hold: docs/soundness.md, section 12.
+/// A raise of kind `total` names all agents. Why the claims hold: docs/soundness/cost.md.
 struct Attribution {
   Objective objective = Objective::sum_of_costs;
   Cost free_bound = 0;

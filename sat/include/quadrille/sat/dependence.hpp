@@ -19,7 +19,7 @@ namespace quadrille::sat {
 /// A clause about an agent says nothing where that agent costs as much as it likes: most clauses
 /// contain the literal "it costs more". Not so those of agents that are *unconditional*: what they
 /// do at whatever cost may be in others' way, and so they count wherever a clause links them to one
-/// that counts. docs/soundness.md, section 12, proves that this is enough.
+/// that counts. docs/soundness/cost.md, section 12, proves that this is enough.
 class Dependence {
  public:
   explicit Dependence(std::size_t num_agents)
