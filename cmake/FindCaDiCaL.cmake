@@ -35,8 +35,8 @@ find_library(CaDiCaL_LIBRARY cadical ${_cadical_places}
 mark_as_advanced(CaDiCaL_INCLUDE_DIR CaDiCaL_LIBRARY)
 
 set(_cadical_advice
-  "quadrille needs CaDiCaL >= 2.1, whose external propagator takes assignments in batches (Debian 12 \
-ships 1.5.3). Run scripts/setup, which gets Debian's newer package without touching the system, \
+  "quadrille needs CaDiCaL >= 2.1.3 and < 3, of which 2.1.3 and 2.2.0 were tried (Debian 12 ships 1.5.3). Run \
+scripts/setup, which gets Debian's newer package without touching the system, \
 or build CaDiCaL yourself and pass -DCADICAL_ROOT=<prefix or source tree>.")
 
 # The header carries no version. The library does, as the text behind CaDiCaL::signature().
@@ -48,7 +48,7 @@ if(CaDiCaL_LIBRARY AND EXISTS "${CaDiCaL_LIBRARY}")
   endif()
 endif()
 
-# Compiles a use of what this project needs, and links it when LINK is given.
+# Compiles cadical_check.cpp, which uses all that this project does, and links it when LINK is given.
 function(_cadical_try result)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LINK" "" "EXTRA")
   set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
@@ -58,28 +58,26 @@ function(_cadical_try result)
     set(libraries LINK_LIBRARIES "${CaDiCaL_LIBRARY}")
   endif()
   set(dir "${CMAKE_CURRENT_BINARY_DIR}${CMAKE_FILES_DIRECTORY}/cadical_check")
-  file(WRITE "${dir}/check.cpp" "#include <cadical.hpp>
-#include <tracer.hpp>
-struct Propagator : CaDiCaL::ExternalPropagator {
-  void notify_assignment(const std::vector<int>&) override {}
-  void notify_new_decision_level() override {}
-  void notify_backtrack(std::size_t) override {}
-  bool cb_check_found_model(const std::vector<int>&) override { return true; }
-  bool cb_has_external_clause(bool& forgettable) override { return forgettable = false; }
-  int cb_add_external_clause_lit() override { return 0; }
-};
-int main() {
-  Propagator propagator;
-  CaDiCaL::Solver solver;
-  solver.connect_external_propagator(&propagator);
-  return solver.solve();
-}
-")
-  try_compile(compiled "${dir}" SOURCES "${dir}/check.cpp" ${arg_EXTRA}
-    CMAKE_FLAGS "-DINCLUDE_DIRECTORIES=${CaDiCaL_INCLUDE_DIR}"
+  # Where this file is installed, all three are in one folder.
+  set(includes "${CaDiCaL_INCLUDE_DIR};${CMAKE_CURRENT_FUNCTION_LIST_DIR};${_cadical_source}/sat/src/engine")
+  try_compile(compiled "${dir}" SOURCES "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/cadical_check.cpp" ${arg_EXTRA}
+    CMAKE_FLAGS "-DINCLUDE_DIRECTORIES=${includes}"
     ${libraries} CXX_STANDARD 20 OUTPUT_VARIABLE output)
   set(${result} ${compiled} PARENT_SCOPE)
   set(_cadical_output "${output}" PARENT_SCOPE)
+endfunction()
+
+# The first errors of a compiler, without the paths of the check.
+function(_cadical_errors result output)
+  string(REPLACE ";" "," output "${output}")
+  string(REGEX MATCHALL "(error|undefined reference)[^\n]*" errors "${output}")
+  list(REMOVE_DUPLICATES errors)
+  list(SUBLIST errors 0 4 errors)
+  list(JOIN errors "\n  " text)
+  if(NOT text)
+    set(text "${output}")
+  endif()
+  set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
 # Checked once per library and header; a library that was replaced is checked again.
@@ -92,7 +90,8 @@ if(CaDiCaL_LIBRARY AND CaDiCaL_INCLUDE_DIR)
     set(_cadical_shim FALSE)
     _cadical_try(_cadical_ok)
     if(NOT _cadical_ok)
-      set(_cadical_problem "its header lacks the interface that is needed (it is too old, or much newer)")
+      _cadical_errors(_cadical_errors "${_cadical_output}")
+      set(_cadical_problem "its header lacks what is needed:\n  ${_cadical_errors}")
     else()
       _cadical_try(_cadical_ok LINK)
       if(NOT _cadical_ok AND _cadical_output MATCHES "__isoc23_")
@@ -100,7 +99,8 @@ if(CaDiCaL_LIBRARY AND CaDiCaL_INCLUDE_DIR)
         _cadical_try(_cadical_ok LINK EXTRA "${CMAKE_CURRENT_LIST_DIR}/glibc_shim.cpp")
       endif()
       if(NOT _cadical_ok)
-        set(_cadical_problem "a program cannot be linked with it:\n${_cadical_output}")
+        _cadical_errors(_cadical_errors "${_cadical_output}")
+        set(_cadical_problem "a program cannot be linked with it:\n  ${_cadical_errors}")
       endif()
     endif()
     if(_cadical_ok)
@@ -114,15 +114,28 @@ if(CaDiCaL_LIBRARY AND CaDiCaL_INCLUDE_DIR)
   endif()
 endif()
 
+set(_cadical_name "CaDiCaL ${CaDiCaL_VERSION} (${CaDiCaL_LIBRARY})")
+if(NOT CaDiCaL_VERSION)
+  set(_cadical_name "a CaDiCaL of unknown version (${CaDiCaL_LIBRARY})")
+endif()
 if(NOT CaDiCaL_LIBRARY OR NOT CaDiCaL_INCLUDE_DIR)
-  set(_cadical_problem "CaDiCaL was not found.")
+  set(_cadical_missing "its library")
+  if(NOT CaDiCaL_INCLUDE_DIR AND CaDiCaL_LIBRARY)
+    set(_cadical_missing "the header that belongs to ${CaDiCaL_LIBRARY}")
+  elseif(NOT CaDiCaL_INCLUDE_DIR)
+    set(_cadical_missing "library and header")
+  endif()
+  set(_cadical_problem "CaDiCaL was not found (missing: ${_cadical_missing}).")
   if(_cadical_root)
     string(PREPEND _cadical_problem "CADICAL_ROOT is ${_cadical_root}: ")
   endif()
+elseif(CaDiCaL_VERSION AND CaDiCaL_FIND_VERSION_MIN AND CaDiCaL_VERSION VERSION_LESS CaDiCaL_FIND_VERSION_MIN)
+  set(_cadical_problem "Found ${_cadical_name}, which is too old.")
+elseif(CaDiCaL_VERSION AND CaDiCaL_FIND_VERSION_MAX
+       AND NOT CaDiCaL_VERSION VERSION_LESS CaDiCaL_FIND_VERSION_MAX)
+  set(_cadical_problem "Found ${_cadical_name}, which is too new.")
 elseif(_cadical_problem)
-  set(_cadical_problem "Found ${CaDiCaL_LIBRARY}, but ${_cadical_problem}.")
-elseif(CaDiCaL_VERSION AND CaDiCaL_FIND_VERSION AND CaDiCaL_VERSION VERSION_LESS CaDiCaL_FIND_VERSION)
-  set(_cadical_problem "Found CaDiCaL ${CaDiCaL_VERSION} (${CaDiCaL_LIBRARY}), which is too old.")
+  set(_cadical_problem "Found ${_cadical_name}, but ${_cadical_problem}")
 endif()
 
 # An unknown version is judged by the interface alone.
@@ -131,7 +144,7 @@ if(CaDiCaL_VERSION)
   set(_cadical_version_var VERSION_VAR CaDiCaL_VERSION)
 endif()
 find_package_handle_standard_args(CaDiCaL
-  REQUIRED_VARS CaDiCaL_LIBRARY CaDiCaL_INCLUDE_DIR CaDiCaL_API_OK
+  REQUIRED_VARS CaDiCaL_LIBRARY CaDiCaL_INCLUDE_DIR CaDiCaL_API_OK HANDLE_VERSION_RANGE
   ${_cadical_version_var}
   REASON_FAILURE_MESSAGE "${_cadical_problem}\n${_cadical_advice}\n")
 

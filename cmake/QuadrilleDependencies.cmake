@@ -13,7 +13,8 @@ macro(quadrille_find_package package debian)
   endif()
 endmacro()
 
-find_package(CaDiCaL 2.1 REQUIRED)
+# A new major version may break its users, and what it no longer does right may still compile.
+find_package(CaDiCaL 2.1.3...<3 REQUIRED)
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The only file that knows CaDiCaL.
+// The only file that knows CaDiCaL, with derived_clause_tracer.hpp. What it uses of CaDiCaL is in
+// cmake/cadical_check.cpp, too.
 #include "quadrille/sat/engine.hpp"
 
 #include <cadical.hpp>
 #include <exception>
 #include <limits>
 #include <memory>
-#include <tracer.hpp>
 #include <utility>
 #include <vector>
 
+#include "engine/derived_clause_tracer.hpp"
 #include "engine/theory_host.hpp"
 #include "quadrille/core/contract.hpp"
 
@@ -64,26 +65,6 @@ class Border {
  private:
   std::exception_ptr thrown_;
   bool is_solver_lost_ = false;
-};
-
-/// Hands each clause that the solver derives to the observer.
-class DerivedClauseTracer final : public CaDiCaL::Tracer {
- public:
-  DerivedClauseTracer(ClauseObserver& observer, Border& border)
-      : observer_(observer), border_(border) {}
-  void add_derived_clause(std::uint64_t, bool, const std::vector<int>& clause,
-                          const std::vector<std::uint64_t>&) override {
-    border_.notification([&] {
-      lits_.clear();
-      for (const int literal : clause) lits_.push_back(Lit::from_dimacs(literal));
-      observer_.on_learned(lits_);
-    });
-  }
-
- private:
-  ClauseObserver& observer_;
-  Border& border_;
-  std::vector<Lit> lits_;
 };
 
 /// A theory that has no opinion, for plain SAT solving: the solver's decisions are still counted.
@@ -244,12 +225,21 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     solver_->connect_terminator(this);
     solver_->connect_learner(this);
     if (observer_ != nullptr && observer_->wants_learned()) {
-      tracer_ = std::make_unique<DerivedClauseTracer>(*observer_, border_);
+      tracer_ = std::make_unique<DerivedClauseTracer>(
+          [this](const std::vector<int>& clause) { pass_on_learned(clause); });
       solver_->connect_proof_tracer(tracer_.get(), false);
     }
     solver_->connect_external_propagator(this);
     // Without any observed variable the solver would not ask the propagator for clauses.
     if (observed_) static_cast<void>(new_lit());
+  }
+
+  void pass_on_learned(const std::vector<int>& clause) {
+    border_.notification([&] {
+      learned_.clear();
+      for (const int literal : clause) learned_.push_back(Lit::from_dimacs(literal));
+      observer_->on_learned(learned_);
+    });
   }
 
   void set(const char* name, int value) {
@@ -360,7 +350,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   std::int64_t last_effort_ = kNoEnd;  // of the running solve
   bool has_paused_ = false;            // the running solve has come to its last effort
   bool is_bare_reason_told_ = false;
-  std::vector<Lit> assumptions_, failed_, kept_;
+  std::vector<Lit> assumptions_, failed_, kept_, learned_;
   std::vector<bool> model_;
   Verdict last_ = Verdict::unknown;
   std::int64_t num_solves_ = 0, num_conflicts_ = 0, num_clauses_ = 0, num_collision_clauses_ = 0;
