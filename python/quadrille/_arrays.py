@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any, Optional, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -52,6 +52,11 @@ def doubles(values: Any, name: str, shape: Shape) -> npt.NDArray[np.float64]:
     if array.dtype.kind not in "iuf":
         raise ValueError(f"{name}: expected numbers, not {array.dtype}")
     return np.ascontiguousarray(_shaped(array, name, shape), dtype=np.float64)
+
+
+def listed(array: npt.NDArray[Any]) -> list[Any]:
+    """``array.tolist()``, of which numpy 1 says Any and numpy 2 a union of all depths."""
+    return cast(list[Any], array.tolist())
 
 
 def with_places(values: Any, name: str, others: int = 0) -> npt.NDArray[np.float64]:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import doubles, ints, per_agent
+from ._arrays import doubles, ints, listed, per_agent
 from .graphs import Graph, Grid, Roadmap
 from .plans import Plan, StepPlan, TimedPlan
 from .rules import (
@@ -195,7 +195,7 @@ class Fleet(Generic[P]):
     @property
     def groups(self) -> list[Optional[str]]:
         """On roadmaps, per agent: the name of its group, or None."""
-        numbers = self._timed("groups").rules()["groups"].tolist()
+        numbers = listed(self._timed("groups").rules()["groups"])
         names = cast(Roadmap, self._graph)._groups
         return [None if number == 0 else names[number - 1] for number in numbers]
 

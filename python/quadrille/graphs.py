@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import bools, doubles, ints, with_places
+from ._arrays import bools, doubles, ints, listed, with_places
 from .rules import Only, only_of, open_to
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ class Roadmap:
     ) -> None:
         places = with_places(xy, "xy")
         ends = ints(edges, "edges", (None, 2))
-        times = np.full(len(ends), np.nan)
+        times: npt.NDArray[np.float64] = np.full(len(ends), np.nan)
         if durations is not None:
             times = doubles(durations, "durations", (len(ends),))
         masks, groups = open_to(only, len(ends))
@@ -139,7 +139,7 @@ class Roadmap:
             # An edge and its reverse are neighbours.
             ends = np.stack([ends, ends[:, ::-1]], axis=1).reshape(-1, 2)
             times, masks = np.repeat(times, 2), np.repeat(masks, 2)
-        sizes = doubles(np.broadcast_to(resolution, 2), "resolution", (2,)).tolist()
+        sizes = listed(doubles(np.broadcast_to(resolution, 2), "resolution", (2,)))
         if not all(0 < size < float("inf") for size in sizes):
             raise ValueError("resolution: a resolution is positive")
         pair = (sizes[0], sizes[1])
@@ -168,7 +168,7 @@ class Roadmap:
     @classmethod
     def from_networkx(
         cls,
-        G: nx.Graph,
+        G: nx.Graph[Any],
         pos: Any = "pos",
         *,
         duration: Optional[str] = None,
@@ -190,8 +190,9 @@ class Roadmap:
         Raises:
             ValueError: for a node without a place, and as ``Roadmap``.
         """
-        nodes = list(G.nodes)
-        places = G.nodes(data=pos) if isinstance(pos, str) else [(node, pos.get(node)) for node in nodes]
+        given: Any = G  # What networkx says of its types differs between versions.
+        nodes = list(given.nodes)
+        places = given.nodes(data=pos) if isinstance(pos, str) else [(node, pos.get(node)) for node in nodes]
         xy: list[Any] = []
         for node, place in places:
             if place is None or np.shape(place) not in ((2,), (3,)):
@@ -200,10 +201,10 @@ class Roadmap:
                 raise ValueError(f"pos: node {node!r} does not have {len(xy[0])} coordinates as others")
             xy.append(place)
         number = {node: at for at, node in enumerate(nodes)}
-        edges = [(number[u], number[v]) for u, v in G.edges()]
+        edges = [(number[u], number[v]) for u, v in given.edges()]
         durations = None
         if duration is not None:
-            durations = [np.nan if d is None else d for _, _, d in G.edges(data=duration)]
+            durations = [np.nan if d is None else d for _, _, d in given.edges(data=duration)]
         return cls(
             xy,
             edges,
@@ -211,7 +212,7 @@ class Roadmap:
             both_ways=not G.is_directed(),
             resolution=resolution,
             nodes=nodes,
-            only=None if only is None else [groups for _, _, groups in G.edges(data=only)],
+            only=None if only is None else [groups for _, _, groups in given.edges(data=only)],
         )
 
     @property
@@ -253,7 +254,7 @@ class Roadmap:
     def only(self) -> list[Optional[tuple[Optional[str], ...]]]:
         """Per edge the groups whose agents may use it, None among them for agents without a group; None
         if all may."""
-        return [only_of(mask, self._groups) for mask in self._graph.open_to().tolist()]
+        return [only_of(mask, self._groups) for mask in listed(self._graph.open_to())]
 
     @property
     def nodes(self) -> list[Hashable]:

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arrays import listed
 from .graphs import Graph, Grid, Roadmap
 from .reports import Report, Violation
 from .rules import Obstacle, obstacle_of
@@ -89,7 +90,7 @@ class Plan:
     def _columns(self) -> dict[str, Any]:
         raise NotImplementedError
 
-    def precedences(self) -> nx.DiGraph:
+    def precedences(self) -> nx.DiGraph[Any]:
         """Which moves come before which, whatever delays the agents; networkx is needed.
 
         Returns:
@@ -104,16 +105,16 @@ class Plan:
         """
         import networkx
 
-        graph = networkx.DiGraph()
+        graph: nx.DiGraph[Any] = networkx.DiGraph()
         moves, list_ = self._precedences()
         time = self._fleet._cost
-        for agent, move, source, target, begin, end in moves.tolist():
+        for agent, move, source, target, begin, end in listed(moves):
             graph.add_node(
                 (agent, move), source=source, target=target, begin=time(begin), end=time(end)
             )
             if move > 0:
                 graph.add_edge((agent, move - 1), (agent, move), kind="next")
-        for leader, first, follower, second, slack in list_.tolist():
+        for leader, first, follower, second, slack in listed(list_):
             graph.add_edge((leader, first), (follower, second), kind="after", slack=time(slack))
         return graph
 
@@ -323,7 +324,7 @@ class TimedPlan(Plan):
     @property
     def costs(self) -> npt.NDArray[np.float64]:
         fleet = self._fleet
-        return np.array([fleet._cost(cost) for cost in self._plan.costs().tolist()], dtype=np.float64)
+        return np.array([fleet._cost(cost) for cost in listed(self._plan.costs())], dtype=np.float64)
 
     @property
     def sum_of_costs(self) -> float:

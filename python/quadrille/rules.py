@@ -9,7 +9,7 @@ from typing import Any, Iterable, Optional, Sequence, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import bools, doubles, ints, per_agent, with_places
+from ._arrays import bools, doubles, ints, listed, per_agent, with_places
 
 # Whom an edge is open to: everybody, a group, or some; None among these is who has no group.
 Only = Union[None, str, Iterable[Optional[str]]]
@@ -108,7 +108,7 @@ def only_of(mask: int, names: list[str]) -> Optional[tuple[Optional[str], ...]]:
 def numbered_groups(masks: npt.NDArray[np.uint64], groups: npt.NDArray[np.int64]) -> list[str]:
     """Names for the groups of a file, which are numbers: as many as edges and agents speak of."""
     most = int(groups.max(initial=0))
-    for mask in np.unique(masks).tolist():
+    for mask in listed(np.unique(masks)):
         if mask != ALL:
             most = max(most, mask.bit_length() - 1)
     return [str(number) for number in range(1, most + 1)]
