@@ -98,6 +98,11 @@ class Cluster:
         with open(self.conf, "w", encoding="utf-8") as file:
             file.write(CONF.format(host=socket.gethostname().split(".")[0], folder=self.folder,
                                    user=pwd.getpwuid(os.getuid()).pw_name, ports=free_ports(2)))
+        # Nothing here needs control groups, but the node looks for them, and does not start where /sys is not
+        # mounted (in a chroot, say), unless it is told to look for those of version 1, and only on demand.
+        if not os.path.exists("/sys/fs/cgroup/cgroup.controllers"):
+            with open(os.path.join(self.folder, "cgroup.conf"), "w", encoding="utf-8") as file:
+                file.write("CgroupPlugin=cgroup/v1\n")
         self.environment = {**os.environ, "SLURM_CONF": self.conf}
         munge = os.path.join(self.folder, "munge")
         self._daemon("munged", "--foreground", "--force", f"--key-file={key}",
