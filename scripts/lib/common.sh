@@ -5,6 +5,8 @@
 # Environment:
 #   QUADRILLE_SKIP_SETUP=1   install nothing; what is missing shows as an error of CMake
 #   QUADRILLE_HEARTBEAT=30   seconds between signs of life without a terminal
+#   JOBS                     how many processes at a time compile and test; otherwise as many as there
+#                            are processors, and memory for
 #   QUADRILLE_CMAKE_ARGS     more arguments for the first configuration, split at spaces
 
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
@@ -19,23 +21,49 @@ die() {
   exit 1
 }
 
+if [[ -n ${JOBS:-} && ! $JOBS =~ ^[1-9][0-9]{0,3}$ ]]; then die "JOBS is \"$JOBS\", not a number of processes."; fi
+
 # Compilation takes up to 1 GiB per process.
 job_count() {
   local cores memory
+  if [[ -n ${JOBS:-} ]]; then
+    echo "$JOBS"
+    return
+  fi
   cores=$(nproc)
   memory=$(awk '/^MemAvailable:/ { print int($2 / 1048576) }' /proc/meminfo 2>/dev/null)
   if [[ -n $memory && $memory -lt $cores ]]; then cores=$((memory > 0 ? memory : 1)); fi
   echo "$cores"
 }
 
-# network_failed <log of apt>
-network_failed() {
-  grep -qE 'Temporary failure|Could not (resolve|connect)|unreachable|timed out' "$1"
+# why_apt_failed <log of apt>: the reason in a sentence, with apt's own words.
+why_apt_failed() {
+  local words
+  words=$(grep -m 1 '^E: ' "$1" || grep -m 1 -E '^(W:|Err)' "$1" || tail -n 1 "$1")
+  words=${words#[EW]: }
+  case $(<"$1") in
+    *"Release file"*"is expired"*)
+      echo "the archive's Release file is expired: it is an old copy (a snapshot, or a mirror that is no longer kept up)," \
+        "or this machine's clock is wrong (it says $(date +%F)). apt: $words"
+      ;;
+    *"Release file"*"is not valid yet"*)
+      echo "the archive's Release file is not valid yet: this machine's clock is slow (it says $(date +%F)). apt: $words"
+      ;;
+    *NO_PUBKEY* | *"GPG error"* | *"is not signed"* | *"ignatures were invalid"* | *"ignatures couldn't be verified"* | *"OpenPGP signature verification failed"*)
+      echo "the archive's signature is not one that this system trusts. apt: $words"
+      ;;
+    *"Temporary failure"* | *"Could not resolve"* | *"Could not connect"* | *"Cannot initiate the connection"* | *"unreachable"* | *"timed out"*)
+      echo "the archive cannot be reached: is there a network connection, and a proxy that apt knows? apt: $words"
+      ;;
+    *"does not have a Release file"* | *"404  Not Found"*) echo "the archive does not have it. apt: $words" ;;
+    *"No space left"*) echo "the disk is full. apt: $words" ;;
+    *) echo "apt: $words" ;;
+  esac
 }
 
 # heartbeat <log> <command...>: runs the command with its output in the log, and says every half
-# minute that it is still at work and, where ninja tells, how far it is: somebody who watches a silent
-# log must be able to tell a long build from one that hangs.
+# minute that it is still at work and, where ninja or apt tells, how far it is: somebody who watches a
+# silent log must be able to tell a long build from one that hangs.
 heartbeat() {
   local log=$1 began=$SECONDS step pulse status=0
   shift
@@ -43,8 +71,9 @@ heartbeat() {
     # Nothing ever comes through this pipe; a `sleep` would outlive its parent.
     exec {never}<> <(:)
     while ! read -rt "${QUADRILLE_HEARTBEAT:-30}" -u "$never"; do
-      step=$(grep -oE '^\[[0-9]+/[0-9]+\]' "$log" | tail -n 1 | tr -d '[]')
-      say "still at work after $((SECONDS - began)) s${step:+, step ${step/\// of }}"
+      step=$(grep -oE '^(\[[0-9]+/[0-9]+\]|(Get:[0-9]+|Unpacking|Setting up) .*)' "$log" | tail -n 1 | tr -d '[]')
+      if [[ $step == [0-9]* ]]; then step="step ${step/\// of }"; fi
+      say "still at work after $((SECONDS - began)) s${step:+, $step}"
     done
   ) 9>&- &
   pulse=$!
