@@ -2,12 +2,15 @@
 #include "solve/phases.hpp"
 
 #include <algorithm>
+#include <new>
 #include <string>
 #include <utility>
 
 #include "feasibility/bottleneck.hpp"
 #include "feasibility/feasibility.hpp"
 #include "primal/first_plan.hpp"
+#include "quadrille/continuous/free_cost.hpp"
+#include "quadrille/core/free_bound.hpp"
 #include "routes/route_search.hpp"
 #include "solve/cost_run.hpp"
 #include "solve/portfolio.hpp"
@@ -36,11 +39,8 @@ void report_blocked(const Instance& instance, const std::vector<AgentId>& blocke
 
 /// What the agents cost when each is alone. Requires that all can reach their goals then.
 Cost free_bound(const Scene& scene, Objective objective) {
-  Cost bound = 0;
-  for (const AgentId i : scene.instance().agent_ids())
-    bound = objective == Objective::sum_of_costs ? bound + scene.free_cost(i)
-                                                 : std::max(bound, scene.free_cost(i));
-  return bound;
+  return quadrille::free_bound(scene.instance().agent_ids(), objective,
+                               [&](AgentId i) { return scene.free_cost(i); });
 }
 
 Attribution free_charges(const Scene& scene, Objective objective) {
@@ -89,8 +89,9 @@ void Phases::run() {
   outcome_.rests_on_known_bound = known_ > 0;
   keep_best(options_, outcome_);  // the answer if a limit is met
   enter(Phase::set_up);
-  Scene scene(instance_, limits_, inheritance_.store);
-  if (!scene.is_complete() || are_kept_off(scene)) return;
+  const std::unique_ptr<Scene> made = make_scene();
+  if (made == nullptr || are_kept_off(*made)) return;
+  Scene& scene = *made;
   if (options_.explain) outcome_.attribution = free_charges(scene, options_.objective);
   if (learn(free_bound(scene, options_.objective), std::nullopt)) return;
   if (take_inheritance(scene)) return;
@@ -101,6 +102,24 @@ void Phases::run() {
       look_at_routes(scene))
     return;
   if (!find_some_plan(scene, is_joint_first)) search(scene);
+}
+
+std::unique_ptr<Scene> Phases::make_scene() {
+  try {
+    auto scene = std::make_unique<Scene>(instance_, limits_, inheritance_.store);
+    if (scene->is_complete()) return scene;
+  } catch (const LimitReached&) {
+  } catch (const std::bad_alloc&) {
+    outcome_.stop = StopReason::memory;
+  }
+  // What there was of it is gone, but a bound is found in little time.
+  const auto alone = [&](AgentId i) {
+    return as_cost(continuous::free_cost(instance_, i).value());
+  };
+  const Cost bound =
+      quadrille::free_bound(instance_.agent_ids(), options_.objective, alone, kGraceSeconds);
+  static_cast<void>(learn(bound, std::nullopt));
+  return nullptr;
 }
 
 bool Phases::are_kept_off(const Scene& scene) {

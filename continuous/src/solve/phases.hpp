@@ -34,6 +34,8 @@ class Phases {
   void run();
 
  private:
+  /// Null: a limit was met, and what the agents cost when each is alone is learnt.
+  [[nodiscard]] std::unique_ptr<Scene> make_scene();
   /// Each returns whether that is all.
   [[nodiscard]] bool are_kept_off(const Scene& scene);
   [[nodiscard]] bool take_inheritance(Scene& scene);

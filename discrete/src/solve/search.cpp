@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "primal/plan_merger.hpp"
+#include "quadrille/core/free_bound.hpp"
 #include "quadrille/core/progress.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/sat/cost_search.hpp"
@@ -27,10 +28,9 @@ Attribution free_charges(const Instance& instance, const GoalDistances& distance
   for (const AgentId i : instance.agent_ids()) {
     const Cost cost = distances(i, instance.agents()[i].start);
     attribution.agents.push_back({cost, {}});
-    attribution.free_bound = objective == Objective::sum_of_costs
-                                 ? attribution.free_bound + cost
-                                 : std::max(attribution.free_bound, cost);
   }
+  attribution.free_bound = free_bound(instance.agent_ids(), objective,
+                                      [&](AgentId i) { return attribution.agents[i].free_cost; });
   return attribution;
 }
 
@@ -65,8 +65,9 @@ class Search final : private sat::YieldPoint {
       outcome_.stop = StopReason::memory;
     }
     run_ = nullptr;
+    if (!free_bound_) learn_free_bound(nullptr);
     outcome_.lower_bound = lower();
-    outcome_.rests_on_known_bound = known_ > free_bound_ && lower() <= known_;
+    outcome_.rests_on_known_bound = known_ > *free_bound_ && lower() <= known_;
     if (outcome_.internal_error || !incumbent_.upper()) return;
     if (*incumbent_.upper() < lower() && !is_bound_refuted()) {
       outcome_.internal_error = Error{ErrorCode::internal, "a plan costs less than the bound", {}};
@@ -81,8 +82,7 @@ class Search final : private sat::YieldPoint {
     enter(Phase::set_up);
     const auto distances = companion_ != nullptr ? companion_->distances(limits_)
                                                  : GoalDistances::make(instance_, limits_);
-    free_bound_ = free_bound(distances.get());
-    incumbent_.raise(free_bound_);
+    learn_free_bound(distances.get());
     if (!distances) return;
     if (options_.explain)
       outcome_.attribution = free_charges(instance_, *distances, options_.objective);
@@ -122,19 +122,19 @@ class Search final : private sat::YieldPoint {
 
   /// What the agents cost when each is alone. Without `distances`, because a limit was met, of as
   /// many as can be looked at in little time.
-  [[nodiscard]] Cost free_bound(const GoalDistances* distances) const {
-    constexpr double kGrace = 0.1;  // s
-    Cost bound = 0;
-    const double begin = wall_seconds();
-    for (const AgentId i : instance_.agent_ids()) {
+  void learn_free_bound(const GoalDistances* distances) {
+    const auto known = [&](AgentId i) -> Cost {
+      return (*distances)(i, instance_.agents()[i].start);
+    };
+    const auto found = [&](AgentId i) -> Cost {
       const Agent& task = instance_.agents()[i];
-      const Cost cost = distances != nullptr
-                            ? (*distances)(i, task.start)
-                            : distances_from(instance_.graph(), task.goal)[task.start];
-      bound = options_.objective == Objective::sum_of_costs ? bound + cost : std::max(bound, cost);
-      if (distances == nullptr && wall_seconds() > begin + kGrace) break;
-    }
-    return bound;
+      return distances_from(instance_.graph(), task.goal)[task.start];
+    };
+    const auto agents = instance_.agent_ids();
+    free_bound_ = distances != nullptr
+                      ? free_bound(agents, options_.objective, known)
+                      : free_bound(agents, options_.objective, found, kGraceSeconds);
+    incumbent_.raise(*free_bound_);
   }
 
   /// All that anybody has proved. The search's own bound stays its own, because it follows from its
@@ -297,7 +297,7 @@ class Search final : private sat::YieldPoint {
   ProgressReporter progress_;
   Incumbent incumbent_;
   const Cost known_;  // by the user
-  Cost free_bound_ = 0;
+  std::optional<Cost> free_bound_;
   std::optional<PlanSearch> plans_;
   std::optional<PlanMerger> merger_;
   std::shared_ptr<const Plan> heard_plan_;

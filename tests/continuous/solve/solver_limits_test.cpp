@@ -2,12 +2,15 @@
 // Limits: a search that is cut short anywhere claims nothing that is not true.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "continuous/formats/file_support.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/generator.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/solver.hpp"
@@ -47,6 +50,17 @@ std::vector<Case> cases(std::size_t count) {
   return found;
 }
 
+/// What the agents cost when each is alone, and no obstacle is there.
+Cost alone(const Instance& instance, Objective objective) {
+  Cost sum = 0, most = 0;
+  for (const AgentId i : instance.agent_ids()) {
+    const Cost cost = as_cost(free_cost(instance, i).value());
+    sum += cost;
+    most = std::max(most, cost);
+  }
+  return objective == Objective::sum_of_costs ? sum : most;
+}
+
 TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
   constexpr std::int64_t kLooks = 400;
   const std::int64_t stride = kLooks / static_cast<std::int64_t>(support::scaled(kLooks / 2));
@@ -58,7 +72,7 @@ TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
       options.limits.looks = looks;
       const SolveOutcome outcome = solve(c.instance, options).value();
       ASSERT_FALSE(outcome.internal_error);
-      ASSERT_GE(outcome.lower_bound, 0);
+      ASSERT_GE(outcome.lower_bound, alone(c.instance, options.objective));
       ASSERT_LE(outcome.lower_bound, *c.truth.cost);
       ASSERT_NE(outcome.status, Status::infeasible);
       ASSERT_EQ(outcome.plan.has_value(), outcome.status != Status::unknown);
@@ -78,6 +92,38 @@ TEST(SolverLimits, CutAtAnyLookNothingFalseIsClaimed) {
   // Scaled down, for slow builds, there are fewer and other cases: too few to count on chance.
   if (stride <= 2) {
     EXPECT_GT(num_plans, 0);
+  }
+}
+
+// Whatever ends a search before it begins: how far the goals are is known.
+TEST(SolverLimits, TheFreeBoundIsNeverLost) {
+  const std::atomic<bool> interrupt = true;
+  std::vector<Limits> all(4);
+  all[0].wall_s = 0;
+  all[1].cpu_s = 0;
+  all[2].conflicts = 0;
+  all[3].interrupt = &interrupt;
+  RandomOptions random;
+  random.num_vertices = 20;
+  random.num_agents = 6;
+  random.size = 200;
+  random.edge_percent = 25;
+  random.obstacles_percent = random.release_percent = 50;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const Instance instance = random_instance(seed, random);
+    for (const Objective objective : {Objective::sum_of_costs, Objective::makespan})
+      for (const System system : {System::dpll, System::smt_cbs})
+        for (const Limits& limits : all)
+          for (const std::size_t threads : {1, 2}) {
+            SolveOptions options;
+            options.objective = objective;
+            options.system = system;
+            options.limits = limits;
+            options.threads = threads;
+            const SolveOutcome outcome = solve(instance, options).value();
+            ASSERT_GE(outcome.lower_bound, alone(instance, objective)) << describe(instance);
+            ASSERT_GT(outcome.lower_bound, 0);
+          }
   }
 }
 

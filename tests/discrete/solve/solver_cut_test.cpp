@@ -3,6 +3,7 @@
 // proved.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <string>
@@ -15,6 +16,17 @@ namespace quadrille::discrete::support {
 namespace {
 
 using quadrille::support::scaled;
+
+/// What the agents cost when each is alone.
+Cost alone(const Instance& instance, Objective objective) {
+  Cost sum = 0, most = 0;
+  for (const Agent& agent : instance.agents()) {
+    const Cost cost = distances_from(instance.graph(), agent.goal)[agent.start];
+    sum += cost;
+    most = std::max(most, cost);
+  }
+  return objective == Objective::sum_of_costs ? sum : most;
+}
 
 // Every look at the limits is the last one once: those deep inside the theory, which leave by an
 // exception, too.
@@ -36,7 +48,7 @@ TEST(SolverCut, AtAnyLookNothingFalseIsClaimed) {
           options.limits.looks = looks;
           SCOPED_TRACE(options_text(options) + " looks " + std::to_string(looks));
           const SolveOutcome outcome = run(instance, options).outcome;
-          ASSERT_GE(outcome.lower_bound, 0);
+          ASSERT_GE(outcome.lower_bound, alone(instance, objective));
           ASSERT_LE(outcome.lower_bound, *truth.cost);
           ASSERT_NE(outcome.status, Status::infeasible);
           if (outcome.cost) {
@@ -53,6 +65,28 @@ TEST(SolverCut, AtAnyLookNothingFalseIsClaimed) {
   }
   EXPECT_GT(num_cut, kLooks / stride);
   EXPECT_GT(num_bounded, 0);
+}
+
+// Whatever ends a search before it begins: how far the goals are is known.
+TEST(SolverCut, TheFreeBoundIsNeverLost) {
+  Random random(8);
+  const Instance instance = random_grid(random, {14, 14, 15, 30, 30});
+  const std::atomic<bool> interrupt = true;
+  std::vector<Limits> all(5);
+  all[0].wall_s = 0;
+  all[1].cpu_s = 0;
+  all[2].conflicts = 0;
+  all[3].memory_mib = 0;
+  all[4].interrupt = &interrupt;
+  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan})
+    for (TunedOptions options : all_systems(objective))
+      for (const Limits& limits : all)
+        for (const std::size_t threads : {1, 3}) {
+          options.limits = limits;
+          options.threads = threads;
+          const SolveOutcome outcome = run(instance, options).outcome;
+          EXPECT_GE(outcome.lower_bound, alone(instance, objective)) << options_text(options);
+        }
 }
 
 struct Interrupted {
