@@ -8,6 +8,7 @@
 #include "numbers.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/under_way.hpp"
+#include "quadrille/geometry/body_index.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::fleet {
@@ -334,17 +335,18 @@ std::optional<Error> Fleet::find_overlap(const continuous::Roadmap& roads,
                                          const std::vector<continuous::Agent>& agents,
                                          VertexId continuous::Agent::*end,
                                          const std::string& what) const {
-  for (std::size_t j = 0; j < agents.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i) {
-      if (end == &continuous::Agent::goal && (agents[i].leaves || agents[j].leaves)) continue;
-      const VertexId v = agents[i].*end, w = agents[j].*end;
-      if (geometry::bodies_overlap(agents[i].body, roads.position(v), agents[j].body,
-                                   roads.position(w)))
-        return Error{ErrorCode::no_plan,
-                     "the " + what + " of '" + name(AgentId(i)) + "' at " + place_name(v) +
-                         " and '" + name(AgentId(j)) + "' at " + place_name(w) + " overlap",
-                     {}};
-    }
+  geometry::BodyIndex placed;
+  for (std::size_t j = 0; j < agents.size(); ++j) {
+    if (end == &continuous::Agent::goal && agents[j].leaves) continue;
+    const VertexId w = agents[j].*end;
+    if (const auto i = placed.first_overlap(agents[j].body, roads.position(w)))
+      return Error{ErrorCode::no_plan,
+                   "the " + what + " of '" + name(AgentId(*i)) + "' at " +
+                       place_name(agents[*i].*end) + " and '" + name(AgentId(j)) + "' at " +
+                       place_name(w) + " overlap",
+                   {}};
+    placed.add(j, agents[j].body, roads.position(w));
+  }
   return std::nullopt;
 }
 

@@ -11,11 +11,11 @@
 #include <variant>
 #include <vector>
 
-#include "model/areas.hpp"
 #include "model/body_numbers.hpp"
+#include "model/reachability.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
-#include "quadrille/geometry/body_pair.hpp"
+#include "quadrille/geometry/body_index.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -93,48 +93,32 @@ std::optional<Error> check_under_way(const Roadmap& roadmap, const Agent& agent,
 /// An agent that overlaps an earlier one when each is at its start (goal).
 std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
                                  VertexId Agent::*place, const std::string& what, std::size_t& at) {
-  std::vector<Length> reaches;
-  for (const Agent& agent : agents) reaches.push_back(geometry::enclosing_radius(agent.body));
+  geometry::BodyIndex placed;
   for (std::size_t j = 0; j < agents.size(); ++j) {
-    const Point& q = roadmap.position(agents[j].*place);
-    for (std::size_t i = 0; i < j; ++i) {
-      if (place == &Agent::goal && (agents[i].leaves || agents[j].leaves)) continue;
-      const Point& p = roadmap.position(agents[i].*place);
-      if (squared_distance(p, q) >= square(reaches[i] + reaches[j]) ||
-          !geometry::bodies_overlap(agents[i].body, p, agents[j].body, q))
-        continue;
+    if (place == &Agent::goal && agents[j].leaves) continue;
+    const Point& here = roadmap.position(agents[j].*place);
+    if (const auto i = placed.first_overlap(agents[j].body, here)) {
       at = j;
-      return no_plan("the " + what + " of agents " + std::to_string(i) + " and " +
+      return no_plan("the " + what + " of agents " + std::to_string(*i) + " and " +
                      std::to_string(j) + " overlap");
     }
+    placed.add(j, agents[j].body, here);
   }
   return std::nullopt;
 }
 
-bool can_reach(const Roadmap& roadmap, const Agent& agent) {
-  const VertexId start = agent.start, goal = agent.goal;
-  std::vector<bool> seen(roadmap.num_vertices(), false);
-  std::vector<VertexId> stack{start};
-  seen[start.index()] = true;
-  while (!stack.empty() && !seen[goal.index()]) {
-    const VertexId v = stack.back();
-    stack.pop_back();
-    for (const EdgeId e : roadmap.out_edges(v)) {
-      const VertexId w = roadmap.edge(e).to;
-      if (seen[w.index()] || !roadmap.edge(e).open_to.contains(agent.group)) continue;
-      seen[w.index()] = true;
-      stack.push_back(w);
-    }
+std::optional<Error> check_reachable(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                     std::size_t& at) {
+  std::map<GroupId, Reachability> by_group;
+  for (at = 0; at < agents.size(); ++at) {
+    const Agent& agent = agents[at];
+    const auto found = by_group.try_emplace(agent.group, roadmap, agent.group).first;
+    if (!found->second.leads(agent.start, agent.goal))
+      return no_plan(name(at) + " cannot reach its goal: there is no way from vertex " +
+                     std::to_string(agent.start.index()) + " to vertex " +
+                     std::to_string(agent.goal.index()));
   }
-  return seen[goal.index()];
-}
-
-std::optional<Error> check_reachable(const Roadmap& roadmap, const Agent& agent,
-                                     std::size_t index) {
-  if (can_reach(roadmap, agent)) return std::nullopt;
-  return no_plan(name(index) + " cannot reach its goal: there is no way from vertex " +
-                 std::to_string(agent.start.index()) + " to vertex " +
-                 std::to_string(agent.goal.index()));
+  return std::nullopt;
 }
 
 std::optional<Error> check_obstacle(const MovingObstacle& obstacle, std::size_t index) {
@@ -160,16 +144,17 @@ std::optional<Error> check_obstacle(const MovingObstacle& obstacle, std::size_t 
 
 std::optional<Error> check_obstacles(const Roadmap& roadmap, const std::vector<Agent>& agents,
                                      const std::vector<MovingObstacle>& obstacles, bool is_flat) {
+  geometry::BodyIndex starts;
+  for (std::size_t i = 0; !obstacles.empty() && i < agents.size(); ++i)
+    starts.add(i, agents[i].body, roadmap.position(agents[i].start));
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     if (auto error = check_obstacle(obstacles[o], o)) return error;
     if (!is_flat)
       if (auto error = check_flat(obstacles[o].body, "obstacle " + std::to_string(o))) return error;
     const MovingObstacle::Stop& first = obstacles[o].path.front();
     if (first.arrive > 0) continue;
-    for (std::size_t i = 0; i < agents.size(); ++i)
-      if (geometry::bodies_overlap(agents[i].body, roadmap.position(agents[i].start),
-                                   obstacles[o].body, first.at))
-        return no_plan("obstacle " + std::to_string(o) + " is at the start of " + name(i));
+    if (const auto i = starts.first_overlap(obstacles[o].body, first.at))
+      return no_plan("obstacle " + std::to_string(o) + " is at the start of " + name(*i));
   }
   return std::nullopt;
 }
@@ -185,9 +170,7 @@ std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>&
   }
   if (auto error = check_apart(roadmap, agents, &Agent::start, "starts", at)) return error;
   if (auto error = check_apart(roadmap, agents, &Agent::goal, "goals", at)) return error;
-  for (at = 0; at < agents.size(); ++at)
-    if (auto error = check_reachable(roadmap, agents[at], at)) return error;
-  return std::nullopt;
+  return check_reachable(roadmap, agents, at);
 }
 
 /// An agent with a deadline that is too early, however free its way is.
