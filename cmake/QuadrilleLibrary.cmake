@@ -26,16 +26,17 @@ function(quadrille_precompile target)
   endif()
 endfunction()
 
-# quadrille_add_library(<folder> [OPTIONAL] HEADERS ... SOURCES ... [LINK folder...]
-#   [PUBLIC_LINK target...] [PRIVATE_LINK target...])
-# Headers are relative to include/quadrille/<folder>, sources to src. LINK names folders of this
+# quadrille_add_library(<folder> [OPTIONAL] HEADERS ... [INTERNAL_HEADERS ...] SOURCES ...
+#   [LINK folder...] [PUBLIC_LINK target...] [PRIVATE_LINK target...])
+# Headers are relative to include/quadrille/<folder>, sources to src. INTERNAL_HEADERS are for the
+# other folders of this project, and not installed. LINK names folders of this
 # project, PRIVATE_LINK libraries from outside; one that consists of headers only has no business
 # with users of an installed package: name it as $<BUILD_INTERFACE:target>. PUBLIC_LINK are those
 # that public headers name. An OPTIONAL library is no part of quadrille::quadrille, a component of the
 # package and of what is installed, and static always: it is small, and has no ABI to keep.
 function(quadrille_add_library folder)
   cmake_parse_arguments(PARSE_ARGV 1 arg "OPTIONAL" ""
-    "HEADERS;SOURCES;LINK;PUBLIC_LINK;PRIVATE_LINK")
+    "HEADERS;INTERNAL_HEADERS;SOURCES;LINK;PUBLIC_LINK;PRIVATE_LINK")
   set(target quadrille_${folder})
   list(TRANSFORM arg_SOURCES PREPEND "src/")
   list(TRANSFORM arg_LINK PREPEND "quadrille_")
@@ -75,13 +76,13 @@ function(quadrille_add_library folder)
   # One that is not listed would be missing in the package.
   file(GLOB headers RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/include/quadrille/${folder}"
     "include/quadrille/${folder}/*.hpp")
-  list(REMOVE_ITEM headers ${arg_HEADERS})
+  list(REMOVE_ITEM headers ${arg_HEADERS} ${arg_INTERNAL_HEADERS})
   if(headers)
     message(FATAL_ERROR "${folder}: public headers that are not listed: ${headers}")
   endif()
-  foreach(header IN LISTS arg_HEADERS)
+  foreach(header IN LISTS arg_HEADERS arg_INTERNAL_HEADERS)
     set_property(GLOBAL APPEND PROPERTY QUADRILLE_HEADERS "quadrille/${folder}/${header}")
-    if(QUADRILLE_INSTALL)
+    if(QUADRILLE_INSTALL AND NOT header IN_LIST arg_INTERNAL_HEADERS)
       install(FILES "include/quadrille/${folder}/${header}"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder}" COMPONENT ${component})
     endif()

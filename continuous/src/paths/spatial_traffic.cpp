@@ -2,7 +2,7 @@
 #include "paths/spatial_traffic.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 
 namespace quadrille::continuous {
 namespace {
@@ -13,52 +13,13 @@ constexpr TickInterval kFirst{-kForever, -kForever};
 /// What one look at a contact counts: most are in a hash table, some have to be computed.
 constexpr std::int64_t kEffortOfContact = 4;
 
-bool overlap(const Point& low, const Point& high, const Point& other_low, const Point& other_high) {
-  return low.x < other_high.x && other_low.x < high.x && low.y < other_high.y &&
-         other_low.y < high.y && low.z < other_high.z && other_low.z < high.z;
-}
-
 }  // namespace
 
-// About as many squares as vertices: an edge to a neighbour then covers few of them. Seen from
-// above; boxes tell heights apart.
-SpatialTraffic::SpatialTraffic(Scene& scene) : scene_(scene), table_(scene.instance().roadmap()) {
-  const std::vector<Point>& positions = scene.instance().roadmap().positions();
-  if (positions.empty()) return;
-  Point low = positions.front(), high = low;
-  for (const Point& p : positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  origin_ = low;
-  const std::int64_t width = (high.x - low.x).count(), height = (high.y - low.y).count();
-  const auto per_side = static_cast<std::int64_t>(std::sqrt(static_cast<double>(positions.size())));
-  side_ = std::max(width, height) / std::max<std::int64_t>(per_side, 1) + 1;
-  columns_ = width / side_ + 1;
-  rows_ = height / side_ + 1;
-  squares_.resize(static_cast<std::size_t>(columns_ * rows_));
-}
-
-SpatialTraffic::Box SpatialTraffic::box_of(const Point& p, const Point& q, Length reach) const {
-  return {{std::min(p.x, q.x) - reach, std::min(p.y, q.y) - reach, std::min(p.z, q.z) - reach},
-          {std::max(p.x, q.x) + reach, std::max(p.y, q.y) + reach, std::max(p.z, q.z) + reach}};
-}
-
-SpatialTraffic::Squares SpatialTraffic::squares_of(const Box& box) const {
-  const auto clamped = [&](Length at, Length origin, std::int64_t count) {
-    return std::clamp<std::int64_t>((at - origin).count() / side_, 0, count - 1);
-  };
-  return {clamped(box.low.x, origin_.x, columns_), clamped(box.high.x, origin_.x, columns_),
-          clamped(box.low.y, origin_.y, rows_), clamped(box.high.y, origin_.y, rows_)};
-}
-
-template <class Visit>
-void SpatialTraffic::for_each_square(const Box& box, const Visit& visit) {
-  const Squares at = squares_of(box);
-  for (std::int64_t row = at.bottom; row <= at.top; ++row)
-    for (std::int64_t column = at.left; column <= at.right; ++column)
-      visit(squares_[static_cast<std::size_t>(row * columns_ + column)]);
-}
+SpatialTraffic::SpatialTraffic(Scene& scene)
+    : scene_(scene),
+      table_(scene.instance().roadmap()),
+      grid_(scene.instance()),
+      squares_(grid_.size()) {}
 
 template <class Visit>
 void SpatialTraffic::for_each_near(const Box& box, const Visit& visit) {
@@ -66,14 +27,14 @@ void SpatialTraffic::for_each_near(const Box& box, const Visit& visit) {
     for (Passage& passage : passages_) passage.seen = 0;
     query_ = 1;
   }
-  for_each_square(box, [&](const std::vector<std::uint32_t>& square) {
+  grid_.for_each(box, [&](std::size_t number) {
+    const std::vector<std::uint32_t>& square = squares_[number];
     effort_ += static_cast<std::int64_t>(square.size());
     for (const std::uint32_t index : square) {
       Passage& passage = passages_[index];
       if (passage.seen == query_) continue;
       passage.seen = query_;
-      if (entries_[passage.path].is_shown &&
-          overlap(box.low, box.high, passage.box.low, passage.box.high)) {
+      if (entries_[passage.path].is_shown && box.overlaps(passage.box)) {
         effort_ += kEffortOfContact;
         visit(passage);
       }
@@ -89,7 +50,6 @@ Traffic::Handle SpatialTraffic::put(ClassId c, const std::vector<Step>& steps) {
   }
   const Handle path = free_.back();
   free_.pop_back();
-  const Roadmap& roadmap = scene_.instance().roadmap();
   Entry& entry = entries_[path];
   entry = {c, {}, true};
   for (const Step& step : steps) {
@@ -99,12 +59,10 @@ Traffic::Handle SpatialTraffic::put(ClassId c, const std::vector<Step>& steps) {
     }
     const std::uint32_t index = free_passages_.back();
     free_passages_.pop_back();
-    const Point from = roadmap.position(step.is_move ? roadmap.edge(step.edge).from : step.vertex);
-    const Point to = step.is_move ? roadmap.position(roadmap.edge(step.edge).to) : from;
-    passages_[index] = {step, box_of(from, to, scene_.instance().reach(c)), path, 0};
+    passages_[index] = {step, grid_.box_of(c, step), path, 0};
     entry.passages.push_back(index);
-    for_each_square(passages_[index].box, [&](std::vector<std::uint32_t>& square) {
-      square.push_back(index);
+    grid_.for_each(passages_[index].box, [&](std::size_t square) {
+      squares_[square].push_back(index);
       ++effort_;
     });
   }
@@ -115,7 +73,8 @@ void SpatialTraffic::show(Handle path, bool on) { entries_[path].is_shown = on; 
 
 void SpatialTraffic::take_out(Handle path) {
   for (const std::uint32_t index : entries_[path].passages) {
-    for_each_square(passages_[index].box, [&](std::vector<std::uint32_t>& square) {
+    grid_.for_each(passages_[index].box, [&](std::size_t number) {
+      std::vector<std::uint32_t>& square = squares_[number];
       square.erase(std::find(square.begin(), square.end(), index));
     });
     free_passages_.push_back(index);
@@ -150,8 +109,8 @@ void SpatialTraffic::list_starts(EdgeId e, Ticks from, std::vector<TickInterval>
   const Instance& instance = scene_.instance();
   list_standing(Ban::start(e, kFirst), bans);
   const Edge& edge = instance.roadmap().edge(e);
-  const Box box = box_of(instance.roadmap().position(edge.from),
-                         instance.roadmap().position(edge.to), instance.reach(asking_));
+  const Box box = grid_.box_of(asking_, instance.roadmap().position(edge.from),
+                               instance.roadmap().position(edge.to));
   for_each_near(box, [&](const Passage& passage) {
     const ClassId other = entries_[passage.path].c;
     const Step& step = passage.step;
@@ -169,7 +128,7 @@ void SpatialTraffic::list_stays(VertexId v, std::vector<TickInterval>& bans) {
   const Instance& instance = scene_.instance();
   list_standing(Ban::stay(v, kFirst), bans);
   const Point at = instance.roadmap().position(v);
-  for_each_near(box_of(at, at, instance.reach(asking_)), [&](const Passage& passage) {
+  for_each_near(grid_.box_of(asking_, at, at), [&](const Passage& passage) {
     if (!passage.step.is_move) return;  // who came later collides on its way
     const ClassId other = entries_[passage.path].c;
     if (const auto& window = scene_.contacts().window(other, passage.step.edge, asking_, v))

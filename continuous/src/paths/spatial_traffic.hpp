@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "paths/square_grid.hpp"
 #include "paths/traffic.hpp"
 
 namespace quadrille::continuous {
@@ -22,12 +23,6 @@ class SpatialTraffic final : public Traffic, private BanSource {
   [[nodiscard]] BanTable& bans(ClassId c) override;
 
  private:
-  struct Box {
-    Point low, high;
-  };
-  struct Squares {
-    std::int64_t left, right, bottom, top;  // all included
-  };
   /// A step of a path, and where its body may be.
   struct Passage {
     Step step;
@@ -46,10 +41,6 @@ class SpatialTraffic final : public Traffic, private BanSource {
   void list_starts(EdgeId e, Ticks from, std::vector<TickInterval>& bans) override;
   void list_stays(VertexId v, std::vector<TickInterval>& bans) override;
 
-  [[nodiscard]] Box box_of(const Point& p, const Point& q, Length reach) const;
-  [[nodiscard]] Squares squares_of(const Box& box) const;
-  template <class Visit>
-  void for_each_square(const Box& box, const Visit& visit);
   /// All passages of shown paths whose boxes meet this one.
   template <class Visit>
   void for_each_near(const Box& box, const Visit& visit);
@@ -63,8 +54,7 @@ class SpatialTraffic final : public Traffic, private BanSource {
   std::vector<std::uint32_t> free_passages_;
   std::uint32_t query_ = 0;
 
-  Point origin_;
-  std::int64_t side_ = 1, columns_ = 1, rows_ = 1;
+  SquareGrid grid_;
   std::vector<std::vector<std::uint32_t>> squares_;
 };
 

@@ -110,10 +110,9 @@ bool CostProblem::accept_model() {
 }
 
 std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const {
-  const auto& known = model_.thresholds(agent);
-  const auto at = std::find_if(known.begin(), known.end(), [&](const Model::Threshold& t) {
-    return t.cost > cost && t.is_natural;
-  });
+  const auto& known = model_.rungs(agent);
+  const auto at = std::find_if(known.begin(), known.end(),
+                               [&](const Model::Rung& t) { return t.cost > cost && t.is_natural; });
   if (at == known.end()) return std::nullopt;
   return at->cost;
 }

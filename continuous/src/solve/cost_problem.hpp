@@ -14,17 +14,6 @@
 
 namespace quadrille::continuous {
 
-/// Writes to an engine between solves.
-class EngineWriter final : public FormulaWriter {
- public:
-  explicit EngineWriter(sat::Engine& engine) : engine_(engine) {}
-  [[nodiscard]] sat::Lit new_lit() override { return engine_.new_lit(); }
-  void add(const sat::Lemma& lemma) override { engine_.add_clause(lemma); }
-
- private:
-  sat::Engine& engine_;
-};
-
 /// All that a cost search asks at once: is there a plan like this?
 struct Question {
   /// Each of these agents costs less than its level. Requires levels above the free costs.
@@ -69,7 +58,7 @@ class CostProblem {
     return ceilings_of_core_;
   }
 
-  /// The smallest natural threshold (see Model) above `cost`.
+  /// The smallest natural rung (see lazy::Vocabulary) above `cost`.
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;
   /// Tells the engine that one of the levels is reached in every plan that is cheaper than the
   /// incumbent, because it is in those that keep to the ceilings. An empty core is audited only.
@@ -99,7 +88,7 @@ class CostProblem {
   const bool theory_in_search_;
   sat::YieldPoint* const yield_point_;
   sat::CoreAuditor* const auditor_;
-  EngineWriter writer_;
+  lazy::EngineWriter writer_;
   std::vector<Level> core_;
   bool keeps_ceilings_ = false;
   std::vector<AgentId> ceilings_of_core_;

@@ -89,7 +89,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     };
     CostReport report;
     try {
-      EngineWriter writer(engine);
+      lazy::EngineWriter writer(engine);
       take_up(inheritance_.learned.lemmas, model, writer);
       report =
           options_.objective == Objective::sum_of_costs

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "quadrille/sat/obstacle_trail.hpp"
+#include "theory/known_path.hpp"
 #include "theory/model.hpp"
-#include "theory/path_cache.hpp"
 
 namespace quadrille::continuous {
 
@@ -28,6 +27,6 @@ class CurrentPaths {
   IdVector<AgentId, KnownPathRef> paths_;
 };
 
-using PathTrail = sat::ObstacleTrail<CurrentPaths>;
+using PathTrail = lazy::ObstacleTrail<CurrentPaths>;
 
 }  // namespace quadrille::continuous

@@ -21,6 +21,7 @@ bool KnownPlanAuditor::holds(sat::Lit lit) const {
   bool value = true;  // of the literal as it is in the model
   switch (meaning.kind) {
     case Model::VariableKind::auxiliary:
+    case Model::VariableKind::own:
       return true;
     case Model::VariableKind::cost:
       value = as_cost(paths_[meaning.agent].arrival) >= meaning.cost;

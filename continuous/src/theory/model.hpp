@@ -2,26 +2,17 @@
 #pragma once
 
 #include <map>
-#include <optional>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "paths/bans.hpp"
 #include "paths/scene.hpp"
-#include "quadrille/sat/lemma.hpp"
-#include "quadrille/sat/obstacle_trail.hpp"
+#include "quadrille/lazy/vocabulary.hpp"
 
 namespace quadrille::continuous {
 
-using sat::ObstacleId;
-
-/// Where new literals and clauses go: to the engine between solves, or to it by way of the theory.
-class FormulaWriter {
- public:
-  virtual ~FormulaWriter() = default;
-  [[nodiscard]] virtual sat::Lit new_lit() = 0;
-  virtual void add(const sat::Lemma& lemma) = 0;
-};
+using lazy::FormulaWriter;
+using lazy::ObstacleId;
 
 /// Bans that hold for `agent` while the literal `allowed` is false.
 struct Obstacle {
@@ -33,20 +24,15 @@ struct Obstacle {
   Ban cause = {};
 };
 
-/// The literals and what they mean.
+/// The literals of continuous time and what they mean: obstacles are sets of bans, costs the ticks
+/// at which agents arrive for the last time.
 ///
-/// - Usage literals, one per set of bans: "the agent may do some of this". False: it does none.
-/// - Ordered cost literals "the agent arrives for the last time at tick c or later".
-/// - That others keep away from an agent's goal from c on is active while "the agent arrives at c
-///   or later" is false, without a literal of its own.
 /// In every valid plan, let cost literals be true as the arrivals say, and a usage literal be true
 /// if and only if the agent breaks one of its bans: every clause that this folder makes holds then.
 /// Not so the cores that a cost search adds: they hold in every plan that is cheaper than its
 /// incumbent, and with them all that the solver derives (docs/soundness/continuous.md, 11.13).
 /// Incumbents only become cheaper, so that what held relative to one holds relative to the next.
-///
-/// In lemmas, the resource number of a usage is the index of its obstacle.
-class Model {
+class Model final : public lazy::Vocabulary {
  public:
   /// `scene` is complete and outlives the model.
   explicit Model(Scene& scene);
@@ -60,25 +46,12 @@ class Model {
   [[nodiscard]] const std::vector<Ban>& standing_bans(AgentId i) const {
     return scene_.standing_bans(i);
   }
-  [[nodiscard]] Cost free_cost(AgentId i) const { return scene_.free_cost(i); }
+  [[nodiscard]] Cost free_cost(AgentId i) const override { return scene_.free_cost(i); }
+  [[nodiscard]] Cost cost_bound(AgentId i) const override {
+    return as_cost(arrival_bound(instance(), i));
+  }
   [[nodiscard]] const IdVector<ObstacleId, Obstacle>& obstacles() const noexcept {
     return obstacles_;
-  }
-
-  /// The literal "the agent costs `cost` or more". Requires cost > free_cost.
-  [[nodiscard]] sat::Lit at_least(AgentId agent, Cost cost, FormulaWriter& writer);
-  /// The same, for a search that caps the agent's cost at `cap`: at_least(agent, cap + 1).
-  [[nodiscard]] sat::Lit above(AgentId agent, Cost cap, FormulaWriter& writer);
-  struct Threshold {
-    Cost cost;
-    sat::Lit at_least;
-    /// A lemma speaks of it. No lemma speaks of thresholds that were made for caps: so what is
-    /// refuted for one of those is refuted for the next natural one.
-    bool is_natural;
-  };
-  /// All that were made, by increasing cost.
-  [[nodiscard]] const std::vector<Threshold>& thresholds(AgentId agent) const {
-    return thresholds_[agent];
   }
 
   /// The obstacle with these bans, made at the first call. `is_new` tells. `partner` joins its
@@ -89,29 +62,13 @@ class Model {
   [[nodiscard]] ObstacleId keep_off_goal(AgentId agent, AgentId resident, Ticks tick,
                                          FormulaWriter& writer, bool& is_new);
 
-  enum class VariableKind { auxiliary, usage, cost };
-  struct Variable {
-    VariableKind kind = VariableKind::auxiliary;
-    AgentId agent;
-    Cost cost = 0;        // cost: true says "costs this or more"
-    ObstacleId obstacle;  // usage: true says that it is forbidden
-  };
-  /// auxiliary for variables that are not of this model.
-  [[nodiscard]] Variable variable(sat::Lit lit) const;
-  /// The positive literals of all usage and cost variables, in the order in which they were made.
-  [[nodiscard]] const std::vector<sat::Lit>& literals() const noexcept { return literals_; }
-
  private:
-  [[nodiscard]] Threshold& threshold(AgentId agent, Cost cost, FormulaWriter& writer);
-  void remember(sat::Lit lit, const Variable& variable);
+  /// Of that obstacle.
+  [[nodiscard]] std::vector<Ban> goal_bans(AgentId agent, AgentId resident, Ticks tick);
 
   Scene& scene_;
   IdVector<ObstacleId, Obstacle> obstacles_;
-  IdVector<AgentId, std::vector<Threshold>> thresholds_;
   std::map<std::pair<AgentId, std::vector<Ban>>, ObstacleId> usages_;
-  std::map<std::tuple<AgentId, AgentId, Ticks>, ObstacleId> goals_;
-  std::vector<Variable> variables_;  // by variable
-  std::vector<sat::Lit> literals_;
 };
 
 }  // namespace quadrille::continuous

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "quadrille/sat/cheapest.hpp"
+#include "quadrille/lazy/cheapest.hpp"
 #include "theory/explanation.hpp"
 #include "theory/model.hpp"
 
@@ -19,7 +19,7 @@ class PathSearch {
   /// `model` outlives the object. Searches throw LimitReached when the model's limits are met.
   explicit PathSearch(Model& model);
 
-  using Cheapest = sat::Cheapest<PathSearch>;
+  using Cheapest = lazy::Cheapest<PathSearch>;
   /// A cheapest path that obeys the bans of the obstacles and arrives before `bound`.
   [[nodiscard]] Cheapest find(AgentId agent, std::span<const ObstacleId> obstacles, Cost bound);
 

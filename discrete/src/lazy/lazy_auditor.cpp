@@ -47,7 +47,7 @@ std::string LazyAuditor::audit_usages(const sat::Lemma& lemma) const {
     if (var.kind == VariableKind::cost) {
       const bool holds = o.kind == Kind::range && o.last == kForever && var.agent != o.agent &&
                          model_.instance().agents()[var.agent].goal == o.vertex &&
-                         var.cost <= o.first && !o.allowed.positive();
+                         LazyModel::cap(var) <= o.first && !o.allowed.positive();
       if (!holds) return "nobody rests where a target usage says so";
     } else if (var.kind != VariableKind::usage || var.obstacle != id) {
       return "a usage has a foreign literal";
@@ -58,7 +58,7 @@ std::string LazyAuditor::audit_usages(const sat::Lemma& lemma) const {
 
 std::string LazyAuditor::audit_path(const sat::Lemma& lemma) const {
   for (const Lit lit : lemma.clause)
-    if (const auto var = model_.variable(lit); var.kind == VariableKind::vertex)
+    if (const auto var = model_.variable(lit); var.kind == VariableKind::own)
       return audit_explicit(lemma.clause, var.agent);
   if (lemma.usages.empty() || lemma.clause.empty()) return "a path lemma has an agent";
   if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
@@ -66,7 +66,7 @@ std::string LazyAuditor::audit_path(const sat::Lemma& lemma) const {
   const auto cost = model_.variable(lemma.clause[0]);
   if (cost.kind != VariableKind::cost || cost.agent != agent || lemma.clause[0].positive())
     return "a path lemma begins with a cost";
-  Demand demand{{}, {}, cost.cost, 0};
+  Demand demand{{}, {}, LazyModel::cap(cost), 0};
   for (const sat::Usage& usage : lemma.usages) {
     demand.avoided.push_back(
         model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))]);
@@ -86,22 +86,23 @@ std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
   };
   for (const Lit lit : clause) {
     const auto var = model_.variable(lit);
-    if (var.kind == VariableKind::vertex) {
+    if (var.kind == VariableKind::own) {
       if (var.agent != agent) return "a clause is about the explicit paths of two agents";
-      demand.horizon = std::max(demand.horizon, var.visit.timestep);
+      const Visit visit = model_.visit(var);
+      demand.horizon = std::max(demand.horizon, visit.timestep);
       if (lit.positive())
-        avoid_range(var.visit.vertex, var.visit.timestep, var.visit.timestep);
+        avoid_range(visit.vertex, visit.timestep, visit.timestep);
       else
-        demand.visits.push_back(var.visit);
+        demand.visits.push_back(visit);
     } else if (lit.positive() || var.kind == VariableKind::auxiliary) {
       return "explicit paths are bound to what is false";
     } else if (var.kind == VariableKind::usage) {
       if (var.agent != agent) return "explicit paths are bound to the usages of another agent";
       demand.avoided.push_back(model_.obstacles()[var.obstacle]);
     } else if (var.agent == agent) {
-      demand.bound = std::min(demand.bound.value_or(var.cost), var.cost);
+      demand.bound = std::min(demand.bound.value_or(kForever), LazyModel::cap(var));
     } else {  // the other agent rests at its goal
-      avoid_range(model_.instance().agents()[var.agent].goal, var.cost, kForever);
+      avoid_range(model_.instance().agents()[var.agent].goal, LazyModel::cap(var), kForever);
     }
   }
   return has_path(agent, demand) ? "some path does not satisfy a clause about explicit paths" : "";
@@ -233,9 +234,10 @@ std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
     case VariableKind::usage:  // the negated variable: the agent does it
       return model_.obstacles().hits(var.obstacle, path) != lit.positive();
     case VariableKind::cost:  // the negated variable: the agent costs more
-      return (arrival(path) > var.cost) != lit.positive();
-    case VariableKind::vertex:
-      return (position(path, var.visit.timestep) == var.visit.vertex) == lit.positive();
+      return (arrival(path) >= var.cost) != lit.positive();
+    case VariableKind::own:
+      return (position(path, model_.visit(var).timestep) == model_.visit(var).vertex) ==
+             lit.positive();
     case VariableKind::auxiliary:
       break;
   }
@@ -249,13 +251,14 @@ std::string LazyAuditor::describe(Clause clause) const {
     const std::string agent = std::to_string(var.agent.value());
     const bool is_negated = var.kind == VariableKind::usage || var.kind == VariableKind::cost;
     text += lit.positive() != is_negated ? " +" : " -";
-    if (var.kind == VariableKind::vertex) {
-      text += "at(" + agent + "," + vertex_name(model_.instance().graph(), var.visit.vertex) + "," +
-              std::to_string(var.visit.timestep) + ")";
+    if (var.kind == VariableKind::own) {
+      const Visit visit = model_.visit(var);
+      text += "at(" + agent + "," + vertex_name(model_.instance().graph(), visit.vertex) + "," +
+              std::to_string(visit.timestep) + ")";
     } else if (var.kind == VariableKind::auxiliary) {
       text += "v" + std::to_string(lit.variable());
     } else if (var.kind == VariableKind::cost) {
-      text += "cost(" + agent + ")>" + std::to_string(var.cost);
+      text += "cost(" + agent + ")>=" + std::to_string(var.cost);
     } else {
       const Obstacle& o = model_.obstacles()[var.obstacle];
       text += "use(" + agent + ",kind " + std::to_string(static_cast<int>(o.kind)) + "," +

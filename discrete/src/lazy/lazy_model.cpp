@@ -4,59 +4,22 @@
 #include <algorithm>
 #include <utility>
 
-#include "quadrille/core/contract.hpp"
-
 namespace quadrille::discrete {
 
 using sat::Lit;
 
 LazyModel::LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances)
-    : instance_(instance), goal_distances_(std::move(distances)), costs_(instance.num_agents()) {
+    : Vocabulary(instance.num_agents(), Costs::negative),
+      instance_(instance),
+      goal_distances_(std::move(distances)) {
   distances_.reserve(instance.num_agents());
   for (const AgentId i : instance.agent_ids())
     distances_.emplace_back(instance, *goal_distances_, i);
 }
 
-void LazyModel::remember(Lit lit, const Variable& variable) {
-  const auto index = static_cast<std::size_t>(lit.variable());
-  if (variables_.size() <= index) variables_.resize(index + 1);
-  variables_[index] = variable;
-}
-
-LazyModel::Variable LazyModel::variable(Lit lit) const {
-  const auto index = static_cast<std::size_t>(lit.variable());
-  return index < variables_.size() ? variables_[index] : Variable{};
-}
-
-Lit LazyModel::cost_above(AgentId agent, Timestep cost, FormulaWriter& writer) {
-  QUADRILLE_REQUIRE(cost >= distances(agent).free_cost(), "nobody costs less than its free cost");
-  auto& known = costs_[agent];
-  const auto at = std::lower_bound(known.begin(), known.end(), cost,
-                                   [](const CostLiteral& c, Timestep k) { return c.cost < k; });
-  if (at != known.end() && at->cost == cost) return at->above;
-  const Lit above = ~writer.new_lit();
-  remember(above, {VariableKind::cost, agent, ObstacleId(), cost, {}});
-  const auto index = static_cast<std::size_t>(at - known.begin());
-  known.insert(at, {cost, above});
-  const auto order = [&](Lit stronger, Lit weaker) {
-    const Lit clause[] = {~stronger, weaker};
-    writer.add({sat::LemmaKind::order, clause, {}, false});
-  };
-  if (index > 0) order(above, known[index - 1].above);
-  if (index + 1 < known.size()) order(known[index + 1].above, above);
-  return above;
-}
-
-Lit LazyModel::make_usage(AgentId agent, FormulaWriter& writer) {
-  const Lit allowed = ~writer.new_lit();
-  remember(allowed, {VariableKind::usage, agent, ObstacleId(obstacles_.size()), 0, {}});
-  return allowed;
-}
-
 Lit LazyModel::new_vertex(AgentId agent, Visit visit, FormulaWriter& writer) {
-  const Lit at = writer.new_lit();
-  remember(at, {VariableKind::vertex, agent, ObstacleId(), 0, visit});
-  return at;
+  visits_.push_back(visit);
+  return new_own(agent, static_cast<std::uint32_t>(visits_.size() - 1), writer);
 }
 
 std::optional<ObstacleId> LazyModel::find_user(const Users& users, AgentId agent) const {
@@ -112,11 +75,12 @@ ObstacleId LazyModel::barrier(AgentId agent, std::span<const Visit> visits, Form
 
 ObstacleId LazyModel::keep_off_goal(AgentId agent, AgentId resident, Timestep t,
                                     FormulaWriter& writer) {
-  const auto key = std::make_tuple(agent, resident, t);
-  if (const auto known = targets_.find(key); known != targets_.end()) return known->second;
-  const Lit above = cost_above(resident, t, writer);
-  const VertexId goal = distances(resident).goal();
-  return targets_[key] = obstacles_.add_range(agent, above, goal, t, kForever);
+  return goal_obstacle(agent, resident, Cost{t} + 1, writer,
+                       [&](Lit above) {
+                         return obstacles_.add_range(agent, above, distances(resident).goal(), t,
+                                                     kForever);
+                       })
+      .first;
 }
 
 }  // namespace quadrille::discrete

@@ -38,20 +38,10 @@ class LazyProblem final : public sat::CostProblem {
   [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
 
  private:
-  class EngineWriter final : public FormulaWriter {
-   public:
-    explicit EngineWriter(sat::Engine& engine) : engine_(engine) {}
-    [[nodiscard]] sat::Lit new_lit() override { return engine_.new_lit(); }
-    void add(const sat::Lemma& lemma) override { engine_.add_clause(lemma); }
-
-   private:
-    sat::Engine& engine_;
-  };
-
   LazyModel& model_;
   LazyTheory& theory_;
   const Objective objective_;
-  EngineWriter writer_;
+  lazy::EngineWriter writer_;
   Cost lower_bound_ = 0;
   sat::Totalizer total_delay_;
   Plan plan_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "paths/path_index.hpp"
-#include "quadrille/sat/obstacle_trail.hpp"
+#include "quadrille/lazy/vocabulary.hpp"
 
 namespace quadrille::discrete {
 
@@ -10,16 +10,14 @@ namespace quadrille::discrete {
 class TrailedPaths {
  public:
   using Path = discrete::Path;
-  using Cost = Timestep;
+  using Cost = quadrille::Cost;
 
   /// Both outlive the object.
   TrailedPaths(PathIndex& paths, const ObstacleTable& obstacles)
       : paths_(paths), obstacles_(obstacles) {}
   [[nodiscard]] const Path& path(AgentId i) const { return paths_.path(i); }
   void set_path(AgentId i, const Path& path) { paths_.replace(i, path); }
-  [[nodiscard]] Timestep cost(const Path& path) const {
-    return static_cast<Timestep>(path.size()) - 1;
-  }
+  [[nodiscard]] Cost cost(const Path& path) const { return static_cast<Cost>(path.size()) - 1; }
   [[nodiscard]] bool breaks(const Path& path, ObstacleId id) const {
     return obstacles_.hits(id, path);
   }
@@ -29,7 +27,15 @@ class TrailedPaths {
   const ObstacleTable& obstacles_;
 };
 
-/// Caps are kForever for agents that do not take part.
-using LazyTrail = sat::ObstacleTrail<TrailedPaths>;
+/// Caps are lazy::kNoCap for agents that do not take part.
+using LazyTrail = lazy::ObstacleTrail<TrailedPaths>;
+
+[[nodiscard]] inline bool takes_part(const LazyTrail& trail, AgentId i) {
+  return trail.cap(i) < lazy::kNoCap;
+}
+/// The cap of the agent; kForever if it has none.
+[[nodiscard]] inline Timestep cap_of(const LazyTrail& trail, AgentId i) {
+  return takes_part(trail, i) ? static_cast<Timestep>(trail.cap(i)) : kForever;
+}
 
 }  // namespace quadrille::discrete

@@ -18,8 +18,7 @@ void LemmaRecorder::on_lemma(const sat::Lemma& lemma) {
   } else if (lemma.kind == sat::LemmaKind::path && lemma.usages.empty()) {
     // Of explicit paths: each of their clauses has a literal of this kind.
     for (const sat::Lit lit : lemma.clause)
-      if (const auto variable = model_.variable(lit);
-          variable.kind == LazyModel::VariableKind::vertex)
+      if (const auto variable = model_.variable(lit); variable.kind == LazyModel::VariableKind::own)
         is_explicit_[variable.agent] = true;
   }
 }

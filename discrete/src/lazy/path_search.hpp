@@ -9,7 +9,7 @@
 #include "paths/explanation.hpp"
 #include "paths/path_finder.hpp"
 #include "paths/path_index.hpp"
-#include "quadrille/sat/cheapest.hpp"
+#include "quadrille/lazy/cheapest.hpp"
 
 namespace quadrille::discrete {
 
@@ -20,7 +20,7 @@ class PathSearch {
   /// Both outlive the object.
   PathSearch(const LazyModel& model, const PathIndex& paths, LimitMonitor& limits);
 
-  using Cheapest = sat::Cheapest<PathSearch>;
+  using Cheapest = lazy::Cheapest<PathSearch>;
   /// A cheapest path of at most `max_cost` around the obstacles, and of these one with few
   /// collisions.
   [[nodiscard]] Cheapest find_cheapest(AgentId agent, std::span<const ObstacleId> obstacles,

@@ -7,14 +7,13 @@ namespace quadrille::discrete {
 
 const std::vector<Encounter>& Separation::collisions() {
   collisions_.clear();
-  const auto takes_part = [&](AgentId i) { return trail_.cap(i) != kForever; };
   for (const Encounter& e : paths_.collisions())
-    if (takes_part(e.first) && takes_part(e.second)) collisions_.push_back(e);
+    if (takes_part(trail_, e.first) && takes_part(trail_, e.second)) collisions_.push_back(e);
   return collisions_;
 }
 
 bool Separation::bypass(AgentId i) {
-  const Path* quieter = search_.find_quieter(i, trail_.active(i), trail_.cap(i));
+  const Path* quieter = search_.find_quieter(i, trail_.active(i), cap_of(trail_, i));
   if (quieter == nullptr) return false;
   trail_.replace_path(i, *quieter);
   return true;

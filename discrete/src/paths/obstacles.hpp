@@ -7,11 +7,11 @@
 
 #include "model/timesteps.hpp"
 #include "quadrille/discrete/plan.hpp"
-#include "quadrille/sat/obstacle_trail.hpp"
+#include "quadrille/lazy/trail.hpp"
 
 namespace quadrille::discrete {
 
-using sat::ObstacleId;
+using lazy::ObstacleId;
 
 /// Being in a vertex at a timestep.
 struct Visit {

@@ -35,14 +35,14 @@ class Situation {
   }
   /// What the agent may cost at most, and what it is said to cost at least.
   [[nodiscard]] Cost cap(AgentId i) const {
-    for (const auto& threshold : model_.thresholds(i))
-      if (is_false(threshold.at_least)) return threshold.cost - 1;
+    for (const auto& rung : model_.rungs(i))
+      if (is_false(rung.at_least)) return rung.cost - 1;
     return kAnyCost;
   }
   [[nodiscard]] Cost floor(AgentId i) const {
     Cost floor = 0;
-    for (const auto& threshold : model_.thresholds(i))
-      if (is_false(~threshold.at_least)) floor = threshold.cost;
+    for (const auto& rung : model_.rungs(i))
+      if (is_false(~rung.at_least)) floor = rung.cost;
     return floor;
   }
   /// Whether the literal is false, or the order of the cost literals makes it so.
@@ -168,9 +168,8 @@ class JudgedTheory final : public sat::Theory {
     const Situation now(model_, stack_);
     std::vector<sat::Lit> open;
     for (const AgentId i : model_.instance().agent_ids())
-      for (const auto& threshold : model_.thresholds(i))
-        if (threshold.is_natural && !now.is_assigned(threshold.at_least))
-          open.push_back(threshold.at_least);
+      for (const auto& rung : model_.rungs(i))
+        if (rung.is_natural && !now.is_assigned(rung.at_least)) open.push_back(rung.at_least);
     return open;
   }
   [[nodiscard]] static bool has_conflict(const support::RecordingContext& said,

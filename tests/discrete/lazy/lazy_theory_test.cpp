@@ -63,7 +63,7 @@ class Session final : private FormulaWriter {
     theory_.forget();
   }
   /// Whether an agent has got explicit paths.
-  [[nodiscard]] bool has_explicit_paths() { return draw(VariableKind::vertex).valid(); }
+  [[nodiscard]] bool has_explicit_paths() { return draw(VariableKind::own).valid(); }
 
  private:
   static std::optional<Plan> some_plan(const Instance& instance) {

@@ -33,8 +33,9 @@ struct Situation {
       values[index] = lit.positive() ? sat::Truth::is_true : sat::Truth::is_false;
     }
     for (const AgentId i : model.instance().agent_ids())
-      for (const auto& literal : model.cost_literals(i))
-        if (is_false(literal.above)) cap[i] = std::min(cap[i], literal.cost);
+      for (const auto& rung : model.rungs(i))
+        if (is_false(rung.at_least))
+          cap[i] = std::min(cap[i], static_cast<Timestep>(rung.cost - 1));
     for (const ObstacleId id : IdRange<ObstacleId>(model.obstacles().size())) {
       const Obstacle& o = model.obstacles()[id];
       if (is_false(o.allowed)) active[o.agent].push_back(o);

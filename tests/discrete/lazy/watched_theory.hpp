@@ -108,8 +108,8 @@ class WatchedTheory final : public sat::Theory {
   void expect_bound_told(AgentId i, const RecordingContext& said, const Situation& now) {
     const auto cost = static_cast<Timestep>(theory_.path(i).size()) - 1;
     Lit open;  // the largest one; ordered literals imply the others
-    for (const auto& literal : model_.cost_literals(i))
-      if (literal.cost < cost && !now.is_assigned(literal.above)) open = literal.above;
+    for (const auto& rung : model_.rungs(i))
+      if (rung.cost <= cost && !now.is_assigned(rung.at_least)) open = rung.at_least;
     if (!open.valid()) return;
     ++count_.told;
     EXPECT_TRUE(std::any_of(said.lemmas.begin(), said.lemmas.end(),

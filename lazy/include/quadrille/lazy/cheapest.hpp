@@ -6,7 +6,7 @@
 #include "quadrille/core/contract.hpp"
 #include "quadrille/core/ids.hpp"
 
-namespace quadrille::sat {
+namespace quadrille::lazy {
 
 /// What a search for a cheapest path of one agent has found, in either domain. To be asked before
 /// the next search only: path and blame are those of the search's state. `PathSearch` has it as a
@@ -40,4 +40,4 @@ class Cheapest {
   std::int64_t number_;
 };
 
-}  // namespace quadrille::sat
+}  // namespace quadrille::lazy

@@ -8,13 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/sat/lit.hpp"
 
-QUADRILLE_API_BEGIN
-
-namespace quadrille::sat {
+namespace quadrille::lazy {
 
 /// A thing that one agent must not do while a literal, `allowed`, is false. What it is, the domain
 /// knows.
@@ -56,16 +53,17 @@ class ObstacleTrail {
 
   // ---- the stack --------------------------------------------------------------------------------
 
-  [[nodiscard]] Truth value(Lit lit) const {
+  [[nodiscard]] sat::Truth value(sat::Lit lit) const {
     const auto index = static_cast<std::size_t>(lit.variable());
-    const Truth positive = index < variables_.size() ? variables_[index].value : Truth::unassigned;
-    if (positive == Truth::unassigned || lit.positive()) return positive;
-    return positive == Truth::is_true ? Truth::is_false : Truth::is_true;
+    const sat::Truth positive =
+        index < variables_.size() ? variables_[index].value : sat::Truth::unassigned;
+    if (positive == sat::Truth::unassigned || lit.positive()) return positive;
+    return positive == sat::Truth::is_true ? sat::Truth::is_false : sat::Truth::is_true;
   }
   /// Makes an unassigned literal true: the obstacles that it controls become active.
-  void push(Lit lit) {
+  void push(sat::Lit lit) {
     Variable& var = variable(lit);
-    var.value = lit.positive() ? Truth::is_true : Truth::is_false;
+    var.value = lit.positive() ? sat::Truth::is_true : sat::Truth::is_false;
     stack_.push_back(lit);
     if (var.controls) for_each_controlled(lit, [this](ObstacleId id) { activate(id); });
   }
@@ -74,9 +72,9 @@ class ObstacleTrail {
     for (; !changes_.empty() && changes_.back().height > kept; changes_.pop_back())
       undo(changes_.back());
     for (; stack_.size() > kept; stack_.pop_back()) {
-      const Lit lit = stack_.back();
+      const sat::Lit lit = stack_.back();
       Variable& var = variable(lit);
-      var.value = Truth::unassigned;
+      var.value = sat::Truth::unassigned;
       if (var.controls) for_each_controlled(lit, [this](ObstacleId id) { deactivate(id); });
     }
     for (; !thinned_.empty(); thinned_.pop_back()) drop_inactive(agents_[thinned_.back()]);
@@ -87,13 +85,13 @@ class ObstacleTrail {
   void notice(const Obstacles& all) {
     while (obstacles_.size() < all.size()) {
       const ObstacleId id = obstacles_.next_id();
-      const Lit allowed = all[id].allowed;
+      const sat::Lit allowed = all[id].allowed;
       obstacles_.push_back({all[id].agent, allowed});
       variable(allowed).controls = true;
       const auto index = static_cast<std::size_t>(allowed.variable());
       if (controlled_.size() <= index) controlled_.resize(index + 1);
       controlled_[index].push_back(id);
-      if (value(allowed) == Truth::is_false) activate(id);
+      if (value(allowed) == sat::Truth::is_false) activate(id);
     }
   }
 
@@ -162,12 +160,12 @@ class ObstacleTrail {
 
  private:
   struct Variable {
-    Truth value = Truth::unassigned;  // of the positive literal
-    bool controls = false;            // some obstacle
+    sat::Truth value = sat::Truth::unassigned;  // of the positive literal
+    bool controls = false;                      // some obstacle
   };
   struct Obstacle {
     AgentId agent;
-    Lit allowed;
+    sat::Lit allowed;
     bool is_active = false;
   };
   struct Agent {
@@ -186,13 +184,13 @@ class ObstacleTrail {
     std::size_t height = 0;  // of the stack; it is undone when the stack gets lower
   };
 
-  [[nodiscard]] Variable& variable(Lit lit) {
+  [[nodiscard]] Variable& variable(sat::Lit lit) {
     const auto index = static_cast<std::size_t>(lit.variable());
     if (variables_.size() <= index) variables_.resize(index + 1);
     return variables_[index];
   }
   template <class Tell>
-  void for_each_controlled(Lit lit, const Tell& tell) {
+  void for_each_controlled(sat::Lit lit, const Tell& tell) {
     for (const ObstacleId id : controlled_[static_cast<std::size_t>(lit.variable())])
       if (obstacles_[id].allowed == ~lit) tell(id);
   }
@@ -255,11 +253,9 @@ class ObstacleTrail {
   IdVector<ObstacleId, Obstacle> obstacles_;
   std::vector<Variable> variables_;                  // by variable
   std::vector<std::vector<ObstacleId>> controlled_;  // by variable
-  std::vector<Lit> stack_;
+  std::vector<sat::Lit> stack_;
   std::vector<Change> changes_;
   std::vector<Path> replaced_paths_;  // of the path changes
 };
 
-}  // namespace quadrille::sat
-
-QUADRILLE_API_END
+}  // namespace quadrille::lazy

@@ -2,7 +2,7 @@
 // The trail under every callback sequence that the protocol allows, against a recomputation from
 // the stack of literals. Paths are numbers here: path p costs p / 2, and which obstacles it breaks
 // is drawn.
-#include "quadrille/sat/obstacle_trail.hpp"
+#include "quadrille/lazy/trail.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,15 @@
 #include "support/mock_solver.hpp"
 #include "support/random.hpp"
 
-namespace quadrille::sat {
+namespace quadrille::lazy {
 namespace {
+
+using sat::Effort;
+using sat::Lemma;
+using sat::Lit;
+using sat::Theory;
+using sat::TheoryContext;
+using sat::Truth;
 
 using quadrille::support::Random;
 
@@ -251,7 +258,7 @@ TEST(ObstacleTrail, AgreesWithARecomputation) {
     SCOPED_TRACE(seed);
     Random random(seed);
     Checked theory(random, kVariables, count);
-    TheoryHost host(theory, {[] { return Lit(); }, [](const Lemma&) {}});
+    sat::TheoryHost host(theory, {[] { return Lit(); }, [](const Lemma&) {}});
     for (int v = 1; v <= kVariables; ++v) host.add_variable(v);
     quadrille::support::MockSolver solver(host, kVariables, seed);
     for (int step = 0; step < 60 && !testing::Test::HasFailure(); ++step) {
@@ -381,4 +388,4 @@ TEST_F(TrailOfOne, BoundsComeBackStepByStep) {
 }
 
 }  // namespace
-}  // namespace quadrille::sat
+}  // namespace quadrille::lazy

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "theory/domain.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::continuous {
+
+ContinuousDomain::ContinuousDomain(Model& model)
+    : model_(model),
+      paths_(model),
+      search_(model),
+      finder_(model.instance(), &model.limits()),
+      bans_(model.instance().roadmap()),
+      clauses_(model, finder_, bans_),
+      pair_lemmas_(model),
+      apart_(num_agents() * num_agents()) {
+  for (const AgentId i : model.instance().agent_ids()) {
+    const TimedPath* path = search_.find(i, {}, kAnyCost).path();
+    QUADRILLE_REQUIRE(path != nullptr, "goals can be reached");
+    paths_.set_path(i, make_path(i, *path));
+  }
+}
+
+Plan ContinuousDomain::plan() const {
+  Plan plan;
+  for (const AgentId i : model_.instance().agent_ids())
+    plan.paths.push_back(with_stops(model_.instance(), i, paths_.path(i)->path));
+  return plan;
+}
+
+Cost ContinuousDomain::current_cost(AgentId i, const PathTrail& trail) const {
+  return std::max(paths_.cost(paths_.path(i)), trail.floor(i));
+}
+
+void ContinuousDomain::on_explained(const lazy::Explanation& lemma, const PathTrail& trail,
+                                    FormulaWriter& writer) {
+  if (lemma.bound >= kAnyCost) return;
+  pair_lemmas_.set_path_effort(search_.effort());
+  std::map<AgentId, int> due_to;
+  for (const ObstacleId id : lemma.blamed)
+    for (const AgentId j : model_.obstacles()[id].partners) ++due_to[j];
+  const AgentId i = lemma.agent;
+  for (const auto& [j, count] : due_to) {
+    if (count < 2) continue;
+    if (pair_lemmas_.note_explanation({i, std::min(lemma.bound - 1, trail.cap(i)), lemma.blamed},
+                                      {j, trail.cap(j), trail.active(j)}, writer))
+      return;
+  }
+}
+
+std::vector<Encounter> ContinuousDomain::conflicts(const PathTrail& /*trail*/) {
+  std::vector<Encounter> found;
+  for (const AgentId i : model_.instance().agent_ids()) {
+    for (AgentId j(i.index() + 1); j.index() < num_agents(); j = AgentId(j.index() + 1)) {
+      auto& apart = apart_[i.index() * num_agents() + j.index()];
+      const std::pair versions{paths_.path(i)->version, paths_.path(j)->version};
+      if (apart == versions) continue;
+      ++num_comparisons_;
+      if (auto encounter =
+              first_encounter(model_.scene(), i, paths_.path(i)->steps, j, paths_.path(j)->steps))
+        found.push_back(*encounter);
+      else
+        apart = versions;
+    }
+  }
+  return found;
+}
+
+void ContinuousDomain::exclude(const Encounter& e, const PathTrail& trail, FormulaWriter& writer) {
+  if (!note_collision(e, trail, writer))
+    clauses_.exclude(e, as_ticks(current_cost(e.first, trail)),
+                     as_ticks(current_cost(e.second, trail)), writer);
+}
+
+bool ContinuousDomain::note_collision(const Encounter& e, const PathTrail& trail,
+                                      FormulaWriter& writer) {
+  pair_lemmas_.set_path_effort(search_.effort());
+  const auto party = [&](AgentId i) { return PairLemmas::Party{i, trail.cap(i), trail.active(i)}; };
+  return pair_lemmas_.note_collision(party(e.first), party(e.second), writer);
+}
+
+}  // namespace quadrille::continuous
