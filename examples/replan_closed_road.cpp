@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A road is closed while robots are under way: they plan again from where they are, and each one
-// finishes its move.
-#include <algorithm>
+// A road is closed while robots are under way, and opened again before they have got far: each time
+// they plan again from where they are, and each one finishes its move.
 #include <iostream>
 #include <quadrille/fleet/solver.hpp>
 
@@ -36,18 +35,6 @@ void print(const Fleet& fleet, const TimedPlan& plan) {
   }
 }
 
-/// The robot begins where it is at this time: at a vertex, or in the middle of a move.
-void put(Robot robot, const TimedPath& path, Seconds time) {
-  const auto next = std::find_if(path.stops().begin(), path.stops().end() - 1,
-                                 [&](const Stop& stop) { return stop.depart >= time; });
-  if (next->arrive <= time) {
-    robot.from(next->vertex);
-    return;
-  }
-  const Stop& last = *(next - 1);
-  robot.from_edge(last.vertex, next->vertex, (time - last.depart) / (next->arrive - last.depart));
-}
-
 }  // namespace
 
 int main() {
@@ -72,8 +59,19 @@ int main() {
   roads.close(at("B2"), at("B3"));
   fleet.set_roadmap(roads.build().value());
   std::cout << "at " << to_string(now) << " the road from B2 to B3 is closed\n";
-  for (const AgentId robot : before.robot_ids()) put(fleet[robot], before[robot], now);
+  // Each one begins at a vertex, or in the middle of a move.
+  for (const AgentId robot : before.robot_ids()) fleet[robot].from(before[robot], now);
   outcome = solve(fleet).value();
   std::cout << "from " << to_string(now) << " on, " << outcome.summary() << "\n";
+  const TimedPlan detour = outcome.plan.value();
+  print(fleet, detour);
+
+  const Seconds later = 1_s;  // All are within the same moves.
+  roads.road(at("B2"), at("B3"));
+  fleet.set_roadmap(roads.build().value());
+  std::cout << "another " << to_string(later) << " later it is open again\n";
+  for (const AgentId robot : detour.robot_ids()) fleet[robot].from(detour[robot], later);
+  outcome = solve(fleet).value();
+  std::cout << "from then on, " << outcome.summary() << "\n";
   print(fleet, outcome.plan.value());
 }

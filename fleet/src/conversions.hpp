@@ -23,17 +23,6 @@ namespace quadrille::fleet {
   return continuous::Point{*x, *y, *z};
 }
 
-/// Up to a whole length unit. A number that differs from one by a billionth is meant to be that:
-/// 0.35 m in millimetres are 350, whatever the last bit of 0.35 says.
-[[nodiscard]] inline std::optional<continuous::Length> radius_to_units(
-    Metres radius, const continuous::Resolution& resolution) {
-  const double value = radius.value();
-  const auto nearest = continuous::quantise_coordinate(value, resolution);
-  if (!nearest || !(value > 0)) return std::nullopt;
-  const double exact = continuous::in_input_units(*nearest, resolution);
-  return exact >= value || value - exact <= 1e-9 * value ? *nearest : *nearest + 1;
-}
-
 /// Up or down to a whole tick; a number that differs from one by a billionth is meant to be that.
 [[nodiscard]] inline std::optional<continuous::Ticks> time_to_units(
     Seconds time, bool is_up, const continuous::Resolution& resolution) {

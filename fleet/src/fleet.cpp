@@ -5,9 +5,8 @@
 #include <set>
 
 #include "conversions.hpp"
-#include "numbers.hpp"
+#include "place_rounding.hpp"
 #include "quadrille/continuous/free_cost.hpp"
-#include "quadrille/continuous/under_way.hpp"
 #include "quadrille/geometry/body_index.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
@@ -18,7 +17,7 @@ Error invalid(const std::string& message) { return {ErrorCode::invalid_instance,
 Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
 
 Result<continuous::Body> to_units(const Disc& disc, const continuous::Resolution& resolution) {
-  const auto radius = radius_to_units(disc.radius, resolution);
+  const auto radius = continuous::quantise_radius_up(disc.radius.value(), resolution);
   if (!radius)
     return out_of_range("has a radius of " + to_string(disc.radius) +
                         ", which is not positive, or too large");
@@ -43,21 +42,6 @@ Result<continuous::Body> to_units(const Polygon& polygon,
 }
 
 }  // namespace
-
-Robot Robot::from(VertexId start) const {
-  QUADRILLE_REQUIRE(start.index() < fleet_->roadmap_.num_vertices(), "a vertex of the roadmap");
-  fleet_->robots_[id_].start = start;
-  fleet_->robots_[id_].under_way.reset();
-  return *this;
-}
-
-Robot Robot::from_edge(VertexId from, VertexId to, double fraction) const {
-  for (const VertexId v : {from, to})
-    QUADRILLE_REQUIRE(v.index() < fleet_->roadmap_.num_vertices(), "a vertex of the roadmap");
-  fleet_->robots_[id_].start.reset();
-  fleet_->robots_[id_].under_way = {from, to, fraction};
-  return *this;
-}
 
 Robot Robot::to(VertexId goal) const {
   QUADRILLE_REQUIRE(goal.index() < fleet_->roadmap_.num_vertices(), "a vertex of the roadmap");
@@ -173,35 +157,6 @@ std::string Fleet::place_name(VertexId v) const {
              roadmap_.name(entry.under_way->to);
   QUADRILLE_REQUIRE(false, "a vertex of the instance");
   return {};
-}
-
-// A vertex for each place in the middle of a move, with what is left of the move. Nobody else can
-// be there.
-Result<Fleet::Roads> Fleet::put_under_way(std::vector<continuous::Agent>& agents) const {
-  if (std::none_of(agents.begin(), agents.end(), [](const auto& a) { return a.under_way; }))
-    return roadmap_.in_units();
-  std::vector<continuous::Point> points = roadmap_.in_units()->positions();
-  std::vector<continuous::Edge> edges = roadmap_.in_units()->edges();
-  for (const AgentId id : robot_ids()) {
-    continuous::Agent& agent = agents[id.index()];
-    if (!agent.under_way) continue;
-    const Underway& where = *robots_[id].under_way;
-    const std::string name = "'" + this->name(id) + "' ";
-    if (!(where.fraction >= 0 && where.fraction <= 1))
-      return out_of_range(name + "is under way with " + shortest(where.fraction) +
-                          " of its move behind it, which is not from 0 to 1");
-    const continuous::Point from = points[where.from.index()], to = points[where.to.index()];
-    const auto whole = continuous::travel_time(from, to, agent.speed);
-    if (from == to || !whole)
-      return out_of_range(name + "is under way from " + roadmap_.name(where.from) + " to " +
-                          roadmap_.name(where.to) + ", which takes it less than half a step of " +
-                          to_string(roadmap_.resolution().time) + ", or too long");
-    agent.start = continuous::add_place_under_way(points, edges, where.from, where.to, *whole,
-                                                  where.fraction);
-  }
-  auto roads = continuous::Roadmap::make(std::move(points), std::move(edges));
-  if (!roads) return roads.error();
-  return std::make_shared<const continuous::Roadmap>(std::move(roads).value());
 }
 
 Result<std::vector<continuous::MovingObstacle>> Fleet::obstacles_in_units() const {
@@ -350,17 +305,29 @@ std::optional<Error> Fleet::find_overlap(const continuous::Roadmap& roads,
   return std::nullopt;
 }
 
-Result<continuous::Instance> Fleet::instance() const {
+Result<Fleet::Parts> Fleet::parts() const {
+  Parts parts;
   auto agents = this->agents();
   if (!agents) return agents.error();
-  auto roads = put_under_way(*agents);
+  auto roads = put_under_way(*agents, parts.off);
   if (!roads) return roads.error();
   auto obstacles = obstacles_in_units();
   if (!obstacles) return obstacles.error();
-  auto instance =
-      continuous::Instance::make(*roads, *agents, roadmap_.unit_sizes(), {}, *obstacles);
-  if (!instance) return in_words(instance.error(), *roads, *agents, *obstacles);
-  return instance;
+  parts.agents = std::move(agents).value();
+  parts.roads = std::move(roads).value();
+  parts.obstacles = std::move(obstacles).value();
+  return parts;
+}
+
+Result<continuous::Instance> Fleet::instance() const {
+  const auto parts = this->parts();
+  if (!parts) return parts.error();
+  auto instance = continuous::Instance::make(parts->roads, parts->agents, roadmap_.unit_sizes(), {},
+                                             parts->obstacles);
+  if (instance) return instance;
+  Error error = in_words(instance.error(), parts->roads, parts->agents, parts->obstacles);
+  if (error.code == ErrorCode::no_plan) error.message += PlaceRounding(*this).doubt_about_refusal();
+  return error;
 }
 
 }  // namespace quadrille::fleet

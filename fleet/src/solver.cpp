@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/fleet/solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "conversions.hpp"
 #include "numbers.hpp"
+#include "place_rounding.hpp"
+#include "quadrille/continuous/duration_error.hpp"
 
 namespace quadrille::fleet {
 namespace {
@@ -52,6 +55,35 @@ continuous::SolveOptions in_units(const Fleet& fleet, const continuous::Resoluti
   return result;
 }
 
+/// What the rounding of durations does to the outcome.
+void look_at_durations(const Fleet& fleet, const continuous::Instance& instance,
+                       SolveOutcome& outcome) {
+  const auto worst = continuous::largest_duration_error(instance);
+  if (!worst) return;
+  outcome.duration_error = worst->relative;
+  if (worst->relative < continuous::kNotableDurationError) return;
+  const auto digits = [](double value) {
+    const double scale = std::pow(10, 3 - std::ceil(std::log10(value)));
+    return std::round(value * scale) / scale;
+  };
+  const Roadmap& roads = fleet.roadmap();
+  const continuous::Edge& lane = instance.roadmap().edge(worst->edge);
+  outcome.warnings.push_back(
+      "durations are rounded by up to " + shortest(digits(100 * worst->relative)) +
+      " %: the lane from " + roads.name(lane.from) + " to " + roads.name(lane.to) +
+      " is planned to take '" + fleet.name(worst->agent) + "' " +
+      to_string(in_seconds(worst->planned, instance.resolution())) + " instead of " +
+      to_string(Seconds(digits(worst->exact * instance.resolution().time))) +
+      "; a smaller resolution of time than " + to_string(roads.resolution().time) + " mends that");
+}
+
+/// What is left of the limits; at least 0.
+quadrille::Limits remaining(quadrille::Limits limits, const Statistics& used) {
+  if (limits.wall_s) limits.wall_s = std::max(0.0, *limits.wall_s - used.wall_s);
+  if (limits.cpu_s) limits.cpu_s = std::max(0.0, *limits.cpu_s - used.cpu_s);
+  return limits;
+}
+
 /// In the words of the fleet; the layer below would have agents and ticks.
 std::optional<Error> refuse_initial_plan(const Fleet& fleet, const SolveOptions& options) {
   if (!options.initial_plan) return std::nullopt;
@@ -80,7 +112,9 @@ Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
   if (!instance) return instance.error();
   if (auto error = refuse_initial_plan(fleet, options)) return *std::move(error);
   const continuous::Resolution resolution = instance->resolution();
-  auto solved = continuous::solve(*instance, in_units(fleet, resolution, options));
+  look_at_durations(fleet, *instance, outcome);
+  const continuous::SolveOptions asked = in_units(fleet, resolution, options);
+  auto solved = continuous::solve(*instance, asked);
   if (!solved) return solved.error();
 
   outcome.status = solved->status;
@@ -88,6 +122,9 @@ Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
   outcome.rests_on_known_bound = solved->rests_on_known_bound;
   outcome.stop = solved->stop;
   outcome.explanation = std::move(solved->explanation);
+  if (outcome.status == Status::infeasible)
+    outcome.explanation += PlaceRounding(fleet).doubt_about(
+        solved->blocked, remaining(asked.limits, solved->statistics));
   outcome.statistics = solved->statistics;
   outcome.internal_error = std::move(solved->internal_error);
   if (!solved->plan) return outcome;

@@ -80,6 +80,17 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
                              in_metres(state.instance.roadmap().position(stop.vertex), resolution),
                              seconds(stop.arrive), seconds(stop.depart)});
     const Cost cost = continuous::cost(plan.paths[i]);
+    if (const auto& begin = fleet.under_way(i)) {
+      // What is left of the move is the first one of the path.
+      const auto& positions = state.instance.roadmap();
+      const double whole = static_cast<double>(
+          continuous::travel_time(positions.position(begin->from), positions.position(begin->to),
+                                  state.instance.agent(i).speed)
+              .value()
+              .count());
+      const auto left = static_cast<double>(plan.paths[i][1].arrive.count());
+      path.under_way_ = UnderWay{begin->from, begin->to, (whole - left) / whole};
+    }
     // There is a way to the goal: the plan takes one.
     const Cost free = continuous::as_cost(continuous::free_cost(state.instance, i).value());
     path.free_cost_ = seconds(free);

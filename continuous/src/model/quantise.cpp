@@ -49,6 +49,15 @@ std::optional<Length> quantise_radius(double value, const Resolution& resolution
   return Length(static_cast<std::int64_t>(std::floor(*units)));
 }
 
+std::optional<Length> quantise_radius_up(double value, const Resolution& resolution) {
+  const auto nearest = quantise_coordinate(value, resolution);
+  if (!nearest || !(value > 0)) return std::nullopt;
+  const double exact = in_input_units(*nearest, resolution);
+  const bool is_enough = exact >= value || value - exact <= 1e-9 * value;
+  if (!is_enough && *nearest >= geometry::kMaxLength) return std::nullopt;
+  return is_enough ? *nearest : *nearest + 1;
+}
+
 std::optional<Length> quantise_corner(double value, const Resolution& resolution) {
   const auto units = in_units(value, resolution.length, geometry::kMaxLength.count());
   if (!units) return std::nullopt;

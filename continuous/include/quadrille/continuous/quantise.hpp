@@ -19,6 +19,10 @@ namespace quadrille::continuous {
 [[nodiscard]] std::optional<Length> quantise_coordinate(double value, const Resolution& resolution);
 /// A radius, rounded down: less than one length unit is lost. nullopt if nothing is left.
 [[nodiscard]] std::optional<Length> quantise_radius(double value, const Resolution& resolution);
+/// A radius, rounded up, for bodies that must not be smaller than they are given: less than one
+/// length unit is added. A number that differs from a whole one by a billionth is meant to be that:
+/// 0.35 in thousandths are 350, whatever the last bit of 0.35 says. nullopt if it is not positive.
+[[nodiscard]] std::optional<Length> quantise_radius_up(double value, const Resolution& resolution);
 /// A coordinate of a corner of a body, towards zero: less than one length unit is lost.
 [[nodiscard]] std::optional<Length> quantise_corner(double value, const Resolution& resolution);
 /// A duration, to the nearest tick. nullopt if that is none.

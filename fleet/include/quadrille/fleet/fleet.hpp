@@ -71,18 +71,34 @@ struct MovingObstacle {
 };
 
 class Fleet;
+class TimedPath;
+
+/// A move in progress: `fraction` of it, 0 .. 1, lies behind.
+struct UnderWay {
+  VertexId from, to;
+  double fraction = 0;
+  friend bool operator==(const UnderWay&, const UnderWay&) = default;
+};
 
 /// A robot of a fleet, to be told its task: `fleet.robot({...}).from(a).to(b)`. To be used while
 /// the fleet is where it is. What it converts to, its id, stays valid.
 class Robot {
  public:
-  /// Where it begins. Requires a vertex of the roadmap.
+  /// Where it begins. Requires a vertex of the roadmap, or the place in the middle of a move where
+  /// this robot begins as it is, which changes nothing.
   Robot from(VertexId start) const;  // NOLINT: part of a chain
+  /// Where it is at this time when it follows the path: at a vertex, or in the middle of a move.
+  /// For planning again while robots are under way, as often as there is need, also within one
+  /// move. Before time 0 it is where the path begins, after the end where it ends. Requires a path
+  /// whose vertices the roadmap has, and a finite time.
+  Robot from(const TimedPath& path, Seconds time) const;  // NOLINT: part of a chain
   /// Instead: at time 0 it is in the middle of a move, of which `fraction` lies behind it, 0 .. 1,
   /// and it finishes the move, without a stop; also if the lane has been closed meanwhile. What
   /// lies behind is rounded down to whole steps of time, and at least one step is left: it is never
   /// taken to be further than it is, but for that last step. Its place follows from that, and is
-  /// rounded to the resolution. Requires two vertices of the roadmap.
+  /// rounded to the resolution. Requires two vertices of the roadmap. `from` may also be the place
+  /// in the middle of a move to `to` where this robot begins until now: then `fraction` is one of
+  /// what was left of the move, so that it must not be told twice.
   Robot from_edge(VertexId from, VertexId to, double fraction) const;  // NOLINT: part of a chain
   /// Where it goes, and stays. Requires a vertex of the roadmap.
   Robot to(VertexId goal) const;  // NOLINT: part of a chain
@@ -127,6 +143,10 @@ class Fleet {
   [[nodiscard]] std::optional<AgentId> find(std::string_view name) const;
   /// nullopt as long as it has not been told, or if it begins in the middle of a move.
   [[nodiscard]] std::optional<VertexId> start(AgentId id) const { return robots_[id].start; }
+  /// The move in the middle of which it begins; nullopt if it begins at a vertex.
+  [[nodiscard]] const std::optional<UnderWay>& under_way(AgentId id) const {
+    return robots_[id].under_way;
+  }
   [[nodiscard]] std::optional<VertexId> goal(AgentId id) const { return robots_[id].goal; }
   [[nodiscard]] Seconds release(AgentId id) const { return robots_[id].release; }
   [[nodiscard]] std::optional<Seconds> deadline(AgentId id) const { return robots_[id].deadline; }
@@ -150,27 +170,35 @@ class Fleet {
   /// have, an obstacle without stops, whose times do not increase, or that vanishes when it
   /// appears; out_of_range for sizes, speeds and times that are not supported at this resolution;
   /// no_plan for starts that overlap, also with an obstacle, goals that overlap and goals that
-  /// cannot be reached, or not by the deadline.
+  /// cannot be reached, or not by the deadline; where that is so only because places in the middle
+  /// of moves are rounded, it says so.
   [[nodiscard]] Result<continuous::Instance> instance() const;
 
  private:
   friend class Robot;
-  struct Underway {
-    VertexId from, to;
-    double fraction = 0;
-  };
+  friend class PlaceRounding;
   struct Entry {
     RobotSpec spec;
     std::optional<VertexId> start = {}, goal = {};
-    std::optional<Underway> under_way = {};  // instead of a start
+    std::optional<UnderWay> under_way = {};  // instead of a start
     Seconds release = {};
     std::optional<Seconds> deadline = {};
     bool leaves = false;
   };
   using Roads = std::shared_ptr<const continuous::Roadmap>;
+  /// What an instance is made of. `off`: how far from where it is said to be each agent begins,
+  /// because places in the middle of moves are rounded; in length units.
+  struct Parts {
+    std::vector<continuous::Agent> agents;
+    Roads roads;
+    std::vector<continuous::MovingObstacle> obstacles;
+    std::vector<double> off;
+  };
+  [[nodiscard]] Result<Parts> parts() const;
   [[nodiscard]] Result<std::vector<continuous::Agent>> agents() const;
   [[nodiscard]] Result<continuous::Agent> agent(AgentId id) const;
-  [[nodiscard]] Result<Roads> put_under_way(std::vector<continuous::Agent>& agents) const;
+  [[nodiscard]] Result<Roads> put_under_way(std::vector<continuous::Agent>& agents,
+                                            std::vector<double>& off) const;
   [[nodiscard]] Result<std::vector<continuous::MovingObstacle>> obstacles_in_units() const;
   [[nodiscard]] Error in_words(const Error& error, const Roads& roads,
                                const std::vector<continuous::Agent>& agents,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/core/export.hpp"
@@ -71,7 +72,15 @@ struct SolveOutcome {
   /// `lower_bound` is the one that was given, and less than that was proved.
   bool rests_on_known_bound = false;
   StopReason stop = StopReason::none;
-  std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
+  /// For infeasible: why, and whether that rests on the rounding of places in the middle of moves.
+  /// For unknown: what stopped the search.
+  std::string explanation;
+  /// What is not as it was asked for, in sentences: that durations are rounded by
+  /// continuous::kNotableDurationError or more.
+  std::vector<std::string> warnings;
+  /// The largest relative error of the time that a robot takes for a lane that it may use, because
+  /// it is rounded to whole steps: |rounded - exact| / exact.
+  double duration_error = 0;
   Statistics statistics;
   /// A check of the program's own work failed; status is unknown then.
   std::optional<Error> internal_error;

@@ -58,6 +58,10 @@ class TimedPath {
   /// At least one; the last one is the goal, for ever.
   [[nodiscard]] const std::vector<Stop>& stops() const noexcept { return stops_; }
 
+  /// The move in the middle of which it begins: as rounded, in whole steps of time. nullopt if it
+  /// begins at a vertex.
+  [[nodiscard]] const std::optional<UnderWay>& under_way() const noexcept { return under_way_; }
+
   /// Where the robot is: at its start before time 0, at its goal after the end. O(log stops).
   [[nodiscard]] Point at(Seconds time) const;
   /// How fast it goes in which direction; at the moment in which that changes, what comes after it.
@@ -84,6 +88,7 @@ class TimedPath {
 
   std::string name_;
   std::vector<Stop> stops_;
+  std::optional<UnderWay> under_way_;
   Seconds free_cost_, delay_;
 };
 
