@@ -11,7 +11,9 @@ namespace {
 
 constexpr const char* kFooter =
     "For plans on roadmaps; a grid is one with --roadmap map.map. A plan that breaks a rule is\n"
-    "refused.\n"
+    "refused; so are orders, unless --allow-cycles is given, that wait for each other for ever: "
+    "exit\n"
+    "code 1.\n"
     "\n"
     "Examples:\n"
     "  quadrille export --instance discs.json --to csv --rate 20 --output plan.csv plan.json\n"
@@ -39,6 +41,8 @@ Subcommand add_export(CLI::App& program) {
   add_positive(*app, "--rate", arguments->rate, "Samples per unit of time; default 10");
   add_input_file(*app, "--states", arguments->states,
                  "States of robots, one JSON message per line: release orders as they go");
+  app->add_flag("--allow-cycles", arguments->allow_cycles,
+                "With vda5050: write orders that wait for each other for ever, with a warning");
   add_plan_format(*app, "--from", arguments->from,
                   "Format of PLAN; default: by what the file says");
   add_file(*app, "--output", arguments->output, "Where to write; default - is standard output");

@@ -214,6 +214,10 @@ void report_error(const Error& error) {
   print_stderr(fmt::format("quadrille: {}\n", error.to_string()));
 }
 
+void report_warning(const Error& warning) {
+  print_stderr(fmt::format("quadrille: warning: {}\n", warning.to_string()));
+}
+
 void report_write_failure(const std::string& path, int code) {
   if (code != EPIPE) report_error(io_error(path == "-" ? "standard output" : path, code));
 }

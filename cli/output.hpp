@@ -74,6 +74,8 @@ void print_stderr(std::string_view text) noexcept;
 
 /// Prints "quadrille: <file>:<line>: <reason>" to stderr.
 void report_error(const Error& error);
+/// Prints "quadrille: warning: <file>:<line>: <what>" to stderr: the work goes on.
+void report_warning(const Error& warning);
 
 /// Says on stderr that `path` ("-": standard output) could not be written. Silent about a broken
 /// pipe: its reader has left on purpose.

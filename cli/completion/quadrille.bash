@@ -75,7 +75,7 @@ _quadrille() {
         return
       fi
       ;;
-    export) options="$instance --to --from --rate --states --output" ;;
+    export) options="$instance --to --from --rate --states --allow-cycles --output" ;;
     execute-check) options="$instance --plan-format --json --quiet" ;;
     simulate)
       options="$instance --plan-format --json --quiet --rule --delays --longest --slow --period --runs --seed"

@@ -23,6 +23,8 @@ std::string check(const ExportArguments& arguments) {
     wrong = "--rate belongs to samples; orders have none";
   if (wrong.empty() && !arguments.states.empty() && arguments.to != ExportFormat::vda5050)
     wrong = "--states belongs to --to vda5050";
+  if (wrong.empty() && arguments.allow_cycles && arguments.to != ExportFormat::vda5050)
+    wrong = "--allow-cycles belongs to --to vda5050; samples have times, and nobody waits";
   if (wrong.empty() && !arguments.states.empty() && arguments.output != "-")
     wrong = "with --states orders go to standard output, as robots go";
   if (wrong.empty())
@@ -55,12 +57,31 @@ Result<Checked> read_checked(const ExportArguments& arguments, const RoadmapInpu
   return Checked{std::move(file->plan), *order};
 }
 
-/// The text of the plan in its new format.
+/// Says it on stderr if robots that have to wait for each other's moves to end would do so for
+/// ever. Whether the orders may be given all the same.
+bool may_lock_up(const ExportArguments& arguments, const execution::Precedences& order) {
+  const auto lines = describe_lock_up(order);
+  if (lines.empty()) return true;
+  const Error what{ErrorCode::invalid_plan, "with these orders robots wait for ever", {}};
+  Error located = what;
+  located.where.file = arguments.plan;
+  if (arguments.allow_cycles)
+    report_warning(located);
+  else
+    report_error(located);
+  for (const std::string& line : lines) print_stderr("  " + line + "\n");
+  if (!arguments.allow_cycles)
+    print_stderr(
+        "  nothing is written; plan with larger bodies or shorter edges, or use --allow-cycles\n");
+  return arguments.allow_cycles;
+}
+
+/// The text of the plan as samples.
 Result<std::string> convert(const ExportArguments& arguments, const RoadmapInput& input) {
   const auto checked = read_checked(arguments, input);
   if (!checked) return checked.error();
   const auto& [plan, order] = *checked;
-  if (arguments.to == ExportFormat::vda5050) return export_orders(input.instance, plan, order);
+  warn_of_durations(input);
   const double rate = arguments.rate.value_or(kDefaultRate);
   double time = 0;
   for (const AgentId agent : input.instance.agent_ids())
@@ -71,13 +92,8 @@ Result<std::string> convert(const ExportArguments& arguments, const RoadmapInput
   return export_samples(input.instance, plan, *arguments.to, rate);
 }
 
-ExitCode release(const ExportArguments& arguments) {
-  const auto input = load_roadmap_input(arguments.roadmap, arguments.input);
-  const auto checked = input ? read_checked(arguments, *input) : Result<Checked>(input.error());
-  if (!checked) {
-    report_error(checked.error());
-    return ExitCode::bad_input;
-  }
+ExitCode release(const ExportArguments& arguments, const continuous::Instance& instance,
+                 const Checked& checked) {
   std::ifstream states(arguments.states);
   if (!states) {
     report_error({ErrorCode::io, "cannot be read", {arguments.states, 0}});
@@ -91,8 +107,8 @@ ExitCode release(const ExportArguments& arguments) {
       failure = errno != 0 ? errno : EIO;
     return failure == 0;
   };
-  const auto error = release_orders(input->instance, checked->plan, checked->order, states,
-                                    arguments.states, take);
+  const auto error = release_orders(instance, checked.plan, checked.order, states, arguments.states,
+                                    take, report_warning);
   if (failure != 0) {
     report_write_failure("-", failure);
     return ExitCode::output;
@@ -102,11 +118,31 @@ ExitCode release(const ExportArguments& arguments) {
   return ExitCode::bad_input;
 }
 
+/// Writes the orders once, or again and again as robots go.
+ExitCode give_orders(const ExportArguments& arguments) {
+  const auto output = OutputFile::probe(arguments.output);
+  if (!output) {
+    report_error(output.error());
+    return ExitCode::output;
+  }
+  const auto input = load_roadmap_input(arguments.roadmap, arguments.input);
+  const auto checked = input ? read_checked(arguments, *input) : Result<Checked>(input.error());
+  if (!checked) {
+    report_error(checked.error());
+    return ExitCode::bad_input;
+  }
+  warn_of_durations(*input);
+  if (!may_lock_up(arguments, checked->order)) return ExitCode::violations;
+  if (!arguments.states.empty()) return release(arguments, input->instance, *checked);
+  const std::string text = export_orders(input->instance, checked->plan, checked->order);
+  return write_or_report(*output, text) ? ExitCode::success : ExitCode::output;
+}
+
 }  // namespace
 
 ExitCode export_roadmap(const CLI::App& app, const ExportArguments& arguments) {
   if (const std::string wrong = check(arguments); !wrong.empty()) return usage_error(app, wrong);
-  if (!arguments.states.empty()) return release(arguments);
+  if (arguments.to == ExportFormat::vda5050) return give_orders(arguments);
   return convert_and_write(
       arguments.output, [&] { return load_roadmap_input(arguments.roadmap, arguments.input); },
       [&](const auto& input) { return convert(arguments, input); });

@@ -21,6 +21,7 @@ struct ExportArguments {
   std::optional<ExportFormat> to;
   std::optional<double> rate;
   std::string states;  ///< Messages of robots that go; empty: the orders at the start.
+  bool allow_cycles = false;
   std::string output = "-";
 };
 

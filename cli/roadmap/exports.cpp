@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/execution/node_order.hpp"
 #include "quadrille/execution/releaser.hpp"
 
 namespace quadrille::cli {
@@ -201,6 +202,25 @@ std::string export_orders(const Instance& instance, const continuous::Plan& plan
     append(text,
            order_message(instance, agent, plan.paths[agent], {0, releaser.released(agent), 0}));
   return finish(std::move(text));
+}
+
+std::vector<std::string> describe_lock_up(const execution::Precedences& order) {
+  const execution::NodeOrder nodes = execution::node_order(order);
+  std::vector<std::string> lines;
+  for (std::size_t k = 0; k < nodes.cycle.size(); ++k) {
+    const execution::MoveId& leader = nodes.cycle[k == 0 ? nodes.cycle.size() - 1 : k - 1];
+    const execution::MoveId& follower = nodes.cycle[k];
+    if (leader.agent == follower.agent) continue;  // Its own next move.
+    const execution::TimedMove &led = order.at(follower), &leads = order.at(leader);
+    lines.push_back(
+        fmt::format("{} waits at v{}, on its way to v{}, for {} to come from v{} to v{}",
+                    order_name(follower.agent), led.from.value(), led.to.value(),
+                    order_name(leader.agent), leads.from.value(), leads.to.value()));
+  }
+  if (nodes.num_knots > 1)
+    lines.push_back(fmt::format("and so on: {} moves wait in {} separate circles",
+                                nodes.num_knotted_moves, nodes.num_knots));
+  return lines;
 }
 
 }  // namespace quadrille::cli

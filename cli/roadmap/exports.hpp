@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
@@ -29,6 +30,10 @@ enum class ExportFormat {
 [[nodiscard]] std::string export_orders(const continuous::Instance& instance,
                                         const continuous::Plan& plan,
                                         const execution::Precedences& order);
+
+/// How robots that follow the orders end up waiting for each other for ever: who waits where for
+/// whom, in the names of the orders, one line for each. Empty if all arrive.
+[[nodiscard]] std::vector<std::string> describe_lock_up(const execution::Precedences& order);
 
 /// What of an order has been released: the order begins with the node `first` of the path, and ends
 /// its base with the node `released`.

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "roadmap/releasing.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -13,6 +17,56 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Why a line of the stream says nothing about the plan.
+enum class Foreign { robot, order, empty, broken };
+struct PassedOver {
+  Foreign kind;
+  std::string what;  ///< Of an empty line nothing.
+};
+
+/// Counts the lines that are passed over.
+class Leftovers {
+ public:
+  Leftovers(const std::string& file, const TakeWarning& warn) : file_(file), warn_(warn) {}
+
+  void add(const PassedOver& line, std::size_t number) {
+    Kind& kind = kinds_[static_cast<std::size_t>(line.kind)];
+    ++kind.count;
+    if (kind.count > 1) return;
+    kind.first = number;
+    say("passed over: " + (line.kind == Foreign::empty ? "an empty line" : line.what),
+        static_cast<long>(number));
+  }
+  /// All of them in one line.
+  void sum_up() const {
+    static constexpr std::array<const char*, 4> kWhat = {"of robots that are not in the plan",
+                                                         "of other orders", "empty", "broken"};
+    std::size_t count = 0;
+    std::string text;
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      const Kind& kind = kinds_[k];
+      if (kind.count == 0) continue;
+      count += kind.count;
+      text += fmt::format("{}{} {} (first in line {})", text.empty() ? "" : ", ", kind.count,
+                          kWhat[k], kind.first);
+    }
+    if (count > 0)
+      say(fmt::format("{} line{} passed over: {}", count, count == 1 ? "" : "s", text), 0);
+  }
+
+ private:
+  struct Kind {
+    std::size_t count = 0, first = 0;
+  };
+  void say(std::string text, long line) const {
+    warn_({ErrorCode::syntax, std::move(text), {file_, line}});
+  }
+
+  const std::string& file_;
+  const TakeWarning& warn_;
+  std::array<Kind, 4> kinds_;
+};
+
 class Releasing {
  public:
   Releasing(const continuous::Instance& instance, const continuous::Plan& plan,
@@ -24,49 +78,51 @@ class Releasing {
         ended_(order.num_agents(), 0),
         sent_(order.num_agents(), Sent{}) {}
 
-  [[nodiscard]] bool start() {
+  void start() {
     (void)releaser_.take_news();
-    for (const AgentId i : instance_.agent_ids())
-      if (!send(i)) return false;
-    return true;
+    for (const AgentId i : instance_.agent_ids()) send(i);
   }
 
-  /// False: go no further. Errors: a text.
-  [[nodiscard]] Result<bool> hear(const std::string& line) {
-    const auto wrong = [](std::string text) {
-      return Error{ErrorCode::syntax, std::move(text), {}};
+  /// What there is to say of the line; an error: the robot went on without release.
+  [[nodiscard]] Result<std::optional<PassedOver>> hear(const std::string& line) {
+    const auto broken = [](std::string text) {
+      return std::optional(PassedOver{Foreign::broken, std::move(text)});
     };
+    if (line.find_first_not_of(" \t\r") == std::string::npos)
+      return std::optional(PassedOver{Foreign::empty, ""});
     const Json state = Json::parse(line, nullptr, false);
-    if (!state.is_object()) return wrong("this is no JSON object");
-    for (const char* key : {"serialNumber", "orderId"})
-      if (!state.contains(key) || !state[key].is_string())
-        return wrong(std::string("a state has a text '") + key + "'");
-    if (!state.contains("lastNodeSequenceId") || !state["lastNodeSequenceId"].is_number_unsigned())
-      return wrong("a state has a number 'lastNodeSequenceId' that is not negative");
+    if (!state.is_object()) return broken("this is no JSON object");
+    const auto has_text = [&](const char* key) {
+      return state.contains(key) && state[key].is_string();
+    };
+    if (!has_text("serialNumber")) return broken("a state has a text 'serialNumber'");
     const std::string name = state["serialNumber"];
     const auto agent = find(name);
-    if (!agent) return wrong("there is no robot '" + name + "' in the plan");
-    if (state["orderId"] != order_name(*agent)) return true;  // Not yet, or no more, on its way.
+    if (!agent)
+      return std::optional(
+          PassedOver{Foreign::robot, "there is no robot '" + name + "' in the plan"});
+    if (!has_text("orderId")) return broken("a state has a text 'orderId'");
+    const std::string order = state["orderId"];
+    if (order.empty()) return std::optional<PassedOver>();  // Not yet, or no more, on its way.
+    if (order != order_name(*agent))
+      return std::optional(PassedOver{
+          Foreign::order, "'" + name + "' follows the order '" + order + "' of somebody else"});
+    if (!state.contains("lastNodeSequenceId") || !state["lastNodeSequenceId"].is_number_unsigned())
+      return broken("a state has a number 'lastNodeSequenceId' that is not negative");
     const auto node = state["lastNodeSequenceId"].get<std::uint64_t>();
-    if (node % 2 != 0) return wrong("nodes have even numbers, and not " + std::to_string(node));
+    if (node % 2 != 0) return broken("nodes have even numbers, and not " + std::to_string(node));
     if (node / 2 > releaser_.released(*agent))
-      return wrong("'" + name + "' is at node " + std::to_string(node) +
-                   " without release; the last one released is " +
-                   std::to_string(2 * releaser_.released(*agent)));
-    const auto ended = static_cast<std::uint32_t>(node / 2);
-    if (ended <= ended_[*agent]) return true;
-    ended_[*agent] = ended;
-    releaser_.end_moves(*agent, ended);
-    for (const AgentId i : releaser_.take_news())
-      if (!send(i)) return false;
-    return !all_arrived();
+      return Error{ErrorCode::syntax,
+                   "'" + name + "' is at node " + std::to_string(node) +
+                       " without release; the last one released is " +
+                       std::to_string(2 * releaser_.released(*agent)),
+                   {}};
+    end_moves(*agent, static_cast<std::uint32_t>(node / 2));
+    return std::optional<PassedOver>();
   }
 
-  [[nodiscard]] bool all_arrived() const {
-    for (const AgentId i : instance_.agent_ids())
-      if (ended_[i] + 1 < plan_.paths[i].size()) return false;
-    return true;
-  }
+  /// Nothing is left to do: all have arrived, or nobody reads the orders any more.
+  [[nodiscard]] bool is_over() const { return !is_read_ || all_arrived(); }
 
  private:
   struct Sent {
@@ -79,14 +135,28 @@ class Releasing {
     return std::nullopt;
   }
 
-  bool send(AgentId agent) {
+  [[nodiscard]] bool all_arrived() const {
+    for (const AgentId i : instance_.agent_ids())
+      if (ended_[i] + 1 < plan_.paths[i].size()) return false;
+    return true;
+  }
+
+  void end_moves(AgentId agent, std::uint32_t count) {
+    if (count <= ended_[agent]) return;
+    ended_[agent] = count;
+    releaser_.end_moves(agent, count);
+    for (const AgentId i : releaser_.take_news()) send(i);
+  }
+
+  void send(AgentId agent) {
+    if (!is_read_) return;
     Sent& sent = sent_[agent];
     const std::uint32_t released = releaser_.released(agent);
     const std::string text =
         export_order(instance_, agent, plan_.paths[agent], {sent.released, released, sent.updates});
     ++sent.updates;
     sent.released = released;
-    return take_(text + "\n");
+    is_read_ = take_(text + "\n");
   }
 
   const continuous::Instance& instance_;
@@ -95,6 +165,7 @@ class Releasing {
   execution::Releaser releaser_;
   IdVector<AgentId, std::uint32_t> ended_;
   IdVector<AgentId, Sent> sent_;
+  bool is_read_ = true;
 };
 
 }  // namespace
@@ -102,20 +173,24 @@ class Releasing {
 std::optional<Error> release_orders(const continuous::Instance& instance,
                                     const continuous::Plan& plan,
                                     const execution::Precedences& order, std::istream& states,
-                                    const std::string& file, const TakeOrder& take) {
+                                    const std::string& file, const TakeOrder& take,
+                                    const TakeWarning& warn) {
   Releasing releasing(instance, plan, order, take);
-  if (!releasing.start() || releasing.all_arrived()) return std::nullopt;
+  Leftovers leftovers(file, warn);
+  releasing.start();
   std::string line;
-  for (std::size_t number = 1; std::getline(states, line); ++number) {
-    const auto goes_on = releasing.hear(line);
-    if (!goes_on) {
-      Error error = goes_on.error();
+  for (std::size_t number = 1; !releasing.is_over() && std::getline(states, line); ++number) {
+    const auto heard = releasing.hear(line);
+    if (!heard) {
+      leftovers.sum_up();
+      Error error = heard.error();
       error.where.file = file;
       error.where.line = static_cast<long>(number);
       return error;
     }
-    if (!*goes_on) break;
+    if (*heard) leftovers.add(**heard, number);
   }
+  leftovers.sum_up();
   return std::nullopt;
 }
 

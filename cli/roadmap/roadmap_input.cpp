@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "arguments.hpp"
+#include "output.hpp"
+#include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/nav_graph.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -253,6 +255,21 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
                       task.rows.size(),
                       std::move(kind),
                       map->num_zero_length_edges};
+}
+
+void warn_of_durations(const RoadmapInput& input) {
+  const Instance& instance = input.instance;
+  const auto worst = continuous::largest_duration_error(instance);
+  if (!worst || worst->relative < continuous::kNotableDurationError) return;
+  const continuous::Edge& edge = instance.roadmap().edge(worst->edge);
+  report_warning(
+      {ErrorCode::out_of_range,
+       fmt::format("durations are rounded by up to {:.3g} %: from {} to {}, agent {} is planned to "
+                   "take {} instead of {:.4g}; a smaller resolution of time mends that",
+                   100 * worst->relative, edge.from.value(), edge.to.value(), worst->agent.value(),
+                   continuous::in_input_units(worst->planned, instance.resolution()),
+                   worst->exact * instance.resolution().time),
+       {input.source, 0}});
 }
 
 std::string describe_input(const RoadmapInput& input) {

@@ -53,6 +53,9 @@ struct RoadmapInput {
 [[nodiscard]] Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options,
                                                       const InputOptions& input);
 
+/// Says on stderr by how much durations are rounded, if that is notable (docs/cli.md).
+void warn_of_durations(const RoadmapInput& input);
+
 /// The lines "roadmap", "agents" and "units" of the human output.
 [[nodiscard]] std::string describe_input(const RoadmapInput& input);
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "report.hpp"
@@ -118,6 +119,9 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
       bodies.push_back(body_json(agent.body, resolution));
   }
   json.add("bodies", bodies);
+  const auto error =
+      instance != nullptr ? continuous::largest_duration_error(*instance) : std::nullopt;
+  json.add("duration_error", error ? Json(error->relative) : Json(nullptr));
   json.add("least_clearance", outcome.plan ? clearance_json(*instance, check) : Json(nullptr));
   if (!notes.second_opinion.is_null()) json.add("second_opinion", notes.second_opinion);
   if (arguments.history) json.add("history", notes.history.json());

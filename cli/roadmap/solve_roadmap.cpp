@@ -237,6 +237,7 @@ ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments) {
         continuous::quantise_bound(*arguments.known_bound, input->instance.resolution());
     if (!options->known_lower_bound) return usage_error(app, "--known-bound is out of range");
   }
+  if (!arguments.quiet) warn_of_durations(*input);
   // Neither of these searches makes clauses that could be checked against the plan.
   if (options->debug.known_plan) options->route_work = options->joint_work = 0;
   return solve_and_deliver(RoadmapSolve(arguments, *options, *input), arguments);

@@ -78,6 +78,7 @@ ExitCode verify_roadmap(const CLI::App& app, const VerifyArguments& arguments) {
     report_error(file.error());
     return ExitCode::bad_input;
   }
+  if (!arguments.quiet) warn_of_durations(*input);
   const auto replay = verify(input->instance, file->plan);
   std::optional<continuous::SecondOpinion> opinion;
   if (arguments.check_with) opinion = ask_fcl(input->instance, file->plan);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/execution/node_order.hpp"
 
 namespace quadrille::execution {
 
@@ -11,7 +12,8 @@ Releaser::Releaser(const Precedences& order)
     : followers_(order.num_agents()),
       released_(order.num_agents(), 0),
       ended_(order.num_agents(), 0),
-      is_news_(order.num_agents(), false) {
+      is_news_(order.num_agents(), false),
+      cycle_(node_order(order).cycle) {
   for (const auto& moves : order.moves)
     gates_.push_back(std::vector<std::vector<Gate>>(moves.size()));
   for (const Precedence& p : order.list) {

@@ -172,6 +172,29 @@ TEST_F(DocumentsTest, TheRunInContinuousTimeInTheReadmeIsReal) {
                         std::regex_replace(finished.out, measured, "") + "```"));
 }
 
+TEST_F(DocumentsTest, TheRobotsOfTheReadmeArrive) {
+  // All commands about one file that it makes itself, one after the other.
+  std::filesystem::current_path(folder_);
+  std::istringstream lines(source("README.md"));
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("    ") || line.find(" d.json") == std::string::npos) continue;
+    std::istringstream words(line.substr(0, line.find(" #")));
+    std::vector<std::string> arguments;
+    for (std::string word; words >> word;) {
+      if (word == "scripts/solve")
+        arguments.push_back("solve");
+      else if (word != "build/release/cli/quadrille")
+        arguments.push_back(word);
+    }
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.code, 0) << line << "\n" << finished.out << finished.err;
+    ++count;
+  }
+  EXPECT_EQ(count, 6u);
+  EXPECT_TRUE(exists("orders.json"));
+}
+
 TEST_F(DocumentsTest, TheProgramInTheReadmeIsAnExampleThatTheTestsRun) {
   const std::string example = source("examples/two_agents.cpp"), readme = source("README.md");
   EXPECT_THAT(readme, HasSubstr("```cpp\n" + example.substr(example.find('\n') + 1) + "```"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -159,14 +160,91 @@ TEST_F(ExportTest, UpdatesReleaseWhatTheLeaderHasLeft) {
     EXPECT_EQ(refused.code, 65);
     EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("states:4: "), HasSubstr(why)));
   };
-  refuses("nonsense", "this is no JSON object");
-  refuses(R"({"serialNumber": "agent0", "orderId": "agent0"})", "'lastNodeSequenceId'");
-  refuses(R"({"serialNumber": 0, "orderId": "agent0"})", "a text 'serialNumber'");
-  refuses(state(first, -2, first), "not negative");
-  refuses(state(first, 1, first), "even numbers");
-  refuses(state("agent7", 0, "agent7"), "no robot 'agent7'");
   refuses(state(second, 2, second), "at node 2 without release; the last one released is 0");
   refuses(state(first, 4294967298u, first), "without release");
+
+  // What says nothing about the plan does not keep robots from being released.
+  const auto passes_over = [&](const std::string& line, const std::string& why,
+                               const std::string& sum) {
+    const Finished passed =
+        release(line + "\n" + line + "\n" + state(first, 2, first) + state(second, 2, second));
+    EXPECT_EQ(passed.code, 0) << passed.err;
+    EXPECT_EQ(lines(passed.out), all) << line;
+    EXPECT_EQ(passed.err, "quadrille: warning: " + path("states") + ":1: passed over: " + why +
+                              "\nquadrille: warning: " + path("states") +
+                              ": 2 lines passed over: 2 " + sum + " (first in line 1)\n");
+  };
+  passes_over("nonsense", "this is no JSON object", "broken");
+  passes_over("[]", "this is no JSON object", "broken");
+  passes_over("", "an empty line", "empty");
+  passes_over(" \t\r", "an empty line", "empty");
+  passes_over(R"({"serialNumber": "agent0", "orderId": "agent0"})",
+              "a state has a number 'lastNodeSequenceId' that is not negative", "broken");
+  passes_over(R"({"serialNumber": 0, "orderId": "agent0"})", "a state has a text 'serialNumber'",
+              "broken");
+  passes_over(R"({"serialNumber": "agent0"})", "a state has a text 'orderId'", "broken");
+  const std::string number = "a state has a number 'lastNodeSequenceId' that is not negative";
+  passes_over(json::parse(state(first, -2, first)).dump(), number, "broken");
+  passes_over(json::parse(state(first, 1, first)).dump(), "nodes have even numbers, and not 1",
+              "broken");
+  passes_over(json::parse(state("AGV7", 8, "x-1")).dump(), "there is no robot 'AGV7' in the plan",
+              "of robots that are not in the plan");
+  passes_over(R"({"serialNumber": "AGV7"})", "there is no robot 'AGV7' in the plan",
+              "of robots that are not in the plan");
+  passes_over(json::parse(state(first, 8, "x-1")).dump(),
+              "'" + first + "' follows the order 'x-1' of somebody else", "of other orders");
+  finished = release(state("AGV7", 8, "x-1") + "\n" + state(first, 2, first) + "}\n" +
+                     state(second, 2, second));
+  EXPECT_EQ(lines(finished.out), all);
+  EXPECT_THAT(finished.err,
+              HasSubstr("3 lines passed over: 1 of robots that are not in the plan (first in line "
+                        "1), 1 empty (first in line 2), 1 broken (first in line 4)\n"));
+}
+
+/// Four discs that turn in a square: each one's vertex is free only when it has gone.
+TEST_F(ExportTest, OrdersThatLockUpAreNotWrittenInSilence) {
+  write("square.json",
+        "{\"quadrille\": \"instance\", \"version\": 1, \"roadmap\": {\n"
+        "\"vertices\": [[0, 0], [2, 0], [2, 2], [0, 2]], "
+        "\"edges\": [[0, 1], [1, 2], [2, 3], [3, 0]]},\n"
+        "\"agents\": [{\"start\": 0, \"goal\": 1, \"radius\": 0.5}, "
+        "{\"start\": 1, \"goal\": 2, \"radius\": 0.5},\n"
+        "{\"start\": 2, \"goal\": 3, \"radius\": 0.5}, "
+        "{\"start\": 3, \"goal\": 0, \"radius\": 0.5}]}\n");
+  const std::string instance = path("square.json"), plan = path("square_plan.json");
+  ASSERT_EQ(run({"solve", "--instance", instance, "--quiet", "--plan", plan}).code, 0);
+  const auto exported_with = [&](const std::vector<std::string>& more) {
+    return run(std::vector<std::string>{"export", "--instance", instance} + more +
+               std::vector<std::string>{plan});
+  };
+  Finished finished = exported_with({"--to", "vda5050", "--output", path("orders.json")});
+  EXPECT_EQ(finished.code, 1);
+  EXPECT_FALSE(exists("orders.json"));
+  EXPECT_THAT(finished.err, HasSubstr("quadrille: " + plan + ": with these orders robots wait"));
+  for (const char* const who :
+       {"agent0 waits at v0, on its way to v1, for agent1 to come from v1 to v2\n",
+        "agent1 waits at v1, on its way to v2, for agent2 to come from v2 to v3\n",
+        "agent2 waits at v2, on its way to v3, for agent3 to come from v3 to v0\n",
+        "agent3 waits at v3, on its way to v0, for agent0 to come from v0 to v1\n"})
+    EXPECT_THAT(finished.err, HasSubstr(who));
+  EXPECT_THAT(finished.err, HasSubstr("--allow-cycles"));
+  write("states", "");
+  finished = exported_with({"--to", "vda5050", "--states", path("states")});
+  EXPECT_EQ(finished.code, 1);
+  EXPECT_EQ(finished.out, "");
+
+  finished = exported_with({"--to", "vda5050", "--allow-cycles"});
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_EQ(json::parse(finished.out).size(), 4u);
+  EXPECT_THAT(finished.err, HasSubstr("quadrille: warning: " + plan));
+  EXPECT_THAT(finished.err, HasSubstr("agent3 waits at v3"));
+  finished = exported_with({"--to", "vda5050", "--allow-cycles", "--states", path("states")});
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_EQ(std::count(finished.out.begin(), finished.out.end(), '\n'), 4);
+  // Samples say when everybody is where, and make nobody wait.
+  finished = exported_with({"--to", "path"});
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_EQ(finished.err, "");
 }
 
 TEST_F(ExportTest, RefusesWhatItCannotDo) {
@@ -181,6 +259,7 @@ TEST_F(ExportTest, RefusesWhatItCannotDo) {
   refuses(xml("export", {"--to", "vda5050", "--states", "-", "--output", path("x")}), 64,
           "orders go to standard output");
   refuses(xml("export", {"--to", "vda5050", "--states", path("none")}), 65, "cannot be read");
+  refuses(xml("export", {"--to", "csv", "--allow-cycles"}), 64, "--allow-cycles belongs to");
   refuses(xml("export", {"--to", "bag"}), 64, "csv, multidof, path or vda5050");
   refuses(xml("export", {"--to", "csv", "--rate", "1e12"}), 65, "more than 10 million samples");
   refuses(small("export", {"--to", "csv"}), 64, "export is for plans on roadmaps");

@@ -45,33 +45,49 @@ TEST_F(RoadmapTest, HumanOutputOfASmallSolve) {
     EXPECT_THAT(finished.out, HasSubstr(part));
 }
 
+TEST_F(RoadmapTest, RoundedDurationsAreTold) {
+  // At 1.4 a lane of 0.1 takes 0.0714, which are 1.4 ticks.
+  const auto write_lane = [&](const std::string& resolution) {
+    write("lane.json",
+          "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": " + resolution +
+              ", \"roadmap\": {\"vertices\": [[0, 0], [0.1, 0]], \"edges\": [[0, 1]]},\n"
+              "\"agents\": [{\"start\": 0, \"goal\": 1, \"radius\": 0.3, \"speed\": 1.4}]}\n");
+  };
+  const auto on_lane = [&](const std::string& command, const std::vector<std::string>& more) {
+    return run(std::vector<std::string>{command, "--instance", path("lane.json")} + more);
+  };
+  const std::string warning =
+      "quadrille: warning: " + path("lane.json") +
+      ": durations are rounded by up to 30 %: from 0 to 1, agent 0 is planned to take 0.05 instead "
+      "of 0.07143; a smaller resolution of time mends that\n";
+  write_lane("0.05");
+  Finished finished = on_lane("solve", {"--json", path("r.json"), "--plan", path("p.json")});
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_EQ(finished.err, warning);
+  EXPECT_NEAR(json::parse(read("r.json"))["duration_error"].get<double>(), 0.3, 1e-12);
+  EXPECT_EQ(on_lane("verify", {path("p.json")}).err, warning);
+  EXPECT_EQ(on_lane("export", {"--to", "csv", path("p.json")}).err, warning);
+  EXPECT_EQ(on_lane("export", {"--to", "vda5050", path("p.json")}).err, warning);
+  EXPECT_EQ(on_lane("solve", {"--quiet"}).err, "");
+  EXPECT_EQ(on_lane("verify", {"--quiet", path("p.json")}).err, "");
+  write_lane("0.0001");
+  finished = on_lane("solve", {"--json", path("r.json")});
+  EXPECT_EQ(finished.err, "");
+  EXPECT_LT(json::parse(read("r.json"))["duration_error"].get<double>(), 0.001);
+}
+
 TEST_F(RoadmapTest, JsonHasAllThatIsDocumented) {
   ASSERT_EQ(
       run(discs("solve", {"--seed", "9", "--time-limit", "30", "--json", path("r.json")})).code, 0);
   const json result = json::parse(read("r.json"));
-  for (const char* key : {"quadrille",
-                          "status",
-                          "objective",
-                          "cost",
-                          "cost_ticks",
-                          "lower_bound",
-                          "lower_bound_ticks",
-                          "resolution",
-                          "claim",
-                          "stop_reason",
-                          "explanation",
-                          "internal_error",
-                          "agents",
-                          "bodies",
-                          "least_clearance",
-                          "statistics",
-                          "gap_percent",
-                          "version",
-                          "seed",
-                          "options",
-                          "plan"})
+  for (const char* key : {"quadrille",  "status",      "objective",         "cost",
+                          "cost_ticks", "lower_bound", "lower_bound_ticks", "resolution",
+                          "claim",      "stop_reason", "explanation",       "internal_error",
+                          "agents",     "bodies",      "duration_error",    "least_clearance",
+                          "statistics", "gap_percent", "version",           "seed",
+                          "options",    "plan"})
     EXPECT_TRUE(result.contains(key)) << key;
-  EXPECT_EQ(result.size(), 21u);
+  EXPECT_EQ(result.size(), 22u);
   EXPECT_EQ(result["status"], "optimal");
   EXPECT_EQ(result["cost"], 5.015);
   EXPECT_EQ(result["cost_ticks"], 5015);

@@ -46,6 +46,7 @@ TEST(Releaser, WholeMovesInAnyOrderNeitherCollideNorGetStuckWithoutACycle) {
     ++(acyclic ? num_acyclic : num_cyclic);
     const Replay replay(c->instance, c->plan);
     Releaser releaser(order);
+    ASSERT_EQ(releaser.cycle().empty(), acyclic);
     std::vector<Replay::Real> clocks(order.num_agents(), 0);
     std::vector<std::uint32_t> ended(order.num_agents(), 0);
     while (true) {
@@ -84,6 +85,7 @@ TEST(Releaser, ATurningSquareIsNotReleased) {
   const Releaser releaser(order);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(releaser.released(AgentId(i)), 0u);
   EXPECT_EQ(node_order(order).cycle.size(), 4u);
+  EXPECT_EQ(releaser.cycle(), node_order(order).cycle);
 }
 
 }  // namespace

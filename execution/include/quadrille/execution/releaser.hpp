@@ -15,10 +15,16 @@ namespace quadrille::execution {
 /// For systems that release whole moves, such as VDA 5050 with its base and horizon: which moves of
 /// each agent may be released, given how many of its moves each agent has ended. Once released, a
 /// move stays so. As long as agents make no move before it is released, they do not collide; all
-/// arrive if the order of whole moves has no cycle (node_order.hpp).
+/// arrive if the order of whole moves has no cycle: look at `cycle` before robots set out.
 class Releaser {
  public:
+  /// Time: that of node_order (node_order.hpp).
   explicit Releaser(const Precedences& order);
+
+  /// Moves that are never released, because each has to wait for the end of the one before it, the
+  /// first one for the last one: whoever has one of them to make stops there for ever, and so does
+  /// who waits for them. NodeOrder::cycle; empty if all arrive.
+  [[nodiscard]] const std::vector<MoveId>& cycle() const noexcept { return cycle_; }
 
   /// The first so many moves of the agent are released.
   [[nodiscard]] std::uint32_t released(AgentId agent) const { return released_[agent]; }
@@ -41,6 +47,7 @@ class Releaser {
   IdVector<AgentId, std::vector<AgentId>> followers_;        // Of each agent, each once.
   IdVector<AgentId, std::uint32_t> released_, ended_;
   IdVector<AgentId, bool> is_news_;
+  std::vector<MoveId> cycle_;
 };
 
 }  // namespace quadrille::execution
