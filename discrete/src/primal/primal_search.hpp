@@ -9,6 +9,8 @@
 
 #include "primal/guide.hpp"
 #include "primal/lacam.hpp"
+#include "primal/settle.hpp"
+#include "primal/shortcuts.hpp"
 #include "quadrille/discrete/primal.hpp"
 
 namespace quadrille::discrete {
@@ -21,8 +23,10 @@ namespace quadrille::discrete {
 /// efforts follow the sequence of Luby et al. ("Optimal speedup of Las Vegas algorithms", IPL
 /// 1993). Why: how long a search takes on a crowded map has a heavy tail over the seeds; most find
 /// a plan at once, some not in a thousand times as long (Gomes et al., "Heavy-tailed phenomena in
-/// satisfiability and constraint satisfaction problems", JAR 2000). The search that goes on for
-/// ever keeps all complete; of the others one at a time is in memory.
+/// satisfiability and constraint satisfaction problems", JAR 2000). Of the others one at a time is
+/// in memory. After a turn of each kind agents are settled one after the other, which finds a plan,
+/// if a dear one, wherever there is one; the search that goes on for ever keeps all complete where
+/// that has exceptions.
 class PrimalSearch::Impl {
  public:
   Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances, std::uint32_t seed,
@@ -40,12 +44,18 @@ class PrimalSearch::Impl {
 
  private:
   static constexpr std::uint32_t kNumGuides = 2;
+  static constexpr std::uint32_t kTurnOfSettling = kNumGuides + 2;
 
   bool begin_turn(LimitMonitor& limits);
-  void end_turn(const Lacam& search);
+  void advance_settling(std::int64_t effort, LimitMonitor& limits);
+  void shorten(std::int64_t effort, LimitMonitor& limits);
+  void offer(const Plan& plan);
+  void end_turn_of(const Lacam& search);
+  void end_turn();
   bool make_guide(std::uint32_t kind, LimitMonitor& limits);
+  [[nodiscard]] bool is_turn_of_settling() const noexcept { return turn_ == kTurnOfSettling; }
   [[nodiscard]] bool is_turn_of_main() const noexcept {
-    return turn_ >= kNumGuides && (turn_ - kNumGuides) % 2 == 0;
+    return turn_ >= kNumGuides && (turn_ - kNumGuides) % 2 == 0 && !is_turn_of_settling();
   }
 
   const Instance instance_;
@@ -58,6 +68,8 @@ class PrimalSearch::Impl {
   std::array<std::shared_ptr<const Guide>, kNumGuides> guides_;
   std::optional<Lacam> main_;  // Goes on for ever.
   std::optional<Lacam> other_;
+  std::optional<Settling> settling_;
+  std::optional<Shortcuts> shortcuts_;  // Of the plan that settling has found.
   std::uint32_t turn_ = 0, num_restarts_ = 0;
   std::optional<std::int64_t> turn_end_;  // In efforts of the search whose turn it is.
   std::optional<Plan> plan_;              // The cheapest.

@@ -25,9 +25,9 @@ namespace quadrille::discrete {
 /// Looks for a plan of any cost, soon rather than cheap: LaCAM with PIBT as generator of
 /// configurations (Okumura, "LaCAM: search-based algorithm for quick multi-agent pathfinding", AAAI
 /// 2023; Okumura et al., "Priority inheritance with backtracking", AIJ 2022), guided by paths that
-/// avoid each other (Han and Yu, ICRA 2022), with restarts. Complete: with enough time and memory
-/// it finds a plan if there is one. Memory grows by about 12 bytes per agent and configuration
-/// visited. One thread.
+/// avoid each other (Han and Yu, ICRA 2022), with restarts. Where that does not end soon, agents
+/// are settled one after the other, which finds a plan in polynomial time if there is one
+/// (docs/complete.md). Memory grows by about 12 bytes per agent and configuration visited.
 class PrimalSearch {
  public:
   enum class State {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "model/component.hpp"
+
 #include <algorithm>
 
-#include "feasibility/feasibility_parts.hpp"
-
-namespace quadrille::discrete::feasibility {
+namespace quadrille::discrete {
 
 ComponentNumbering::ComponentNumbering(const Graph& graph)
     : graph_(graph),
-      component_of_(graph.num_vertices(), kNone),
-      number_(graph.num_vertices(), kNone) {}
+      component_of_(graph.num_vertices(), kNoLocal),
+      number_(graph.num_vertices(), kNoLocal) {}
 
 VertexId ComponentNumbering::mark_component(VertexId vertex) {
   // From a vertex of degree >= 3 every bridge leads downwards to one corridor or block; from the
@@ -25,7 +25,7 @@ VertexId ComponentNumbering::mark_component(VertexId vertex) {
     stack.pop_back();
     if (rank(v) > rank(root)) root = v;
     for (const VertexId w : graph_.neighbours(v))
-      if (component_of_[w] == kNone) {
+      if (component_of_[w] == kNoLocal) {
         component_of_[w] = num_components_;
         stack.push_back(w);
       }
@@ -42,13 +42,13 @@ Component ComponentNumbering::explore(VertexId vertex) {
     number_[v] = component.size();
     component.vertices.push_back(v);
     component.parent.push_back(parent);
-    component.subtree_end.push_back(kNone);
+    component.subtree_end.push_back(kNoLocal);
     next_edge.push_back(0);
     return number_[v];
   };
   // Not recursive: a path of a million vertices would overflow the stack.
-  Local v = enter(mark_component(vertex), kNone);
-  while (v != kNone) {
+  Local v = enter(mark_component(vertex), kNoLocal);
+  while (v != kNoLocal) {
     const auto near = graph_.neighbours(component.vertices[v]);
     if (next_edge[v] == near.size()) {
       component.subtree_end[v] = component.size();
@@ -56,7 +56,7 @@ Component ComponentNumbering::explore(VertexId vertex) {
       continue;
     }
     const VertexId w = near[next_edge[v]++];
-    if (number_[w] == kNone) v = enter(w, v);
+    if (number_[w] == kNoLocal) v = enter(w, v);
   }
   find_blocks(component);
   return component;
@@ -89,4 +89,4 @@ void ComponentNumbering::find_blocks(Component& component) const {
   }
 }
 
-}  // namespace quadrille::discrete::feasibility
+}  // namespace quadrille::discrete
