@@ -11,7 +11,7 @@ A place on a grid is ``(x, y)``, column and row. On roadmaps, lengths and times 
 """
 
 from ._core import __version__
-from ._errors import FileError, InputError, NoPlanError
+from ._errors import BodyWarning, FileError, InputError, NoPlanError, RoundingWarning
 from .attribution import Attribution, Charge, Place, Raise, Reason, Site
 from .fleet import Fleet
 from .graphs import Graph, Grid, Roadmap
@@ -23,6 +23,7 @@ from .solving import Progress, Result, Statistics, solve
 
 __all__ = [
     "Attribution",
+    "BodyWarning",
     "Charge",
     "FileError",
     "Fleet",
@@ -39,6 +40,7 @@ __all__ = [
     "Report",
     "Result",
     "Roadmap",
+    "RoundingWarning",
     "Site",
     "Statistics",
     "StepPath",

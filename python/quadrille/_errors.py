@@ -31,6 +31,15 @@ class FileError(InputError, OSError):
     """A file cannot be opened, read or written."""
 
 
+class RoundingWarning(UserWarning):
+    """Robots are planned to be notably faster or slower than they are, because the times that they take
+    for edges are rounded to whole ticks."""
+
+
+class BodyWarning(UserWarning):
+    """A file says nothing of bodies, and no radius was given."""
+
+
 def make_error(code: str, text: str, reason: str, file: str, line: int) -> InputError:
     kinds = {"no-plan": NoPlanError, "io": FileError}
     error = kinds.get(code, InputError)(text)

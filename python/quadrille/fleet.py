@@ -11,10 +11,10 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import doubles, ints, listed, per_agent
+from ._errors import InputError
 from .graphs import Graph, Grid, Roadmap
 from .plans import Plan, StepPlan, TimedPlan
 from .rules import (
-    DEFAULT_RADIUS,
     Obstacle,
     Underway,
     flags,
@@ -34,9 +34,11 @@ class Fleet(Generic[P]):
         starts, goals: On a grid int[n, 2], cells (x, y). Otherwise int[n], vertices, or their names
             if the roadmap has names. On roadmaps a start may also be an ``Underway``.
         radius: On roadmaps: radius of the agents' discs in your unit of length, a number or
-            float[n]; rounded down to a length unit. Default sqrt(2)/4.
+            float[n]; rounded up to a length unit, so that no body is smaller than given. Every
+            agent on a roadmap needs a radius or a polygon: there is no default.
         polygon: On roadmaps, instead: float[k, 2], corners of a convex polygon around the agent's
-            place, which does not turn; or a list of n entries, None where the radius counts.
+            place, which does not turn; or a list of n entries, None where the radius counts. Corners
+            are rounded towards zero.
         speed: On roadmaps: length per time, a number or float[n]. Default 1.
         group: On roadmaps: the name of a group for all agents, or n entries, None without one. An agent
             may use the edges that are open to all, and those that are reserved for its group.
@@ -56,6 +58,9 @@ class Fleet(Generic[P]):
             the same goal, numbers that are out of range.
         ValueError: for arrays of another shape or type.
     """
+
+    # Who is under way, as given.
+    _moves: dict[int, Underway] = {}
 
     @overload
     def __init__(
@@ -104,6 +109,7 @@ class Fleet(Generic[P]):
         instance: Union[_core.StepInstance, _core.TimedInstance]
         if isinstance(graph, Roadmap):
             begin, under_way = _starts(graph, starts)
+            self._moves = {agent: Underway(*move) for agent, *move in under_way}
             end = graph._vertices(goals, "goals")
             n = len(begin)
             _check_lengths(n, len(end))
@@ -186,6 +192,13 @@ class Fleet(Generic[P]):
     def bodies(self) -> list[Union[float, npt.NDArray[np.float64]]]:
         """On roadmaps, per agent: the radius of a disc, or float64[k, 2], corners of a polygon."""
         return self._timed("bodies").bodies()
+
+    @property
+    def duration_error(self) -> float:
+        """On roadmaps: the largest relative error of the time that an agent takes for an edge that it may
+        use, because it is rounded to whole ticks: abs(rounded - exact) / exact."""
+        worst = self._timed("duration_error").duration_error()
+        return 0.0 if worst is None else worst[0]
 
     @property
     def speeds(self) -> npt.NDArray[np.float64]:
@@ -278,6 +291,20 @@ class Fleet(Generic[P]):
             return self._instance
         raise ValueError(f"{what}: on roadmaps only")
 
+    def _duration_warning(self) -> str:
+        """What there is to say of durations that are rounded too much; empty if nothing is."""
+        if not isinstance(self._instance, _core.TimedInstance):
+            return ""
+        worst = self._instance.duration_error()
+        if worst is None or worst[0] < _core.NOTABLE_DURATION_ERROR:
+            return ""
+        relative, agent, source, target, planned, exact = worst
+        return (
+            f"durations are rounded by up to {100 * relative:.3g} %: from vertex {source} to {target}, "
+            f"agent {self._names[agent]} is planned to take {planned:g} instead of {exact:.4g}; "
+            "a smaller resolution of time mends that"
+        )
+
     def _cost(self, cost: int) -> float:
         """A cost of the library in the user's unit of time."""
         if isinstance(self._instance, _core.TimedInstance):
@@ -313,16 +340,23 @@ def _check_lengths(starts: int, goals: int) -> None:
 
 def _bodies(radius: Any, polygon: Any, n: int) -> list[Any]:
     """Per agent a float or float64[k, 2]."""
-    radii = [float(r) for r in per_agent(DEFAULT_RADIUS if radius is None else radius, "radius", n)]
-    if polygon is None:
-        return list(radii)
-    if len(polygon) and (any(c is None for c in polygon) or np.ndim(polygon[0]) == 2):
-        if len(polygon) != n:
-            raise ValueError(f"polygon: {len(polygon)} entries for {n} agents")
-        return [
-            radii[i] if corners is None else doubles(corners, "polygon", (None, 2))
-            for i, corners in enumerate(polygon)
-        ]
+    radii: list[Optional[float]] = [None] * n
     if radius is not None:
-        raise ValueError("an agent has either a radius or a polygon")
-    return [doubles(polygon, "polygon", (None, 2))] * n
+        radii = [float(r) for r in per_agent(radius, "radius", n)]
+    bodies: list[Any] = list(radii)
+    if polygon is not None:
+        if len(polygon) and (any(c is None for c in polygon) or np.ndim(polygon[0]) == 2):
+            if len(polygon) != n:
+                raise ValueError(f"polygon: {len(polygon)} entries for {n} agents")
+            bodies = [
+                radii[i] if corners is None else doubles(corners, "polygon", (None, 2))
+                for i, corners in enumerate(polygon)
+            ]
+        elif radius is not None:
+            raise ValueError("an agent has either a radius or a polygon")
+        else:
+            bodies = [doubles(polygon, "polygon", (None, 2))] * n
+    for agent, body in enumerate(bodies):
+        if body is None:
+            raise InputError(f"agent {agent} has no body: on a roadmap give a radius or a polygon")
+    return bodies

@@ -15,7 +15,7 @@ from . import _core
 from ._arrays import listed
 from .graphs import Graph, Grid, Roadmap
 from .reports import Report, Violation
-from .rules import Obstacle, obstacle_of
+from .rules import Obstacle, Underway, obstacle_of
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -98,7 +98,10 @@ class Plan:
             ``begin`` and ``end`` (of the plan). An edge says that the second move waits for the first
             one; ``kind`` is "next" within a path, "after" between two agents. The latter have a
             ``slack``: until the first move has ended, the second agent may be that much ahead of the
-            first one, counted in times of the plan.
+            first one, counted in times of the plan. ``graph["cycle"]`` of it is a list of (agent,
+            move): moves that wait for each other for ever if robots are released move by move, as by
+            orders of VDA 5050, each for the end of the one before it, the first one for the last one.
+            Empty if all arrive so.
 
         Raises:
             InputError: if the plan is not valid.
@@ -106,7 +109,8 @@ class Plan:
         import networkx
 
         graph: nx.DiGraph[Any] = networkx.DiGraph()
-        moves, list_ = self._precedences()
+        moves, list_, cycle = self._precedences()
+        graph.graph["cycle"] = [(agent, move) for agent, move in listed(cycle)]
         time = self._fleet._cost
         for agent, move, source, target, begin, end in listed(moves):
             graph.add_node(
@@ -118,7 +122,9 @@ class Plan:
             graph.add_edge((leader, first), (follower, second), kind="after", slack=time(slack))
         return graph
 
-    def _precedences(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    def _precedences(
+        self,
+    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
         raise NotImplementedError
 
     def verify(self) -> Report:
@@ -259,7 +265,9 @@ class StepPlan(Plan):
         violations, sum_of_costs, makespan = instance.verify(self._plan)
         return Report([Violation(*violation) for violation in violations], sum_of_costs, makespan)
 
-    def _precedences(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    def _precedences(
+        self,
+    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
         return _core.step_precedences(cast(_core.StepInstance, self._fleet._instance), self._plan)
 
     def _page(self, title: str) -> str:
@@ -343,6 +351,38 @@ class TimedPlan(Plan):
         cost = float(stops["arrive"][-1])
         return TimedPath(self._fleet._names[agent], stops, ticks, cost)
 
+    def start_at(self, agent: int, time: float) -> Any:
+        """Where the agent is at that time when it does what the plan says, as a start for the fleet that
+        plans again on the same roadmap: a vertex, by its name if it has one, or an ``Underway``. As often
+        as there is need, also within one move.
+
+        Raises:
+            IndexError: for an agent that there is not.
+        """
+        agent = self._checked(agent)
+        nodes = cast(Roadmap, self._fleet.graph)._nodes
+        stops, begin = self[agent].stops, self._fleet._moves.get(agent)
+
+        def place(vertex: int) -> Any:
+            return vertex if nodes is None else nodes[vertex]
+
+        def on_the_way(source: int, target: int, fraction: float) -> Underway:
+            return Underway(place(source), place(target), fraction)
+
+        last = len(stops) - 1
+        at = next((k for k in range(last) if stops["depart"][k] >= time), last)
+        vertex = int(stops["vertex"][at])
+        if at == 0 and begin is not None:
+            return on_the_way(begin.source, begin.target, begin.fraction)
+        if at == 0 or stops["arrive"][at] <= time:
+            return place(vertex)
+        depart, arrive = float(stops["depart"][at - 1]), float(stops["arrive"][at])
+        share = (time - depart) / (arrive - depart)
+        if at == 1 and begin is not None:
+            rest = 1 - begin.fraction
+            return on_the_way(begin.source, begin.target, begin.fraction + rest * share)
+        return on_the_way(int(stops["vertex"][at - 1]), vertex, share)
+
     def obstacle(self, agent: int) -> Optional[Obstacle]:
         """What another fleet has to keep clear of, when the agent does what the plan says; None for one
         that leaves where it begins, and so is never anywhere.
@@ -397,7 +437,9 @@ class TimedPlan(Plan):
             clearances,
         )
 
-    def _precedences(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    def _precedences(
+        self,
+    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
         return _core.timed_precedences(cast(_core.TimedInstance, self._fleet._instance), self._plan)
 
     def _page(self, title: str) -> str:

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Any, Optional, Union
 
 from . import _core
+from ._errors import BodyWarning
 from .fleet import Fleet
 from .graphs import Graph, Grid, Roadmap
 from .rules import numbered_groups
@@ -37,12 +39,17 @@ def read(
         passable, blocked: Letters of a map beyond the usual ones.
         continuous: Whether a map is for continuous time. So it is if one of the following is given,
             and if it is no ``.map`` file.
-        radius, speed: Of all agents; default sqrt(2)/4 and 1.
+        radius, speed: Of all agents, of files that say nothing of bodies; the radius is rounded down to
+            a length unit. Default sqrt(2)/4, which on a grid of unit cells lets a diagonal move just
+            touch a disc in the cell beside it, with a warning; and 1.
         neighbourhood: On grids: moves to 2^k neighbours, 2 to 5; default 3.
         resolution: Size of a tick and of a length unit; default 0.000001.
 
     Raises:
         InputError: with file, line and reason, as the program prints them.
+
+    Warns:
+        BodyWarning: if agents are discs of the default radius, because nothing says what they are.
     """
     if len(files) not in (1, 2):
         raise ValueError(f"read takes one file, or a map and its tasks, not {len(files)} files")
@@ -66,7 +73,14 @@ def read(
         given[first] = names[0]
         if len(names) == 2:
             given[second] = names[1]
-    return _fleet_of(_core.read(given))
+    fleet = _fleet_of(_core.read(given))
+    if "roadmap" in given and radius is None and len(fleet) > 0:
+        warnings.warn(
+            "nothing says how large the agents are: they are discs of radius sqrt(2)/4; give a radius",
+            BodyWarning,
+            stacklevel=2,
+        )
+    return fleet
 
 
 def _fleet_of(instance: Union[_core.StepInstance, _core.TimedInstance]) -> Fleet[Any]:

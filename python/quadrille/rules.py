@@ -10,15 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arrays import bools, doubles, ints, listed, per_agent, with_places
+from ._errors import InputError
 
 # Whom an edge is open to: everybody, a group, or some; None among these is who has no group.
 Only = Union[None, str, Iterable[Optional[str]]]
 
 ALL = (1 << 64) - 1
 MOST_GROUPS = 63
-
-# sqrt(2) / 4: on a grid of unit cells a diagonal move just touches a disc in the cell beside it.
-DEFAULT_RADIUS = 0.35355339059327379
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,19 +29,22 @@ class Obstacle:
     the nearest length unit and tick. It goes straight and evenly from each stop to the next, which it
     reaches later; before the first one it is nowhere."""
     radius: Optional[float] = None
-    """Of a disc; default sqrt(2)/4. Rounded down to a length unit."""
+    """Of a disc; rounded up to a length unit."""
     polygon: Optional[npt.ArrayLike] = None
-    """Instead: float[k, 2], corners of a convex polygon around its place."""
+    """Instead: float[k, 2], corners of a convex polygon around its place. One of the two is needed."""
     leaves: bool = False
     """It vanishes at its last departure; otherwise it stays at its last stop for ever."""
 
     def _given(self) -> tuple[Any, ...]:
         """As the compiled part takes it."""
-        body: Any = DEFAULT_RADIUS if self.radius is None else float(self.radius)
-        if self.polygon is not None:
-            if self.radius is not None:
-                raise ValueError("an obstacle has either a radius or a polygon")
+        if (self.radius is None) == (self.polygon is None):
+            given = "no body: it" if self.radius is None else "two bodies: it"
+            raise InputError(f"an obstacle has {given} has either a radius or a polygon")
+        body: Any
+        if self.radius is None:
             body = doubles(self.polygon, "polygon", (None, 2))
+        else:
+            body = float(self.radius)
         return body, with_places(self.path, "path", 2), bool(self.leaves)
 
 

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Any, Callable, Generic, NamedTuple, Optional, Union
 
 from . import _core
+from ._errors import RoundingWarning
 from .attribution import Attribution, _attribution
 from .fleet import Fleet, P
 
@@ -168,6 +170,10 @@ def solve(
     Returns:
         A ``Result``. Limits, and the lack of a plan, are no errors.
 
+    Warns:
+        RoundingWarning: if an agent is planned to take 5 per cent more or less time for an edge than
+            it does, because times are rounded to whole ticks (``fleet.duration_error``).
+
     Raises:
         InputError: for an option that is out of range or does not apply; nothing else is raised but
             what callbacks and signal handlers raise, and MemoryError.
@@ -215,6 +221,8 @@ def solve(
             show(fleet._make_plan(plan))
 
         arguments["on_plan"] = on_better_plan
+    if rounded := fleet._duration_warning():
+        warnings.warn(rounded, RoundingWarning, stacklevel=2)
     outcome = fleet._instance.solve(arguments)
     best, bound, plan = outcome["cost"], outcome["lower_bound"], outcome["plan"]
     return Result(

@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "quadrille/execution/node_order.hpp"
 #include "timed.hpp"
 
 namespace quadrille::python {
@@ -15,7 +16,8 @@ namespace {
 using execution::Precedences;
 
 /// (moves int64[k, 6]: agent, move, from, to, begin, end; precedences int64[m, 5]: leading agent
-/// and move, following agent and move, slack), in ticks or timesteps.
+/// and move, following agent and move, slack; cycle int64[k, 2]: agents and moves that wait for
+/// each other when whole moves are released), in ticks or timesteps.
 py::tuple arrays_of(const Precedences& precedences) {
   std::size_t count = 0;
   for (const auto& moves : precedences.moves) count += moves.size();
@@ -41,7 +43,14 @@ py::tuple arrays_of(const Precedences& precedences) {
     *to++ = precedence.follower.move;
     *to++ = precedence.slack.count();
   }
-  return py::make_tuple(frozen(moves), frozen(list));
+  const auto nodes = execution::node_order(precedences);
+  auto cycle = new_array<std::int64_t>({nodes.cycle.size(), 2});
+  to = cycle.mutable_data();
+  for (const execution::MoveId& id : nodes.cycle) {
+    *to++ = static_cast<std::int64_t>(id.agent.index());
+    *to++ = id.move;
+  }
+  return py::make_tuple(frozen(moves), frozen(list), frozen(cycle));
 }
 
 template <class Instance, class Plan>

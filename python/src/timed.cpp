@@ -17,6 +17,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -144,6 +145,7 @@ Plan read_plan(const TimedInstance& self, const std::filesystem::path& path,
 }  // namespace
 
 void bind_timed(py::module_& module) {
+  module.attr("NOTABLE_DURATION_ERROR") = continuous::kNotableDurationError;
   bind_timed_graph(module);
   py::class_<Plan>(module, "TimedPlan")
       .def_property_readonly("num_agents", [](const Plan& plan) { return plan.paths.size(); })
@@ -177,6 +179,7 @@ void bind_timed(py::module_& module) {
       .def("bodies", &bodies_of)
       .def("speeds", &speeds_of)
       .def("rules", &rules_of)
+      .def("duration_error", &duration_error_of)
       .def("in_input_units",
            [](const TimedInstance& self, Cost ticks) {
              return continuous::in_input_units(ticks, self.instance.resolution());

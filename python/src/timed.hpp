@@ -51,6 +51,8 @@ py::array starts_of(const TimedInstance& self);
 py::array goals_of(const TimedInstance& self);
 py::list bodies_of(const TimedInstance& self);
 py::array speeds_of(const TimedInstance& self);
+/// (relative error, agent, from, to, planned and exact duration) of the largest error; or None.
+py::object duration_error_of(const TimedInstance& self);
 /// `groups`: int64[n]; `releases`, `deadlines`: float64[n], NaN for none; `leaves`, `under_way`:
 /// bool[n]; `obstacles`: [(body, float64[k, 4], leaves)], x, y, arrival and departure of each stop.
 py::dict rules_of(const TimedInstance& self);

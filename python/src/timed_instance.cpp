@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/under_way.hpp"
 #include "timed.hpp"
@@ -49,8 +50,8 @@ continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution
 continuous::Body body_of(const py::handle& body, const Resolution& resolution,
                          const std::string& who) {
   if (!py::isinstance<py::float_>(body)) return polygon_of(body.cast<Doubles>(), resolution, who);
-  const auto radius = continuous::quantise_radius(body.cast<double>(), resolution);
-  if (!radius) refuse(who + "the radius is less than one length unit, or too large");
+  const auto radius = continuous::quantise_radius_up(body.cast<double>(), resolution);
+  if (!radius) refuse(who + "the radius is not positive, or too large");
   return continuous::Disc{*radius};
 }
 
@@ -221,6 +222,16 @@ py::array speeds_of(const TimedInstance& self) {
   for (const continuous::Agent& agent : self.instance.agents())
     *to++ = continuous::speed_in_input_units(agent.speed, self.instance.resolution());
   return frozen(array);
+}
+
+py::object duration_error_of(const TimedInstance& self) {
+  const auto worst = continuous::largest_duration_error(self.instance);
+  if (!worst) return py::none();
+  const continuous::Edge& edge = self.instance.roadmap().edge(worst->edge);
+  const Resolution& resolution = self.instance.resolution();
+  return py::make_tuple(worst->relative, worst->agent.index(), edge.from.index(), edge.to.index(),
+                        continuous::in_input_units(worst->planned, resolution),
+                        worst->exact * resolution.time);
 }
 
 py::dict rules_of(const TimedInstance& self) {

@@ -3,6 +3,7 @@
 
 import gc
 import sys
+import warnings
 import weakref
 
 import numpy as np
@@ -193,11 +194,11 @@ def test_networkx():
     roadmap = q.Roadmap.from_networkx(one_way, places, duration="seconds")
     assert roadmap.edges.tolist() == [[0, 1], [1, 2]]
     assert np.isnan(roadmap.durations[0]) and roadmap.durations[1] == 2.5
-    assert q.solve(q.Fleet(roadmap, ["a"], ["c"])).cost == 3.5
+    assert q.solve(q.Fleet(roadmap, ["a"], ["c"], radius=0.3)).cost == 3.5
     with pytest.raises(q.NoPlanError):
-        q.Fleet(roadmap, ["c"], ["a"])
+        q.Fleet(roadmap, ["c"], ["a"], radius=0.3)
     with pytest.raises(ValueError, match="no node 'z'"):
-        q.Fleet(roadmap, ["z"], ["a"])
+        q.Fleet(roadmap, ["z"], ["a"], radius=0.3)
     with pytest.raises(ValueError, match="'c' has no place"):
         q.Roadmap.from_networkx(one_way, {"a": (0, 0), "b": (1, 0)})
 
@@ -221,7 +222,12 @@ def test_precedences(siding):
     # The second agent comes to each cell after the first one has left it.
     after = [(u, v) for u, v, kind in graph.edges(data="kind") if kind == "after"]
     assert after and all((u[0], v[0]) == (0, 1) for u, v in after)
-    assert nx.is_directed_acyclic_graph(graph)
+    assert nx.is_directed_acyclic_graph(graph) and graph.graph["cycle"] == []
+    # Four discs that turn in a square: released as a whole, each move waits for the next one.
+    corners = q.Roadmap([(0, 0), (2, 0), (2, 2), (0, 2)], [(0, 1), (1, 2), (2, 3), (3, 0)])
+    turning = q.solve(q.Fleet(corners, range(4), [1, 2, 3, 0], radius=0.5)).plan.precedences()
+    assert sorted(turning.graph["cycle"]) == [(0, 0), (1, 0), (2, 0), (3, 0)]
+    assert not nx.is_directed_acyclic_graph(turning)
     plan = q.solve(siding).plan
     graph = plan.precedences()
     assert len(graph) == sum(len(path.stops) - 1 for path in plan)
@@ -235,3 +241,29 @@ def test_precedences(siding):
     broken = corridor.plan([[(1, 0), (3, 0)], [(0, 0), (2, 0)]])
     with pytest.raises(q.InputError):
         broken.precedences()
+
+
+def test_no_body_is_smaller_than_given():
+    line = q.Roadmap([(0, 0), (2, 0)], [(0, 1)], resolution=0.001)
+    body = lambda **given: q.Fleet(line, [0], [1], **given).bodies[0]
+    for radius, rounded in ((0.3, 0.3), (0.35, 0.35), (0.3001, 0.301), (0.3009, 0.301), (1e-6, 0.001)):
+        assert body(radius=radius) == pytest.approx(rounded, abs=1e-12)
+        assert body(radius=body(radius=radius)) == body(radius=radius)
+    fleet = q.Fleet(line, [0], [1], radius=0.1, obstacles=[q.Obstacle([(9, 9, 0, 0)], radius=0.2001)])
+    assert fleet.obstacles[0].radius == pytest.approx(0.201, abs=1e-12)
+
+
+def test_rounded_durations_are_told():
+    lanes = lambda tick: q.Roadmap([(0.1 * i, 0) for i in range(41)], [(i, i + 1) for i in range(40)],
+                                   resolution=(0.001, tick))
+    slow = q.Fleet(lanes(0.05), [0], [40], radius=0.3, speed=1.4, names=["amr"])
+    assert slow.duration_error == pytest.approx(0.3)
+    with pytest.warns(q.RoundingWarning, match=r"by up to 30 %: from vertex 0 to 1, agent amr is planned "
+                                               r"to take 0\.05 instead of 0\.07143"):
+        assert q.solve(slow).cost == 2
+    fine = q.Fleet(lanes(0.0001), [0], [40], radius=0.3, speed=1.4)
+    assert 0 < fine.duration_error < 0.01
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert q.solve(fine).cost == pytest.approx(4 / 1.4, rel=0.01)
+        assert q.solve(q.Fleet(q.Grid([[1, 1]]), [(0, 0)], [(1, 0)])).cost == 1

@@ -86,8 +86,9 @@ def test_all_formats_are_read():
     assert isinstance(q.read(valid / "graph.json").graph, q.Graph)
     assert isinstance(q.read(valid / "grid.yaml").graph, q.Grid)
     assert isinstance(q.read(roadmaps / "roadmap.xml", radius=0.1).graph, q.Roadmap)
-    assert isinstance(q.read(roadmaps / "cells.xml", roadmaps / "tasks.xml", agents=1).graph, q.Roadmap)
-    timed = q.read(maps / "meeting.map", maps / "meeting.scen", continuous=True, agents=2)
+    assert isinstance(q.read(roadmaps / "cells.xml", roadmaps / "tasks.xml", agents=1, radius=0.3).graph, q.Roadmap)
+    with pytest.warns(q.BodyWarning, match=r"discs of radius sqrt\(2\)/4"):
+        timed = q.read(maps / "meeting.map", maps / "meeting.scen", continuous=True, agents=2)
     assert isinstance(timed.graph, q.Roadmap) and q.solve(timed).status == "optimal"
 
 
@@ -107,12 +108,14 @@ ROADMAP = q.Roadmap([(0, 0), (2, 0), (4, 0)], [(0, 1), (1, 2)], both_ways=True)
     (lambda: q.Fleet(GRID, [0], [1]), r"starts: expected an array of shape \(n, 2\)"),
     (lambda: q.Fleet(GRID, [(0, 0)], [(1, 0)], radius=1), "radius is for roadmaps"),
     (lambda: q.Fleet(GRID, [(0, 0)], [(1, 0)], names=["a", "b"]), "2 names for 1 agents"),
-    (lambda: q.Fleet(ROADMAP, [3], [0]), "agent 0: start: there is no vertex 3 among 3"),
-    (lambda: q.Fleet(ROADMAP, [0], [1], radius=0), "agent 0: the radius is less than one length unit"),
-    (lambda: q.Fleet(ROADMAP, [0], [1], speed=float("nan")), "agent 0: the speed is not between"),
+    (lambda: q.Fleet(ROADMAP, [3], [0], radius=0.3), "agent 0: start: there is no vertex 3 among 3"),
+    (lambda: q.Fleet(ROADMAP, [0], [1], radius=0), "agent 0: the radius is not positive, or too large"),
+    (lambda: q.Fleet(ROADMAP, [0], [1], radius=0.3, speed=float("nan")), "agent 0: the speed is not between"),
     (lambda: q.Fleet(ROADMAP, [0], [1], polygon=[(0, 0), (1, 0), (2, 0)]), "agent 0: .*line"),
     (lambda: q.Fleet(ROADMAP, [0], [1], radius=1, polygon=[(0, 0), (1, 0), (1, 1)]), "either a radius or a polygon"),
     (lambda: q.Fleet(ROADMAP, [0, 1], [1, 0], radius=1.5), "overlap"),
+    (lambda: q.Fleet(ROADMAP, [0], [1]), "agent 0 has no body: on a roadmap give a radius or a polygon"),
+    (lambda: q.Fleet(ROADMAP, [0, 1], [1, 2], polygon=[[(0, 0), (1, 0), (0, 1)], None]), "agent 1 has no body"),
     (lambda: q.Roadmap([(0, 0), (1, 0)], [(0, 2)]), r"edges\[0\]: there is no vertex 2 among 2"),
     (lambda: q.Roadmap([(0, 0), (1, 0)], [(0, 0)]), "edge 0"),
     (lambda: q.Roadmap([(0, 0), (0, float("inf"))], []), r"xy\[1\]"),
@@ -150,7 +153,7 @@ def test_options_that_are_wrong(arguments, text):
 
 
 def test_options_that_are_not_for_roadmaps():
-    fleet = q.Fleet(ROADMAP, [0], [1])
+    fleet = q.Fleet(ROADMAP, [0], [1], radius=0.3)
     for arguments in (dict(check="watch"), dict(first_plan=False), dict(cost_search="iterative")):
         with pytest.raises(ValueError, match="does not apply to roadmaps"):
             q.solve(fleet, **arguments)

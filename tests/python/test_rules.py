@@ -40,7 +40,7 @@ def random_fleet(seed):
         path.append((rng.uniform(0, 3), rng.uniform(0, 1), now, now + rng.choice([0, 0.5])))
         now = path[-1][3] + rng.uniform(0.1, 3)
     square = [(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]
-    shape = rng.choice([dict(radius=rng.uniform(0.05, 0.2)), dict(polygon=square), {}])
+    shape = rng.choice([dict(radius=rng.uniform(0.05, 0.2)), dict(polygon=square), dict(radius=0.1)])
     obstacle = q.Obstacle(path, leaves=len(path) > 1 and rng.random() < 0.6, **shape)
     try:
         return q.Fleet(
@@ -151,6 +151,16 @@ def test_moves_in_progress_are_finished():
     assert stops["vertex"].tolist() == [4, 1, 0] and stops["arrive"].tolist() == [0, 0.7, 1.7]
     assert stops["x"].tolist() == [0.3, 1, 0]
     assert q.solve(fleet).plan.sample(10)[0, 7].tolist() == [1, 0]
+    # And again, as often as there is need, also within the same move.
+    plan = q.solve(fleet).plan
+    halfway = plan.start_at(0, 1.2)
+    assert (halfway.source, halfway.target, halfway.fraction) == ("b", "a", pytest.approx(0.5))
+    assert plan.start_at(0, 0.7) == "b" and plan.start_at(0, 99) == "a"
+    assert plan.start_at(0, -1) == plan.start_at(0, 0) == q.Underway("a", "b", 0.3)
+    for step, left in enumerate((0.5, 0.3, 0.1)):
+        again = q.Fleet(named, [plan.start_at(0, 0.2)], ["a"], radius=0.2)
+        plan = q.solve(again).plan
+        assert plan[0].stops["arrive"].tolist() == pytest.approx([0, left, left + 1]), step
     # By the duration of the edge, if it has one.
     slow = q.Roadmap(LINE, [(0, 1)], durations=[4], resolution=(0.001, 0.01))
     assert q.solve(q.Fleet(slow, [q.Underway(0, 1, 0.5)], [1], radius=0.2)).cost == 2
@@ -177,14 +187,15 @@ def test_an_initial_plan_has_to_keep_the_rules():
     (dict(release=[1, 2]), "release: expected an array of shape"),
     (dict(deadline=float("inf")), "agent 0: the deadline is negative, or too late"),
     (dict(leaves="yes"), "leaves: expected booleans"),
-    (dict(obstacles=[q.Obstacle([])]), "obstacle 0 has no stops"),
-    (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)], leaves=True)]), "obstacle 0 vanishes at the moment"),
-    (dict(obstacles=[q.Obstacle([(0, 1, 2, 1)])]), "obstacle 0 has times that do not increase"),
-    (dict(obstacles=[q.Obstacle([(0, 1, float("nan"), 1)])]), "obstacle 0: a time is not a number"),
-    (dict(obstacles=[q.Obstacle([(0, 1e300, 0, 1)])]), "obstacle 0: a place is too far away"),
-    (dict(obstacles=[q.Obstacle([(0, 1, 0)])]), r"path: expected an array of shape \(n, 4\)"),
-    (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)], radius=0)]), "obstacle 0: the radius is less"),
+    (dict(obstacles=[q.Obstacle([], radius=0.2)]), "obstacle 0 has no stops"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)], leaves=True, radius=0.2)]), "obstacle 0 vanishes at the moment"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 2, 1)], radius=0.2)]), "obstacle 0 has times that do not increase"),
+    (dict(obstacles=[q.Obstacle([(0, 1, float("nan"), 1)], radius=0.2)]), "obstacle 0: a time is not a number"),
+    (dict(obstacles=[q.Obstacle([(0, 1e300, 0, 1)], radius=0.2)]), "obstacle 0: a place is too far away"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 0)], radius=0.2)]), r"path: expected an array of shape \(n, 4\)"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)], radius=0)]), "obstacle 0: the radius is not positive"),
     (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)], radius=1, polygon=[(0, 0)])]), "either a radius or a polygon"),
+    (dict(obstacles=[q.Obstacle([(0, 1, 0, 0)])]), "no body"),
 ])
 def test_bad_rules(rules, message):
     with pytest.raises(ValueError, match=message):
