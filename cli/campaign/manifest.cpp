@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "campaign/manifest_yaml.hpp"
+#include "quadrille/text/document.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::cli::campaign {
@@ -272,6 +273,8 @@ Result<Manifest> read_manifest(const std::string& file, const std::string& data)
   if (auto error = text::open_input(file, in)) return *error;
   const auto text = text::read_all(in, file);
   if (!text) return text.error();
+  // The limits of all YAML: depth and size, no anchors and aliases. What passes is a tree.
+  if (const auto checked = text::parse_yaml(*text, file); !checked) return checked.error();
   try {
     return ManifestReader(file).read(YAML::Load(*text), data);
   } catch (const Refused& refused) {

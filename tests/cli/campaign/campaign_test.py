@@ -104,6 +104,25 @@ limits: {cpu: 30, memory: 4096}
 
 
 class Ladders(CampaignCase):
+    def test_manifests_have_the_limits_of_all_yaml(self):
+        good = self.read(os.path.basename(self.manifest()))
+        bomb = "".join(f"  - &{name} [" + ", ".join(["*" + before] * 9) + "]\n"
+                       for before, name in zip("abcdefg", "bcdefgh"))
+        for more, message in (
+                ("title: &a x\n", "anchors are not accepted"),
+                ("seeds: &a [1]\nreference: *a\n", "anchors are not accepted"),
+                ("seeds:\n  - &a [1]\n" + bomb, "anchors are not accepted"),
+                ("reference: *a\n", "not valid YAML"),
+                ("title: !!binary x\n", "the tag"),
+                ("title: " + "[" * 40 + "]" * 40 + "\n", "nested deeper than 32 levels"),
+                ("title: " + "[" * 2000 + "]" * 2000 + "\n", "too many brackets"),
+                ("---\ntitle: x\n", "a second document"),
+        ):
+            with self.subTest(more[:40]):
+                out = self.campaign("list", self.write("wrong.yaml", good + more), code=65)
+                self.assertIn("wrong.yaml:", out)
+                self.assertIn(message, out)
+
     def test_geometric_ladders_end_with_the_scenario(self):
         agents = {job[2] for job in self.jobs(self.manifest("{from: 2, factor: 1.5}")).values()}
         self.assertEqual(agents, {2, 3, 4, 6, 8})
