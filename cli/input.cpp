@@ -48,6 +48,16 @@ std::optional<Error> check_agents(const InputOptions& options, std::size_t agent
                {options.instance, 0}};
 }
 
+std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,
+                                    const std::string& file) {
+  if (static_cast<std::size_t>(cells) <= options.most_vertices) return std::nullopt;
+  return Error{ErrorCode::out_of_range,
+               fmt::format("the map has {} passable cells, more than {}, which are the most that "
+                           "can be solved",
+                           cells, options.most_vertices),
+               {file, 0}};
+}
+
 Error with_letters_hint(Error error) {
   if (error.message.find("is neither known as passable nor as blocked") != std::string::npos)
     error.message += " (--passable and --blocked say what it is)";

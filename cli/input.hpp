@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,8 @@ struct InputOptions {
   std::string map, scen, instance;
   std::optional<std::int64_t> agents;
   discrete::MapOptions letters;
+  /// Maps with more passable cells are refused before a graph is made of them.
+  std::size_t most_vertices = SIZE_MAX;
   /// The contents of `instance`, if they have been read already.
   std::optional<std::string> instance_text;
 };
@@ -29,6 +32,10 @@ enum class Need {
 
 /// What is wrong if an `--instance` with so many agents has fewer than `--agents` asks for.
 [[nodiscard]] std::optional<Error> check_agents(const InputOptions& options, std::size_t agents);
+
+/// What is wrong if a map, in this file, has so many passable cells.
+[[nodiscard]] std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,
+                                                  const std::string& file);
 
 /// An error of the reader of maps; one about a letter says which options can help.
 [[nodiscard]] Error with_letters_hint(Error error);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <memory>
 #include <utility>
 
 #include "arguments.hpp"
 #include "grid/solve_grid.hpp"
+#include "input_watch.hpp"
 #include "output.hpp"
 #include "quadrille/core/stated_outcome.hpp"
 #include "roadmap/solve_roadmap.hpp"
@@ -124,7 +126,7 @@ void add_limit_options(CLI::App& app, SolveArguments& arguments) {
   add_seconds(app, "--cpu-limit", limits.cpu_s, "Stop after this CPU time, of all threads together")
       ->group(group);
   add_integer(app, "--memory-limit", arguments.memory_mib, 1, std::int64_t{1} << 40,
-              "Stop when the search has added this many MiB to the process")
+              "Stop when reading and searching have added this many MiB to the process")
       ->group(group);
   add_integer(app, "--conflict-limit", limits.conflicts, 0, INT64_MAX,
               "Stop after this many conflicts of the SAT solver")
@@ -169,9 +171,19 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
 }
 
 ExitCode run(const CLI::App& app, SolveArguments& arguments) {
-  arguments.options.limits.interrupt = &catch_interrupts();  // before anything is read
-  return is_roadmap(arguments.input, arguments.roadmap) ? solve_roadmap(app, arguments)
-                                                        : solve_grid(app, arguments);
+  Limits& limits = arguments.options.limits;
+  limits.interrupt = &catch_interrupts();  // before anything is read
+  if (arguments.memory_mib) limits.memory_mib = static_cast<double>(*arguments.memory_mib);
+  arguments.input.most_vertices = discrete::kMaxVertices;
+  std::atomic<bool> has_roadmap = !arguments.roadmap.roadmap.empty();
+  InputWatch watch(limits, [&has_roadmap, arguments](StopReason reason, const Usage& used) {
+    // The command line may not have been checked yet.
+    if (!check_solve_outputs(arguments).empty()) return ExitCode::unknown;
+    return has_roadmap ? end_roadmap_input(arguments, reason, used)
+                       : end_grid_input(arguments, reason, used);
+  });
+  has_roadmap = is_roadmap(arguments.input, arguments.roadmap);
+  return has_roadmap ? solve_roadmap(app, arguments, watch) : solve_grid(app, arguments, watch);
 }
 
 }  // namespace

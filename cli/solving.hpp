@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "delivery.hpp"
+#include "input_watch.hpp"
 #include "outcome_check.hpp"
 #include "progress.hpp"
 #include "quadrille/view/page.hpp"
@@ -54,6 +55,35 @@ view::PageOptions page_options(const std::string& source, Objective objective,
   if (outcome.status == Status::infeasible)
     options.obstruction = view::Obstruction{outcome.explanation, {}, {}};
   return options;
+}
+
+/// The answer where no search has begun: there is no instance, as it was refused, or not all of it
+/// was read. `json`: text of the file of --json; `summary`: of the human output.
+template <class Outcome, class MakeJson>
+ExitCode deliver_without_search(const SolveArguments& arguments, const Outcome& outcome,
+                                const MakeJson& json, const std::string& summary) {
+  Delivery delivery(arguments.quiet, arguments.plan, arguments.json, arguments.view,
+                    arguments.picture.file);
+  if (!delivery.probe()) return ExitCode::output;
+  delivery.write_plan(std::nullopt);
+  delivery.write_view(std::nullopt);
+  delivery.write_svg(std::nullopt);
+  if (delivery.has_json_file()) delivery.write_json(json());
+  delivery.print_summary(summary, "");
+  return delivery.finish(exit_code_of(outcome));
+}
+
+/// What is known when a signal or a limit comes before the search begins.
+template <class Outcome>
+Outcome ended_before_search(StopReason reason, const Usage& used) {
+  Outcome outcome;
+  outcome.stop = reason;
+  outcome.explanation =
+      "stopped while the input was read and checked: " + std::string(to_string(reason));
+  outcome.statistics.cpu_s = used.cpu_s;
+  outcome.statistics.wall_s = used.wall_s;
+  outcome.statistics.peak_rss_mib = peak_rss_mib();
+  return outcome;
 }
 
 /// From an instance to the exit code: solves, holds the outcome against a replay of its plan,

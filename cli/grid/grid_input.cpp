@@ -26,6 +26,8 @@ std::string name_other_map(const discrete::Scenario& scenario, const std::string
 Result<GridInput> load_map(const InputOptions& options) {
   auto map = discrete::read_map(std::filesystem::path(options.map), options.letters);
   if (!map) return with_letters_hint(map.error());
+  if (auto error = check_map_size(options, map->num_passable(), options.map))
+    return *std::move(error);
   auto graph = std::make_shared<const discrete::Graph>(map->graph());
   if (options.scen.empty()) {
     auto instance = discrete::Instance::make(std::move(graph), {});
@@ -56,8 +58,8 @@ Result<discrete::Instance> read_instance(const InputOptions& options) {
   std::istringstream in(*options.instance_text);
   const bool is_yaml = extension == ".yaml" || extension == ".yml" ||
                        (extension != ".json" && !options.instance_text->starts_with('{'));
-  return is_yaml ? discrete::read_instance_yaml(in, options.instance)
-                 : discrete::read_instance_json(in, options.instance);
+  return is_yaml ? discrete::read_instance_yaml(in, options.instance, options.most_vertices)
+                 : discrete::read_instance_json(in, options.instance, options.most_vertices);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ std::string break_lines(std::string_view text) {
 
 bool has_schedule(discrete::System system) noexcept { return system == discrete::System::dpll_mdd; }
 
-std::string result_json(const discrete::Instance& instance, const SolveArguments& arguments,
+std::string result_json(const discrete::Instance* instance, const SolveArguments& arguments,
                         const SolveOutcome& outcome, const SearchNotes& notes) {
   const discrete::SolveOptions& options = arguments.options;
   const bool infeasible = outcome.status == Status::infeasible;
@@ -77,13 +77,13 @@ std::string result_json(const discrete::Instance& instance, const SolveArguments
   json.add_gap(outcome);
   if (arguments.known_bound) json.add("rests_on_known_bound", outcome.rests_on_known_bound);
   json.add_end_of_search(outcome);
-  json.add("agents", instance.num_agents());
-  if (options.explain)
-    add_explanation(json, outcome.attribution, notes.reasons, names_of(instance));
+  json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
+  if (options.explain && instance != nullptr)
+    add_explanation(json, outcome.attribution, notes.reasons, names_of(*instance));
   if (arguments.history) json.add("history", notes.history.json());
   return json.finish(
       outcome.statistics, options.seed, options_json(arguments),
-      outcome.plan ? break_lines(plan_to_json(instance.graph(), *outcome.plan)) : "null");
+      outcome.plan ? break_lines(plan_to_json(instance->graph(), *outcome.plan)) : "null");
 }
 
 Names names_of(const discrete::Instance& instance) {

@@ -15,8 +15,9 @@ namespace quadrille::cli {
 [[nodiscard]] bool has_schedule(discrete::System system) noexcept;
 
 /// The result as JSON, documented in docs/cli.md: one key per line, the plan one agent per line.
-/// `notes`: what else was asked for.
-[[nodiscard]] std::string result_json(const discrete::Instance& instance,
+/// `instance`: null if it was not read, which takes an outcome without a plan. `notes`: what else
+/// was asked for.
+[[nodiscard]] std::string result_json(const discrete::Instance* instance,
                                       const SolveArguments& arguments,
                                       const discrete::SolveOutcome& outcome,
                                       const SearchNotes& notes);

@@ -55,7 +55,6 @@ std::string settle(SolveArguments& arguments) {
     options.known_lower_bound = bound;
   }
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
-  if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (!arguments.plan_format.discrete)
     arguments.plan_format.discrete =
         discrete::plan_format_of(arguments.plan).value_or(PlanFormat::json);
@@ -65,8 +64,9 @@ std::string settle(SolveArguments& arguments) {
 /// The parts of solve_and_deliver.
 class GridSolve {
  public:
-  GridSolve(const SolveArguments& arguments, const GridInput& input)
-      : arguments_(arguments), input_(input) {}
+  /// `used`: while it was read.
+  GridSolve(const SolveArguments& arguments, const GridInput& input, const Usage& used)
+      : arguments_(arguments), input_(input), used_(used) {}
 
   [[nodiscard]] const discrete::Instance& instance() const { return input_.instance; }
   [[nodiscard]] Objective objective() const { return arguments_.options.objective; }
@@ -82,6 +82,7 @@ class GridSolve {
   [[nodiscard]] Result<SolveOutcome> solve(
       ProgressLine& line, const std::function<void(const discrete::Plan&)>& on_plan) const {
     discrete::SolveOptions options = arguments_.options;
+    options.limits = limits_left(options.limits, used_);
     if (arguments_.plan_every) {
       options.on_plan = on_plan;
       options.plan_interval_s = *arguments_.plan_every;
@@ -105,7 +106,7 @@ class GridSolve {
   }
   [[nodiscard]] std::string json(const SolveOutcome& outcome, const discrete::VerifyReport&) const {
     notes_.history.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
-    return result_json(instance(), arguments_, outcome, notes_);
+    return result_json(&instance(), arguments_, outcome, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
     view::PageOptions options = page_options(input_.source, objective(), outcome);
@@ -156,35 +157,50 @@ class GridSolve {
 
   const SolveArguments& arguments_;
   const GridInput& input_;
+  const Usage used_;
   mutable SearchNotes notes_;  // of the one solve
 };
 
-}  // namespace
-
-ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments) {
-  const std::string wrong = settle(arguments);
-  if (!wrong.empty()) return usage_error(app, wrong);
-  const auto input = load_grid_input(arguments.input);
-  if (!input) {
-    report_error(input.error());
-    return ExitCode::bad_input;
-  }
+/// Reads all that there is to read. Plans go into the options.
+Result<GridInput> read_input(SolveArguments& arguments) {
+  auto input = load_grid_input(arguments.input);
+  if (!input) return input;
   const auto read = [&](const std::filesystem::path& path) {
     return discrete::read_plan(path, input->instance.graph());
   };
   auto error = read_given_plans(arguments, input->instance, arguments.options, read);
   if (!error) error = check_picture_agents(arguments.picture, input->instance.num_agents());
-  const GridSolve solve(arguments, *input);
   if (!error && !arguments.plan.empty()) {
     // Some formats need a grid; that must not come out after the search.
-    const auto text = solve.plan_text({});
+    const auto text = GridSolve(arguments, *input, {}).plan_text({});
     if (!text) error = text.error();
   }
-  if (error) {
-    report_error(*error);
+  if (error) return *std::move(error);
+  return input;
+}
+
+}  // namespace
+
+ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments, InputWatch& watch) {
+  if (const std::string wrong = settle(arguments); !wrong.empty()) {
+    watch.finish();
+    return usage_error(app, wrong);
+  }
+  const auto input = read_input(arguments);
+  const Usage used = watch.finish();
+  if (!input) {
+    report_error(input.error());
     return ExitCode::bad_input;
   }
-  return solve_and_deliver(solve, arguments);
+  return solve_and_deliver(GridSolve(arguments, *input, used), arguments);
+}
+
+ExitCode end_grid_input(SolveArguments arguments, StopReason reason, const Usage& used) {
+  static_cast<void>(settle(arguments));  // what is wrong with it will never be known
+  const auto outcome = ended_before_search<SolveOutcome>(reason, used);
+  return deliver_without_search(
+      arguments, outcome, [&] { return result_json(nullptr, arguments, outcome, {}); },
+      describe_outcome(arguments.options.objective, outcome, {}));
 }
 
 }  // namespace quadrille::cli

@@ -2,11 +2,17 @@
 #pragma once
 
 #include "exit_codes.hpp"
+#include "input_watch.hpp"
 #include "solve_arguments.hpp"
 
 namespace quadrille::cli {
 
-/// `solve` for grids and graphs: checks the arguments, reads, solves and writes.
-[[nodiscard]] ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments);
+/// `solve` for grids and graphs: checks the arguments, reads, solves and writes. `watch` goes on
+/// until all has been read.
+[[nodiscard]] ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments,
+                                  InputWatch& watch);
+/// What the watch does in the end.
+[[nodiscard]] ExitCode end_grid_input(SolveArguments arguments, StopReason reason,
+                                      const Usage& used);
 
 }  // namespace quadrille::cli

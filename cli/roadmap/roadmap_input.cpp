@@ -210,6 +210,11 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
   auto map = read_map(options.roadmap, input.letters, numbers->resolution, numbers->speed);
   if (!map) return map.error();
   const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
+  if (cells != nullptr)
+    if (auto error =
+            check_map_size(input, std::count(cells->passable.begin(), cells->passable.end(), true),
+                           options.roadmap))
+      return *std::move(error);
   continuous::TaskXml task;
   if (!options.task.empty()) {
     auto read = read_task(options.task, cells);

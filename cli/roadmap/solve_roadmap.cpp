@@ -54,7 +54,6 @@ std::optional<SolveOptions> options_of(const SolveArguments& arguments) {
   options.system = *system;
   options.limits = arguments.options.limits;
   options.gap_percent = arguments.options.gap_percent;
-  if (arguments.memory_mib) options.limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
   options.race = arguments.options.race;
@@ -66,9 +65,10 @@ std::optional<SolveOptions> options_of(const SolveArguments& arguments) {
 /// The parts of solve_and_deliver.
 class RoadmapSolve {
  public:
+  /// `used`: while it was read.
   RoadmapSolve(const SolveArguments& arguments, const SolveOptions& options,
-               const RoadmapInput& input)
-      : arguments_(arguments), options_(options), input_(input) {}
+               const RoadmapInput& input, const Usage& used)
+      : arguments_(arguments), options_(options), input_(input), used_(used) {}
 
   [[nodiscard]] const continuous::Instance& instance() const { return input_.instance; }
   [[nodiscard]] Objective objective() const { return options_.objective; }
@@ -81,6 +81,7 @@ class RoadmapSolve {
   [[nodiscard]] Result<SolveOutcome> solve(
       ProgressLine& line, const std::function<void(const continuous::Plan&)>& on_plan) const {
     SolveOptions options = options_;
+    options.limits = limits_left(options.limits, used_);
     if (arguments_.plan_every) {
       options.on_plan = on_plan;
       options.plan_interval_s = *arguments_.plan_every;
@@ -186,50 +187,53 @@ class RoadmapSolve {
   const SolveArguments& arguments_;
   const SolveOptions& options_;
   const RoadmapInput& input_;
+  const Usage used_;
   mutable SearchNotes notes_;  // of the one solve
 };
 
-/// What cannot have a plan, as can be seen without a search.
-ExitCode report_refused(const Error& error, const SolveArguments& arguments,
-                        const SolveOptions& options) {
-  SolveOutcome outcome;
-  outcome.status = Status::infeasible;
-  outcome.explanation = error.to_string();
-  Delivery delivery(arguments.quiet, arguments.plan, arguments.json, arguments.view,
-                    arguments.picture.file);
-  if (!delivery.probe()) return ExitCode::output;
-  delivery.write_plan(std::nullopt);
-  delivery.write_view(std::nullopt);
-  delivery.write_svg(std::nullopt);
-  if (delivery.has_json_file())
-    delivery.write_json(result_json(nullptr, arguments, options, outcome, {}, {}));
-  delivery.print_summary(describe_refused(outcome), "");
-  return delivery.finish(exit_code_of(outcome));
+/// An outcome without an instance.
+ExitCode deliver(const SolveArguments& arguments, const SolveOptions& options,
+                 const SolveOutcome& outcome) {
+  return deliver_without_search(
+      arguments, outcome, [&] { return result_json(nullptr, arguments, options, outcome, {}, {}); },
+      describe_refused(outcome));
+}
+
+/// Reads all that there is to read. Plans go into the options.
+Result<RoadmapInput> read_input(const SolveArguments& arguments, SolveOptions& options) {
+  auto input = load_roadmap_input(arguments.roadmap, arguments.input);
+  if (!input) return input;
+  const auto read = [&](const std::filesystem::path& path) {
+    return continuous::read_plan(path, input->instance, input->grid_or_null());
+  };
+  if (auto error = check_picture_agents(arguments.picture, input->instance.num_agents()))
+    return *std::move(error);
+  if (auto error = read_given_plans(arguments, input->instance, options, read))
+    return *std::move(error);
+  return input;
 }
 
 }  // namespace
 
-ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments) {
-  const std::string wrong = check(app, arguments);
-  if (!wrong.empty()) return usage_error(app, wrong);
+ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments, InputWatch& watch) {
+  std::string wrong = check(app, arguments);
   auto options = options_of(arguments);
-  if (!options) return usage_error(app, "a roadmap needs --system dpll or smt-cbs");
-  const auto input = load_roadmap_input(arguments.roadmap, arguments.input);
+  if (wrong.empty() && !options) wrong = "a roadmap needs --system dpll or smt-cbs";
+  if (!wrong.empty()) {
+    watch.finish();
+    return usage_error(app, wrong);
+  }
+  const auto input = read_input(arguments, *options);
+  const Usage used = watch.finish();
+  if (!input && input.error().code == ErrorCode::no_plan) {
+    // It cannot have a plan, as can be seen without a search.
+    SolveOutcome outcome;
+    outcome.status = Status::infeasible;
+    outcome.explanation = input.error().to_string();
+    return deliver(arguments, *options, outcome);
+  }
   if (!input) {
-    if (input.error().code == ErrorCode::no_plan)
-      return report_refused(input.error(), arguments, *options);
     report_error(input.error());
-    return ExitCode::bad_input;
-  }
-  const auto read = [&](const std::filesystem::path& path) {
-    return continuous::read_plan(path, input->instance, input->grid_or_null());
-  };
-  if (auto error = check_picture_agents(arguments.picture, input->instance.num_agents())) {
-    report_error(*error);
-    return ExitCode::bad_input;
-  }
-  if (const auto error = read_given_plans(arguments, input->instance, *options, read)) {
-    report_error(*error);
     return ExitCode::bad_input;
   }
   if (arguments.known_bound) {
@@ -240,7 +244,12 @@ ExitCode solve_roadmap(const CLI::App& app, const SolveArguments& arguments) {
   if (!arguments.quiet) warn_of_durations(*input);
   // Neither of these searches makes clauses that could be checked against the plan.
   if (options->debug.known_plan) options->route_work = options->joint_work = 0;
-  return solve_and_deliver(RoadmapSolve(arguments, *options, *input), arguments);
+  return solve_and_deliver(RoadmapSolve(arguments, *options, *input, used), arguments);
+}
+
+ExitCode end_roadmap_input(const SolveArguments& arguments, StopReason reason, const Usage& used) {
+  const SolveOptions options = options_of(arguments).value_or(SolveOptions());
+  return deliver(arguments, options, ended_before_search<SolveOutcome>(reason, used));
 }
 
 }  // namespace quadrille::cli

@@ -104,9 +104,10 @@ TEST_F(InterruptTest, OtherCommandsDieOfASignalAsUsual) {
 TEST_F(InterruptTest, ASecondSignalKills) {
   const std::string pipe = path("pipe");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  // Handlers stand before the input is read, and reading goes on after the first signal.
-  Process process(folder_, {"solve", "--map", pipe, "--scen", path("small.scen"), "--agents", "1"});
+  // Nobody takes the plan, and writing goes on after the first signal.
+  Process process(folder_, small("solve", {"--quiet", "--plan", pipe}));
   process.wait_until_caught(SIGTERM);
+  sleep_ms(300);
   process.signal(SIGINT);
   process.wait_until_received(SIGINT);
   process.signal(SIGTERM);

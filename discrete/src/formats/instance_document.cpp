@@ -23,6 +23,14 @@ bool all_distinct(Checker& checker, const Graph& graph, const std::vector<Placed
 
 }  // namespace
 
+bool has_most_vertices(Checker& checker, Document::Node node, std::int64_t count,
+                       std::size_t most) {
+  if (static_cast<std::size_t>(count) <= most) return true;
+  return checker.fail(node, ErrorCode::out_of_range,
+                      "there are " + std::to_string(count) + " vertices, more than " +
+                          std::to_string(most) + ", which are the most that can be solved");
+}
+
 std::optional<VertexId> find_vertex(const GridLayout& grid, std::int64_t x, std::int64_t y) {
   if (x < 0 || y < 0 || x >= grid.width() || y >= grid.height()) return std::nullopt;
   return grid.vertex_at({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)});

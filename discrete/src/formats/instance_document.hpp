@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +15,9 @@ namespace quadrille::discrete {
 /// Sizes that a file only states, with nothing in it to show for them, end here: a few bytes of
 /// text must not cost gigabytes.
 inline constexpr std::int64_t kMaxDeclaredVertices = std::int64_t{1} << 22;
+
+/// There are at most `most` vertices. Otherwise the checker has an error (out_of_range) at `node`.
+bool has_most_vertices(Checker& checker, Document::Node node, std::int64_t count, std::size_t most);
 
 /// `node` is a place of the graph: `[x, y]` of a passable cell, or a vertex number if the graph is
 /// no grid. Otherwise the checker has an error with this code.

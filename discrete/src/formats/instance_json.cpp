@@ -20,7 +20,8 @@ using Node = Document::Node;
 
 class JsonInstanceReader {
  public:
-  explicit JsonInstanceReader(const Document& document) : document_(document), check_(document) {}
+  JsonInstanceReader(const Document& document, std::size_t most_vertices)
+      : document_(document), check_(document), most_vertices_(most_vertices) {}
 
   Result<Instance> run() {
     std::optional<Node> kind, version, graph, grid, agents;
@@ -58,6 +59,7 @@ class JsonInstanceReader {
         !check_.integer(*vertices, 0, kMaxDeclaredVertices, count) ||
         !check_.array(*edges, "edges"))
       return false;
+    if (!has_most_vertices(check_, *vertices, count, most_vertices_)) return false;
     std::vector<Graph::Edge> list;
     std::vector<std::tuple<std::int64_t, std::int64_t, Node>> sorted;
     for (Node e = document_.first(*edges); e < document_.next(*edges); e = document_.next(e)) {
@@ -117,6 +119,8 @@ class JsonInstanceReader {
         passable.push_back(c == '.');
       }
     }
+    const auto count = std::count(passable.begin(), passable.end(), true);
+    if (!has_most_vertices(check_, node, count, most_vertices_)) return false;
     graph_ = Graph::grid(static_cast<std::int32_t>(w), static_cast<std::int32_t>(h), passable);
     return true;
   }
@@ -139,6 +143,7 @@ class JsonInstanceReader {
 
   const Document& document_;
   Checker check_;
+  const std::size_t most_vertices_;
   std::optional<Graph> graph_;
 };
 
@@ -168,18 +173,19 @@ void write_graph(std::ostream& out, const Graph& graph) {
 
 }  // namespace
 
-Result<Instance> read_instance_json(std::istream& in, const std::string& file) {
+Result<Instance> read_instance_json(std::istream& in, const std::string& file,
+                                    std::size_t most_vertices) {
   const auto text = read_all(in, file);
   if (!text) return text.error();
   const auto document = parse_json(*text, file);
   if (!document) return document.error();
-  return JsonInstanceReader(*document).run();
+  return JsonInstanceReader(*document, most_vertices).run();
 }
 
-Result<Instance> read_instance_json(const std::filesystem::path& path) {
+Result<Instance> read_instance_json(const std::filesystem::path& path, std::size_t most_vertices) {
   std::ifstream in;
   if (auto error = open_input(path, in)) return *error;
-  return read_instance_json(in, path.string());
+  return read_instance_json(in, path.string(), most_vertices);
 }
 
 std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,

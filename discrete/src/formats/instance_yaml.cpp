@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/discrete/instance_yaml.hpp"
 
+#include <algorithm>
 #include <istream>
 #include <ostream>
 #include <utility>
@@ -17,7 +18,8 @@ using Node = Document::Node;
 
 class YamlInstanceReader {
  public:
-  explicit YamlInstanceReader(const Document& document) : document_(document), check_(document) {}
+  YamlInstanceReader(const Document& document, std::size_t most_vertices)
+      : document_(document), check_(document), most_vertices_(most_vertices) {}
 
   Result<Instance> run() {
     std::optional<Node> map, agents, roadmap;
@@ -60,6 +62,9 @@ class YamlInstanceReader {
         passable[static_cast<std::size_t>(y * width + x)] = false;
       }
     }
+    if (!has_most_vertices(check_, *dimensions, std::count(passable.begin(), passable.end(), true),
+                           most_vertices_))
+      return false;
     graph_ =
         Graph::grid(static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), passable);
     return true;
@@ -92,23 +97,25 @@ class YamlInstanceReader {
 
   const Document& document_;
   Checker check_;
+  const std::size_t most_vertices_;
   std::optional<Graph> graph_;
 };
 
 }  // namespace
 
-Result<Instance> read_instance_yaml(std::istream& in, const std::string& file) {
+Result<Instance> read_instance_yaml(std::istream& in, const std::string& file,
+                                    std::size_t most_vertices) {
   const auto text = read_all(in, file);
   if (!text) return text.error();
   const auto document = parse_yaml(*text, file);
   if (!document) return document.error();
-  return YamlInstanceReader(*document).run();
+  return YamlInstanceReader(*document, most_vertices).run();
 }
 
-Result<Instance> read_instance_yaml(const std::filesystem::path& path) {
+Result<Instance> read_instance_yaml(const std::filesystem::path& path, std::size_t most_vertices) {
   std::ifstream in;
   if (auto error = open_input(path, in)) return *error;
-  return read_instance_yaml(in, path.string());
+  return read_instance_yaml(in, path.string(), most_vertices);
 }
 
 std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& file,

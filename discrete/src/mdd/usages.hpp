@@ -3,6 +3,7 @@
 
 #include "quadrille/core/contract.hpp"
 #include "quadrille/core/ids.hpp"
+#include "quadrille/discrete/solver.hpp"
 #include "quadrille/sat/lemma.hpp"
 
 namespace quadrille::discrete {
@@ -27,7 +28,7 @@ struct DecodedUsage {
 
 // Packed as kind (2 bits), timestep (20), vertex (21), to (21). The solver refuses graphs beyond
 // that, and MddPaths paths.
-inline constexpr std::size_t kMaxVertices = std::size_t{1} << 21;
+static_assert(kMaxVertices <= std::size_t{1} << 21);
 inline constexpr Timestep kMaxTimestep = (1 << 20) - 1;
 
 [[nodiscard]] constexpr std::uint64_t encode_usage(const DecodedUsage& u) {

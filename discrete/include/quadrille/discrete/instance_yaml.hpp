@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
@@ -18,8 +20,10 @@ namespace quadrille::discrete {
 /// and `agents` with `start` and `goal`. Its target assignment (`potentialGoals`) and roadmaps are
 /// refused, as are anchors, aliases, unknown keys and tags other than `!!python/tuple`. Agents keep
 /// the order of the file; their names are not kept. Errors as read_instance_json.
-[[nodiscard]] Result<Instance> read_instance_yaml(std::istream& in, const std::string& file);
-[[nodiscard]] Result<Instance> read_instance_yaml(const std::filesystem::path& path);
+[[nodiscard]] Result<Instance> read_instance_yaml(std::istream& in, const std::string& file,
+                                                  std::size_t most_vertices = SIZE_MAX);
+[[nodiscard]] Result<Instance> read_instance_yaml(const std::filesystem::path& path,
+                                                  std::size_t most_vertices = SIZE_MAX);
 /// Writes that YAML with agents named agent0, agent1, ... Errors: io; invalid_instance if the graph
 /// is no grid.
 [[nodiscard]] std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& file,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -24,6 +25,9 @@ namespace quadrille::discrete {
 
 using quadrille::Phase;
 using quadrille::Progress;
+
+/// Graphs with more vertices are not solved.
+inline constexpr std::size_t kMaxVertices = std::size_t{1} << 21;
 
 /// The solving systems; see docs/architecture.md.
 enum class System {
