@@ -123,7 +123,7 @@ TEST_F(BadInputTest, GraphsThatAreTooLargeForTheSolver) {
     "version": 1, "graph": {"vertices": 2097153, "edges": []},
     "agents": [{"start": 0, "goal": 0}]})"),
                   "--quiet"},
-                 "up to 2097152 vertices");
+                 "there are 2097153 vertices, more than 2097152");
 }
 
 }  // namespace

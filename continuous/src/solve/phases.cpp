@@ -116,8 +116,9 @@ std::unique_ptr<Scene> Phases::make_scene() {
   const auto alone = [&](AgentId i) {
     return as_cost(continuous::free_cost(instance_, i).value());
   };
+  Grace grace(options_.limits, limits_);
   const Cost bound =
-      quadrille::free_bound(instance_.agent_ids(), options_.objective, alone, kGraceSeconds);
+      quadrille::free_bound(instance_.agent_ids(), options_.objective, alone, &grace);
   static_cast<void>(learn(bound, std::nullopt));
   return nullptr;
 }

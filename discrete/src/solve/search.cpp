@@ -131,9 +131,9 @@ class Search final : private sat::YieldPoint {
       return distances_from(instance_.graph(), task.goal)[task.start];
     };
     const auto agents = instance_.agent_ids();
-    free_bound_ = distances != nullptr
-                      ? free_bound(agents, options_.objective, known)
-                      : free_bound(agents, options_.objective, found, kGraceSeconds);
+    Grace grace(options_.limits, limits_);
+    free_bound_ = distances != nullptr ? free_bound(agents, options_.objective, known)
+                                       : free_bound(agents, options_.objective, found, &grace);
     incumbent_.raise(*free_bound_);
   }
 

@@ -127,6 +127,27 @@ TEST(SolverLimits, TheFreeBoundIsNeverLost) {
   }
 }
 
+// A limit of conflicts leaves time to sum up what takes longer than other limits allow.
+TEST(SolverLimits, TheFreeBoundIsWholeWhereTimeIsLeft) {
+  const auto discs = [](std::size_t num) {
+    std::vector<Point> places;
+    std::vector<Edge> edges;
+    std::vector<Agent> agents;
+    for (std::size_t v = 0; v < 2 * num; ++v) {
+      places.push_back({Length(static_cast<std::int64_t>(v) * 10), 0});
+      if (v > 0) edges.push_back({VertexId(v - 1), VertexId(v), {}, Groups::all()});
+      if (v < num) agents.push_back({VertexId(v), VertexId(v + num), Disc{5}});
+    }
+    return Instance::make(Roadmap::make(places, edges).value(), agents).value();
+  };
+  const std::size_t num = support::scaled(2000);
+  SolveOptions options;
+  options.limits.conflicts = 0;
+  const SolveOutcome outcome = solve(discs(num), options).value();
+  EXPECT_EQ(outcome.stop, StopReason::conflicts);
+  EXPECT_EQ(outcome.lower_bound, static_cast<Cost>(10 * num * num));
+}
+
 // Where no plan is known, costs that hit all cores by greed may rise for ever: the cheapest ones
 // have to come in between.
 TEST(SolverLimits, CoversByGreedHaveAnEnd) {
