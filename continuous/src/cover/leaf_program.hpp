@@ -11,6 +11,7 @@
 
 #include "cover/core_table.hpp"
 #include "cover/half_sums.hpp"
+#include "cover/leaf_certificate.hpp"
 #include "cover/level_simplex.hpp"
 
 namespace quadrille::continuous {
@@ -68,6 +69,8 @@ struct CoverSum {
 class LeafProgram {
  public:
   explicit LeafProgram(const IdVector<AgentId, Cost>& free_costs);
+  LeafProgram(const LeafProgram&) = delete;
+  LeafProgram& operator=(const LeafProgram&) = delete;
 
   /// The cores that what follows is about: none is empty, and all levels are above the free costs.
   /// `table` lives as long. The numbers, which increase, are those by which leaves remember cores
@@ -90,6 +93,10 @@ class LeafProgram {
   /// which need not hit all cores. False: no costs of the leaf hit all cores; nothing has changed
   /// then.
   [[nodiscard]] bool solve(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
+  /// Raises the bound of the leaf, which was solved last, once more, where the linear program has
+  /// promised `wanted` and integers keep less because costs are so large (10^12 ticks) that doubles
+  /// are some ticks off. What it takes is a part of a linear program, or nothing.
+  void refine(CoverLeaf& leaf, Cost wanted);
   /// What the agents of the cores pay at least above their free costs in the leaf that was solved
   /// last, from multipliers of its solution's columns; of any quality, but then it is low.
   [[nodiscard]] Cost certified_bound(const std::vector<double>& multipliers);
@@ -115,10 +122,6 @@ class LeafProgram {
   void note_uses(const std::vector<double>& multipliers);
   void find_parts(const CoverLeaf& leaf);
   [[nodiscard]] double covered(std::size_t column) const;
-  [[nodiscard]] bool find_used(const std::vector<Cost>& units);
-  template <class Visit>
-  void visit_rows(std::uint32_t column, const Visit& visit) const;
-  [[nodiscard]] Cost room(std::uint32_t row) const;
   void round(CoverLeaf& leaf, IdVector<AgentId, Cost>& costs);
   [[nodiscard]] std::optional<Level> open_level() const;
 
@@ -127,6 +130,9 @@ class LeafProgram {
   IdVector<AgentId, Cost> low_, high_;     // of the leaf at work
   std::vector<CoverSum>* sums_ = nullptr;  // none if null
   LevelSimplex simplex_;                   // the cores and then the sums are its columns
+  LeafCertificate certificate_;            // of the leaf that was solved last
+  Cost base_ = 0;                          // there: what agents that no core has pay
+  double promised_ = 0;                    // there: the value of the linear program
   std::vector<std::uint32_t> numbers_;     // of the cores
   std::vector<std::uint32_t> columns_;     // by number of a core
   std::uint32_t next_core_ = 0, next_sum_ = 0;
@@ -142,7 +148,6 @@ class LeafProgram {
   std::int64_t effort_ = 0;
   // Scratch:
   std::vector<std::uint32_t> listed_;
-  std::vector<Cost> used_;
   std::vector<double> part_;  // by row of the table: of the agent at that level or above
 };
 

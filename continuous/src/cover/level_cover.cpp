@@ -79,7 +79,7 @@ std::vector<LevelCover::Group> LevelCover::make_groups() const {
   return groups;
 }
 
-bool LevelCover::solve(LimitMonitor& limits) {
+bool LevelCover::solve(LimitMonitor& limits, std::int64_t most_effort) {
   std::vector<Group> groups = make_groups();
   // A tree of a group serves any group that contains it: others' cores and costs only add to its
   // bounds. Of several, the one with the most work in it is kept.
@@ -95,13 +95,17 @@ bool LevelCover::solve(LimitMonitor& limits) {
     group.table.complete(free_costs_, group.best);
   }
   bool is_complete = true;
-  for (Group& group : groups) is_complete = is_complete && solve(group, limits);
+  for (Group& group : groups) is_complete = is_complete && solve(group, limits, most_effort);
   groups_ = std::move(groups);
   if (!is_complete) return false;
-  for (const Group& group : groups_)
-    for (const AgentId i : group.agents) costs_[i] = group.best[i];
   total_ = 0;
-  for (const Cost cost : costs_) total_ += cost;
+  for (const Cost cost : free_costs_) total_ += cost;
+  is_exact_ = true;
+  for (const Group& group : groups_) {
+    for (const AgentId i : group.agents) costs_[i] = group.best[i];
+    total_ += group.bound();
+    is_exact_ = is_exact_ && group.bound() == group.cost;
+  }
   return true;
 }
 
@@ -112,7 +116,7 @@ Cost LevelCover::price(const Group& group, const IdVector<AgentId, Cost>& costs)
 }
 
 // Best first. Leaves are never dropped because of a good solution: later cores may exclude it.
-bool LevelCover::solve(Group& group, LimitMonitor& limits) {
+bool LevelCover::solve(Group& group, LimitMonitor& limits, std::int64_t most_effort) {
   const auto is_later = [](const CoverLeaf& a, const CoverLeaf& b) { return a.bound > b.bound; };
   const auto push = [&](CoverLeaf leaf) {
     group.open.push_back(std::move(leaf));
@@ -121,9 +125,10 @@ bool LevelCover::solve(Group& group, LimitMonitor& limits) {
   program_.set_cores(group.table, group.numbers);
   program_.set_sums(group.sums);
   group.cost = price(group, group.best);
+  const std::int64_t last = effort() + most_effort;
   while (true) {
     QUADRILLE_REQUIRE(!group.open.empty(), "raising every level hits all cores");
-    if (group.open.front().bound >= group.cost) return true;
+    if (group.open.front().bound >= group.cost || effort() >= last) return true;
     if (limits.exhausted()) return false;
     std::pop_heap(group.open.begin(), group.open.end(), is_later);
     CoverLeaf leaf = std::move(group.open.back());
@@ -151,6 +156,7 @@ bool LevelCover::relax(Group& group, CoverLeaf& leaf) {
       group.best = std::move(costs);
     }
   }
+  if (leaf.bound < group.cost) program_.refine(leaf, group.cost);
   return true;
 }
 
@@ -161,8 +167,7 @@ std::vector<CoverShare> LevelCover::shares() const {
     Cost bound = 0;
     // Groups of the last solve that have become one were independent then: their bounds add up.
     for (const Group& old : groups_)
-      if (root(old.agents.front()) == at)
-        bound += old.open.empty() ? old.cost : std::min(old.cost, old.open.front().bound);
+      if (root(old.agents.front()) == at) bound += old.bound();
     for (CoverShare& share : share_out(free_costs_, group.cores, bound))
       shares.push_back(std::move(share));
   }

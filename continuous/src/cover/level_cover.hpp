@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -26,12 +27,20 @@ class LevelCover {
   void add(LevelCore core);
   [[nodiscard]] std::size_t num_cores() const noexcept { return cores_.size(); }
 
-  /// Finds costs of least sum. False if `limits` ended that early: the costs are as before then.
-  [[nodiscard]] bool solve(LimitMonitor& limits);
+  /// Elementary steps of a call of solve at most, for each group of agents. Measured on the rows of
+  /// docs/performance.md: the longest call took a twentieth.
+  static constexpr std::int64_t kMostEffort = 4'000'000'000;
+
+  /// Finds costs of least sum, or some that hit all cores, as cheap as were found with
+  /// `most_effort` steps; the next call goes on from there. False if `limits` ended that early: the
+  /// costs are as before then.
+  [[nodiscard]] bool solve(LimitMonitor& limits, std::int64_t most_effort = kMostEffort);
   /// Of the last call of solve that returned true; at first the free costs.
   [[nodiscard]] const IdVector<AgentId, Cost>& costs() const noexcept { return costs_; }
-  /// Their sum: no costs that hit all cores of that call have a smaller one.
+  /// No costs that hit all cores of that call have a smaller sum; their own, if they are exact.
   [[nodiscard]] Cost total() const noexcept { return total_; }
+  /// Whether the costs are of least sum.
+  [[nodiscard]] bool is_exact() const noexcept { return is_exact_; }
   /// `costs`, raised and lowered until they hit all cores and none can be lowered alone. Requires
   /// costs of at least the free costs.
   [[nodiscard]] IdVector<AgentId, Cost> completed(IdVector<AgentId, Cost> costs) const;
@@ -55,11 +64,15 @@ class LevelCover {
     std::vector<CoverLeaf> open;         // a heap, the least bound first
     IdVector<AgentId, Cost> best;
     Cost cost = 0;  // what its agents pay above their free costs in `best`
+    /// What they pay at least.
+    [[nodiscard]] Cost bound() const {
+      return open.empty() ? cost : std::min(cost, open.front().bound);
+    }
   };
 
   [[nodiscard]] AgentId root(AgentId i) const;
   [[nodiscard]] std::vector<Group> make_groups() const;
-  [[nodiscard]] bool solve(Group& group, LimitMonitor& limits);
+  [[nodiscard]] bool solve(Group& group, LimitMonitor& limits, std::int64_t most_effort);
   /// Solves the leaf's linear program. False: the leaf contains no solution.
   [[nodiscard]] bool relax(Group& group, CoverLeaf& leaf);
   [[nodiscard]] Cost price(const Group& group, const IdVector<AgentId, Cost>& costs) const;
@@ -75,6 +88,7 @@ class LevelCover {
   std::vector<Group> groups_;  // of the last solve, for their trees
   IdVector<AgentId, Cost> costs_;
   Cost total_ = 0;
+  bool is_exact_ = true;
   LeafProgram program_;
   std::int64_t num_programs_ = 0;
 };

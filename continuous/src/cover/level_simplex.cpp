@@ -36,6 +36,7 @@ void LevelSimplex::set_levels(const std::vector<Level>& levels) {
     weights_[k] = 1.0 / (2 + lines_[k].end - lines_[k].begin);
   is_candidate_.assign(lines_.size(), 0);
   const std::size_t num_rows = levels_.size() + lines_.size();
+  capacity_.assign(num_rows, 0);
   room_.assign(num_rows, 0);
   change_.assign(num_rows, 0);
   position_.assign(num_rows, kNone);
@@ -58,7 +59,6 @@ std::uint32_t LevelSimplex::add_column(std::span<const std::uint32_t> rows, int 
 }
 
 void LevelSimplex::begin(const IdVector<AgentId, Cost>& low, const IdVector<AgentId, Cost>& high) {
-  Cost largest = 1;
   for (Line& line : lines_) {
     line.low = low[line.agent];
     line.is_raised = line.low > free_costs_[line.agent];
@@ -68,14 +68,24 @@ void LevelSimplex::begin(const IdVector<AgentId, Cost>& low, const IdVector<Agen
     while (line.last < line.end && levels_[line.last].cost < high[line.agent]) ++line.last;
     std::fill(parts_.begin() + line.last, parts_.begin() + line.end, 0.0);
     std::fill(change_.begin() + line.begin, change_.begin() + line.end, 0.0);
-    if (line.last > line.first)
-      largest = std::max(largest, levels_[line.last - 1].cost - free_costs_[line.agent]);
-    else if (line.is_raised)
-      largest = std::max(largest, line.low - free_costs_[line.agent]);
   }
-  scale_ = static_cast<double>(largest);
   for (const std::uint32_t c : candidates_) is_candidate_[c] = 0;
   candidates_.clear();
+  rooms_.clear();
+  for (std::uint32_t r = 0; r < capacity_.size(); ++r) rooms_.push_back(cost_of(r));
+  set_rooms(rooms_);
+}
+
+void LevelSimplex::set_rooms(std::span<const Cost> rooms) {
+  Cost largest = 1;
+  for (std::uint32_t k = 0; k < num_lows(); ++k) {
+    const Line& line = lines_[k];
+    for (std::uint32_t r = line.first; r < line.last; ++r) largest = std::max(largest, rooms[r]);
+    if (line.is_raised) largest = std::max(largest, rooms[low_row(k)]);
+  }
+  scale_ = static_cast<double>(largest);
+  for (std::uint32_t r = 0; r < capacity_.size(); ++r)
+    capacity_[r] = static_cast<double>(rooms[r]) / scale_;
   clear_basis();
 }
 
@@ -87,11 +97,10 @@ void LevelSimplex::clear_basis() {
   find_values();
 }
 
-double LevelSimplex::capacity(std::uint32_t row) const {
+Cost LevelSimplex::cost_of(std::uint32_t row) const {
   const bool is_level = row < levels_.size();
   const Line& line = lines_[is_level ? line_of_[row] : row - levels_.size()];
-  const Cost cost = (is_level ? levels_[row].cost : line.low) - free_costs_[line.agent];
-  return static_cast<double>(cost) / scale_;
+  return (is_level ? levels_[row].cost : line.low) - free_costs_[line.agent];
 }
 
 bool LevelSimplex::is_gone(std::uint32_t row) const {
@@ -156,7 +165,7 @@ void LevelSimplex::gather() {
 }
 
 double LevelSimplex::right(std::uint32_t row) const {
-  return capacity(row) + kDifference * static_cast<double>(row + 1);
+  return capacity_[row] + kDifference * static_cast<double>(row + 1);
 }
 
 /// Of the basis, from its kernel.
@@ -343,12 +352,19 @@ std::vector<double> LevelSimplex::multipliers() {
     for (std::size_t i = 0; i < result.size(); ++i) scatter(basis_.columns[i], result[i]);
     gather();
     right_.clear();
-    for (const std::uint32_t r : basis_.rows) right_.push_back(capacity(r) - change_[r]);
+    for (const std::uint32_t r : basis_.rows) right_.push_back(capacity_[r] - change_[r]);
     kernel_.times(right_, more);
     for (std::size_t i = 0; i < result.size(); ++i) result[i] += more[i];
   }
   for (double& value : result) value *= scale_;
   return result;
+}
+
+double LevelSimplex::value(const std::vector<double>& multipliers) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < multipliers.size(); ++i)
+    sum += multipliers[i] * worth(basis_.columns[i]);
+  return sum;
 }
 
 }  // namespace quadrille::continuous

@@ -55,6 +55,9 @@ class LevelSimplex {
 
   /// Another leaf, all multipliers 0. Each column has a level in it.
   void begin(const IdVector<AgentId, Cost>& low, const IdVector<AgentId, Cost>& high);
+  /// The same leaf, where the multipliers of a row may be no more than this, by row: what is left
+  /// when some of them are counted apart. None is negative. All multipliers are 0.
+  void set_rooms(std::span<const Cost> rooms);
   /// A solution near the one with these multipliers, which belong to the columns of the basis; its
   /// kernel, if that is known, has these columns and rows. What is `kGone` is there no more. Where
   /// the multipliers exceed a row, all are 0 again.
@@ -72,6 +75,10 @@ class LevelSimplex {
   [[nodiscard]] std::uint32_t low_row(std::size_t line) const {
     return static_cast<std::uint32_t>(levels_.size() + line);
   }
+  /// Levels, and low ends after them.
+  [[nodiscard]] std::size_t num_rows() const noexcept { return levels_.size() + lines_.size(); }
+  /// Above the agent's free cost: what the multipliers of a row may take in the linear program.
+  [[nodiscard]] Cost cost_of(std::uint32_t row) const;
   [[nodiscard]] std::uint32_t line_of(std::uint32_t row) const { return line_of_[row]; }
   /// Their number, if the agent has no level.
   [[nodiscard]] std::size_t line_of(AgentId agent) const {
@@ -90,6 +97,8 @@ class LevelSimplex {
   [[nodiscard]] const Basis& basis() const noexcept { return basis_; }
   /// By basic column its multiplier.
   [[nodiscard]] std::vector<double> multipliers();
+  /// What these are together, each times its worth.
+  [[nodiscard]] double value(const std::vector<double>& multipliers) const;
   /// By level how much of the agent the fractional cover has there or above.
   [[nodiscard]] const std::vector<double>& parts() const noexcept { return parts_; }
   /// What they are together for a column more than its worth.
@@ -113,7 +122,6 @@ class LevelSimplex {
     std::size_t at = kNone;  // a row, or the position of a column
     double step = std::numeric_limits<double>::max();
   };
-  [[nodiscard]] double capacity(std::uint32_t row) const;
   [[nodiscard]] bool is_gone(std::uint32_t row) const;
   [[nodiscard]] double worth(std::uint32_t column) const {
     return column < num_lows() ? 1 : least_[column - num_lows()];
@@ -152,7 +160,8 @@ class LevelSimplex {
   std::vector<double> weights_;
   double scale_ = 1;
   // By row, levels first, then low ends:
-  std::vector<double> room_;               // that the multipliers leave
+  std::vector<double> capacity_;           // what the multipliers may take
+  std::vector<double> room_;               // that they leave
   std::vector<double> change_;             // what a step takes of it
   std::vector<std::uint32_t> position_;    // in the basis, where it is tight
   std::vector<double> parts_, low_parts_;  // by level; by line
@@ -164,6 +173,7 @@ class LevelSimplex {
   std::vector<char> is_candidate_;  // by column
   std::vector<Kernel::Entry> entries_;
   std::vector<double> row_image_, right_;
+  std::vector<Cost> rooms_;
   std::vector<double> sums_, low_sums_;  // by level; by line
   std::int64_t effort_ = 0;
 };

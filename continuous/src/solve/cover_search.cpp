@@ -108,8 +108,12 @@ class CoverSearch {
       if (verdict == Verdict::unknown) return report_;
       if (verdict == Verdict::sat) {
         report_.plan = problem_.plan();
-        report_.end = End::found;
-        return report_;
+        if (cover_.is_exact()) {
+          report_.end = End::found;
+          return report_;
+        }
+        if (!solve_cover()) return report_;  // goes on with it
+        continue;
       }
       if (!learn_cores() && end_without_plans()) return report_;
       if (!solve_cover()) return report_;

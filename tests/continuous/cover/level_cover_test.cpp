@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "continuous/cover/level_cores.hpp"
@@ -104,6 +105,92 @@ TEST(LevelCover, IsOptimalWhereHalvesAreCheaper) {
                                               std::numeric_limits<Cost>::max()));
     }
   }
+}
+
+/// Cores of a dozen agents. Levels are a few multiples of `step`, some with a part of it, and often
+/// a tick apart: that of a plan and one more, as cores have them.
+std::vector<LevelCore> drawn_cores(unsigned seed, std::size_t num_agents, Cost step) {
+  std::mt19937 random(seed);
+  std::vector<LevelCore> cores;
+  while (cores.size() < 40) {
+    LevelCore core;
+    for (const AgentId i : IdRange<AgentId>(num_agents)) {
+      Cost cost = (1 + static_cast<Cost>(random()) % 5) * step + static_cast<Cost>(random()) % 3;
+      if (random() % 3 == 0) cost += static_cast<Cost>(random()) % 1000 * (step / 1000);
+      if (random() % num_agents < 3) core.push_back({i, cost});
+    }
+    if (core.size() >= 2) cores.push_back(core);
+  }
+  return cores;
+}
+
+// Doubles know 10^12 ticks to a ten-thousandth of a tick at best, linear programs to some hundred
+// ticks; bounds have to be exact all the same, or leaves are split for ever that should be closed.
+TEST(LevelCover, TakesAsFewProgramsWhereTicksAreFine) {
+  constexpr std::int64_t many_steps = 20'000'000;  // of each call; all calls take about 40,000
+  LimitMonitor limits({});
+  std::int64_t coarse_programs = 0, fine_programs = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::size_t num_agents = 10 + seed % 4;
+    for (const Cost step : {Cost{1'000'000}, Cost{700'000'000'001}}) {
+      LevelCover cover(IdVector<AgentId, Cost>(num_agents, 0));
+      std::vector<LevelCore> cores;
+      for (const LevelCore& core : drawn_cores(seed, num_agents, step)) {
+        cores.push_back(core);
+        cover.add(core);
+        ASSERT_TRUE(cover.solve(limits, many_steps));
+        ASSERT_TRUE(cover.is_exact());
+        for (const LevelCore& c : cores) ASSERT_TRUE(hit(cover.costs(), c));
+        ASSERT_EQ(cover.total(),
+                  std::accumulate(cover.costs().begin(), cover.costs().end(), Cost{0}));
+      }
+      if (seed % 8 == 0) {
+        ASSERT_EQ(cover.total(), least_by_cores(std::vector<Cost>(num_agents, 0), cores,
+                                                std::numeric_limits<Cost>::max()));
+      }
+      (step == 1'000'000 ? coarse_programs : fine_programs) += cover.num_programs();
+    }
+  }
+  // Measured: 1.1 times as many.
+  EXPECT_LE(2 * fine_programs, 3 * coarse_programs);
+}
+
+// With however few steps at a time: bounds on both sides, and at last the least sum.
+TEST(LevelCover, GoesOnWhereItGaveUp) {
+  LimitMonitor limits({});
+  int num_open = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::size_t num_agents = 10 + seed % 4;
+    LevelCover cover(IdVector<AgentId, Cost>(num_agents, 3));
+    std::vector<LevelCore> cores;
+    for (const LevelCore& core : drawn_cores(seed, num_agents, 5)) {
+      cores.push_back(core);
+      cover.add(core);
+    }
+    const Cost least =
+        least_by_cores(std::vector<Cost>(num_agents, 3), cores, std::numeric_limits<Cost>::max());
+    Cost last = 0;
+    for (int calls = 0; calls < 10'000; ++calls) {
+      ASSERT_TRUE(cover.solve(limits, 1));
+      Cost sum = 0;
+      for (const Cost cost : cover.costs()) sum += cost;
+      for (const LevelCore& core : cores) ASSERT_TRUE(hit(cover.costs().items(), core));
+      ASSERT_LE(cover.total(), least);
+      ASSERT_GE(cover.total(), last);
+      ASSERT_GE(sum, least);
+      ASSERT_EQ(cover.is_exact(), cover.total() == sum);
+      Cost proven = 0;
+      for (const CoverShare& share : cover.shares()) proven += share.amount;
+      ASSERT_GE(proven + static_cast<Cost>(3 * num_agents), cover.total());
+      if (cover.is_exact()) break;
+      last = cover.total();
+      ++num_open;
+    }
+    ASSERT_EQ(cover.total(), least);
+  }
+  EXPECT_GT(num_open, 100);
 }
 
 TEST(LevelCover, NeedsBranching) {
