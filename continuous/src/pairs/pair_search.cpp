@@ -53,7 +53,7 @@ PairSearch::PairSearch(Scene& scene)
     : scene_(scene),
       bans_{BanTable(scene.instance().roadmap()), BanTable(scene.instance().roadmap())} {}
 
-PairSearch::Box PairSearch::box(VertexId v) const {
+Box PairSearch::box(VertexId v) const {
   const Point& p = scene_.instance().roadmap().position(v);
   return {p.x, p.x, p.y, p.y};
 }

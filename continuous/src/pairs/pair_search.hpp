@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "pairs/box_grid.hpp"
 #include "paths/scene.hpp"
 
 namespace quadrille::continuous {
@@ -137,6 +138,7 @@ class PairSearch {
                      Side& side);
   [[nodiscard]] Ticks leave_by(const Side& side, VertexId v) const;
   void find_contacts(Side& x, Side& y);
+  void fill_grids(const Side& y, Length reach);
   void make_elements(Side& side);
   /// Of the intervals.
   [[nodiscard]] Ticks width_of(const Side& side) const;
@@ -171,20 +173,15 @@ class PairSearch {
                                     const Element& b);
   /// What `element` needs to end at `tick` or later.
   [[nodiscard]] static Ticks raise_for_end(const Element& element, Ticks tick);
-  /// The box around a move or a stay, seen from above: what is far apart there is so in space.
-  struct Box {
-    Length left, right, bottom, top;
-  };
-  [[nodiscard]] static bool are_far(const Box& a, const Box& b, Length reach) {
-    return a.left - b.right >= reach || b.left - a.right >= reach || a.bottom - b.top >= reach ||
-           b.bottom - a.top >= reach;
-  }
   [[nodiscard]] Box box(VertexId v) const;
   [[nodiscard]] Contacts::Window window(ClassId a, EdgeId e, ClassId b, VertexId v, Length reach);
 
   Scene& scene_;
   BanTable bans_[2];
   std::vector<Box> boxes_;  // by edge; none before the first search
+  BoxGrid edge_grid_;       // of one side's edges
+  BoxGrid place_grid_;      // of the vertices that it reaches
+  std::vector<Box> listed_;
   struct Prepared {
     Party i, j;
     Ticks max_raise = 0;
