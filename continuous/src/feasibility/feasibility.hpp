@@ -30,4 +30,12 @@ struct Feasibility {
 [[nodiscard]] Feasibility check_feasibility(Scene& scene,
                                             std::int64_t work = kUsualFeasibilityWork);
 
+/// The same of some agents, at most kMaxJointAgents, as if there were no others, by all rules.
+struct GroupFeasibility {
+  std::vector<AgentId> blocked;
+  std::optional<std::vector<Path>> paths;  ///< By position among the agents.
+};
+[[nodiscard]] GroupFeasibility check_group(Scene& scene, const std::vector<AgentId>& agents,
+                                           std::int64_t work);
+
 }  // namespace quadrille::continuous

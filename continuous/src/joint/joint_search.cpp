@@ -14,24 +14,28 @@ namespace {
 enum class Aim { any_plan, sum_of_costs, makespan };
 
 /// Best-first search over pairs of places and zones. The variables of a zone are now, one per
-/// agent, and, if costs matter, tick 0. That of an agent is when the move began that it is on; for
-/// the sum of costs, of an agent that stands at its goal, when it arrived there, or later.
+/// agent, and, if costs or the clock matter, tick 0. That of an agent is when the move began that
+/// it is on; for the sum of costs, of an agent that is at its goal, when it arrived there, or
+/// later.
 class JointSearch {
  public:
-  JointSearch(Scene& scene, Aim aim, const std::vector<AgentId>& agents, Cost below,
-              std::int64_t& work)
+  JointSearch(Scene& scene, Aim aim, const std::vector<AgentId>& agents, JointRules rules,
+              Cost below, std::int64_t& work)
       : limits_(scene.limits()),
         aim_(aim),
         below_(below),
         work_(work),
         instance_(scene.instance()),
-        space_(scene, agents),
+        space_(scene, agents, rules),
         zero_(kFirstAgent + agents.size()),
-        num_variables_(aim == Aim::any_plan ? zero_ : zero_ + 1),
+        num_variables_(aim == Aim::any_plan && !space_.has_clock() ? zero_ : zero_ + 1),
         work_per_step_(static_cast<std::int64_t>(num_variables_ * num_variables_)),
         known_(kFirstSize, kNone),
-        next_{space_.starts(), Zone(num_variables_), kNone, kNone, {}} {
-    for (const AgentId i : agents) tasks_.push_back(scene.task(i));
+        next_{{}, Zone(num_variables_), kNone, kNone, {}} {
+    for (const AgentId i : agents) {
+      tasks_.push_back(scene.task(i));
+      free_costs_.push_back(rules == JointRules::all ? scene.free_cost(i) : 0);
+    }
   }
 
   JointReport run() {
@@ -85,14 +89,19 @@ class JointSearch {
   [[nodiscard]] static std::size_t variable(std::size_t k) { return kFirstAgent + k; }
 
   void add_start() {
+    const auto places = space_.starts();
+    if (!places) return;
+    next_.places = *places;
     for (std::size_t k = 0; k < space_.size(); ++k)
-      if (distance(k, space_.vertex(next_.places, k)) >= kForever) return;
-    if (aim_ != Aim::any_plan) {
+      if (!space_.has_left(*places, k) && distance(k, space_.vertex(*places, k)) >= kForever)
+        return;
+    if (num_variables_ > zero_) {
       // Now is tick 0 or later.
       static_cast<void>(next_.zone.restrict(zero_, kNow, 0));
+      if (!wait_until_latest(next_)) return;
       if (aim_ == Aim::sum_of_costs)
         for (std::size_t k = 0; k < space_.size(); ++k)
-          if (space_.stands_at_goal(next_.places, k))
+          if (space_.is_at_goal(next_.places, k))
             static_cast<void>(next_.zone.restrict(zero_, variable(k), 0));
     }
     add_next();
@@ -108,7 +117,7 @@ class JointSearch {
         continue;
       next_.zone = nodes_[parent].zone;
       space_.list_limits(places, step, ages_);
-      if (!restrict_ages(next_.zone)) continue;
+      if (!restrict_ages(next_.zone) || !restrict_now(next_.zone, space_.when(step))) continue;
       next_.places = space_.after(places, step);
       next_.parent = parent;
       next_.step = step;
@@ -117,7 +126,7 @@ class JointSearch {
       space_.list_deadlines(next_.places, ages_);
       if (!restrict_ages(next_.zone)) continue;
       next_.zone.free_above(kNow);
-      if (!restrict_ages(next_.zone)) continue;
+      if (!restrict_ages(next_.zone) || !wait_until_latest(next_)) continue;
       add_next();
     }
   }
@@ -129,11 +138,20 @@ class JointSearch {
     });
   }
 
+  [[nodiscard]] bool restrict_now(Zone& zone, const ClockSpan& span) const {
+    if (!space_.has_clock()) return true;
+    return zone.restrict(zero_, kNow, -span.from) &&
+           (span.until >= kForever || zone.restrict(kNow, zero_, span.until));
+  }
+  [[nodiscard]] bool wait_until_latest(Node& node) const {
+    return restrict_now(node.zone, {0, space_.latest(node.places)});
+  }
+
   /// After an event.
   void set_variables(Node& next) const {
     const std::size_t k = next.step.agent;
     const bool is_done =
-        aim_ == Aim::sum_of_costs && !next.step.begins && space_.stands_at_goal(next.places, k);
+        aim_ == Aim::sum_of_costs && !next.step.begins && space_.is_at_goal(next.places, k);
     if (next.step.begins || is_done)
       next.zone.assign(variable(k), kNow);
     else
@@ -171,8 +189,10 @@ class JointSearch {
 
   [[nodiscard]] static std::size_t hash(const JointPlaces& places) {
     std::uint64_t hash = places.late;
-    for (const std::uint32_t place : places.place)
+    for (std::size_t k = 0; k < kMaxJointAgents; ++k) {
+      const std::uint64_t place = std::uint64_t{places.stay[k]} << 32 | places.place[k];
       hash = (hash ^ place ^ hash >> 29) * 0x9E3779B97F4A7C15ull;
+    }
     return static_cast<std::size_t>(hash ^ hash >> 32);
   }
 
@@ -208,14 +228,15 @@ class JointSearch {
         const EdgeId e = space_.edge(node.places, k);
         to_go = space_.duration(k, e) + distance(k, instance_.roadmap().edge(e).to);
         since = variable(k);
-      } else if (!space_.stands_at_goal(node.places, k)) {
+      } else if (!space_.is_at_goal(node.places, k)) {
         to_go = distance(k, space_.vertex(node.places, k));
       } else if (aim_ == Aim::sum_of_costs) {
         since = variable(k);
       }
       left += as_cost(to_go);
       if (aim_ == Aim::any_plan) continue;
-      const Cost cost = as_cost(least(node.zone, since) + to_go);
+      const Cost cost = std::max(as_cost(least(node.zone, since) + to_go), free_costs_[k]);
+      if (cost >= kAnyCost) return {kAnyCost, left};
       sum += cost;
       largest = std::max(largest, cost);
     }
@@ -239,6 +260,7 @@ class JointSearch {
   const std::size_t zero_, num_variables_;
   const std::int64_t work_per_step_;
   std::vector<PathTask> tasks_;
+  std::vector<Cost> free_costs_;  // what they cost alone, as far as the rules tell
   std::deque<Node> nodes_;
   std::vector<Entry> heap_;
   std::vector<std::uint32_t> known_;
@@ -261,16 +283,16 @@ JointScope joint_scope(const Instance& instance) {
   return is_relaxed ? JointScope::relaxed : JointScope::exact;
 }
 
-JointReport find_joint_plan(Scene& scene, const std::vector<AgentId>& agents, std::int64_t& work) {
-  return JointSearch(scene, Aim::any_plan, agents, kAnyCost, work).run();
+JointReport find_joint_plan(Scene& scene, const std::vector<AgentId>& agents, JointRules rules,
+                            std::int64_t& work) {
+  return JointSearch(scene, Aim::any_plan, agents, rules, kAnyCost, work).run();
 }
 
-JointReport find_cheapest_joint_plan(Scene& scene, Objective objective, std::optional<Cost> below,
+JointReport find_cheapest_joint_plan(Scene& scene, const std::vector<AgentId>& agents,
+                                     Objective objective, std::optional<Cost> below,
                                      std::int64_t& work) {
-  std::vector<AgentId> agents;
-  for (const AgentId i : scene.instance().agent_ids()) agents.push_back(i);
   const Aim aim = objective == Objective::makespan ? Aim::makespan : Aim::sum_of_costs;
-  return JointSearch(scene, aim, agents, below.value_or(kAnyCost), work).run();
+  return JointSearch(scene, aim, agents, JointRules::all, below.value_or(kAnyCost), work).run();
 }
 
 }  // namespace quadrille::continuous

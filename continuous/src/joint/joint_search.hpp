@@ -10,8 +10,7 @@
 
 namespace quadrille::continuous {
 
-/// What a joint search of an instance is worth. It knows of edges that are closed to some, but not
-/// of releases, deadlines, moving obstacles and moves in progress.
+/// What a timeless joint search of an instance is worth, see JointRules.
 enum class JointScope {
   exact,    ///< It knows all rules.
   relaxed,  ///< Without the others: what it cannot do cannot be done, but its plans may break them.
@@ -33,14 +32,16 @@ struct JointReport {
 
 /// Whether some agents, at most kMaxJointAgents, can reach their goals if there are no others; a
 /// plan if they can, which may cost a lot. Exact: moments are not sampled but kept in zones, so
-/// that neither the resolution nor the durations matter. `work` counts down, whatever the clock
-/// says, by some 10^8 in a second; the search ends when it is below 0.
+/// that neither the resolution nor the durations matter. Of all rules it makes a table that is as
+/// large as the roadmap, for each agent. `work` counts down, whatever the clock says, by some 10^8
+/// in a second; the search ends when it is below 0.
 [[nodiscard]] JointReport find_joint_plan(Scene& scene, const std::vector<AgentId>& agents,
-                                          std::int64_t& work);
+                                          JointRules rules, std::int64_t& work);
 
-/// A plan of least cost for all agents, at most kMaxJointAgents. `below`: only plans that cost less
-/// are looked for.
-[[nodiscard]] JointReport find_cheapest_joint_plan(Scene& scene, Objective objective,
-                                                   std::optional<Cost> below, std::int64_t& work);
+/// A plan of least cost for the agents if there are no others, by all rules. `below`: only plans
+/// that cost less are looked for.
+[[nodiscard]] JointReport find_cheapest_joint_plan(Scene& scene, const std::vector<AgentId>& agents,
+                                                   Objective objective, std::optional<Cost> below,
+                                                   std::int64_t& work);
 
 }  // namespace quadrille::continuous

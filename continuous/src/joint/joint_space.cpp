@@ -7,35 +7,70 @@
 
 namespace quadrille::continuous {
 
-JointSpace::JointSpace(Scene& scene, std::vector<AgentId> agents)
+JointSpace::JointSpace(Scene& scene, std::vector<AgentId> agents, JointRules rules)
     : instance_(scene.instance()),
       contacts_(scene.contacts()),
       agents_(std::move(agents)),
-      num_edges_(instance_.roadmap().num_edges()) {
+      num_edges_(instance_.roadmap().num_edges()),
+      left_(num_edges_ + instance_.roadmap().num_vertices()),
+      clock_(rules == JointRules::all ? JointClock(scene, agents_) : JointClock()) {
   QUADRILLE_REQUIRE(agents_.size() <= kMaxJointAgents, "a joint search is for few agents");
 }
 
-bool JointSpace::stands_at_goal(const JointPlaces& places, std::size_t k) const {
-  return places.place[k] == num_edges_ + instance_.agent(agents_[k]).goal.index();
+bool JointSpace::is_at_goal(const JointPlaces& places, std::size_t k) const {
+  if (has_left(places, k)) return true;
+  const VertexId goal = instance_.agent(agents_[k]).goal;
+  return places.place[k] == num_edges_ + goal.index() &&
+         clock_.stays(k, goal)[places.stay[k]].until >= kForever;
 }
 
-JointPlaces JointSpace::starts() const {
+std::optional<JointPlaces> JointSpace::starts() const {
   JointPlaces places;
-  for (std::size_t k = 0; k < size(); ++k)
+  for (std::size_t k = 0; k < size(); ++k) {
+    const Agent& agent = instance_.agent(agents_[k]);
+    const bool is_gone = agent.leaves && agent.start == agent.goal;
     places.place[k] =
-        static_cast<std::uint32_t>(num_edges_ + instance_.agent(agents_[k]).start.index());
+        static_cast<std::uint32_t>(is_gone ? left_ : num_edges_ + agent.start.index());
+    if (is_gone) continue;
+    const auto stays = clock_.stays(k, agent.start);
+    if (stays.empty() || stays.front().from > 0) return std::nullopt;
+  }
   return places;
 }
 
 bool JointSpace::are_goals(const JointPlaces& places) const {
   for (std::size_t k = 0; k < size(); ++k)
-    if (!stands_at_goal(places, k)) return false;
+    if (!is_at_goal(places, k)) return false;
   return true;
+}
+
+bool JointSpace::leaves_after(const JointStep& step) const {
+  const Agent& agent = instance_.agent(agents_[step.agent]);
+  return !step.begins && agent.leaves &&
+         instance_.roadmap().edge(EdgeId(step.edge)).to == agent.goal;
+}
+
+ClockSpan JointSpace::when(const JointStep& step) const {
+  const EdgeId e(step.edge);
+  if (step.begins) return clock_.starts(step.agent, e)[step.span];
+  const VertexId to = instance_.roadmap().edge(e).to;
+  ClockSpan span = leaves_after(step) ? ClockSpan() : clock_.stays(step.agent, to)[step.span];
+  span.until = std::min(span.until, clock_.latest(step.agent, to));
+  return span;
+}
+
+Ticks JointSpace::latest(const JointPlaces& places) const {
+  Ticks latest = kForever;
+  for (std::size_t k = 0; k < size(); ++k)
+    if (stands(places, k))
+      latest = std::min(latest, clock_.stays(k, vertex(places, k))[places.stay[k]].until);
+  return latest;
 }
 
 std::optional<TickInterval> JointSpace::bad_ages(const JointPlaces& places, const JointStep& step,
                                                  std::size_t mover) {
   const ClassId a = class_of(mover), b = class_of(step.agent);
+  if (leaves_after(step)) return std::nullopt;  // no stay begins
   const EdgeId e = edge(places, mover), f(step.edge);
   if (step.begins) {
     const auto& offsets = contacts_.offsets(a, e, b, f);
@@ -57,25 +92,30 @@ void JointSpace::list_steps(const JointPlaces& places, std::vector<JointStep>& s
   steps.clear();
   for (std::uint32_t k = 0; k < size(); ++k) {
     if (is_moving(places, k)) {
-      add_variants(places, {k, places.place[k], false, 0}, steps);
+      const EdgeId e = edge(places, k);
+      const JointStep step{k, e.value(), false, 0, 0};
+      const VertexId to = instance_.roadmap().edge(e).to;
+      add_variants(places, step, leaves_after(step) ? 1 : clock_.stays(k, to).size(), steps);
       continue;
     }
+    if (has_left(places, k)) continue;
     for (const EdgeId e : instance_.out_edges(class_of(k), vertex(places, k))) {
       bool can_begin = true;
       for (std::size_t j = 0; j < size() && can_begin; ++j) {
-        if (j == k || is_moving(places, j)) continue;
+        if (j == k || !stands(places, j)) continue;
         const auto& window = contacts_.window(class_of(k), e, class_of(j), vertex(places, j));
         can_begin = !window || window->begin >= 0;
       }
-      if (can_begin) add_variants(places, {k, e.value(), true, 0}, steps);
+      if (can_begin)
+        add_variants(places, {k, e.value(), true, 0, 0}, clock_.starts(k, e).size(), steps);
     }
   }
 }
 
-void JointSpace::add_variants(const JointPlaces& places, JointStep step,
+void JointSpace::add_variants(const JointPlaces& places, JointStep step, std::size_t num_spans,
                               std::vector<JointStep>& steps) {
   const std::size_t first = steps.size();
-  steps.push_back(step);
+  for (; step.span < num_spans; ++step.span) steps.push_back(step);
   for (std::size_t j = 0; j < size(); ++j) {
     if (j == step.agent || !is_moving(places, j)) continue;
     const auto bad = bad_ages(places, step, j);
@@ -120,10 +160,16 @@ JointPlaces JointSpace::after(const JointPlaces& places, const JointStep& step) 
   JointPlaces next = places;
   // Nothing that was said about the agent is true any longer.
   for (std::size_t j = 0; j < size(); ++j) next.late &= ~(bit(step.agent, j) | bit(j, step.agent));
+  next.stay[step.agent] = 0;
   if (step.begins) {
     next.place[step.agent] = step.edge;
     return next;
   }
+  if (leaves_after(step)) {
+    next.place[step.agent] = static_cast<std::uint32_t>(left_);
+    return next;
+  }
+  next.stay[step.agent] = step.span;
   next.place[step.agent] = static_cast<std::uint32_t>(
       num_edges_ + instance_.roadmap().edge(EdgeId(step.edge)).to.index());
   for (std::size_t j = 0; j < size(); ++j)
@@ -137,7 +183,7 @@ void JointSpace::list_deadlines(const JointPlaces& places, std::vector<AgeLimit>
     if (!is_moving(places, j)) continue;
     Ticks most = duration(j, edge(places, j));
     for (std::size_t k = 0; k < size(); ++k)
-      if (k != j && !is_moving(places, k)) most = std::min(most, latest_leave(places, j, k));
+      if (k != j && stands(places, k)) most = std::min(most, latest_leave(places, j, k));
     limits.push_back({j, false, most});
   }
 }

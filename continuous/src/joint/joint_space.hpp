@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "joint/joint_clock.hpp"
 #include "paths/scene.hpp"
 #include "paths/timed_path.hpp"
 #include "paths/unsafe_starts.hpp"
@@ -15,10 +16,19 @@ namespace quadrille::continuous {
 /// Of a joint search.
 inline constexpr std::size_t kMaxJointAgents = 8;
 
+/// Which rules a joint search knows.
+enum class JointRules {
+  timeless,  ///< None of releases, deadlines, moving obstacles and moves in progress.
+  all,
+};
+
 /// What some agents do at a moment, without the times.
 struct JointPlaces {
-  /// By position among the agents: an edge, or a vertex after all edges.
+  /// By position among the agents: an edge, or a vertex after all edges, or, beyond these, that it
+  /// has left.
   std::array<std::uint32_t, kMaxJointAgents> place{};
+  /// Of those that stand, in which of the stays that the clock allows there.
+  std::array<std::uint32_t, kMaxJointAgents> stay{};
   /// A set of pairs (mover, stander): the stander's place is in contact with the mover's move, and
   /// the stander arrived there during this move, when the contact was over. Any other stander that
   /// is in contact with a move has to leave before the contact begins.
@@ -34,6 +44,9 @@ struct JointStep {
   /// For each agent that is moving: whether its move is so old that it is no longer in the way, or
   /// so young that it is not yet (if it can be in the way at all). One bit per agent.
   std::uint32_t old_moves = 0;
+  /// In which of the clock's spans it happens: of the starts of the edge, or of the stays at its
+  /// end.
+  std::uint32_t span = 0;
 };
 
 /// A limit on how old the move of `agent` is: on the difference between now and its begin.
@@ -50,7 +63,7 @@ struct AgeLimit {
 class JointSpace {
  public:
   /// At most kMaxJointAgents agents. The scene outlives this.
-  JointSpace(Scene& scene, std::vector<AgentId> agents);
+  JointSpace(Scene& scene, std::vector<AgentId> agents, JointRules rules);
 
   [[nodiscard]] std::size_t size() const noexcept { return agents_.size(); }
   [[nodiscard]] AgentId agent(std::size_t k) const { return agents_[k]; }
@@ -68,12 +81,24 @@ class JointSpace {
   [[nodiscard]] Ticks duration(std::size_t k, EdgeId e) const {
     return instance_.duration(class_of(k), e);
   }
-  [[nodiscard]] bool stands_at_goal(const JointPlaces& places, std::size_t k) const;
+  /// It has left at its goal.
+  [[nodiscard]] bool has_left(const JointPlaces& places, std::size_t k) const {
+    return places.place[k] == left_;
+  }
+  /// It may stay there for ever, or it has left.
+  [[nodiscard]] bool is_at_goal(const JointPlaces& places, std::size_t k) const;
+  /// Whether times count, and not only their differences.
+  [[nodiscard]] bool has_clock() const noexcept { return clock_.matters(); }
 
-  [[nodiscard]] JointPlaces starts() const;
+  /// Nullopt: an agent cannot even be at its start at tick 0.
+  [[nodiscard]] std::optional<JointPlaces> starts() const;
   [[nodiscard]] bool are_goals(const JointPlaces& places) const;
   /// The events that may come next, as far as one can say without times.
   void list_steps(const JointPlaces& places, std::vector<JointStep>& steps);
+  /// When the clock allows the event.
+  [[nodiscard]] ClockSpan when(const JointStep& step) const;
+  /// When something has to happen, by the clock, at the latest.
+  [[nodiscard]] Ticks latest(const JointPlaces& places) const;
   /// What the ages of moves have to be when the event happens.
   void list_limits(const JointPlaces& places, const JointStep& step, std::vector<AgeLimit>& limits);
   [[nodiscard]] JointPlaces after(const JointPlaces& places, const JointStep& step);
@@ -81,6 +106,11 @@ class JointSpace {
   void list_deadlines(const JointPlaces& places, std::vector<AgeLimit>& limits);
 
  private:
+  [[nodiscard]] bool stands(const JointPlaces& places, std::size_t k) const {
+    return places.place[k] >= num_edges_ && places.place[k] != left_;
+  }
+  /// Whether an agent that ends the move vanishes.
+  [[nodiscard]] bool leaves_after(const JointStep& step) const;
   [[nodiscard]] ClassId class_of(std::size_t k) const { return instance_.class_of(agents_[k]); }
   [[nodiscard]] static std::uint64_t bit(std::size_t mover, std::size_t stander) {
     return std::uint64_t{1} << (mover * kMaxJointAgents + stander);
@@ -92,12 +122,15 @@ class JointSpace {
   /// Until when agent k may stand where it does after the begin of another's move; kForever: for
   /// ever.
   [[nodiscard]] Ticks latest_leave(const JointPlaces& places, std::size_t mover, std::size_t k);
-  void add_variants(const JointPlaces& places, JointStep step, std::vector<JointStep>& steps);
+  /// The step in each of the first spans, and with each set of moves that can be old then.
+  void add_variants(const JointPlaces& places, JointStep step, std::size_t num_spans,
+                    std::vector<JointStep>& steps);
 
   const Instance& instance_;
   Contacts& contacts_;
   const std::vector<AgentId> agents_;
-  const std::size_t num_edges_;
+  const std::size_t num_edges_, left_;
+  const JointClock clock_;
 };
 
 }  // namespace quadrille::continuous

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "joint/joint_times.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::continuous {
@@ -16,7 +19,7 @@ std::vector<Gap> gaps_of(JointSpace& space, const std::vector<JointStep>& steps)
   std::vector<Gap> gaps;
   std::vector<std::size_t> begin(space.size(), 0);  // by agent, of its last move
   std::vector<AgeLimit> ages;
-  JointPlaces places = space.starts();
+  JointPlaces places = space.starts().value();
   for (std::size_t at = 0; at < steps.size(); ++at) {
     if (at > 0) gaps.push_back({at - 1, at, 0});
     space.list_limits(places, steps[at], ages);
@@ -28,8 +31,9 @@ std::vector<Gap> gaps_of(JointSpace& space, const std::vector<JointStep>& steps)
   return gaps;
 }
 
-std::vector<Ticks> least_times(const std::vector<Gap>& gaps, std::size_t size) {
-  std::vector<Ticks> times(size, 0);
+/// `times`: when the events happen at the earliest, by the clock.
+std::vector<Ticks> least_times(const std::vector<Gap>& gaps, std::vector<Ticks> times) {
+  const std::size_t size = times.size();
   bool has_changed = true;
   for (std::size_t round = 0; has_changed; ++round) {
     QUADRILLE_REQUIRE(round <= size, "the events have times");
@@ -47,7 +51,9 @@ std::vector<Ticks> least_times(const std::vector<Gap>& gaps, std::size_t size) {
 
 std::vector<Path> earliest_paths(const Instance& instance, JointSpace& space,
                                  const std::vector<JointStep>& steps) {
-  const std::vector<Ticks> times = least_times(gaps_of(space, steps), steps.size());
+  std::vector<Ticks> earliest;
+  for (const JointStep& step : steps) earliest.push_back(std::max(space.when(step).from, Ticks{0}));
+  const std::vector<Ticks> times = least_times(gaps_of(space, steps), std::move(earliest));
   std::vector<Path> paths;
   for (std::size_t k = 0; k < space.size(); ++k)
     paths.push_back({{instance.agent(space.agent(k)).start, 0, 0}});

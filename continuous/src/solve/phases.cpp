@@ -95,9 +95,10 @@ void Phases::run() {
   if (options_.explain) outcome_.attribution = free_charges(scene, options_.objective);
   if (learn(free_bound(scene, options_.objective), std::nullopt)) return;
   if (take_inheritance(scene)) return;
+  const auto groups = options_.joint_work > 0 ? small_groups(scene) : std::vector<JointGroup>();
+  const bool is_joint_first = !groups.empty();
+  if (is_joint_first && search_jointly(scene, groups)) return;
   const bool is_dpll = options_.system == System::dpll;
-  const bool is_joint_first = is_dpll && options_.joint_work > 0 && is_small(instance_);
-  if (is_joint_first && search_jointly(scene)) return;
   if (is_dpll && options_.route_work > 0 && instance_.num_agents() <= kMaxRouteAgents &&
       look_at_routes(scene))
     return;
@@ -156,9 +157,9 @@ bool Phases::take_inheritance(Scene& scene) {
   return false;
 }
 
-bool Phases::search_jointly(Scene& scene) {
+bool Phases::search_jointly(Scene& scene, const std::vector<JointGroup>& groups) {
   enter(Phase::joint_search);
-  SmallReport report = search_small_instance(scene, options_.objective, options_.joint_work);
+  SmallReport report = search_small_groups(scene, groups, options_.objective, options_.joint_work);
   return is_blocked(report.blocked) || learn(report.lower_bound, std::move(report.plan));
 }
 

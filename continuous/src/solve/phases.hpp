@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "joint/joint_groups.hpp"
 #include "paths/scene.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/core/progress.hpp"
@@ -39,7 +40,7 @@ class Phases {
   /// Each returns whether that is all.
   [[nodiscard]] bool are_kept_off(const Scene& scene);
   [[nodiscard]] bool take_inheritance(Scene& scene);
-  [[nodiscard]] bool search_jointly(Scene& scene);
+  [[nodiscard]] bool search_jointly(Scene& scene, const std::vector<JointGroup>& groups);
   [[nodiscard]] bool look_at_routes(Scene& scene);
   [[nodiscard]] bool find_some_plan(Scene& scene, bool was_joint);
   [[nodiscard]] bool is_blocked(const std::vector<AgentId>& blocked);

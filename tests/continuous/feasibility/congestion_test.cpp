@@ -191,8 +191,10 @@ TEST_P(CongestionSolved, ByTheJointSearchAlone) {
   const Instance instance = instance_of(entry);
   LimitMonitor limits({});
   Scene scene(instance, limits);
+  std::vector<AgentId> agents;
+  for (const AgentId i : instance.agent_ids()) agents.push_back(i);
   std::int64_t work = 100'000'000;
-  JointReport report = find_cheapest_joint_plan(scene, objective, {}, work);
+  JointReport report = find_cheapest_joint_plan(scene, agents, objective, {}, work);
   ASSERT_EQ(report.end, JointReport::End::found);
   const Plan plan{IdVector<AgentId, Path>(std::move(report.paths))};
   EXPECT_TRUE(verify(instance, plan).valid());

@@ -12,6 +12,7 @@
 #include "continuous/support/random_instance.hpp"
 #include "continuous/support/roads.hpp"
 #include "quadrille/continuous/solver.hpp"
+#include "quadrille/continuous/under_way.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "support/environment.hpp"
 
@@ -20,10 +21,42 @@ namespace {
 
 constexpr std::int64_t kWork = 1'000'000'000;
 
+/// Up to three stops, at vertices or near them.
+MovingObstacle tiny_obstacle(Draw& draw, const Roadmap& roadmap) {
+  MovingObstacle obstacle{Disc{draw.length(1, 2)}, {}, draw.chance(60)};
+  Ticks now = draw.chance(50) ? Ticks{0} : draw.ticks(1, 8);
+  for (std::int64_t k = draw.number(1, 3); k > 0; --k) {
+    const auto v = draw.number(0, static_cast<std::int64_t>(roadmap.num_vertices()) - 1);
+    Point at = roadmap.position(VertexId(static_cast<std::size_t>(v)));
+    if (draw.chance(40)) at.x += draw.length(-3, 3);
+    MovingObstacle::Stop stop{at, now, now};
+    if (draw.chance(50)) stop.depart += draw.ticks(1, 8);
+    now = stop.depart + draw.ticks(1, 9);
+    obstacle.path.push_back(stop);
+  }
+  if (obstacle.path.front().arrive == obstacle.path.back().depart) obstacle.leaves = false;
+  return obstacle;
+}
+
+/// An agent begins in the middle of a move.
+void put_under_way(Draw& draw, std::vector<Point>& points, std::vector<Edge>& edges, Agent& agent) {
+  if (edges.empty()) return;
+  const Edge edge =
+      edges[static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(edges.size()) - 1))];
+  agent.start = add_place_under_way(points, edges, edge.from, edge.to, draw.ticks(2, 6),
+                                    static_cast<double>(draw.number(0, 9)) / 10);
+  agent.under_way = true;
+  agent.release = 0;
+}
+
+enum class Clock { none, all };
+
 /// Two to four agents, `max_vertices` at most, mixed radii and speeds, one-way edges, moves of a
-/// few ticks, some of other durations than their lengths say.
-Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64_t max_agents) {
-  Draw draw(seed), more(seed + 77);
+/// few ticks, some of other durations than their lengths say; with releases, deadlines, agents that
+/// leave or are under way, and moving obstacles, if the clock is to matter.
+Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64_t max_agents,
+                       Clock clock = Clock::none) {
+  Draw draw(seed), more(seed + 77), last(seed + 777);
   while (true) {
     const bool has_groups = more.chance(25);
     const auto group = [&] { return GroupId(static_cast<std::size_t>(more.number(0, 1))); };
@@ -49,9 +82,6 @@ Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64
     if (has_groups)
       for (Edge& edge : edges)
         if (more.chance(20)) edge.open_to = {group()};
-    auto roadmap = Roadmap::make(points, edges);
-    if (!roadmap) continue;
-    const auto map = std::make_shared<const Roadmap>(std::move(roadmap).value());
     std::vector<Agent> agents;
     const auto num_agents = draw.number(2, max_agents);
     const auto vertex = [&] { return static_cast<std::size_t>(draw.number(0, num_vertices - 1)); };
@@ -62,7 +92,22 @@ Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64
     }
     if (has_groups)
       for (Agent& a : agents) a.group = group();
-    auto instance = Instance::make(map, std::move(agents));
+    std::vector<MovingObstacle> obstacles;
+    if (clock == Clock::all) {
+      for (Agent& a : agents) {
+        if (last.chance(25)) a.release = last.ticks(1, 9);
+        if (last.chance(25)) a.deadline = a.release + last.ticks(3, 25);
+        a.leaves = last.chance(15);
+        if (last.chance(20)) put_under_way(last, points, edges, a);
+      }
+    }
+    auto roadmap = Roadmap::make(points, edges);
+    if (!roadmap) continue;
+    if (clock == Clock::all && last.chance(60))
+      for (std::int64_t k = last.number(1, 2); k > 0; --k)
+        obstacles.push_back(tiny_obstacle(last, *roadmap));
+    auto instance =
+        Instance::make(std::move(roadmap).value(), std::move(agents), {}, {}, std::move(obstacles));
     if (instance) return std::move(instance).value();
   }
 }
@@ -78,9 +123,9 @@ void check_cheapest(const Instance& instance, Objective objective, Answers& answ
   std::vector<AgentId> agents;
   for (const AgentId i : instance.agent_ids()) agents.push_back(i);
   std::int64_t work = kWork;
-  const JointReport some = find_joint_plan(scene, agents, work);
+  const JointReport some = find_joint_plan(scene, agents, JointRules::all, work);
   ASSERT_NE(some.end, JointReport::End::stopped);
-  const JointReport best = find_cheapest_joint_plan(scene, objective, {}, work);
+  const JointReport best = find_cheapest_joint_plan(scene, agents, objective, {}, work);
   ASSERT_EQ(best.end, some.end);
   if (some.end == JointReport::End::exhausted) {
     ++answers.none;
@@ -103,26 +148,26 @@ void check_cheapest(const Instance& instance, Objective objective, Answers& answ
   ASSERT_EQ(least, *oracle.best);
   // Nothing is below the least, and bounds hold wherever the work ends.
   work = kWork;
-  ASSERT_EQ(find_cheapest_joint_plan(scene, objective, least, work).end,
+  ASSERT_EQ(find_cheapest_joint_plan(scene, agents, objective, least, work).end,
             JointReport::End::exhausted);
   for (work = 100; work < 1'000'000;) {
     std::int64_t left = work;
-    const JointReport report = find_cheapest_joint_plan(scene, objective, {}, left);
+    const JointReport report = find_cheapest_joint_plan(scene, agents, objective, {}, left);
     ASSERT_LE(report.lower_bound, least);
     if (report.end != JointReport::End::stopped) break;
     work *= 4;
   }
 }
 
-class JointRandom : public testing::TestWithParam<std::tuple<Objective, std::uint32_t>> {};
+class JointRandom : public testing::TestWithParam<std::tuple<Objective, Clock, std::uint32_t>> {};
 
 TEST_P(JointRandom, AgreesWithTheTicks) {
-  const auto [objective, shard] = GetParam();
+  const auto [objective, clock, shard] = GetParam();
   const auto count = static_cast<std::uint32_t>(support::scaled(500));
   Answers answers;
   for (std::uint32_t n = 0; n < count; ++n) {
     const std::uint32_t seed = shard * 1'000'000 + n;
-    const Instance instance = tiny_instance(seed, 6, 3);
+    const Instance instance = tiny_instance(seed, 6, 3, clock);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
     check_cheapest(instance, objective, answers);
     if (HasFatalFailure()) return;
@@ -136,29 +181,30 @@ TEST_P(JointRandom, AgreesWithTheTicks) {
   EXPECT_LT(10 * answers.unknown, static_cast<int>(count));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, JointRandom,
-                         testing::Combine(testing::Values(Objective::sum_of_costs,
-                                                          Objective::makespan),
-                                          testing::Values(1U, 2U)),
-                         [](const auto& param) {
-                           return std::string(std::get<0>(param.param) == Objective::makespan
-                                                  ? "Makespan"
-                                                  : "SumOfCosts") +
-                                  std::to_string(std::get<1>(param.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, JointRandom,
+    testing::Combine(testing::Values(Objective::sum_of_costs, Objective::makespan),
+                     testing::Values(Clock::none, Clock::all), testing::Values(1U, 2U)),
+    [](const auto& param) {
+      const auto [objective, clock, shard] = param.param;
+      return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
+             (clock == Clock::all ? "Clock" : "") + std::to_string(shard);
+    });
 
 // What is asked of the program as a whole: a proof or a refutation, each time.
-class TinyRandom : public testing::TestWithParam<Objective> {};
+class TinyRandom : public testing::TestWithParam<std::tuple<Objective, Clock, System>> {};
 
 TEST_P(TinyRandom, IsSolvedOrRefuted) {
   const auto count = static_cast<std::uint32_t>(support::scaled(1000));
-  const std::uint32_t first = GetParam() == Objective::makespan ? 30'000'000 : 40'000'000;
+  const auto [objective, clock, system] = GetParam();
+  const std::uint32_t first = objective == Objective::makespan ? 30'000'000 : 40'000'000;
   Answers answers;
   for (std::uint32_t seed = first; seed < first + count; ++seed) {
-    const Instance instance = tiny_instance(seed, 9, 4);
+    const Instance instance = tiny_instance(seed, 9, 4, clock);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
     SolveOptions options;
-    options.objective = GetParam();
+    options.objective = objective;
+    options.system = system;
     options.limits.cpu_s = 20;  // Measured: 1.6 at most.
     const SolveOutcome outcome = solve(instance, options).value();
     ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
@@ -171,12 +217,79 @@ TEST_P(TinyRandom, IsSolvedOrRefuted) {
   EXPECT_GT(10 * answers.none, static_cast<int>(count));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TinyRandom,
-                         testing::Values(Objective::sum_of_costs, Objective::makespan),
-                         [](const auto& param) {
-                           return std::string(param.param == Objective::makespan ? "Makespan"
-                                                                                 : "SumOfCosts");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, TinyRandom,
+    testing::Values(std::tuple(Objective::sum_of_costs, Clock::none, System::dpll),
+                    std::tuple(Objective::makespan, Clock::none, System::smt_cbs),
+                    std::tuple(Objective::sum_of_costs, Clock::all, System::smt_cbs),
+                    std::tuple(Objective::makespan, Clock::all, System::dpll)),
+    [](const auto& param) {
+      const auto [objective, clock, system] = param.param;
+      return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
+             (clock == Clock::all ? "Clock" : "");
+    });
+
+/// So many copies of the instance, far from each other, and somebody who stands beside them.
+Instance copies_of(const Instance& instance, std::size_t count) {
+  constexpr std::int64_t apart = 1000;
+  std::vector<Point> points;
+  std::vector<Edge> edges;
+  std::vector<Agent> agents;
+  std::vector<MovingObstacle> obstacles;
+  for (std::size_t copy = 0; copy < count; ++copy) {
+    const std::size_t first = points.size();
+    const Length by(apart * static_cast<std::int64_t>(copy));
+    const auto moved = [&](VertexId v) { return VertexId(first + v.index()); };
+    for (Point point : instance.roadmap().positions()) {
+      point.x += by;
+      points.push_back(point);
+    }
+    for (Edge edge : instance.roadmap().edges()) {
+      edge.from = moved(edge.from);
+      edge.to = moved(edge.to);
+      edges.push_back(edge);
+    }
+    for (Agent agent : instance.agents()) {
+      agent.start = moved(agent.start);
+      agent.goal = moved(agent.goal);
+      agents.push_back(agent);
+    }
+    for (MovingObstacle obstacle : instance.obstacles()) {
+      for (MovingObstacle::Stop& stop : obstacle.path) stop.at.x += by;
+      obstacles.push_back(obstacle);
+    }
+  }
+  points.push_back({Length(-apart), 0});
+  agents.insert(agents.begin(), agent(points.size() - 1, points.size() - 1, 1));
+  return Instance::make(Roadmap::make(std::move(points), std::move(edges)).value(),
+                        std::move(agents), {}, {}, std::move(obstacles))
+      .value();
+}
+
+// Each alone is decided, and so all together, in as many times the time.
+TEST(TinyCopies, AreSolvedOneByOne) {
+  const auto count = static_cast<std::uint32_t>(support::scaled(150));
+  Answers answers;
+  for (std::uint32_t seed = 0; seed < count; ++seed) {
+    const Instance one =
+        tiny_instance(60'000'000 + seed, 9, 4, seed % 2 == 0 ? Clock::none : Clock::all);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(one));
+    const std::size_t copies = 2 + seed % 2;
+    const Instance all = copies_of(one, copies);
+    SolveOptions options;
+    options.objective = seed / 2 % 2 == 0 ? Objective::sum_of_costs : Objective::makespan;
+    options.limits.cpu_s = 20;
+    const SolveOutcome of_one = solve(one, options).value(), of_all = solve(all, options).value();
+    ASSERT_EQ(of_all.status, of_one.status);
+    ++(of_one.plan ? answers.plans : answers.none);
+    if (!of_one.plan) continue;
+    ASSERT_EQ(of_one.status, Status::optimal);
+    const bool is_sum = options.objective == Objective::sum_of_costs;
+    ASSERT_EQ(*of_all.cost, *of_one.cost * static_cast<Cost>(is_sum ? copies : 1));
+  }
+  EXPECT_GT(answers.plans, 0);
+  EXPECT_GT(answers.none, 0);
+}
 
 }  // namespace
 }  // namespace quadrille::continuous::test

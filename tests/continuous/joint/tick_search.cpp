@@ -18,16 +18,43 @@ struct Position {
   Ticks age = 0;          // of a move
   friend auto operator<=>(const Position&, const Position&) = default;
 };
-using State = std::vector<Position>;
+/// At `now`, or later if that is after all that the clock knows.
+struct State {
+  Ticks now = 0;
+  std::vector<Position> agents;
+  friend auto operator<=>(const State&, const State&) = default;
+};
+
+/// What the obstacle does, one thing after the other. `end`: later than all else.
+std::vector<Element> steps_of(const MovingObstacle& obstacle, Ticks end) {
+  std::vector<Element> steps;
+  for (std::size_t k = 0; k < obstacle.path.size(); ++k) {
+    const MovingObstacle::Stop& stop = obstacle.path[k];
+    const bool is_last = k + 1 == obstacle.path.size();
+    const Ticks until = is_last && !obstacle.leaves ? end : stop.depart;
+    if (until > stop.arrive) steps.push_back({stop.at, stop.at, stop.arrive, until});
+    if (is_last) continue;
+    const MovingObstacle::Stop& next = obstacle.path[k + 1];
+    steps.push_back({stop.at, next.at, stop.depart, next.arrive});
+  }
+  return steps;
+}
 
 class Search {
  public:
   Search(const Instance& instance, Objective objective, std::size_t max_states)
-      : instance_(instance), meetings_(instance), objective_(objective), max_states_(max_states) {}
+      : instance_(instance), meetings_(instance), objective_(objective), max_states_(max_states) {
+    for (const Agent& a : instance.agents())
+      last_ = std::max({last_, a.release, a.deadline ? *a.deadline + 1 : Ticks{0},
+                        a.under_way ? Ticks{1} : Ticks{0}});
+    for (const MovingObstacle& obstacle : instance.obstacles())
+      last_ = std::max(last_, obstacle.path.back().depart);
+  }
 
   TickSearch run() {
     State start;
-    for (const Agent& a : instance_.agents()) start.push_back({false, false, a.start.index(), 0});
+    for (const Agent& a : instance_.agents())
+      start.agents.push_back({false, false, a.start.index(), 0});
     reach(start, 0);
     while (!open_.empty()) {
       const auto top = open_.begin();
@@ -36,8 +63,7 @@ class Search {
       open_.erase(top);
       for (const State& state : states) {
         if (best_.at(state) < cost) continue;
-        if (std::all_of(state.begin(), state.end(), [](const Position& p) { return p.is_done; }))
-          return {true, cost, best_.size()};
+        if (are_done(state)) return {true, cost, best_.size()};
         if (best_.size() > max_states_) return {false, std::nullopt, best_.size()};
         cost_ = cost;
         decide(state, 0);
@@ -54,49 +80,78 @@ class Search {
     open_[cost].push_back(state);
   }
 
+  [[nodiscard]] static bool are_done(const State& state) {
+    return std::all_of(state.agents.begin(), state.agents.end(),
+                       [](const Position& p) { return p.is_done; });
+  }
+
+  /// Whether the agent comes upon an obstacle while both last.
+  [[nodiscard]] bool hits(AgentId i, const Element& element) const {
+    for (const MovingObstacle& obstacle : instance_.obstacles())
+      for (const Element& step : steps_of(obstacle, kEnd))
+        if (step.begin < element.end && element.begin < step.end &&
+            meet(element, instance_.agent(i).body, step, obstacle.body))
+          return true;
+    return false;
+  }
+  [[nodiscard]] Element stay(std::size_t vertex, Ticks begin, Ticks end) const {
+    const Point at = instance_.roadmap().position(VertexId(vertex));
+    return {at, at, begin, end};
+  }
+
   /// What agent k and those after it do in the next tick. To be done costs nothing.
   void decide(const State& state, std::size_t k) {
-    if (k == state.size()) return pass_tick(state);
-    decide(state, k + 1);
-    const Position& p = state[k];
-    if (p.is_moving || p.is_done) return;
+    if (k == state.agents.size()) return pass_tick(state);
+    const Position& p = state.agents[k];
+    if (p.is_moving || p.is_done) return decide(state, k + 1);
     State next = state;
     const AgentId i(k);
-    if (p.place == instance_.agent(i).goal.index()) {
-      next[k].is_done = true;
+    const Agent& agent = instance_.agent(i);
+    const bool is_at_goal = p.place == agent.goal.index();
+    if (is_at_goal && (!agent.deadline || state.now <= *agent.deadline) &&
+        (agent.leaves || !hits(i, stay(p.place, state.now, kEnd)))) {
+      next.agents[k].is_done = true;
       decide(next, k + 1);
     }
+    if (is_at_goal && agent.leaves) return;
+    const bool has_to_go = agent.under_way && p.place == agent.start.index();
+    if (!has_to_go && !hits(i, stay(p.place, state.now, state.now + 1))) decide(state, k + 1);
+    if (state.now < agent.release) return;
     for (const EdgeId e : instance_.roadmap().out_edges(VertexId(p.place))) {
       if (!is_open(instance_, i, e)) continue;
-      next[k] = {true, false, e.index(), 0};
+      const Edge& edge = instance_.roadmap().edge(e);
+      if (hits(i, {instance_.roadmap().position(edge.from), instance_.roadmap().position(edge.to),
+                   state.now, state.now + instance_.duration(instance_.class_of(i), e)}))
+        continue;
+      next.agents[k] = {true, false, e.index(), 0};
       decide(next, k + 1);
     }
   }
 
   void pass_tick(const State& state) {
-    if (std::all_of(state.begin(), state.end(), [](const Position& p) { return p.is_done; }))
-      return reach(state, cost_);
-    for (std::size_t i = 0; i < state.size(); ++i)
-      for (std::size_t j = 0; j < state.size(); ++j)
-        if (i != j && collide(state, i, j)) return;
+    if (are_done(state)) return reach(state, cost_);
+    for (std::size_t i = 0; i < state.agents.size(); ++i)
+      for (std::size_t j = 0; j < state.agents.size(); ++j)
+        if (i != j && collide(state.agents[i], AgentId(i), state.agents[j], AgentId(j))) return;
     State next = state;
+    next.now = std::min(state.now + 1, last_);
     Cost busy = 0;
-    for (std::size_t k = 0; k < state.size(); ++k) {
-      if (!state[k].is_done) ++busy;
-      if (!state[k].is_moving) continue;
-      const EdgeId e(state[k].place);
-      if (++next[k].age == instance_.duration(instance_.class_of(AgentId(k)), e))
-        next[k] = {false, false, instance_.roadmap().edge(e).to.index(), 0};
+    for (std::size_t k = 0; k < state.agents.size(); ++k) {
+      Position& p = next.agents[k];
+      if (!p.is_done) ++busy;
+      if (!p.is_moving) continue;
+      const EdgeId e(p.place);
+      if (++p.age == instance_.duration(instance_.class_of(AgentId(k)), e))
+        p = {false, false, instance_.roadmap().edge(e).to.index(), 0};
     }
     reach(next, cost_ + (objective_ == Objective::makespan ? 1 : busy));
   }
 
   /// Whether the move of agent i collides in the coming tick, with a stay, or ever, with another
   /// move that begins now.
-  bool collide(const State& state, std::size_t i, std::size_t j) {
-    const Position &a = state[i], &b = state[j];
-    if (!a.is_moving) return false;
-    const ClassId ci = instance_.class_of(AgentId(i)), cj = instance_.class_of(AgentId(j));
+  bool collide(const Position& a, AgentId i, const Position& b, AgentId j) {
+    if (!a.is_moving || (b.is_done && instance_.agent(j).leaves)) return false;
+    const ClassId ci = instance_.class_of(i), cj = instance_.class_of(j);
     if (b.is_moving) {
       if (b.age != 0) return false;
       const auto run = meetings_.moves(ci, EdgeId(a.place), cj, EdgeId(b.place));
@@ -106,10 +161,13 @@ class Search {
     return clear && -(a.age + 1) < clear->after_leaving && a.age < clear->before_arrival;
   }
 
+  static constexpr Ticks kEnd = 1'000'000'000;  // later than all else
+
   const Instance& instance_;
   Meetings meetings_;
   const Objective objective_;
   const std::size_t max_states_;
+  Ticks last_ = 0;  // from then on the clock changes nothing
   Cost cost_ = 0;
   std::map<State, Cost> best_;
   std::map<Cost, std::vector<State>> open_;

@@ -71,8 +71,8 @@ struct SolveOptions {
   /// Of dpll: effort, in comparisons of times, for looking at all routes of at most kMaxRouteAgents
   /// agents before the search; about 10^8 take a second. 0: none.
   std::int64_t route_work = 50'000'000;
-  /// Of dpll: effort for the joint search of small instances, which comes before everything else:
-  /// about 10^8 take a second. 0: none.
+  /// Effort for the joint search of small instances, which comes before everything else: about 10^8
+  /// take a second. 0: none.
   std::int64_t joint_work = 200'000'000;
   /// Called on the solving thread when a phase begins, and else about once in `progress_interval_s`
   /// seconds. May be empty. What it throws ends the search and comes out of `solve`.

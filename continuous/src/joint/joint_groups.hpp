@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "paths/scene.hpp"
+
+namespace quadrille::continuous {
+
+/// Agents that have to do with each other, directly or not.
+struct JointGroup {
+  std::vector<AgentId> agents;
+  /// Vertices to which an edge leads that one of them can take on the way to its goal, and such
+  /// edges.
+  std::size_t num_vertices = 0, num_edges = 0;
+};
+
+/// Divides the agents into groups, so that no move or stay of one group ever comes near to one of
+/// another: plans of the groups, whatever they are, are a plan of all. Ordered by their first
+/// agents. Looks at all edges near each edge, for each pair of agents: for few agents on small
+/// roadmaps.
+[[nodiscard]] std::vector<JointGroup> independent_groups(Scene& scene);
+
+}  // namespace quadrille::continuous
