@@ -321,7 +321,7 @@ TEST_F(RoadmapTest, AGapEndsTheSearchWithAPlan) {
   EXPECT_EQ(result["stop_reason"], "gap");
   EXPECT_EQ(result["options"]["gap"], 99);
   EXPECT_GT(result["cost_ticks"], result["lower_bound_ticks"]);
-  for (const char* system : {"dpll", "smt-cbs"}) {  // dpll does without the search that may stop
+  for (const char* system : {"dpll", "smt-cbs"}) {
     const Finished narrow =
         run(discs("solve", {"--gap", "0", "--system", system, "--quiet", "--json", "-"}));
     EXPECT_EQ(narrow.code, 0);

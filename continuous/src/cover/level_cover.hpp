@@ -27,8 +27,8 @@ class LevelCover {
   void add(LevelCore core);
   [[nodiscard]] std::size_t num_cores() const noexcept { return cores_.size(); }
 
-  /// Elementary steps of a call of solve at most, for each group of agents. Measured on the rows of
-  /// docs/performance.md: the longest call took a twentieth.
+  /// Elementary steps of a call of solve at most, for each group of agents: about ten seconds. A
+  /// net: no call is known that takes as much.
   static constexpr std::int64_t kMostEffort = 4'000'000'000;
 
   /// Finds costs of least sum, or some that hit all cores, as cheap as were found with

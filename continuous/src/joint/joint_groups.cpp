@@ -2,6 +2,7 @@
 #include "joint/joint_groups.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace quadrille::continuous {
 namespace {

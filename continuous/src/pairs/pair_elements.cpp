@@ -11,6 +11,8 @@ namespace quadrille::continuous {
 namespace {
 
 constexpr std::size_t kMaxEdges = 50'000;
+/// At the limits, while contacts are looked for: a millisecond or less.
+constexpr std::int64_t kLooksPerCheck = 20'000;
 
 }  // namespace
 
@@ -103,14 +105,18 @@ void PairSearch::fill_grids(const Side& y, Length reach) {
   place_grid_.fill(listed_, reach);
 }
 
-/// Marks the edges of x and y that could collide, and the edges of x and stays of y. Measured, as
-/// against all edges and vertices of the roadmap that are near (Contacts::near_edge): a tenth of
-/// the time of super-dense, task 20, 18 agents.
-void PairSearch::find_contacts(Side& x, Side& y) {
+/// Marks the edges of x and y that could collide, and the edges of x and stays of y. Looks at what
+/// y can do only: of the edges of the roadmap that are near (Contacts::near_edge) it may be few.
+bool PairSearch::find_contacts(Side& x, Side& y) {
   const Instance& instance = scene_.instance();
   const Length reach = instance.reach(x.c) + instance.reach(y.c);
   fill_grids(y, reach);
+  std::int64_t next_check = num_looks() + kLooksPerCheck;
   for (TimedEdge& e : x.edges) {
+    if (num_looks() >= next_check) {
+      if (scene_.limits().exhausted_now()) return false;
+      next_check = num_looks() + kLooksPerCheck;
+    }
     const Ticks duration = instance.duration(x.c, e.edge);
     edge_grid_.visit_near(boxes_[e.edge.index()], reach, [&](std::uint32_t k) {
       TimedEdge& other = y.edges[k];
@@ -133,6 +139,7 @@ void PairSearch::find_contacts(Side& x, Side& y) {
       }
     });
   }
+  return true;
 }
 
 void PairSearch::list_allowed(const Side& side, const TimedEdge& e) {

@@ -193,8 +193,7 @@ bool PairSearch::prepare(const Party& i, const Party& j, Ticks max_raise) {
   if (!collect_edges(i, max_raise, j, 0, first) || !collect_edges(j, 0, i, max_raise, second))
     return false;
   effort_ += static_cast<std::int64_t>(first.edges.size() + second.edges.size());
-  find_contacts(first, second);
-  find_contacts(second, first);
+  if (!find_contacts(first, second) || !find_contacts(second, first)) return false;
   prepared_ = wanted;
   return true;
 }

@@ -52,6 +52,11 @@ class PairSearch {
 
   /// Steps from one pair of elements to another that all searches have tried so far.
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+  /// How often searches have looked at where two moves, or a move and a stay, come near each other,
+  /// before their first steps; it takes about a fourth of a step.
+  [[nodiscard]] std::int64_t num_looks() const noexcept {
+    return edge_grid_.num_looks() + place_grid_.num_looks();
+  }
 
  private:
   /// A move that begins at a tick from `first` to `last`. The first element is the stay at the
@@ -137,7 +142,8 @@ class PairSearch {
   bool collect_edges(const Party& party, Ticks raise, const Party& other, Ticks other_raise,
                      Side& side);
   [[nodiscard]] Ticks leave_by(const Side& side, VertexId v) const;
-  void find_contacts(Side& x, Side& y);
+  /// False: the limits of the scene were met.
+  bool find_contacts(Side& x, Side& y);
   void fill_grids(const Side& y, Length reach);
   void make_elements(Side& side);
   /// Of the intervals.

@@ -37,8 +37,10 @@ class PairLemmas {
   /// To be told how many steps all path searches have made: searches of pairs that refute nothing
   /// make at most a part of that, besides some to begin with.
   void set_path_effort(std::int64_t steps) noexcept { path_effort_ = steps; }
-  /// Steps that all searches of pairs have made.
-  [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
+  /// Steps that all searches of pairs have made, their looks at geometry among them.
+  [[nodiscard]] std::int64_t effort() const noexcept {
+    return search_.effort() + search_.num_looks() / 4;
+  }
 
  private:
   struct Record {

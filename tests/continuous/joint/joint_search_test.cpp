@@ -181,15 +181,20 @@ TEST_P(JointRandom, AgreesWithTheTicks) {
   EXPECT_LT(10 * answers.unknown, static_cast<int>(count));
 }
 
+std::string name_of(Objective objective, Clock clock) {
+  return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
+         (clock == Clock::all ? "Clock" : "");
+}
+std::string name_of_shard(const testing::TestParamInfo<JointRandom::ParamType>& param) {
+  const auto [objective, clock, shard] = param.param;
+  return name_of(objective, clock) + std::to_string(shard);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, JointRandom,
     testing::Combine(testing::Values(Objective::sum_of_costs, Objective::makespan),
                      testing::Values(Clock::none, Clock::all), testing::Values(1U, 2U)),
-    [](const auto& param) {
-      const auto [objective, clock, shard] = param.param;
-      return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
-             (clock == Clock::all ? "Clock" : "") + std::to_string(shard);
-    });
+    name_of_shard);
 
 // What is asked of the program as a whole: a proof or a refutation, each time.
 class TinyRandom : public testing::TestWithParam<std::tuple<Objective, Clock, System>> {};
@@ -217,17 +222,18 @@ TEST_P(TinyRandom, IsSolvedOrRefuted) {
   EXPECT_GT(10 * answers.none, static_cast<int>(count));
 }
 
+std::string name_of_system(const testing::TestParamInfo<TinyRandom::ParamType>& param) {
+  const auto [objective, clock, system] = param.param;
+  return name_of(objective, clock) + (system == System::dpll ? "Dpll" : "SmtCbs");
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, TinyRandom,
     testing::Values(std::tuple(Objective::sum_of_costs, Clock::none, System::dpll),
                     std::tuple(Objective::makespan, Clock::none, System::smt_cbs),
                     std::tuple(Objective::sum_of_costs, Clock::all, System::smt_cbs),
                     std::tuple(Objective::makespan, Clock::all, System::dpll)),
-    [](const auto& param) {
-      const auto [objective, clock, system] = param.param;
-      return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
-             (clock == Clock::all ? "Clock" : "");
-    });
+    name_of_system);
 
 /// So many copies of the instance, far from each other, and somebody who stands beside them.
 Instance copies_of(const Instance& instance, std::size_t count) {

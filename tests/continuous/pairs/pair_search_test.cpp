@@ -182,6 +182,49 @@ TEST(PairSearch, FindsWhatANewOneFinds) {
   EXPECT_GT(changes, 0);
 }
 
+/// A square of so many vertices a side, 1000 apart, all neighbours joined.
+std::shared_ptr<const Roadmap> square(std::size_t side) {
+  std::vector<Point> points;
+  Roads roads;
+  for (std::size_t y = 0; y < side; ++y)
+    for (std::size_t x = 0; x < side; ++x) {
+      points.push_back({Length(1000 * static_cast<std::int64_t>(x)),
+                        Length(1000 * static_cast<std::int64_t>(y))});
+      if (x > 0) roads.emplace_back(y * side + x - 1, y * side + x);
+      if (y > 0) roads.emplace_back((y - 1) * side + x, y * side + x);
+    }
+  return roadmap(std::move(points), roads);
+}
+
+// Two agents with so much room that most of the work is to find out what can collide.
+TEST(PairSearch, LooksAtWhatIsNearAndCountsThat) {
+  constexpr std::size_t side = 40;
+  const auto map = square(side);
+  const auto instance =
+      Instance::make(map, {agent(0, side * side - 1, 300), agent(side - 1, side * (side - 1), 300)})
+          .value();
+  LimitMonitor limits({});
+  Scene scene(instance, limits);
+  PairSearch search(scene);
+  const auto look = [&](std::int64_t raise) {
+    const std::int64_t before = search.num_looks();
+    const auto party = [&](std::size_t i) {
+      return PairSearch::Party{AgentId(i), as_ticks(scene.free_cost(AgentId(i)))};
+    };
+    static_cast<void>(search.refuted_raise(party(0), party(1), Ticks(raise), 10));
+    return search.num_looks() - before;
+  };
+  const std::int64_t looks = look(3000);
+  // An agent has all edges to choose from, and each move some thirty of the other one's near it.
+  const auto num_edges = static_cast<std::int64_t>(map->num_edges());
+  EXPECT_GT(looks, num_edges);
+  EXPECT_LT(looks, 200 * num_edges);
+  EXPECT_EQ(look(3000), 0);  // known
+  // A limit ends it early: all that the geometry has to say is known, so that nothing else does.
+  limits.stop(StopReason::gap);
+  EXPECT_LT(2 * look(2999), looks);
+}
+
 TEST(BlockedAgents, HaveNoPlan) {
   int solvable = 0, blocked = 0;
   for (std::uint32_t seed = 0; seed < support::scaled(500); ++seed) {

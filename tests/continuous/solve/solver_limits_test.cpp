@@ -154,6 +154,7 @@ TEST(SolverLimits, CoversByGreedHaveAnEnd) {
   const Instance instance = read_instance_json(test::data("greedy_covers_rise.json")).value();
   SolveOptions options;
   options.system = System::smt_cbs;
+  options.joint_work = 0;
   options.limits.looks = 200'000;
   EXPECT_EQ(solve(instance, options).value().status, Status::optimal);
 }
