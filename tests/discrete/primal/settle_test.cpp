@@ -11,6 +11,7 @@
 
 #include "discrete/primal/primal_support.hpp"
 #include "primal/exchange.hpp"
+#include "primal/shortcuts.hpp"
 #include "primal/shorten.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/verify.hpp"
@@ -217,6 +218,33 @@ TEST(Shorten, AsEarlyAsTheOrderAtEachVertexAllows) {
   const std::vector<Shift> turned{
       {0, 0, 5}, {0, 5, 0}, {0, 0, 1, true}, {1, 1, 2, true}, {2, 2, 0, false}};
   EXPECT_EQ(earliest_times(turned, 3, 6), (std::vector<Timestep>{1, 2, 3, 3, 3}));
+}
+
+TEST(Shortcuts, MakeALongPlanShorterAndKeepItValid) {
+  const Instance instance = crowd(12, 141, 1);
+  const Plan plan = settled(instance).value();
+  const auto shortened = [&](std::int64_t slice) {
+    LimitMonitor limits{Limits{}};
+    Shortcuts shortcuts(instance, plan, 0);
+    while (!shortcuts.is_over() && shortcuts.effort() < 4'000'000) {
+      shortcuts.advance(slice, limits);
+      EXPECT_EQ(replay(instance, shortcuts.plan()), "");
+    }
+    return shortcuts.plan();
+  };
+  const Plan shorter = shortened(200'000);
+  EXPECT_LT(shorter.cost(Objective::sum_of_costs), plan.cost(Objective::sum_of_costs));
+  EXPECT_LE(shorter.cost(Objective::makespan), plan.cost(Objective::makespan));
+  EXPECT_EQ(shorter, shortened(200'000));
+}
+
+TEST(Shortcuts, LeaveAShortPlanAlone) {
+  const Instance instance = crowd(4, 8, 1);
+  const Plan plan = settled(instance).value();
+  LimitMonitor limits{Limits{}};
+  Shortcuts shortcuts(instance, plan, 0);
+  EXPECT_TRUE(shortcuts.is_over());
+  EXPECT_EQ(shortcuts.plan(), plan);
 }
 
 }  // namespace
