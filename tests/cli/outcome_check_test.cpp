@@ -86,5 +86,17 @@ TEST(OutcomeCheck, KeepsTheViolationsForTheMessage) {
   EXPECT_EQ(check_outcome(instance(), Objective::makespan, outcome).violations.size(), 1u);
 }
 
+TEST(OutcomeCheck, AFileThatSaysFeasibleOfABoundThatIsMetStatesWhatIsWrong) {
+  StatedOutcome stated;
+  stated.status = Status::feasible;
+  stated.lower_bound = 7;
+  EXPECT_EQ(find_false_statements(stated, 7, 4),
+            std::vector<std::string>{"the file states that the plan is no more than feasible, but "
+                                     "the lower bound is 7 and the cost 7"});
+  EXPECT_TRUE(find_false_statements(stated, 8, 4).empty());
+  stated.status = Status::optimal;
+  EXPECT_TRUE(find_false_statements(stated, 7, 4).empty());
+}
+
 }  // namespace
 }  // namespace quadrille::cli

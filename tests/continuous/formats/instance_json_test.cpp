@@ -378,7 +378,14 @@ TEST(Quantise, RefusesWhatIsNotSupported) {
   }
   EXPECT_EQ(quantise_radius(0.9e-6, 1e-6), std::nullopt);
   EXPECT_EQ(quantise_radius(-1, 1e-6), std::nullopt);
-  EXPECT_EQ(quantise_radius(1.9e-6, 1e-6), Length{1});      // down
+  EXPECT_EQ(quantise_radius(1.9e-6, 1e-6), Length{1});  // down
+  EXPECT_EQ(quantise_radius_up(1.1e-6, 1e-6), Length{2});
+  EXPECT_EQ(quantise_radius_up(0.35, 1e-3), Length{350});
+  EXPECT_EQ(quantise_radius_up(1e-12, 1e-6), Length{1});
+  EXPECT_EQ(quantise_radius_up(0, 1e-6), std::nullopt);
+  EXPECT_EQ(quantise_radius_up(nan, 1e-6), std::nullopt);
+  EXPECT_EQ(quantise_radius_up(std::ldexp(1.0, 40), 1), geometry::kMaxLength);
+  EXPECT_EQ(quantise_radius_up(std::ldexp(1.0, 40) + 1, 1), std::nullopt);
   EXPECT_EQ(quantise_coordinate(1.9e-6, 1e-6), Length{2});  // to the nearest
   EXPECT_EQ(quantise_duration(0.4e-6, 1e-6), std::nullopt);
 }
