@@ -5,8 +5,10 @@ namespace quadrille::cli {
 
 /// What the program tells the shell. Documented in docs/cli.md, `--help` and the man page.
 enum class ExitCode : int {
-  success = 0,      ///< Solved to optimality; a valid plan; what was asked is done.
-  violations = 1,   ///< `verify`: the plan breaks a rule; `execute-check`, `export`: a cycle.
+  success = 0,  ///< Solved to optimality; a valid plan; what was asked is done.
+  /// `verify`: the plan breaks a rule; `execute-check`, `export`: a cycle; `campaign`:
+  /// contradictions, or every job failed.
+  violations = 1,
   feasible = 10,    ///< A plan that is not proved optimal.
   infeasible = 20,  ///< Proved: no plan exists.
   unknown = 30,     ///< A limit or a signal ended the search before it found a plan.
@@ -21,7 +23,8 @@ enum class ExitCode : int {
 inline constexpr const char* kExitCodesHelp =
     "Exit codes:\n"
     "   0  solved to optimality; for other commands: done, or the plan is valid\n"
-    "   1  verify: the plan breaks a rule; execute-check, export: moves in a cycle\n"
+    "   1  verify: the plan breaks a rule; execute-check, export: moves in a cycle;\n"
+    "      campaign: answers contradict each other, or every job failed\n"
     "  10  a plan, but not proved optimal\n"
     "  20  proved infeasible: no plan exists\n"
     "  30  unknown: a limit or a signal ended the search before it found a plan\n"

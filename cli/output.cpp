@@ -10,8 +10,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <system_error>
 #include <utility>
+
+#include "quadrille/core/terminal_text.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -29,6 +32,11 @@ int write_all(int file, std::string_view text) {
     text.remove_prefix(static_cast<std::size_t>(written));
   }
   return 0;
+}
+
+/// A file's text, which people read where the file is a terminal.
+int write_file(int file, std::string_view text) {
+  return ::isatty(file) == 1 ? write_all(file, terminal_text(text)) : write_all(file, text);
 }
 
 /// A name beside `target` that is this process's own.
@@ -130,11 +138,11 @@ Result<OutputFile> OutputFile::probe(std::string path) {
 }
 
 int OutputFile::write(std::string_view text) const {
-  if (is_stdout()) return write_all(STDOUT_FILENO, text);
+  if (is_stdout()) return write_stdout(text);
   if (replace_) return replace(text);
   const int file = ::open(target_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) return errno;
-  const int code = write_all(file, text);
+  const int code = write_file(file, text);
   return ::close(file) != 0 && code == 0 ? errno : code;
 }
 
@@ -192,12 +200,11 @@ std::string in_colours(std::string_view text) {
 
 void Console::print(std::string_view text) {
   if (quiet_ || failure_ != 0) return;
-  std::string painted;
-  if (is_colourful(to_stderr_ ? STDERR_FILENO : STDOUT_FILENO)) text = painted = in_colours(text);
-  if (to_stderr_)
-    print_stderr(text);
-  else
-    failure_ = write_all(STDOUT_FILENO, text);
+  const int stream = to_stderr_ ? STDERR_FILENO : STDOUT_FILENO;
+  std::string shown = terminal_text(text);
+  if (is_colourful(stream)) shown = in_colours(shown);
+  const int code = write_all(stream, shown);
+  if (!to_stderr_) failure_ = code;
 }
 
 void reserve_standard_streams() {
@@ -208,7 +215,18 @@ void reserve_standard_streams() {
   }
 }
 
-void print_stderr(std::string_view text) noexcept { (void)write_all(STDERR_FILENO, text); }
+void print_stderr(std::string_view text) noexcept {
+  try {
+    static_cast<void>(write_all(STDERR_FILENO, terminal_text(text)));
+  } catch (const std::bad_alloc&) {
+    static_cast<void>(
+        write_all(STDERR_FILENO, "quadrille: error: the system has no more memory\n"));
+  }
+}
+
+void print_on_line(std::string_view text) {
+  static_cast<void>(write_all(STDERR_FILENO, "\r" + terminal_line(text)));
+}
 
 void report_error(const Error& error) {
   print_stderr(fmt::format("quadrille: {}\n", error.to_string()));
@@ -221,6 +239,8 @@ void report_warning(const Error& warning) {
 void report_write_failure(const std::string& path, int code) {
   if (code != EPIPE) report_error(io_error(path == "-" ? "standard output" : path, code));
 }
+
+int write_stdout(std::string_view text) { return write_file(STDOUT_FILENO, text); }
 
 bool write_or_report(const OutputFile& file, std::string_view text) {
   const int code = file.write(text);

@@ -17,7 +17,8 @@ class OutputFile {
   /// Errors (io): a folder that is missing or not writable, a file that is protected.
   [[nodiscard]] static Result<OutputFile> probe(std::string path);
 
-  /// Writes the text and makes sure that it has arrived. Returns 0 or the errno of the failure.
+  /// Writes the text and makes sure that it has arrived. Returns 0 or the errno of the failure. A
+  /// terminal gets it as terminal_text.
   [[nodiscard]] int write(std::string_view text) const;
 
   [[nodiscard]] bool is_stdout() const noexcept { return path_ == "-"; }
@@ -62,8 +63,11 @@ class Console {
 /// then receive the messages. Writing to such a stream fails. Call it first.
 void reserve_standard_streams();
 
-/// Prints to stderr as far as that takes it.
+/// Prints to stderr as far as that takes it. This, Console and `print_on_line` are the only ways of
+/// text to people; all three write terminal_text.
 void print_stderr(std::string_view text) noexcept;
+/// Writes one line of stderr again from its beginning, and leaves it open.
+void print_on_line(std::string_view text);
 
 /// Whether what goes to the stream is read on a terminal that shows colours, by somebody who wants
 /// them: the environment says so with NO_COLOR (if it has any value) and TERM=dumb.
@@ -83,5 +87,8 @@ void report_write_failure(const std::string& path, int code);
 
 /// For commands with one output: writes and reports a failure. True if all is well.
 [[nodiscard]] bool write_or_report(const OutputFile& file, std::string_view text);
+
+/// Writes to standard output as OutputFile does, piece by piece. Returns 0 or the errno.
+[[nodiscard]] int write_stdout(std::string_view text);
 
 }  // namespace quadrille::cli

@@ -41,13 +41,14 @@ ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILE
 void ProgressLine::show(const std::string& text) {
   if (!active_) return;
   // Blanks instead of escape sequences: every terminal knows them.
-  print_stderr(fmt::format("\r{:<{}}", text, shown_));
+  print_on_line(fmt::format("{:<{}}", text, shown_));
   shown_ = text.size();
 }
 
 void ProgressLine::clear() {
   if (shown_ == 0) return;
-  print_stderr(fmt::format("\r{:{}}\r", "", shown_));
+  print_on_line(std::string(shown_, ' '));
+  print_on_line("");
   shown_ = 0;
 }
 

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+
+#include "quadrille/core/terminal_text.hpp"
 
 namespace quadrille::cli::campaign {
 namespace {
@@ -15,6 +18,7 @@ constexpr std::array kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                  "#e69f00", "#56b4e9", "#555555"};
 constexpr std::array kDashes = {"", "6 3", "2 2"};
 constexpr double kLeft = 52, kRight = 12, kTop = 28, kBottom = 42, kLegendLine = 16;
+constexpr double kLegendText = kLeft + 30;  // where the names begin
 
 struct Scale {
   Axis axis;
@@ -56,10 +60,45 @@ std::vector<double> ticks(const Axis& axis) {
 
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
+/// An upper bound on the pixels that a byte takes, in 11 pixels of a sans-serif type (a bold one at
+/// that). Of a character of several bytes the first one counts.
+double width_of(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  if (byte >= 0x80) return (byte & 0xc0U) == 0x80 ? 0 : 13;
+  if ((c >= 'A' && c <= 'Z') || std::string_view("mw@%&").find(c) != std::string_view::npos)
+    return 11;
+  return 7.5;
+}
+
+/// The text in lines that are no wider: broken behind blanks, commas and hyphens where there are
+/// any.
+std::vector<std::string> broken(const std::string& text, double width) {
+  std::vector<std::string> lines(1);
+  double used = 0;
+  std::size_t brk = 0;  // of the last line: where it may be broken; 0: nowhere
+  for (const char c : text) {
+    std::string& line = lines.back();
+    if (used + width_of(c) > width && !line.empty()) {
+      const std::string rest = brk > 0 ? line.substr(brk) : "";
+      line.resize(line.size() - rest.size());
+      lines.push_back(rest);
+      brk = 0;
+      used = 0;
+      for (const char kept : rest) used += width_of(kept);
+    }
+    lines.back() += c;
+    used += width_of(c);
+    if (c == ' ' || c == ',' || c == '-' || c == '_') brk = lines.back().size();
+  }
+  return lines;
+}
+
 std::string dash(std::size_t style) {
   const char* pattern = kDashes[(style / kColours.size()) % kDashes.size()];
   return *pattern == 0 ? "" : fmt::format(" stroke-dasharray=\"{}\"", pattern);
 }
+
+const char* colour(std::size_t style) { return kColours[style % kColours.size()]; }
 
 std::string draw_axes(const Scale& x, const Scale& y) {
   std::string text;
@@ -85,7 +124,7 @@ std::string draw_axes(const Scale& x, const Scale& y) {
 
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : text) switch (c) {
+  for (const char c : terminal_line(text)) switch (c) {
       case '&':
         result += "&amp;";
         break;
@@ -109,37 +148,53 @@ void Chart::add_curve(const std::string& name, std::size_t style, std::vector<Po
   curves_.push_back({name, style, std::move(points), markers});
 }
 
-std::string Chart::svg(double width, double height) const {
-  const double plot_height = height - kLegendLine * static_cast<double>(curves_.size());
-  const Scale x{x_, kLeft, width - kRight};
-  const Scale y{y_, plot_height - kBottom, kTop};
-  std::string text = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-      "viewBox=\"0 0 {0} {1}\" role=\"img\">\n<title>{2}</title>\n"
-      "<text class=\"title\" x=\"{3:.1f}\" y=\"16\" text-anchor=\"middle\">{2}</text>\n",
-      width, height, escaped(title_), (kLeft + width - kRight) / 2);
-  text += draw_axes(x, y);
-  double legend = plot_height;
+std::string Chart::legend(double width, double& y) const {
+  std::string text;
   for (const Curve& curve : curves_) {
-    const char* colour = kColours[curve.style % kColours.size()];
+    text += fmt::format(
+        "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\" "
+        "stroke-width=\"1.6\"{4}/>",
+        kLeft, kLeft + 24, y, colour(curve.style), dash(curve.style));
+    for (const std::string& line : broken(curve.name, width - kRight - kLegendText)) {
+      text +=
+          fmt::format("<text x=\"{}\" y=\"{:.1f}\">{}</text>\n", kLegendText, y + 4, escaped(line));
+      y += kLegendLine;
+    }
+  }
+  return text;
+}
+
+std::string Chart::svg(double width, double height) const {
+  const std::vector<std::string> title = broken(title_, width - 2 * kRight);
+  const double top = kTop + kLegendLine * static_cast<double>(title.size() - 1);
+  const double bottom = top + height - kTop;
+  const Scale x{x_, kLeft, width - kRight};
+  const Scale y{y_, bottom - kBottom, top};
+  std::string text;
+  for (std::size_t i = 0; i < title.size(); ++i)
+    text += fmt::format(
+        "<text class=\"title\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", width / 2,
+        16 + kLegendLine * static_cast<double>(i), escaped(title[i]));
+  text += draw_axes(x, y);
+  for (const Curve& curve : curves_) {
     std::string points, markers;
     for (const auto& [px, py] : curve.points) {
       points += fmt::format("{:.1f},{:.1f} ", x(px), y(py));
       if (curve.markers)
         markers += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>", x(px),
-                               y(py), colour);
+                               y(py), colour(curve.style));
     }
     text += fmt::format(
-        "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"{} points=\"{}\"/>{}\n", colour,
-        dash(curve.style), points, markers);
-    text += fmt::format(
-        "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\" "
-        "stroke-width=\"1.6\"{4}/><text x=\"{5}\" y=\"{6:.1f}\">{7}</text>\n",
-        kLeft, kLeft + 24, legend, colour, dash(curve.style), kLeft + 30, legend + 4,
-        escaped(curve.name));
-    legend += kLegendLine;
+        "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"{} points=\"{}\"/>{}\n",
+        colour(curve.style), dash(curve.style), points, markers);
   }
-  return text + "</svg>\n";
+  double end = bottom;
+  text += legend(width, end);
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+             "viewBox=\"0 0 {0} {1}\" role=\"img\">\n<title>{2}</title>\n",
+             width, end, escaped(title_)) +
+         text + "</svg>\n";
 }
 
 }  // namespace quadrille::cli::campaign

@@ -8,7 +8,7 @@
 
 namespace quadrille::cli::campaign {
 
-/// Text as it has to stand in HTML and SVG.
+/// Text as it has to stand in HTML and SVG: control characters are those of terminal_text.
 [[nodiscard]] std::string escaped(const std::string& text);
 
 /// One axis: its range, linear or logarithmic (then both ends are positive), and what it shows.
@@ -28,7 +28,9 @@ class Chart {
   /// A curve in the colour number `style`. Points outside the axes are moved to their ends.
   void add_curve(const std::string& name, std::size_t style, std::vector<Point> points,
                  bool markers);
-  /// The element <svg>, of the given size in pixels.
+  /// The element <svg>. The size in pixels is that of the axes and what belongs to them; a title of
+  /// several lines and the legend, whose names are broken where they are too long, add to the
+  /// height.
   [[nodiscard]] std::string svg(double width, double height) const;
 
  private:
@@ -38,6 +40,9 @@ class Chart {
     std::vector<Point> points;
     bool markers;
   };
+  /// From `y` downwards, which is moved behind it.
+  [[nodiscard]] std::string legend(double width, double& y) const;
+
   std::string title_;
   Axis x_, y_;
   std::vector<Curve> curves_;

@@ -12,6 +12,7 @@
 
 #include "campaign/runner.hpp"
 #include "output.hpp"
+#include "quadrille/core/terminal_text.hpp"
 #include "signals.hpp"
 
 namespace quadrille::cli::campaign {
@@ -20,16 +21,18 @@ namespace {
 namespace fs = std::filesystem;
 
 ExitCode exit_code(const Runner& runner, Runner::End end) {
+  report_damage(runner.follower().damage());
   switch (end) {
     case Runner::End::complete:
-      return ExitCode::success;
+      break;
     case Runner::End::left:
       return ExitCode::unknown;
     case Runner::End::failed:
-      break;
+      report_error(*runner.error());
+      return ExitCode::output;
   }
-  report_error(*runner.error());
-  return ExitCode::output;
+  if (!runner.follower().all_failed()) return ExitCode::success;
+  return report_all_failed();
 }
 
 ExitCode run_ladders(const CampaignArguments& arguments, const JobList& list, Schedule schedule,
@@ -52,12 +55,33 @@ ExitCode run_ladders(const CampaignArguments& arguments, const JobList& list, Sc
   const Runner::End end = runner.run();
   const bool resume = end == Runner::End::left && *options.interrupt;
   if (resume)
-    console.print(
-        fmt::format("interrupted; 'quadrille campaign resume {}' goes on\n", arguments.manifest));
+    console.print(fmt::format("interrupted; 'quadrille campaign resume {}' goes on\n",
+                              terminal_line(arguments.manifest)));
   return exit_code(runner, end);
 }
 
 }  // namespace
+
+ExitCode report_all_failed() {
+  print_stderr("quadrille: every job failed; the rows say why\n");
+  return ExitCode::violations;
+}
+
+void report_damage(const Damage& damage) {
+  for (const Error& error : damage.errors()) report_error(error);
+  if (damage.lines() > damage.errors().size())
+    print_stderr(fmt::format("quadrille: and {} more damaged lines\n",
+                             damage.lines() - damage.errors().size()));
+}
+
+bool make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return true;
+  report_error(
+      {ErrorCode::io, "the folder cannot be made: " + error.message(), {folder.string(), 0}});
+  return false;
+}
 
 Folder CampaignArguments::files() const {
   if (!folder.empty()) return {folder};
@@ -71,54 +95,66 @@ std::string own_program() {
   return error ? "quadrille" : path.string();
 }
 
-std::optional<JobList> prepare(const CampaignArguments& arguments) {
+Listed prepare(const CampaignArguments& arguments) {
   const auto manifest = read_manifest(arguments.manifest, arguments.data);
   auto list = manifest ? expand(*manifest) : Result<JobList>(manifest.error());
   if (!list) {
     report_error(list.error());
-    return std::nullopt;
+    return {};
   }
-  if (arguments.action == Action::list) return *std::move(list);
+  if (arguments.action == Action::list) return {*std::move(list)};
   const Folder folder = arguments.files();
-  std::error_code error;
-  fs::create_directories(folder.path, error);
+  if (!make_folder(folder.path)) return {{}, ExitCode::output};
   const auto file = OutputFile::probe(folder.jobs());
   if (!file) report_error(file.error());
-  if (!file || !write_or_report(*file, to_json(*list))) return std::nullopt;
-  return *std::move(list);
+  if (!file || !write_or_report(*file, to_json(*list))) return {{}, ExitCode::output};
+  return {*std::move(list)};
 }
 
-std::optional<JobList> prepared(const CampaignArguments& arguments) {
+Listed prepared(const CampaignArguments& arguments) {
   auto list = read_job_list(arguments.files().jobs());
-  if (list) return *std::move(list);
+  if (list) return {*std::move(list)};
   report_error(list.error());
-  return std::nullopt;
+  return {};
 }
 
 ExitCode list_jobs(const CampaignArguments& arguments) {
   const auto list = prepare(arguments);
-  if (!list) return ExitCode::bad_input;
+  if (!list) return list.code;
   Console console(arguments.quiet, false);
   std::string text;
   for (const Job& job : list->jobs)
-    text += fmt::format("{}\t{}\t{}\t{}\t{}\t{}\n", job.name, job.family, job.scenario, job.agents,
-                        job.system, job.seed);
+    text +=
+        fmt::format("{}\t{}\t{}\t{}\t{}\t{}\n", job.name, terminal_line(job.family),
+                    terminal_line(job.scenario), job.agents, terminal_line(job.system), job.seed);
   console.print(text);
   return console.failure() == 0 ? ExitCode::success : ExitCode::output;
 }
 
 ExitCode run_campaign(const CampaignArguments& arguments) {
-  const auto list = arguments.action == Action::resume ? prepared(arguments) : prepare(arguments);
-  if (!list) return ExitCode::bad_input;
+  const bool resume = arguments.action == Action::resume;
+  const auto list = resume ? prepared(arguments) : prepare(arguments);
+  if (!list) return list.code;
+  if (const auto change = resume ? find_change(*list, arguments.manifest) : std::nullopt) {
+    report_error(*change);
+    return ExitCode::bad_input;
+  }
   return run_ladders(arguments, *list, Schedule(*list), true);
 }
 
 ExitCode run_task(const CampaignArguments& arguments) {
   const auto list = prepared(arguments);
-  if (!list) return ExitCode::bad_input;
+  if (!list) return list.code;
   const auto ladders = read_task(arguments.files(), *list, *arguments.submission, *arguments.task);
-  if (!ladders) {
-    report_error(ladders.error());
+  auto error = ladders ? std::nullopt : std::optional<Error>(ladders.error());
+  std::vector<std::size_t> jobs;
+  if (ladders)
+    for (const std::size_t ladder : *ladders)
+      for (const auto& rung : list->ladders[ladder].rungs)
+        jobs.insert(jobs.end(), rung.begin(), rung.end());
+  if (!error) error = find_change(*list, "", jobs);
+  if (error) {
+    report_error(*error);
     return ExitCode::bad_input;
   }
   return run_ladders(arguments, *list, Schedule(*list, *ladders), false);
@@ -126,7 +162,7 @@ ExitCode run_task(const CampaignArguments& arguments) {
 
 ExitCode reopen(const CampaignArguments& arguments) {
   const auto list = prepared(arguments);
-  if (!list) return ExitCode::bad_input;
+  if (!list) return list.code;
   auto store = Store::open(arguments.files().results());
   auto error = store ? std::nullopt : std::optional<Error>(store.error());
   std::size_t opened = 0;
@@ -164,7 +200,7 @@ ExitCode reopen(const CampaignArguments& arguments) {
 
 ExitCode show_status(const CampaignArguments& arguments) {
   const auto list = prepared(arguments);
-  if (!list) return ExitCode::bad_input;
+  if (!list) return list.code;
   auto store = Store::open(arguments.files().results());
   if (!store) {
     report_error(store.error());
@@ -191,7 +227,7 @@ ExitCode show_status(const CampaignArguments& arguments) {
   std::string text = fmt::format(
       "{}: {} jobs in {} ladders\nsolved     {}\nnot solved {}\nnot needed {}\nleft       at most "
       "{}, in {} ladders\nrunning    {}\n",
-      list->title, counts.jobs, list->ladders.size(), counts.solved, counts.unsolved,
+      terminal_line(list->title), counts.jobs, list->ladders.size(), counts.solved, counts.unsolved,
       counts.not_needed, counts.left, counts.open_ladders, running);
   const auto rest =
       estimate_s(schedule, follower.times(), list->limits, std::max<std::size_t>(1, running));
@@ -202,17 +238,19 @@ ExitCode show_status(const CampaignArguments& arguments) {
   for (std::size_t job = 0; job < verdicts.size(); ++job)
     if (verdicts[job] != none) ++systems[list->jobs[job].system][verdicts[job]];
   for (const auto& [name, sum] : systems)
-    text += fmt::format("system     {}: {} solved, {} not, {} failed\n", name, sum[solved],
-                        sum[not_solved], sum[failed]);
-  if (follower.damaged() > 0)
+    text += fmt::format("system     {}: {} solved, {} not, {} failed\n", terminal_line(name),
+                        sum[solved], sum[not_solved], sum[failed]);
+  report_damage(follower.damage());
+  if (follower.damage().lines() > 0)
     text += fmt::format("damaged    {} lines of the results; their jobs are run again\n",
-                        follower.damaged());
+                        follower.damage().lines());
   if (follower.foreign() > 0)
     text += fmt::format("others     {} rows of jobs that are not asked for any more\n",
                         follower.foreign());
   Console console(arguments.quiet, false);
   console.print(text);
-  return counts.left == 0 ? ExitCode::success : ExitCode::unknown;
+  if (counts.left > 0) return ExitCode::unknown;
+  return follower.all_failed() ? report_all_failed() : ExitCode::success;
 }
 
 }  // namespace quadrille::cli::campaign

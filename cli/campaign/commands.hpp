@@ -41,9 +41,26 @@ ExitCode merge(const CampaignArguments& arguments);
 [[nodiscard]] Result<std::vector<std::size_t>> read_task(const Folder& folder, const JobList& list,
                                                          std::int64_t submission,
                                                          std::int64_t task);
-/// Reads the manifest, expands it, and leaves the list of jobs in the folder. Reports errors.
-[[nodiscard]] std::optional<JobList> prepare(const CampaignArguments& arguments);
-/// The list that `prepare` has left. Reports errors.
-[[nodiscard]] std::optional<JobList> prepared(const CampaignArguments& arguments);
+/// A list of jobs; or nothing, and the exit code for an error that has been reported.
+struct Listed {
+  std::optional<JobList> list;
+  ExitCode code = ExitCode::bad_input;
+
+  explicit operator bool() const { return list.has_value(); }
+  const JobList* operator->() const { return &*list; }
+  const JobList& operator*() const { return *list; }
+};
+/// Reads the manifest, expands it, and leaves the list of jobs in the folder.
+[[nodiscard]] Listed prepare(const CampaignArguments& arguments);
+/// The list that `prepare` has left.
+[[nodiscard]] Listed prepared(const CampaignArguments& arguments);
+
+/// Makes the folder and those above it, where they are missing. Reports an error, and is false
+/// then.
+[[nodiscard]] bool make_folder(const std::filesystem::path& folder);
+/// Says on stderr that every job failed, and returns the exit code for that.
+ExitCode report_all_failed();
+/// Names the first lines that are damaged.
+void report_damage(const Damage& damage);
 
 }  // namespace quadrille::cli::campaign

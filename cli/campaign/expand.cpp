@@ -68,6 +68,7 @@ class Expansion {
 
   JobList run() {
     list_.title = manifest_.title;
+    list_.manifest = manifest_.hash;
     list_.limits = manifest_.limits;
     list_.slurm = manifest_.slurm;
     if (!manifest_.reference.empty()) list_.reference = absolute(manifest_.reference.string());
@@ -93,6 +94,7 @@ class Expansion {
     if (!text) yaml_.refuse(set.line, text.error().to_string());
     at->second.hash = StableHash().add(*text).hex();
     at->second.agents = count_agents(*text, path);
+    list_.inputs.push_back({absolute(path), at->second.hash});
     return at->second;
   }
 

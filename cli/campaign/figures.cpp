@@ -48,35 +48,72 @@ double gap_at(const nlohmann::ordered_json& history, double seconds) {
   return gap;
 }
 
-bool is_history(const nlohmann::ordered_json& json) {
-  return json.is_array() && std::all_of(json.begin(), json.end(), [](const auto& point) {
-           return point.is_array() && point.size() == 3 && point[0].is_number();
-         });
+/// Histories of a series in one clock: that of the limit, if any run has it. Those of versions that
+/// knew no other are in that of the wall.
+struct Histories {
+  std::vector<const nlohmann::ordered_json*> points;
+  std::string clock;
+  std::size_t left_out = 0;
+};
+
+Histories histories_of(const Merged& merged, const Series& series) {
+  std::map<std::string, std::vector<const nlohmann::ordered_json*>> by_clock;
+  std::size_t all = 0;
+  for (const std::size_t job : series.jobs) {
+    const Row& row = row_of(merged, job);
+    if (row.history.is_null() || row.history.empty()) continue;
+    by_clock[row.history_clock].push_back(&row.history);
+    ++all;
+  }
+  if (all == 0) return {};
+  std::string clock = merged.list.limits.cpu_s ? "cpu" : "wall";
+  if (!by_clock.contains(clock)) clock = by_clock.begin()->first;
+  auto& points = by_clock[clock];
+  const std::size_t left_out = all - points.size();
+  return {std::move(points), clock, left_out};
 }
 
 std::string gap_plot(const Merged& merged, const Series& series) {
   constexpr std::array kGaps = {0.0, 1.0, 5.0, 20.0};
   constexpr int kSteps = 60;
-  std::vector<const nlohmann::ordered_json*> histories;
-  for (const std::size_t job : series.jobs)
-    if (is_history(row_of(merged, job).history)) histories.push_back(&row_of(merged, job).history);
-  if (histories.empty()) return "";
-  const double limit = std::max(time_limit(merged), 10 * kShortest_s);
-  Chart chart(series.name, {"seconds", kShortest_s, limit, true}, {"per cent of runs", 0, 100});
+  const Histories histories = histories_of(merged, series);
+  if (histories.points.empty()) return "";
+  double limit = std::max(time_limit(merged), 10 * kShortest_s);
+  for (const auto* points : histories.points)
+    limit = std::max(limit, points->back()[0].get<double>());
+  std::string runs = fmt::format("per cent of {} runs", histories.points.size());
+  if (histories.left_out > 0)
+    runs += fmt::format(", {} of another clock left out", histories.left_out);
+  Chart chart(series.name,
+              {histories.clock == "cpu" ? "CPU seconds" : "seconds by the clock on the wall",
+               kShortest_s, limit, true},
+              {runs, 0, 100});
   for (std::size_t g = 0; g < kGaps.size(); ++g) {
     std::vector<Chart::Point> points;
     for (int step = 0; step <= kSteps; ++step) {
       const double time = kShortest_s * std::pow(limit / kShortest_s, double(step) / kSteps);
-      const auto closed = std::count_if(histories.begin(), histories.end(), [&](const auto* one) {
-        return gap_at(*one, time) <= kGaps[g];
-      });
+      const auto closed =
+          std::count_if(histories.points.begin(), histories.points.end(),
+                        [&](const auto* one) { return gap_at(*one, time) <= kGaps[g]; });
       points.emplace_back(
-          time, 100.0 * static_cast<double>(closed) / static_cast<double>(histories.size()));
+          time, 100.0 * static_cast<double>(closed) / static_cast<double>(histories.points.size()));
     }
     chart.add_curve(kGaps[g] == 0 ? "solved" : fmt::format("gap at most {} %", kGaps[g]), g,
                     std::move(points), false);
   }
-  return chart.svg(420, 340);
+  return chart.svg(420, 276);
+}
+
+/// Times of another solver on the instances that the campaign asks.
+std::vector<double> reference_seconds(const Merged& merged, std::size_t solver) {
+  std::set<Reference::Key> asked;
+  for (const Job& job : merged.list.jobs)
+    if (job.objective == Objective::sum_of_costs)
+      asked.insert({job.family, job.scenario, job.agents});
+  std::vector<double> seconds;
+  for (const auto& [key, by_solver] : merged.reference.seconds)
+    if (asked.contains(key) && by_solver[solver]) seconds.push_back(*by_solver[solver]);
+  return seconds;
 }
 
 }  // namespace
@@ -122,21 +159,46 @@ std::map<std::string, std::vector<std::size_t>> by_family(const Merged& merged,
   return families;
 }
 
-std::string cactus_plot(const Merged& merged, const std::vector<Series>& series) {
-  std::vector<std::pair<const Series*, std::vector<Chart::Point>>> curves;
-  std::size_t most = 1;
+std::vector<std::vector<std::size_t>> common_jobs(const Merged& merged,
+                                                  const std::vector<Series>& series) {
+  using Key = std::pair<std::string, std::int64_t>;  // instance and seed
+  const auto key = [&](std::size_t job) {
+    return Key(merged.list.jobs[job].instance_id, merged.list.jobs[job].seed);
+  };
+  std::map<Key, std::size_t> counts;
+  for (const Series& one : series)
+    for (const std::size_t job : one.jobs) ++counts[key(job)];
+  std::vector<std::vector<std::size_t>> common;
   for (const Series& one : series) {
-    std::vector<double> seconds;
+    common.emplace_back();
     for (const std::size_t job : one.jobs)
-      if (is_solved(merged, job)) seconds.push_back(row_of(merged, job).process_cpu_s);
+      if (counts[key(job)] == series.size()) common.back().push_back(job);
+  }
+  return common;
+}
+
+std::string cactus_plot(const Merged& merged, const std::vector<Series>& series) {
+  std::vector<std::pair<std::string, std::vector<double>>> curves;
+  for (const Series& one : series) {
+    curves.emplace_back(one.name, std::vector<double>());
+    for (const std::size_t job : one.jobs)
+      if (is_solved(merged, job)) curves.back().second.push_back(row_of(merged, job).process_cpu_s);
+  }
+  for (std::size_t solver = 0; solver < merged.reference.solvers.size(); ++solver)
+    curves.emplace_back(merged.reference.solvers[solver] + " (reference)",
+                        reference_seconds(merged, solver));
+  std::size_t most = 1;
+  double longest = std::max(time_limit(merged), 10 * kShortest_s);
+  for (const auto& [name, seconds] : curves) {
     most = std::max(most, seconds.size());
-    curves.emplace_back(&one, cactus_points(std::move(seconds)));
+    for (const double time : seconds) longest = std::max(longest, time);
   }
   Chart chart("instances solved within a time", {"instances solved", 0, static_cast<double>(most)},
-              {"CPU seconds", kShortest_s, std::max(time_limit(merged), 10 * kShortest_s), true});
-  for (auto& [one, points] : curves)
-    chart.add_curve(one->name, one->style, std::move(points), false);
-  return chart.svg(640, 380 + 16 * static_cast<double>(series.size()));
+              {"CPU seconds", kShortest_s, longest, true});
+  for (std::size_t style = 0; style < curves.size(); ++style)
+    chart.add_curve(curves[style].first, style, cactus_points(std::move(curves[style].second)),
+                    false);
+  return chart.svg(640, 380);
 }
 
 std::string ladder_plots(const Merged& merged, const std::vector<Series>& series) {
@@ -163,7 +225,7 @@ std::string ladder_plots(const Merged& merged, const std::vector<Series>& series
         points.emplace_back(static_cast<double>(agents), count);
       chart.add_curve(series[style].name, style, std::move(points), true);
     }
-    text += chart.svg(320, 220 + 16 * static_cast<double>(systems.size()));
+    text += chart.svg(320, 220);
   }
   return text;
 }

@@ -19,15 +19,20 @@ struct Series {
 
 /// The limit of CPU time, or of wall-clock time, or the largest time there is.
 [[nodiscard]] double time_limit(const Merged& merged);
-/// Mean CPU seconds; what was not solved counts as twice the limit. Jobs above the last rung, which
-/// were not run, do not count.
+/// Mean CPU seconds; what was not solved counts as twice the limit. To be compared only over
+/// `common_jobs`.
 [[nodiscard]] double par2(const Merged& merged, const std::vector<std::size_t>& jobs);
 /// Jobs by the family of their map.
 [[nodiscard]] std::map<std::string, std::vector<std::size_t>> by_family(
     const Merged& merged, const std::vector<std::size_t>& jobs);
 [[nodiscard]] bool is_solved(const Merged& merged, std::size_t job);
 
+/// By series, its jobs with an instance and a seed that every series has a row of.
+[[nodiscard]] std::vector<std::vector<std::size_t>> common_jobs(const Merged& merged,
+                                                                const std::vector<Series>& series);
+
 /// Figures as SVG.
+/// Systems, and the solvers of the reference on the instances that are asked.
 [[nodiscard]] std::string cactus_plot(const Merged& merged, const std::vector<Series>& series);
 /// One for each map: how many of its scenarios are solved with so many agents.
 [[nodiscard]] std::string ladder_plots(const Merged& merged, const std::vector<Series>& series);

@@ -45,12 +45,21 @@ struct Ladder {
   std::size_t allowed = 0;
 };
 
+/// A file that jobs rest on, as it was when they were made.
+struct InputFile {
+  std::string path;  ///< As options of jobs name it.
+  std::string hash;  ///< Of its contents: StableHash.
+};
+
 /// All that a campaign asks.
 struct JobList {
   std::string title;
   JobLimits limits;
   SlurmOptions slurm;
   std::string reference;  ///< A file; empty: none.
+  std::string manifest;   ///< Hash of its contents; empty in lists of older versions.
+  /// Maps, scenarios, roadmaps, tasks and instances; empty in the same lists.
+  std::vector<InputFile> inputs;
   std::vector<Job> jobs;
   std::vector<Ladder> ladders;
 };
@@ -60,8 +69,15 @@ struct JobList {
 
 /// The list as a file, so that tasks on other machines need not expand the manifest again.
 [[nodiscard]] std::string to_json(const JobList& list);
-/// Errors: io, syntax.
+/// Errors, with file and line: io, syntax.
 [[nodiscard]] Result<JobList> read_job_list(const std::filesystem::path& path);
+
+/// An error that names a file which is not what it was when the list was made: the manifest, if one
+/// is named, or an input of the jobs numbered, of all jobs without numbers. Nullopt: none is known
+/// to have changed. O(size of the files).
+[[nodiscard]] std::optional<Error> find_change(
+    const JobList& list, const std::string& manifest,
+    const std::optional<std::vector<std::size_t>>& jobs = std::nullopt);
 
 /// The jobs of a manifest. `limits` and seeds become options. Errors, with file and line: a pattern
 /// that matches nothing, a file that cannot be read, a list of agents that a scenario does not

@@ -3,10 +3,14 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "campaign/job.hpp"
 #include "quadrille/core/stated_outcome.hpp"
+#include "quadrille/core/terminal_text.hpp"
+#include "quadrille/text/document.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::cli::campaign {
@@ -41,6 +45,19 @@ Json job_json(const Job& job) {
           {"scenario_id", job.scenario_id}};
 }
 
+/// What is wrong with a list; what() says it.
+struct Wrong : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+void require(bool condition, const char* otherwise) {
+  if (!condition) throw Wrong(otherwise);
+}
+
+bool is_name(const std::string& name) {
+  return name.size() == 16 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 Job read_job(const Json& json) {
   Job job;
   json.at("job").get_to(job.name);
@@ -48,13 +65,17 @@ Job read_job(const Json& json) {
   json.at("scenario").get_to(job.scenario);
   json.at("agents").get_to(job.agents);
   json.at("system").get_to(job.system);
-  job.objective = parse_objective(json.at("objective").get<std::string>()).value();
+  const auto objective = parse_objective(json.at("objective").get<std::string>());
   json.at("seed").get_to(job.seed);
   json.at("program").get_to(job.program);
   json.at("instance").get_to(job.instance);
   json.at("options").get_to(job.options);
   json.at("instance_id").get_to(job.instance_id);
   json.at("scenario_id").get_to(job.scenario_id);
+  require(is_name(job.name), "a name has 16 hexadecimal digits");
+  require(job.agents >= 0, "the number of agents is none");
+  require(objective.has_value(), "the objective is none");
+  job.objective = *objective;
   return job;
 }
 
@@ -79,41 +100,137 @@ SlurmOptions read_slurm(const Json& json) {
   json.at("parallel").get_to(slurm.parallel);
   json.at("array_size").get_to(slurm.array_size);
   json.at("options").get_to(slurm.options);
+  require(slurm.chunk >= 1 && slurm.parallel >= 0 && slurm.array_size >= 1,
+          "a number of tasks is too small");
   return slurm;
 }
 
-JobList read_list(const Json& json) {
-  if (json.at("quadrille") != "campaign" || json.at("version") != kVersion)
-    throw std::invalid_argument("it is no list of jobs of this version");
-  JobList list;
-  json.at("title").get_to(list.title);
-  const Json& limits = json.at("limits");
-  read_optional(limits.at("cpu_s"), list.limits.cpu_s);
-  read_optional(limits.at("wall_s"), list.limits.wall_s);
-  read_optional(limits.at("memory_mib"), list.limits.memory_mib);
-  read_optional(limits.at("conflicts"), list.limits.conflicts);
-  limits.at("grace_s").get_to(list.limits.grace_s);
-  list.slurm = read_slurm(json.at("slurm"));
-  json.at("reference").get_to(list.reference);
-  for (const Json& job : json.at("jobs")) list.jobs.push_back(read_job(job));
-  for (const Json& ladder : json.at("ladders")) {
-    list.ladders.push_back({ladder.at("ladder").get<std::string>(),
-                            ladder.at("level").get<std::size_t>(),
-                            ladder.at("rungs").get<std::vector<std::vector<std::size_t>>>(),
-                            ladder.at("allowed").get<std::size_t>()});
-    for (const auto& rung : list.ladders.back().rungs)
-      for (const std::size_t job : rung)
-        if (job >= list.jobs.size()) throw std::invalid_argument("a ladder names no job");
+JobLimits read_limits(const Json& json) {
+  constexpr double kMost_s = 1e9;
+  JobLimits limits;
+  read_optional(json.at("cpu_s"), limits.cpu_s);
+  read_optional(json.at("wall_s"), limits.wall_s);
+  read_optional(json.at("memory_mib"), limits.memory_mib);
+  read_optional(json.at("conflicts"), limits.conflicts);
+  json.at("grace_s").get_to(limits.grace_s);
+  for (const double seconds : {limits.cpu_s.value_or(1), limits.wall_s.value_or(1), limits.grace_s})
+    require(seconds >= 0 && seconds <= kMost_s, "a limit of time is none");
+  require(limits.memory_mib.value_or(0) >= 0 && limits.conflicts.value_or(0) >= 0,
+          "a limit is below 0");
+  return limits;
+}
+
+/// Reads a list, and knows where in the file it is when something is wrong.
+class ListReader {
+ public:
+  JobList read(const Json& json) {
+    require(json.is_object() && json.value("quadrille", Json()) == "campaign" &&
+                json.value("version", Json()) == kVersion,
+            "it is none of this version");
+    at(
+        "title", [&](const Json& value) { value.get_to(list_.title); }, json);
+    at(
+        "limits", [&](const Json& value) { list_.limits = read_limits(value); }, json);
+    at(
+        "slurm", [&](const Json& value) { list_.slurm = read_slurm(value); }, json);
+    at(
+        "reference", [&](const Json& value) { value.get_to(list_.reference); }, json);
+    // Older lists have neither of the two.
+    if (json.contains("manifest"))
+      at(
+          "manifest", [&](const Json& value) { value.get_to(list_.manifest); }, json);
+    if (json.contains("inputs"))
+      each(
+          "inputs",
+          [&](const Json& value) {
+            list_.inputs.push_back(
+                {value.at("file").get<std::string>(), value.at("hash").get<std::string>()});
+          },
+          json);
+    each(
+        "jobs", [&](const Json& value) { add_job(value); }, json);
+    each(
+        "ladders", [&](const Json& value) { add_ladder(value); }, json);
+    return std::move(list_);
   }
-  return list;
+  /// The key of the list, and the number in it, of what is being read.
+  [[nodiscard]] const std::string& key() const { return key_; }
+  [[nodiscard]] std::size_t index() const { return index_; }
+
+ private:
+  template <class Read>
+  void at(const char* key, const Read& read, const Json& json) {
+    key_ = key;
+    index_ = 0;
+    read(json.at(key));
+  }
+  template <class Read>
+  void each(const char* key, const Read& read, const Json& json) {
+    key_ = key;
+    index_ = 0;
+    require(json.at(key).is_array(), "it is no list");
+    for (const Json& value : json.at(key)) {
+      read(value);
+      ++index_;
+    }
+  }
+
+  void add_job(const Json& json) {
+    list_.jobs.push_back(read_job(json));
+    require(names_.insert(list_.jobs.back().name).second, "two jobs have the same name");
+  }
+  void add_ladder(const Json& json) {
+    Ladder ladder;
+    json.at("ladder").get_to(ladder.name);
+    json.at("level").get_to(ladder.level);
+    json.at("allowed").get_to(ladder.allowed);
+    json.at("rungs").get_to(ladder.rungs);
+    require(!ladder.rungs.empty(), "a ladder has no rungs");
+    for (const auto& rung : ladder.rungs) {
+      require(!rung.empty(), "a rung has no jobs");
+      for (const std::size_t job : rung) {
+        require(job < list_.jobs.size(), "a rung names a job that is not in the list");
+        require(placed_.insert(job).second, "a job stands in two places");
+      }
+    }
+    list_.ladders.push_back(std::move(ladder));
+  }
+
+  JobList list_;
+  std::set<std::string> names_;
+  std::set<std::size_t> placed_;  // jobs on ladders
+  std::string key_;
+  std::size_t index_ = 0;
+};
+
+/// The line of the value with that key and, in a list, that number; else of the document.
+long line_of(const text::Document& document, const std::string& key, std::size_t index) {
+  using text::Document;
+  long line = 1;
+  const Document::Node end = document.next(Document::kRoot);
+  for (Document::Node name = document.first(Document::kRoot); name < end;) {
+    const Document::Node value = document.next(name);
+    if (document.text(name) == key) {
+      line = document.line(value);
+      Document::Node item = document.first(value);
+      if (document.kind(value) != Document::Kind::array) return line;
+      while (index > 0 && item < document.next(value)) {
+        item = document.next(item);
+        --index;
+      }
+      return item < document.next(value) ? document.line(item) : line;
+    }
+    name = document.next(value);
+  }
+  return line;
 }
 
 }  // namespace
 
 std::string describe(const Job& job) {
   const std::string agents = job.agents == 0 ? "all agents" : fmt::format("{} agents", job.agents);
-  return fmt::format("{} {}, {}, {}, seed {} ({})", job.family, job.scenario, agents, job.system,
-                     job.seed, job.name);
+  return terminal_line(fmt::format("{} {}, {}, {}, seed {} ({})", job.family, job.scenario, agents,
+                                   job.system, job.seed, job.name));
 }
 
 std::string to_json(const JobList& list) {
@@ -128,25 +245,30 @@ std::string to_json(const JobList& list) {
                        {"conflicts", or_null(limits.conflicts)},
                        {"grace_s", limits.grace_s}}},
                      {"slurm", slurm_json(list.slurm)},
-                     {"reference", list.reference}};
+                     {"reference", list.reference},
+                     {"manifest", list.manifest}};
   const auto dump = [](const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   };
-  // A line for each job and each ladder.
+  // A line for each file, job and ladder.
+  const auto lines = [&](const auto& items, const auto& to_json) {
+    std::string joined;
+    for (const auto& item : items) joined += (joined.empty() ? "\n" : ",\n") + dump(to_json(item));
+    return "[" + joined + "\n]";
+  };
   std::string text = dump(head);
   text.pop_back();
-  text += ",\n\"jobs\":[";
-  for (std::size_t i = 0; i < list.jobs.size(); ++i)
-    text += (i == 0 ? "\n" : ",\n") + dump(job_json(list.jobs[i]));
-  text += "\n],\"ladders\":[";
-  for (std::size_t i = 0; i < list.ladders.size(); ++i) {
-    const Ladder& ladder = list.ladders[i];
-    text += (i == 0 ? "\n" : ",\n") + dump({{"ladder", ladder.name},
-                                            {"level", ladder.level},
-                                            {"allowed", ladder.allowed},
-                                            {"rungs", ladder.rungs}});
-  }
-  return text + "\n]}\n";
+  text += ",\n\"inputs\":" + lines(list.inputs, [](const InputFile& input) {
+            return Json{{"file", input.path}, {"hash", input.hash}};
+          });
+  text += ",\n\"jobs\":" + lines(list.jobs, job_json);
+  text += ",\n\"ladders\":" + lines(list.ladders, [](const Ladder& ladder) {
+            return Json{{"ladder", ladder.name},
+                        {"level", ladder.level},
+                        {"allowed", ladder.allowed},
+                        {"rungs", ladder.rungs}};
+          });
+  return text + "}\n";
 }
 
 Result<JobList> read_job_list(const std::filesystem::path& path) {
@@ -154,11 +276,17 @@ Result<JobList> read_job_list(const std::filesystem::path& path) {
   if (auto error = text::open_input(path, in)) return *error;
   const auto text = text::read_all(in, path.string());
   if (!text) return text.error();
+  // For the lines; it refuses what is no JSON, too.
+  const auto document = text::parse_json(*text, path.string());
+  if (!document) return document.error();
+  ListReader reader;
   try {
-    return read_list(Json::parse(*text));
+    return reader.read(Json::parse(*text));
   } catch (const std::exception& error) {
-    return Error{
-        ErrorCode::syntax, std::string("not a list of jobs: ") + error.what(), {path.string(), 0}};
+    const bool object = document->kind(text::Document::kRoot) == text::Document::Kind::object;
+    return Error{ErrorCode::syntax,
+                 std::string("not a list of jobs: ") + error.what(),
+                 {path.string(), object ? line_of(*document, reader.key(), reader.index()) : 1}};
   }
 }
 

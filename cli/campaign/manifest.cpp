@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "campaign/manifest_yaml.hpp"
+#include "campaign/stable_hash.hpp"
 #include "quadrille/text/document.hpp"
 #include "quadrille/text/text_input.hpp"
 
@@ -276,7 +277,9 @@ Result<Manifest> read_manifest(const std::string& file, const std::string& data)
   // The limits of all YAML: depth and size, no anchors and aliases. What passes is a tree.
   if (const auto checked = text::parse_yaml(*text, file); !checked) return checked.error();
   try {
-    return ManifestReader(file).read(YAML::Load(*text), data);
+    Manifest manifest = ManifestReader(file).read(YAML::Load(*text), data);
+    manifest.hash = StableHash().add(*text).hex();
+    return manifest;
   } catch (const Refused& refused) {
     return refused.error;
   } catch (const YAML::Exception& error) {

@@ -66,6 +66,7 @@ struct SlurmOptions {
 
 struct Manifest {
   std::string file;
+  std::string hash;  ///< Of its contents: StableHash.
   std::string title;
   std::filesystem::path data;  ///< What patterns are relative to.
   std::vector<InstanceSet> instances;

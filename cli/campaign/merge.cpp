@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <numeric>
-#include <system_error>
 #include <utility>
 
 #include "campaign/commands.hpp"
 #include "campaign/merged.hpp"
 #include "campaign/replay.hpp"
 #include "output.hpp"
+#include "quadrille/core/terminal_text.hpp"
 
 namespace quadrille::cli::campaign {
 namespace {
@@ -34,7 +34,7 @@ class Collector {
   }
 
   std::optional<Error> run() {
-    auto error = store_.read_new([&](std::string_view line) { take(line); });
+    auto error = store_.read_new([&](std::string_view line, long number) { take(line, number); });
     if (error) return error;
     Schedule schedule(merged_.list);
     for (std::size_t job = 0; job < merged_.rows.size(); ++job)
@@ -47,10 +47,10 @@ class Collector {
   [[nodiscard]] std::size_t replayed() const { return replayed_; }
 
  private:
-  void take(std::string_view line) {
-    auto row = read_row(line, true);
+  void take(std::string_view line, long line_number) {
+    auto row = read_row(line);
     if (!row) {
-      ++merged_.damaged;
+      merged_.damage.note(store_, line_number, row.error());
       return;
     }
     const auto found = numbers_.find(row->job);
@@ -100,8 +100,7 @@ class Collector {
 };
 
 bool write_outputs(const Folder& folder, const Merged& merged) {
-  std::error_code ignored;
-  std::filesystem::create_directories(folder.merged(), ignored);
+  if (!make_folder(folder.merged())) return false;
   const std::pair<const char*, std::string> outputs[] = {{"table.csv", csv_table(merged)},
                                                          {"table.jsonl", jsonl_table(merged)},
                                                          {"tracker.csv", tracker_table(merged)},
@@ -113,6 +112,13 @@ bool write_outputs(const Folder& folder, const Merged& merged) {
   });
 }
 
+bool all_failed(const Merged& merged) {
+  const auto failed = [](const auto& row) { return !row || row->status == "failed"; };
+  return std::any_of(merged.rows.begin(), merged.rows.end(),
+                     [](const auto& row) { return row.has_value(); }) &&
+         std::all_of(merged.rows.begin(), merged.rows.end(), failed);
+}
+
 std::string summary(const Merged& merged, std::size_t replayed, const Folder& folder) {
   std::size_t rows = 0, solved = 0;
   for (const auto& row : merged.rows) {
@@ -122,11 +128,12 @@ std::string summary(const Merged& merged, std::size_t replayed, const Folder& fo
   }
   std::string text = fmt::format(
       "{}: {} rows, {} solved; {} plans replayed, no contradictions\ntables and report in {}\n",
-      merged.list.title, rows, solved, replayed, folder.merged().string());
+      terminal_line(merged.list.title), rows, solved, replayed,
+      terminal_line(folder.merged().string()));
   if (merged.missing > 0)
     text += fmt::format("at most {} jobs are yet to be run\n", merged.missing);
-  if (merged.damaged > 0)
-    text += fmt::format("{} damaged lines; their jobs are run again\n", merged.damaged);
+  if (merged.damage.lines() > 0)
+    text += fmt::format("{} damaged lines, but every job has a row\n", merged.damage.lines());
   if (merged.foreign > 0)
     text += fmt::format("{} rows of jobs that are not asked for any more\n", merged.foreign);
   return text;
@@ -136,13 +143,16 @@ std::string summary(const Merged& merged, std::size_t replayed, const Folder& fo
 
 ExitCode merge(const CampaignArguments& arguments) {
   auto list = prepared(arguments);
-  if (!list) return ExitCode::bad_input;
+  if (!list) return list.code;
   Merged merged;
-  merged.list = *std::move(list);
+  merged.list = *std::move(list.list);
   const Folder folder = arguments.files();
   auto store = Store::open(folder.results());
-  std::optional<Error> error;
-  error = store ? store->begin_merge() : store.error();
+  if (const auto error = store ? store->begin_merge() : store.error()) {
+    report_error(*error);
+    return ExitCode::output;
+  }
+  auto error = find_change(merged.list, "");
   if (!error && !merged.list.reference.empty()) {
     auto reference = read_reference(merged.list.reference);
     if (reference)
@@ -150,15 +160,12 @@ ExitCode merge(const CampaignArguments& arguments) {
     else
       error = reference.error();
   }
-  if (error) {
-    report_error(*error);
-    return ExitCode::bad_input;
-  }
   Collector collector(merged, *store);
-  if (error = collector.run(); error) {
-    report_error(*error);
-    return ExitCode::bad_input;
-  }
+  if (!error) error = collector.run();
+  report_damage(merged.damage);
+  if (error) report_error(*error);
+  // What a damaged line said is not passed over in silence.
+  if (error || (merged.damage.lines() > 0 && merged.missing > 0)) return ExitCode::bad_input;
   std::vector<std::string> wrong = std::move(collector.wrong());
   for (std::string& sentence : contradictions(merged)) wrong.push_back(std::move(sentence));
   for (const std::string& sentence : wrong)
@@ -167,7 +174,8 @@ ExitCode merge(const CampaignArguments& arguments) {
   if (!write_outputs(folder, merged)) return ExitCode::output;
   Console console(arguments.quiet, false);
   console.print(summary(merged, collector.replayed(), folder));
-  return merged.missing == 0 ? ExitCode::success : ExitCode::unknown;
+  if (merged.missing > 0) return ExitCode::unknown;
+  return all_failed(merged) ? report_all_failed() : ExitCode::success;
 }
 
 }  // namespace quadrille::cli::campaign

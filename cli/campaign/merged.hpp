@@ -31,7 +31,8 @@ struct Merged {
   JobList list;
   std::vector<std::optional<Row>> rows;  ///< By job; without plans.
   std::size_t missing = 0;               ///< Jobs that are yet to be run.
-  std::size_t damaged = 0, foreign = 0;
+  Damage damage;
+  std::size_t foreign = 0;
   Reference reference;
   /// By job, on grids: the motions of the agents, one line each, of plans that are the best of
   /// their instance at that time.

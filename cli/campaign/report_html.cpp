@@ -14,29 +14,41 @@ namespace {
 constexpr const char* kStyle =
     "body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222;"
     "background:#fff}\n"
-    "table{border-collapse:collapse;margin:1em 0}td,th{padding:.2em .7em;border-bottom:1px solid "
-    "#ddd;text-align:right}td:first-child,th:first-child{text-align:left}\n"
-    "svg{font:11px sans-serif;margin:.4em}svg .title{font-weight:bold}svg .grid{stroke:#8884}\n"
+    "h1{overflow-wrap:anywhere}\n"
+    "table{border-collapse:collapse;margin:1em 0;max-width:100%}td,th{padding:.2em "
+    ".7em;border-bottom:1px solid #ddd;text-align:right;vertical-align:top}"
+    ".name{text-align:left;overflow-wrap:anywhere}\n"
+    "svg{font:11px sans-serif;margin:.4em;max-width:100%}svg .title{font-weight:bold}svg "
+    ".grid{stroke:#8884}\n"
     "@media(prefers-color-scheme:dark){body{background:#181818;color:#ddd}svg "
     "text{fill:#ddd}td,th{border-color:#444}}\n";
 
 using Cells = std::vector<std::string>;
 
-std::string table_row(const Cells& cells, const char* tag) {
+/// The first `names` cells are names, which may be broken anywhere.
+std::string table_row(const Cells& cells, const char* tag, std::size_t names) {
   std::string text = "<tr>";
-  for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    text += fmt::format("<{0}{1}>{2}</{0}>", tag, i < names ? " class=\"name\"" : "",
+                        escaped(cells[i]));
   return text + "</tr>\n";
 }
 
-std::string table(const Cells& head, const std::vector<Cells>& rows) {
-  std::string text = "<table>\n<thead>" + table_row(head, "th") + "</thead>\n<tbody>\n";
-  for (const Cells& row : rows) text += table_row(row, "td");
+std::string table(const Cells& head, const std::vector<Cells>& rows, std::size_t names) {
+  std::string text = "<table>\n<thead>" + table_row(head, "th", names) + "</thead>\n<tbody>\n";
+  for (const Cells& row : rows) text += table_row(row, "td", names);
   return text + "</tbody></table>\n";
 }
 
+std::string par2_text(const Merged& merged, const std::vector<std::size_t>& jobs) {
+  return jobs.empty() ? "-" : fmt::format("{:.2f}", par2(merged, jobs));
+}
+
 std::string systems_table(const Merged& merged, const std::vector<Series>& series) {
+  const auto common = common_jobs(merged, series);
   std::vector<Cells> rows;
-  for (const Series& one : series) {
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const Series& one = series[i];
     std::map<std::string, std::size_t> sums;
     std::vector<double> gaps;
     for (const std::size_t job : one.jobs) {
@@ -49,12 +61,18 @@ std::string systems_table(const Merged& merged, const std::vector<Series>& serie
     rows.push_back({one.name, std::to_string(one.jobs.size()), std::to_string(sums["optimal"]),
                     std::to_string(sums["infeasible"]), std::to_string(sums["feasible"]),
                     std::to_string(sums["unknown"]), std::to_string(sums["failed"]),
-                    fmt::format("{:.2f}", par2(merged, one.jobs)),
+                    par2_text(merged, common[i]),
                     gaps.empty() ? "-" : fmt::format("{:.2f} %", gaps[gaps.size() / 2])});
   }
-  return table({"system", "runs", "optimal", "infeasible", "with a plan", "without", "failed",
-                "PAR-2 (s)", "median gap of plans not proved"},
-               rows);
+  std::string text = table({"system", "runs", "optimal", "infeasible", "with a plan", "without",
+                            "failed", "PAR-2 (s)", "median gap of plans not proved"},
+                           rows, 1);
+  const std::size_t runs = common.empty() ? 0 : common.front().size();
+  return text + fmt::format(
+                    "<p>PAR-2: mean CPU seconds, a run that is not solved counted as twice the "
+                    "limit, over the {} {} (an instance and a seed) that every system did. Runs "
+                    "that a ladder of some system did not come to do not count.</p>\n",
+                    runs, runs == 1 ? "run" : "runs");
 }
 
 /// The largest number of agents that was solved, and its time.
@@ -78,34 +96,31 @@ std::string largest(const Reference& reference, const std::string& family, std::
   return best ? fmt::format("{} ({:.2f} s)", best->first, best->second) : "-";
 }
 
+/// A row for each map and system: as many systems as there may be, the table is no wider.
 std::string maps_table(const Merged& merged, const std::vector<Series>& series) {
-  Cells head = {"map"};
-  std::set<std::string> names;
-  std::vector<std::map<std::string, std::vector<std::size_t>>> families;
-  for (const Series& one : series) {
-    families.push_back(by_family(merged, one.jobs));
-    for (const auto& [name, jobs] : families.back()) names.insert(name);
-    head.insert(head.end(), {one.name + ": solved", "of runs", "most agents", "PAR-2 (s)"});
-  }
-  for (const std::string& solver : merged.reference.solvers)
-    head.push_back(solver + ": most agents");
-  std::vector<Cells> rows;
-  for (const std::string& name : names) {
-    Cells row = {name};
-    for (const auto& family : families) {
-      const auto found = family.find(name);
-      const std::vector<std::size_t> jobs =
-          found == family.end() ? std::vector<std::size_t>() : found->second;
+  const auto common = common_jobs(merged, series);
+  std::map<std::string, std::vector<Cells>> by_map;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    auto compared = by_family(merged, common[i]);
+    for (const auto& [name, jobs] : by_family(merged, series[i].jobs)) {
       const auto solved = std::count_if(jobs.begin(), jobs.end(),
                                         [&](std::size_t job) { return is_solved(merged, job); });
-      row.insert(row.end(), {std::to_string(solved), std::to_string(jobs.size()),
-                             largest(merged, jobs), fmt::format("{:.2f}", par2(merged, jobs))});
+      by_map[name].push_back({"", series[i].name, std::to_string(solved),
+                              std::to_string(jobs.size()), largest(merged, jobs),
+                              par2_text(merged, compared[name]),
+                              std::to_string(compared[name].size())});
     }
-    for (std::size_t solver = 0; solver < merged.reference.solvers.size(); ++solver)
-      row.push_back(largest(merged.reference, name, solver));
-    rows.push_back(std::move(row));
   }
-  return table(head, rows);
+  std::vector<Cells> rows;
+  for (auto& [name, cells] : by_map) {
+    cells.front().front() = name;
+    rows.insert(rows.end(), cells.begin(), cells.end());
+    for (std::size_t solver = 0; solver < merged.reference.solvers.size(); ++solver)
+      rows.push_back({"", merged.reference.solvers[solver] + " (reference)", "", "",
+                      largest(merged.reference, name, solver), "", ""});
+  }
+  return table({"map", "system", "solved", "of runs", "most agents", "PAR-2 (s)", "over runs"},
+               rows, 2);
 }
 
 std::string limits_text(const JobLimits& limits) {
@@ -151,10 +166,6 @@ std::string html_report(const Merged& merged) {
       title, kStyle);
   text += head(merged);
   text += "<h2>Systems</h2>\n" + systems_table(merged, series);
-  text +=
-      "<p>PAR-2: mean CPU seconds, a run that is not solved counted as twice the limit. Runs that "
-      "a "
-      "ladder did not come to do not count.</p>\n";
   text += "<h2>Solved within a time</h2>\n" + cactus_plot(merged, series);
   text += "<h2>Maps</h2>\n" + maps_table(merged, series);
   text += "<h2>Ladders</h2>\n<div>" + ladder_plots(merged, series) + "</div>\n";

@@ -12,11 +12,17 @@ Follower::Follower(const JobList& list, Store& store, Schedule& schedule)
   for (std::size_t i = 0; i < list.jobs.size(); ++i) numbers_.emplace(list.jobs[i].name, i);
 }
 
+void Damage::note(const Store& store, long line, const Error& what) {
+  constexpr std::size_t kKept = 20;
+  ++lines_;
+  if (errors_.size() < kKept) errors_.push_back({what.code, what.message, {store.path(), line}});
+}
+
 std::optional<Error> Follower::update(const std::function<void(std::size_t, const Row&)>& take) {
-  return store_.read_new([&](std::string_view line) {
-    const auto row = read_row(line, false);
+  return store_.read_new([&](std::string_view line, long number) {
+    const auto row = read_row(line);
     if (!row) {
-      ++damaged_;
+      damage_.note(store_, number, row.error());
       return;
     }
     const auto job = numbers_.find(row->job);
@@ -25,12 +31,16 @@ std::optional<Error> Follower::update(const std::function<void(std::size_t, cons
       return;
     }
     if (row->opens()) {
+      failed_.erase(job->second);
+      answered_.erase(job->second);
       schedule_.reopen(job->second);
       if (take) take(job->second, *row);
       return;
     }
     (row->solved() ? times_.solved_s : times_.unsolved_s) += row->wall_s;
     ++(row->solved() ? times_.solved : times_.unsolved);
+    if (schedule_.has(job->second))
+      (row->status == "failed" ? failed_ : answered_).insert(job->second);
     schedule_.finish(job->second, row->solved());
     if (take) take(job->second, *row);
   });

@@ -5,7 +5,9 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "campaign/job.hpp"
 #include "campaign/row.hpp"
@@ -24,6 +26,20 @@ struct Folder {
   [[nodiscard]] std::filesystem::path slurm() const { return path / "slurm"; }
 };
 
+/// Lines of the store that are no rows. Their jobs are run again.
+class Damage {
+ public:
+  /// `what`: why the line is none.
+  void note(const Store& store, long line, const Error& what);
+  [[nodiscard]] std::size_t lines() const noexcept { return lines_; }
+  /// The first ones, with file and line.
+  [[nodiscard]] const std::vector<Error>& errors() const noexcept { return errors_; }
+
+ private:
+  std::size_t lines_ = 0;
+  std::vector<Error> errors_;
+};
+
 /// Follows the file of results, and keeps a schedule up to date with it.
 class Follower {
  public:
@@ -34,8 +50,9 @@ class Follower {
   /// that open a job again.
   std::optional<Error> update(const std::function<void(std::size_t, const Row&)>& take = {});
 
-  /// Lines that are no rows. Their jobs are run again.
-  [[nodiscard]] std::size_t damaged() const noexcept { return damaged_; }
+  [[nodiscard]] const Damage& damage() const noexcept { return damage_; }
+  /// Whether jobs of the schedule have rows, and all of these say that the job failed.
+  [[nodiscard]] bool all_failed() const noexcept { return !failed_.empty() && answered_.empty(); }
   /// Rows of jobs that the list does not have: of an earlier manifest.
   [[nodiscard]] std::size_t foreign() const noexcept { return foreign_; }
   /// Seconds that jobs took: all solved ones, and all others.
@@ -49,7 +66,9 @@ class Follower {
   Store& store_;
   Schedule& schedule_;
   std::map<std::string, std::size_t> numbers_;
-  std::size_t damaged_ = 0, foreign_ = 0;
+  Damage damage_;
+  std::size_t foreign_ = 0;
+  std::set<std::size_t> failed_, answered_;  // jobs of the schedule
   Times times_;
 };
 

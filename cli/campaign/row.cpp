@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -94,15 +95,48 @@ Row read_result(const Job& job, const Ended& ended, const std::string& status) {
   row.statistics = result.at("statistics");
   result.at("version").get_to(row.version);
   row.history = member(result, "history");
+  row.history_clock = result.value("history_clock", row.history_clock);
   row.certificate = member(result, "certificate");
   if (result.at("plan").is_null()) return row;
   if (auto encoded = ticks ? std::nullopt : encode_plan(result["plan"])) {
     row.plan = *std::move(encoded);
   } else {
-    for (const char* key : {"statistics", "options", "history"}) result.erase(key);
+    for (const char* key : {"statistics", "options", "history", "history_clock"}) result.erase(key);
     row.plan = std::move(result);
   }
   return row;
+}
+
+bool is_number_or_null(const Json& json) { return json.is_number() || json.is_null(); }
+
+bool is_point(const Json& json) {
+  return json.is_array() && json.size() == 3 && json[0].is_number() && is_number_or_null(json[1]) &&
+         is_number_or_null(json[2]);
+}
+
+template <class Is>
+bool are_all(const Json& json, const Is& is) {
+  return json.is_array() && std::all_of(json.begin(), json.end(), is);
+}
+
+/// What cannot be worked with; null if all is well.
+const char* fault_of(const Row& row) {
+  constexpr std::array kStatuses = {"optimal", "infeasible", "feasible",
+                                    "unknown", "failed",     "open"};
+  if (row.job.size() != 16 || row.job.find_first_not_of("0123456789abcdef") != std::string::npos)
+    return "no name of a job";
+  if (std::find(kStatuses.begin(), kStatuses.end(), row.status) == kStatuses.end())
+    return "no such status";
+  if (!is_number_or_null(row.cost) || !is_number_or_null(row.lower_bound))
+    return "a cost or bound is no number";
+  if (!row.statistics.is_null() && !row.statistics.is_object())
+    return "the statistics are no object";
+  if (!row.history.is_null() && !are_all(row.history, is_point))
+    return "the history is no list of seconds, bounds and costs";
+  const bool texts = are_all(row.plan, [](const Json& path) { return path.is_string(); });
+  if (!row.plan.is_null() && !row.plan.is_object() && !texts)
+    return "the plan is neither a result nor a list of texts";
+  return nullptr;
 }
 
 }  // namespace
@@ -161,21 +195,16 @@ std::string to_line(const Row& row) {
                      {"host", row.host},
                      {"certificate", row.certificate},
                      {"history", row.history},
+                     {"history_clock", row.history_clock},
                      {"plan", row.plan}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Result<Row> read_row(std::string_view line, bool with_plan) {
+Result<Row> read_row(std::string_view line) {
   try {
-    const auto keep = [&](int depth, Json::parse_event_t event, Json& parsed) {
-      return with_plan || depth != 1 || event != Json::parse_event_t::key ||
-             (parsed != "plan" && parsed != "history");
-    };
-    const Json json = Json::parse(line, keep);
+    const Json json = Json::parse(line);
     Row row;
     json.at("job").get_to(row.job);
-    if (row.job.size() != 16 || row.job.find_first_not_of("0123456789abcdef") != std::string::npos)
-      return Error{ErrorCode::syntax, "no name of a job", {}};
     json.at("status").get_to(row.status);
     json.at("stop_reason").get_to(row.stop_reason);
     json.at("enforced").get_to(row.enforced);
@@ -191,7 +220,10 @@ Result<Row> read_row(std::string_view line, bool with_plan) {
     json.at("host").get_to(row.host);
     row.certificate = json.at("certificate");
     row.history = member(json, "history");
+    row.history_clock = json.value("history_clock", row.history_clock);
     row.plan = member(json, "plan");
+    if (const char* wrong = fault_of(row))
+      return Error{ErrorCode::syntax, std::string("not a row: ") + wrong, {}};
     return row;
   } catch (const Json::exception& error) {
     return Error{ErrorCode::syntax, std::string("not a row: ") + error.what(), {}};

@@ -29,7 +29,9 @@ struct Row {
   double process_cpu_s = 0, wall_s = 0;
   nlohmann::ordered_json statistics;  ///< Of the result; null without.
   std::string version, host;
-  nlohmann::ordered_json history;      ///< [[seconds, lower bound, cost or null], ...] or null.
+  nlohmann::ordered_json history;  ///< [[seconds, lower bound, cost or null], ...] or null.
+  /// What its seconds are: "cpu" or "wall", which is also what they are where nothing says so.
+  std::string history_clock = "wall";
   nlohmann::ordered_json certificate;  ///< Room for the name of one; null.
   /// On grids a list of texts (plan_text.hpp); else the result that has the plan; or null.
   nlohmann::ordered_json plan;
@@ -40,8 +42,8 @@ struct Row {
 
 /// One line, without its end.
 [[nodiscard]] std::string to_line(const Row& row);
-/// Errors (syntax): a line that is no row. `with_plan`: else plan and history are left out.
-[[nodiscard]] Result<Row> read_row(std::string_view line, bool with_plan);
+/// Errors (syntax): a line that is no row; one that is can be used without further checks.
+[[nodiscard]] Result<Row> read_row(std::string_view line);
 
 /// What a job's end says. A job that a signal has ended, other than for a limit, has no row:
 /// nullopt; it is worth another try.

@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "quadrille/core/terminal_text.hpp"
+
 namespace quadrille::cli::campaign {
 namespace {
 
@@ -33,7 +35,7 @@ std::vector<std::string> command_of(const Job& job) {
 std::string describe_row(const Job& job, const Row& row) {
   const std::string cost = row.cost.is_null() ? "" : " " + row.cost.dump();
   const std::string why = row.solved() ? "" : ", " + row.stop_reason;
-  const std::string failure = row.status == "failed" ? ", " + row.explanation : "";
+  const std::string failure = row.status == "failed" ? ", " + terminal_line(row.explanation) : "";
   return fmt::format("{}: {}{}{}{}, {:.2f} s\n", describe(job), row.status, cost, why, failure,
                      row.process_cpu_s);
 }
@@ -216,8 +218,8 @@ void Runner::report(bool now) {
   if (counts.left > 0)
     text += fmt::format(", {} left{}", counts.left,
                         rest ? "; about " + duration_text(*rest) + " to go" : "");
-  if (now && follower_.damaged() > 0)
-    text += fmt::format("; {} damaged lines in the results", follower_.damaged());
+  if (now && follower_.damage().lines() > 0)
+    text += fmt::format("; {} damaged lines in the results", follower_.damage().lines());
   if (now || !line_.active())
     console_.print(text + "\n");
   else

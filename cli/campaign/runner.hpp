@@ -40,6 +40,8 @@ class Runner {
   };
   [[nodiscard]] End run();
   [[nodiscard]] const std::optional<Error>& error() const noexcept { return error_; }
+  /// What it has read and written.
+  [[nodiscard]] const Follower& follower() const noexcept { return follower_; }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -28,6 +28,8 @@ class Schedule {
   /// Whether a job is among those that may be run now.
   [[nodiscard]] bool is_open(std::size_t job) const;
   [[nodiscard]] bool is_finished(std::size_t job) const { return states_[job] != State::open; }
+  /// Whether it is a job of these ladders.
+  [[nodiscard]] bool has(std::size_t job) const { return climb_of_[job] < climbs_.size(); }
   /// Whether ladder number `ladder` has nothing left to run.
   [[nodiscard]] bool is_ladder_done(std::size_t ladder) const;
 

@@ -224,13 +224,13 @@ Result<std::vector<std::size_t>> read_task(const Folder& folder, const JobList& 
   } catch (const Json::exception& error) {
     return Error{ErrorCode::syntax,
                  fmt::format("no task {} in it: {}", task, error.what()),
-                 {path.string(), 0}};
+                 {path.string(), 1}};
   }
 }
 
 ExitCode submit(const CampaignArguments& arguments) {
   const auto list = prepare(arguments);
-  if (!list) return ExitCode::bad_input;
+  if (!list) return list.code;
   const auto tasks = open_tasks(*list, arguments.files());
   Console console(arguments.quiet, false);
   std::optional<Error> error;

@@ -55,7 +55,10 @@ std::int64_t size_of_whole_lines(int file, std::int64_t size) {
 }  // namespace
 
 Store::Store(Store&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), read_(other.read_) {}
+    : path_(std::move(other.path_)),
+      file_(std::exchange(other.file_, -1)),
+      read_(other.read_),
+      lines_(other.lines_) {}
 
 Store::~Store() {
   if (file_ >= 0) ::close(file_);
@@ -75,7 +78,7 @@ Result<Store> Store::open(const std::filesystem::path& path) {
   return store;
 }
 
-std::optional<Error> Store::read_new(const std::function<void(std::string_view)>& take) {
+std::optional<Error> Store::read_new(const std::function<void(std::string_view, long)>& take) {
   std::string rest;
   std::array<char, 1 << 16> block;
   std::int64_t at = read_;
@@ -90,7 +93,7 @@ std::optional<Error> Store::read_new(const std::function<void(std::string_view)>
       rest += text.substr(0, end);
       text.remove_prefix(end + 1);
       read_ += static_cast<std::int64_t>(rest.size()) + 1;
-      take(rest);
+      take(rest, ++lines_);
       rest.clear();
     }
     rest += text;

@@ -28,8 +28,11 @@ class Store {
   Store& operator=(Store&&) = delete;
   ~Store();
 
-  /// Calls `take` for each complete line that it has not read yet, without its end.
-  [[nodiscard]] std::optional<Error> read_new(const std::function<void(std::string_view)>& take);
+  /// Calls `take` for each complete line that it has not read yet, without its end, and with its
+  /// number.
+  [[nodiscard]] std::optional<Error> read_new(
+      const std::function<void(std::string_view, long)>& take);
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
   /// Whether the job, a name of 16 hexadecimal digits, is ours from now on.
   [[nodiscard]] bool try_claim(const std::string& job);
@@ -53,6 +56,7 @@ class Store {
   std::filesystem::path path_;
   int file_ = -1;
   std::int64_t read_ = 0;  // bytes, up to the end of a line
+  long lines_ = 0;         // read
 };
 
 }  // namespace quadrille::cli::campaign

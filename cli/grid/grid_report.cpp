@@ -80,7 +80,7 @@ std::string result_json(const discrete::Instance* instance, const SolveArguments
   json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
   if (options.explain && instance != nullptr)
     add_explanation(json, outcome.attribution, notes.reasons, names_of(*instance));
-  if (arguments.history) json.add("history", notes.history.json());
+  if (arguments.history) add_history(json, notes.history);
   return json.finish(
       outcome.statistics, options.seed, options_json(arguments),
       outcome.plan ? break_lines(plan_to_json(instance->graph(), *outcome.plan)) : "null");

@@ -105,7 +105,8 @@ class GridSolve {
     return text.str();
   }
   [[nodiscard]] std::string json(const SolveOutcome& outcome, const discrete::VerifyReport&) const {
-    notes_.history.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
+    notes_.history.note(outcome.statistics.wall_s, outcome.statistics.cpu_s, outcome.lower_bound,
+                        outcome.cost);
     return result_json(&instance(), arguments_, outcome, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {

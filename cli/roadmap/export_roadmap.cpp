@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "roadmap/export_roadmap.hpp"
 
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -102,9 +100,7 @@ ExitCode release(const ExportArguments& arguments, const continuous::Instance& i
   int failure = 0;
   // At once, for whoever hands them on.
   const auto take = [&failure](const std::string& text) {
-    errno = 0;
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-      failure = errno != 0 ? errno : EIO;
+    failure = write_stdout(text);
     return failure == 0;
   };
   const auto error = release_orders(instance, checked.plan, checked.order, states, arguments.states,

@@ -124,7 +124,7 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   json.add("duration_error", error ? Json(error->relative) : Json(nullptr));
   json.add("least_clearance", outcome.plan ? clearance_json(*instance, check) : Json(nullptr));
   if (!notes.second_opinion.is_null()) json.add("second_opinion", notes.second_opinion);
-  if (arguments.history) json.add("history", notes.history.json());
+  if (arguments.history) add_history(json, notes.history);
   return json.finish(outcome.statistics, options.seed, options_json(arguments, options),
                      outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");
 }

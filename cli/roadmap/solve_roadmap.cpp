@@ -111,7 +111,8 @@ class RoadmapSolve {
   }
   [[nodiscard]] std::string json(const SolveOutcome& outcome,
                                  const continuous::VerifyReport& replay) const {
-    notes_.history.note(outcome.statistics.wall_s, outcome.lower_bound, outcome.cost);
+    notes_.history.note(outcome.statistics.wall_s, outcome.statistics.cpu_s, outcome.lower_bound,
+                        outcome.cost);
     return result_json(&instance(), arguments_, options_, outcome, replay, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {

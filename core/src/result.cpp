@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/core/result.hpp"
 
+#include "quadrille/core/terminal_text.hpp"
+
 namespace quadrille {
 
 std::string Error::to_string() const {
@@ -13,7 +15,7 @@ std::string Error::to_string() const {
     }
     text += ": ";
   }
-  return text + message;
+  return terminal_line(text + message);
 }
 
 }  // namespace quadrille

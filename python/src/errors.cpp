@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "errors.hpp"
 
+#include "quadrille/core/terminal_text.hpp"
+
 namespace quadrille::python {
 namespace {
 
@@ -28,8 +30,9 @@ const char* name_of(ErrorCode code) {
 
 void raise(const Error& error) {
   const py::object make = py::module_::import("quadrille._errors").attr("make_error");
-  const py::object exception = make(name_of(error.code), error.to_string(), error.message,
-                                    error.where.file, error.where.line);
+  const py::object exception =
+      make(name_of(error.code), error.to_string(), terminal_line(error.message), error.where.file,
+           error.where.line);
   PyErr_SetObject(py::type::handle_of(exception).ptr(), exception.ptr());
   throw py::error_already_set();
 }

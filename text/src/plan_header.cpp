@@ -10,7 +10,7 @@
 namespace quadrille::text {
 
 bool PlanHeader::read(std::initializer_list<Checker::Member> more, StatedOutcome& stated) {
-  std::optional<Node> unread[10];  // Of a result.
+  std::optional<Node> unread[11];  // Of a result.
   std::vector<Checker::Member> members = {{"quadrille", &kind_, false},
                                           {"version", &version_, false},
                                           {"objective", &objective_, false},
@@ -27,6 +27,7 @@ bool PlanHeader::read(std::initializer_list<Checker::Member> more, StatedOutcome
                                           {"internal_error", &unread[4], false},
                                           {"explanation", &unread[5], false},
                                           {"history", &unread[6], false},
+                                          {"history_clock", &unread[10], false},
                                           {"attribution", &unread[7], false},
                                           {"reasons", &unread[8], false},
                                           {"rests_on_known_bound", &unread[9], false}};

@@ -314,7 +314,7 @@ limits: {{{limits}}}
     def test_what_is_no_answer_is_a_row_that_says_so(self):
         for behaviour, why in (("nonsense", "not a result"), ("crash", "bad luck")):
             manifest = self.manifest("1", systems=self.fake(behaviour), name=behaviour + ".yaml")
-            self.campaign("run", manifest)
+            self.campaign("run", manifest, code=1)  # Every job failed.
             for row in self.rows(behaviour + ".campaign").values():
                 self.assertEqual(row["status"], "failed")
                 self.assertIn(why, row["explanation"])
@@ -347,7 +347,8 @@ limits: {{{limits}}}
     def test_a_ladder_that_ended_with_a_failure_goes_on(self):
         manifest = self.manifest("1-3", "first", self.fake("crash-at-first"))
         for rung in range(3):
-            self.campaign("run", manifest, "--jobs", "4")
+            # Only the first time has no job an answer.
+            self.campaign("run", manifest, "--jobs", "4", code=1 if rung == 0 else 0)
             self.assertEqual(len(self.starts()), 4 * (rung + 1))
             self.assertIn("4 jobs are open", self.campaign("reopen", manifest))
         self.campaign("run", manifest)
@@ -470,7 +471,7 @@ class Merging(CampaignCase):
         self.write("data/reference.csv", "map,random_scen,agents,optimal_sum_of_costs,other_cpu_s\n"
                    f"alpha,1,3,{cost},0.5\nbeta,1,3,,>30\n")
         self.campaign("merge", manifest)
-        self.assertIn("other: most agents", self.read("m.campaign/merged/report.html"))
+        self.assertIn("other (reference)", self.read("m.campaign/merged/report.html"))
         self.write("data/reference.csv", "map,agents\nalpha,1\n")
         self.assertIn("reference.csv:1: ", self.campaign("merge", manifest, code=65))
 
