@@ -168,17 +168,18 @@ TEST_F(RoadmapTest, VerifyNamesEachViolationAndExitsWith1) {
   const Finished collision = run(discs("verify", {write("early.json", early.dump())}));
   EXPECT_EQ(collision.code, 1);
   EXPECT_THAT(collision.out, HasSubstr("invalid    1 violation\n"));
-  EXPECT_THAT(
-      collision.out,
-      HasSubstr("agents 0 and 1 collide between ticks 500 and 900, while agent 0 moves from "
-                "vertex 0 to vertex 1 and agent 1 moves from vertex 1 to vertex 3"));
+  EXPECT_THAT(collision.out,
+              HasSubstr("agents 0 and 1 collide between times 0.5 and 0.9: nearest at about 0."));
+  EXPECT_THAT(collision.out,
+              HasSubstr(", while agent 0 moves from vertex 0 to vertex 1 and agent 1 "
+                        "moves from vertex 1 to vertex 3, at most 0.0015 too close\n"));
   EXPECT_THAT(collision.out, HasSubstr("least clearance -"));
   json slow = plan;
   slow["plan"][0].back()["arrive_ticks"] = 2116;
   const Finished duration = run(discs("verify", {write("slow.json", slow.dump())}));
   EXPECT_EQ(duration.code, 1);
-  EXPECT_THAT(duration.out, HasSubstr("agent 0 moves from vertex 1 to vertex 2 at tick 1115 and "
-                                      "takes 1001 ticks, but the edge takes 1000\n"));
+  EXPECT_THAT(duration.out, HasSubstr("agent 0 moves from vertex 1 to vertex 2 at time 1.115 and "
+                                      "takes 1.001, but the edge takes 1\n"));
   const Finished quiet = run(discs("verify", {path("slow.json"), "--quiet"}));
   EXPECT_EQ(quiet.code, 1);
   EXPECT_EQ(quiet.out, "");

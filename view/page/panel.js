@@ -7,7 +7,7 @@ import { activityAt, positionAt, totalWait } from "./motion.js";
 import { openPrecedences } from "./precedences.js";
 import { element } from "./state.js";
 
-/** A list longer than this helps nobody; the rest is counted. */
+/** So many entries of a list at a time: a page with many thousands at once would be slow. */
 const MOST_LISTED = 300;
 
 /**
@@ -76,19 +76,31 @@ export class Panel {
    */
   fill(section, list, entries) {
     element(section, HTMLElement).hidden = entries.length === 0;
-    const parent = element(list, HTMLElement);
-    for (const entry of entries.slice(0, MOST_LISTED)) {
+    this.append(element(list, HTMLElement), entries);
+  }
+
+  /**
+   * The first entries, and a button for the others.
+   * @param {HTMLElement} parent
+   * @param {{text: string, time: number, agents: number[]}[]} entries
+   */
+  append(parent, entries) {
+    const add = (/** @type {string} */ text, /** @type {() => void} */ action) => {
       const button = document.createElement("button");
-      button.textContent = entry.text;
-      button.addEventListener("click", () => this.jump(entry.time, entry.agents));
+      button.textContent = text;
+      button.addEventListener("click", action);
       const item = document.createElement("li");
       item.append(button);
       parent.append(item);
-    }
+      return item;
+    };
+    for (const entry of entries.slice(0, MOST_LISTED))
+      add(entry.text, () => this.jump(entry.time, entry.agents));
     if (entries.length <= MOST_LISTED) return;
-    const rest = document.createElement("li");
-    rest.textContent = `and ${entries.length - MOST_LISTED} more`;
-    parent.append(rest);
+    const rest = add(`${entries.length - MOST_LISTED} more`, () => {
+      rest.remove();
+      this.append(parent, entries.slice(MOST_LISTED));
+    });
   }
 
   showObstruction() {

@@ -96,24 +96,17 @@ void add_links(const continuous::Roadmap& roadmap, Scene& scene) {
 void add_report(const continuous::VerifyReport& report, Scene& scene) {
   scene.sum_of_costs = report.sum_of_costs;
   scene.makespan = report.makespan;
-  std::map<std::pair<AgentId, AgentId>, double> moments;
-  for (const continuous::Clearance& c : report.clearances) {
+  for (const continuous::Clearance& c : report.clearances)
     scene.nearest.push_back({c.agent.index(), c.other.index(), c.gap, c.tick});
-    if (c.gap < 1) moments[{c.agent, c.other}] = c.tick;
-  }
   std::sort(scene.nearest.begin(), scene.nearest.end(), [](const Nearness& a, const Nearness& b) {
     return std::tie(a.gap, a.agent, a.other) < std::tie(b.gap, b.agent, b.other);
   });
   if (scene.nearest.size() > kMostNearest) scene.nearest.resize(kMostNearest);
   for (const Violation& violation : report.violations) {
-    auto time = static_cast<double>(violation.tick.count());
+    // A collision is best looked at where the two are nearest.
+    const double time = violation.nearest.value_or(static_cast<double>(violation.tick.count()));
     std::optional<std::size_t> other;
-    if (violation.other) {
-      other = violation.other->index();
-      // A collision is best looked at where the two are nearest.
-      const auto moment = moments.find({violation.agent, *violation.other});
-      if (moment != moments.end()) time = moment->second;
-    }
+    if (violation.other) other = violation.other->index();
     scene.violations.push_back(
         {name_of(violation.kind), violation.message, violation.agent.index(), other, time});
   }

@@ -4,10 +4,12 @@
 #include "quadrille/continuous/verify.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <charconv>
 #include <limits>
 #include <utility>
 
+#include "quadrille/continuous/quantise.hpp"
 #include "verify/footprints.hpp"
 
 namespace quadrille::continuous {
@@ -24,9 +26,17 @@ struct Piece {
 
 std::string agent_name(AgentId i) { return "agent " + std::to_string(i.index()); }
 
-std::string move_name(VertexId v, VertexId w, Ticks tick) {
-  return "moves from vertex " + std::to_string(v.index()) + " to vertex " +
-         std::to_string(w.index()) + " at tick " + std::to_string(tick.count());
+/// A number in few digits.
+std::string number(double value, int digits) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::general, digits);
+  return {text.data(), end.ptr};
+}
+
+/// A time as the input of the instance counts.
+std::string time_text(const Instance& instance, Ticks ticks) {
+  return number(in_input_units(ticks, instance.resolution()), 15);
 }
 
 class PathCheck {
@@ -46,13 +56,13 @@ class PathCheck {
                       ", but its start is vertex " + std::to_string(agent.start.index()));
     if (path.back().vertex != agent.goal)
       good = fail(Kind::wrong_goal, path.back().arrive,
-                  "ends at vertex " + std::to_string(path.back().vertex.index()) + " at tick " +
-                      std::to_string(path.back().arrive.count()) + ", but its goal is vertex " +
+                  "ends at vertex " + std::to_string(path.back().vertex.index()) + " at time " +
+                      time(path.back().arrive) + ", but its goal is vertex " +
                       std::to_string(agent.goal.index()));
     if (agent.deadline && path.back().arrive > *agent.deadline)
       good = fail(Kind::too_late, path.back().arrive,
-                  "arrives at its goal at tick " + std::to_string(path.back().arrive.count()) +
-                      ", after its deadline at tick " + std::to_string(agent.deadline->count()));
+                  "arrives at its goal at time " + time(path.back().arrive) +
+                      ", after its deadline at time " + time(*agent.deadline));
     if (agent.under_way && path.front().depart > 0)
       good = fail(Kind::waits, path.front().arrive,
                   "stops at vertex " + std::to_string(path.front().vertex.index()) +
@@ -67,31 +77,36 @@ class PathCheck {
     return false;
   }
 
+  [[nodiscard]] std::string time(Ticks ticks) const { return time_text(instance_, ticks); }
+  [[nodiscard]] std::string move(const Stop& a, const Stop& b) const {
+    return "moves from vertex " + std::to_string(a.vertex.index()) + " to vertex " +
+           std::to_string(b.vertex.index()) + " at time " + time(a.depart);
+  }
+
   bool check_stops(const Path& path) {
+    bool good = true;
     Ticks now = 0;
     for (const Stop& stop : path) {
       if (stop.vertex.index() >= instance_.roadmap().num_vertices())
-        return fail(Kind::bad_vertex, stop.arrive,
+        good = fail(Kind::bad_vertex, stop.arrive,
                     "names vertex " + std::to_string(stop.vertex.index()) + ", which is none");
       if (stop.arrive < now || stop.depart < stop.arrive || stop.depart > kMaxTick)
-        return fail(Kind::bad_time, stop.arrive,
-                    "arrives at vertex " + std::to_string(stop.vertex.index()) + " at tick " +
-                        std::to_string(stop.arrive.count()) + " and departs at tick " +
-                        std::to_string(stop.depart.count()) +
+        good = fail(Kind::bad_time, stop.arrive,
+                    "arrives at vertex " + std::to_string(stop.vertex.index()) + " at time " +
+                        time(stop.arrive) + " and departs at time " + time(stop.depart) +
                         ": that goes back in time, or on for too long");
       now = stop.depart;
     }
-    if (path.front().arrive != 0) return fail(Kind::bad_time, 0, "is nowhere at tick 0");
+    if (path.front().arrive != 0) good = fail(Kind::bad_time, 0, "is nowhere at time 0");
     if (path.back().depart != path.back().arrive)
-      return fail(Kind::bad_time, path.back().depart, "departs from its last stop");
-    return true;
+      good = fail(Kind::bad_time, path.back().depart, "departs from its last stop");
+    return good;
   }
 
   bool check_move(const Stop& a, const Stop& b) {
     if (a.depart < instance_.agent(i_).release)
       return fail(Kind::too_early, a.depart,
-                  move_name(a.vertex, b.vertex, a.depart) + ", before its release at tick " +
-                      std::to_string(instance_.agent(i_).release.count()));
+                  move(a, b) + ", before its release at time " + time(instance_.agent(i_).release));
     bool is_adjacent = false, is_open = false;
     Ticks takes = 0;
     const ClassId c = instance_.class_of(i_);
@@ -103,13 +118,13 @@ class PathCheck {
       takes = instance_.duration(c, e);
       if (takes == b.arrive - a.depart) return true;
     }
-    const std::string name = move_name(a.vertex, b.vertex, a.depart);
+    const std::string name = move(a, b);
     if (!is_adjacent) return fail(Kind::not_adjacent, a.depart, name + ", but there is no edge");
     if (!is_open)
       return fail(Kind::closed_edge, a.depart, name + ", but that edge is not open to it");
-    return fail(Kind::duration, a.depart,
-                name + " and takes " + std::to_string((b.arrive - a.depart).count()) +
-                    " ticks, but the edge takes " + std::to_string(takes.count()));
+    return fail(
+        Kind::duration, a.depart,
+        name + " and takes " + time(b.arrive - a.depart) + ", but the edge takes " + time(takes));
   }
 
   const Instance& instance_;
@@ -172,25 +187,24 @@ std::string describe(const Piece& piece) {
   return "moves from " + from + " to vertex " + std::to_string(piece.goal.index());
 }
 
-/// Two pieces that collide, and when both last.
+/// Pieces, one after the other, that collide; when they last; and those two that come nearest.
 struct Collision {
   Piece a, b;
   Ticks begin, end;
   Clearance nearest;
 };
 
-std::string describe(AgentId i, AgentId j, const Collision& c) {
-  const auto number = [](double value) {
-    return std::to_string(static_cast<std::int64_t>(std::llround(value)));
-  };
+std::string describe(const Instance& instance, AgentId i, AgentId j, const Collision& c) {
+  const Resolution& resolution = instance.resolution();
   const double overlap = -c.nearest.gap;
   return "agents " + std::to_string(i.index()) + " and " + std::to_string(j.index()) +
-         " collide between ticks " + std::to_string(c.begin.count()) + " and " +
-         std::to_string(c.end.count()) + ", while agent " + std::to_string(i.index()) + " " +
-         describe(c.a) + " and agent " + std::to_string(j.index()) + " " + describe(c.b) +
-         ": nearest at about tick " + number(c.nearest.tick) + ", " +
-         (overlap < 1.5 ? "one length unit or less"
-                        : "about " + number(overlap) + " length units") +
+         " collide between times " + time_text(instance, c.begin) + " and " +
+         time_text(instance, c.end) + ": nearest at about " +
+         number(c.nearest.tick * resolution.time, 6) + ", while agent " +
+         std::to_string(i.index()) + " " + describe(c.a) + " and agent " +
+         std::to_string(j.index()) + " " + describe(c.b) + ", " +
+         (overlap < 1.5 ? "at most " + number(1.5 * resolution.length, 3)
+                        : "about " + number(overlap * resolution.length, 3)) +
          " too close";
 }
 
@@ -201,13 +215,21 @@ class PairCheck {
     clearance.gap = std::numeric_limits<double>::infinity();
   }
 
-  /// The first two pieces that collide, if any do.
-  std::optional<Collision> check(const std::vector<Piece>& a, const std::vector<Piece>& b) {
-    std::optional<Collision> collision;
+  /// All collisions, in order of time.
+  std::vector<Collision> check(const std::vector<Piece>& a, const std::vector<Piece>& b) {
+    std::vector<Collision> collisions;
+    bool goes_on = false;
     for (std::size_t k = 0, l = 0; k < a.size() && l < b.size();) {
       const Ticks begin = std::max(a[k].begin, b[l].begin), end = std::min(a[k].end, b[l].end);
       const auto found = begin <= end ? look(a[k], b[l], begin, end) : std::nullopt;
-      if (found && !collision) collision = Collision{a[k], b[l], begin, end, *found};
+      if (found && goes_on) {
+        Collision& last = collisions.back();
+        if (found->gap < last.nearest.gap) last = {a[k], b[l], last.begin, end, *found};
+        last.end = end;
+      } else if (found) {
+        collisions.push_back({a[k], b[l], begin, end, *found});
+      }
+      goes_on = found && pair_.interiors_meet(exact_step(a[k], b[l], end, end));
       if (a[k].end < b[l].end)
         ++k;
       else if (b[l].end < a[k].end)
@@ -215,7 +237,7 @@ class PairCheck {
       else
         ++k, ++l;
     }
-    return collision;
+    return collisions;
   }
 
  private:
@@ -262,14 +284,13 @@ void check_obstacles(const Instance& instance, AgentId i, const std::vector<Piec
   for (std::size_t o = 0; o < instance.obstacles().size(); ++o) {
     const MovingObstacle& obstacle = instance.obstacles()[o];
     Clearance clearance{i, i};
-    const auto found = PairCheck(instance.agent(i).body, obstacle.body, clearance)
-                           .check(trip, pieces(obstacle, horizon));
-    if (!found) continue;
-    collisions.push_back({Kind::obstacle, i, std::nullopt, found->begin,
-                          agent_name(i) + " collides with obstacle " + std::to_string(o) +
-                              " between ticks " + std::to_string(found->begin.count()) + " and " +
-                              std::to_string(found->end.count()) + ", while it " +
-                              describe(found->a)});
+    PairCheck pair(instance.agent(i).body, obstacle.body, clearance);
+    for (const Collision& found : pair.check(trip, pieces(obstacle, horizon)))
+      collisions.push_back({Kind::obstacle, i, std::nullopt, found.begin,
+                            agent_name(i) + " collides with obstacle " + std::to_string(o) +
+                                " between times " + time_text(instance, found.begin) + " and " +
+                                time_text(instance, found.end) + ", while it " +
+                                describe(found.a)});
   }
 }
 
@@ -290,11 +311,12 @@ void check_pairs(const Instance& instance, const Plan& plan, const IdVector<Agen
     for (const AgentId j : instance.agent_ids()) {
       if (!(i < j && sound[i] && sound[j]) || trips[i].empty() || trips[j].empty()) continue;
       Clearance clearance{i, j};
-      const auto found = PairCheck(instance.agent(i).body, instance.agent(j).body, clearance)
-                             .check(trips[i], trips[j]);
+      for (const Collision& found :
+           PairCheck(instance.agent(i).body, instance.agent(j).body, clearance)
+               .check(trips[i], trips[j]))
+        collisions.push_back({Kind::collision, i, j, found.begin, describe(instance, i, j, found),
+                              found.nearest.tick});
       report.clearances.push_back(clearance);
-      if (found)
-        collisions.push_back({Kind::collision, i, j, found->begin, describe(i, j, *found)});
     }
   }
   std::stable_sort(collisions.begin(), collisions.end(),

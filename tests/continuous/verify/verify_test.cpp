@@ -98,10 +98,11 @@ TEST(ContinuousVerify, PassingInTouchIsAllowedInTheMiddleOfAMoveToo) {
     EXPECT_NEAR(report.clearances[0].gap, 300 - static_cast<double>(radius.count()), 1e-9);
     EXPECT_NEAR(report.clearances[0].tick, 5000, 1e-6);
     if (report.valid()) continue;
-    EXPECT_EQ(report.violations[0].message,
-              "agents 0 and 1 collide between ticks 0 and 10000, while agent 0 moves from vertex 0 "
-              "to vertex 1 and agent 1 stands at vertex 2: nearest at about tick 5000, one "
-              "length unit or less too close");
+    EXPECT_EQ(
+        report.violations[0].message,
+        "agents 0 and 1 collide between times 0 and 0.01: nearest at about 0.005, while agent "
+        "0 moves from vertex 0 to vertex 1 and agent 1 stands at vertex 2, at most 1.5e-06 "
+        "too close");
   }
 }
 

@@ -36,7 +36,9 @@ struct Violation {
   AgentId agent;
   std::optional<AgentId> other;  ///< For collisions; larger than `agent`.
   Ticks tick = 0;                ///< When the step begins in which it happens.
-  std::string message;           ///< One sentence that names agents, place and time.
+  std::string message;  ///< One sentence that names agents, place and time as the input counts.
+  /// Of collisions of two agents: a moment, in ticks, at which the bodies are nearest.
+  std::optional<double> nearest = std::nullopt;
 };
 
 [[nodiscard]] std::string_view to_string(
@@ -50,7 +52,8 @@ struct Clearance {
 };
 
 struct VerifyReport {
-  /// Broken rules of the paths first, then collisions, one per pair of agents, by tick.
+  /// All broken rules of the paths first, then all collisions by tick: what goes on
+  /// from one move to the next is one.
   std::vector<Violation> violations;
   /// Of every pair of agents with sound paths that take some time, by agent, then other. For the
   /// reader's information: collisions are decided in exact arithmetic.
