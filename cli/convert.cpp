@@ -34,7 +34,7 @@ Subcommand add_convert(CLI::App& program) {
   const auto arguments = std::make_shared<ConvertArguments>();
   add_input_options(*app, arguments->input);
   add_roadmap_options(*app, arguments->roadmap);
-  add_file(*app, "PLAN", arguments->plan, "Plan file");
+  add_input_file(*app, "PLAN", arguments->plan, "Plan file");
   add_plan_format(*app, "--to", arguments->to,
                   "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs")
       ->required();

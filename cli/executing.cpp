@@ -35,7 +35,8 @@ std::variant<ExecutionCase, ExitCode> load_execution(const CLI::App& app,
   if (wrong.empty())
     wrong = check_outputs({{"--json", &arguments.json}},
                           {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
-                           &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan});
+                           &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan},
+                          !arguments.quiet);
   if (!wrong.empty()) return usage_error(app, wrong);
   auto loaded = roadmap ? load_execution_roadmap(arguments) : load_execution_grid(arguments);
   if (loaded) return std::move(loaded).value();

@@ -109,7 +109,7 @@ void add_options(CLI::App& app, GenerateArguments& arguments) {
                                   "empty, random, maze, room, warehouse or roadmap", choose_kind,
                                   "Make a map: empty, random, maze, room or warehouse; or a\n"
                                   "roadmap with agents in continuous time");
-  add_file(app, "--map", arguments.map, "Instead: make a scenario for this map");
+  add_input_file(app, "--map", arguments.map, "Instead: make a scenario for this map");
   add_file(app, "--map-output", arguments.map_output, "Write the map");
   add_file(app, "--scen-output", arguments.scen_output, "Write a scenario with random agents");
   add_integer(app, "--agents", arguments.agents, 0, kMost, "Number of agents");

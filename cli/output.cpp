@@ -13,6 +13,7 @@
 #include <new>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "quadrille/core/terminal_text.hpp"
 
@@ -64,46 +65,59 @@ std::filesystem::path resolve(const std::filesystem::path& name) {
   return path.empty() ? name : path;
 }
 
-/// What tells files apart: the number of one that exists, or the place of one that does not.
+/// What tells files apart: the number of one that exists; of one that does not, its name and the
+/// number of its folder, which may have many names.
 class Identity {
  public:
   explicit Identity(const std::string& file) {
-    const bool is_stdout = file == "-";
-    exists_ = (is_stdout ? ::fstat(STDOUT_FILENO, &status_) : ::stat(file.c_str(), &status_)) == 0;
-    if (!exists_ && !is_stdout) place_ = resolve(file);
+    if (file == "-") {
+      exists_ = ::fstat(STDOUT_FILENO, &status_) == 0;
+      return;
+    }
+    exists_ = ::stat(file.c_str(), &status_) == 0;
+    if (exists_) return;
+    const std::filesystem::path place = resolve(file), folder = place.parent_path();
+    // Where the folder does not exist either, nothing can be written.
+    if (::stat(folder.empty() ? "." : folder.c_str(), &status_) == 0) name_ = place.filename();
   }
 
   /// Whether what is written to one of them spoils the other.
   [[nodiscard]] bool clashes(const Identity& other) const {
-    if (exists_ != other.exists_) return false;
-    if (!exists_) return !place_.empty() && place_ == other.place_;
+    if (exists_ != other.exists_ || name_ != other.name_) return false;
     if (status_.st_dev != other.status_.st_dev || status_.st_ino != other.status_.st_ino)
       return false;
-    return !S_ISCHR(status_.st_mode);
+    return exists_ ? !S_ISCHR(status_.st_mode) : !name_.empty();
   }
   [[nodiscard]] bool is_regular() const { return exists_ && S_ISREG(status_.st_mode); }
 
  private:
   bool exists_;
-  struct stat status_ {};
-  std::filesystem::path place_;
+  struct stat status_ {};  // Of the file, or of its folder.
+  std::filesystem::path name_;
 };
 
 }  // namespace
 
-std::string check_outputs(std::initializer_list<NamedOutput> outputs,
-                          std::initializer_list<const std::string*> inputs) {
+std::string check_outputs(std::initializer_list<NamedOutput> named,
+                          std::initializer_list<const std::string*> inputs, bool has_messages) {
+  static const std::string kStdout = "-";
+  std::vector<NamedOutput> outputs;
+  for (const NamedOutput& output : named) {
+    if (output.file->empty()) continue;
+    outputs.push_back(output);
+    has_messages = has_messages && *output.file != kStdout;
+  }
+  if (has_messages) outputs.push_back({"standard output", &kStdout});
   for (auto one = outputs.begin(); one != outputs.end(); ++one) {
-    if (one->file->empty()) continue;
     const Identity identity(*one->file);
     for (auto other = one + 1; other != outputs.end(); ++other) {
-      if (other->file->empty()) continue;
       const bool both_stdout = *one->file == "-" && *other->file == "-";
       if (both_stdout || identity.clashes(Identity(*other->file)))
         return fmt::format("{} and {} name the same output", one->option, other->option);
     }
     for (const std::string* input : inputs) {
       if (input->empty()) continue;
+      if (input == one->replaces) continue;
       const Identity read(*input);
       if (read.is_regular() && identity.clashes(read))
         return (*one->file == "-" ? "standard output" : *one->file) + " is an input of this run";

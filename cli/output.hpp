@@ -37,13 +37,17 @@ class OutputFile {
 struct NamedOutput {
   const char* option;
   const std::string* file;  ///< Empty: there is none.
+  /// One of the inputs that it may replace, if any.
+  const std::string* replaces = nullptr;
 };
 
 /// Why these files may not be written in one run; empty if they may: two outputs go to one file, or
-/// one goes to an input. It does not matter whether the file exists, nor whether links lead to it.
-/// Devices such as /dev/null may be named twice.
-[[nodiscard]] std::string check_outputs(std::initializer_list<NamedOutput> outputs,
-                                        std::initializer_list<const std::string*> inputs);
+/// one goes to an input. It does not matter whether the file exists, nor how its name is written,
+/// nor whether links lead to it. Devices such as /dev/null may be named twice. `has_messages`: what
+/// is said for people goes to standard output, unless one of the outputs does.
+[[nodiscard]] std::string check_outputs(std::initializer_list<NamedOutput> named,
+                                        std::initializer_list<const std::string*> inputs,
+                                        bool has_messages = false);
 
 /// Human text: to stdout, or to stderr when stdout carries a file, or nowhere.
 class Console {

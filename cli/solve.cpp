@@ -190,12 +190,14 @@ ExitCode run(const CLI::App& app, SolveArguments& arguments) {
 
 std::string check_solve_outputs(const SolveArguments& arguments) {
   std::string wrong =
-      check_outputs({{"--plan", &arguments.plan},
+      check_outputs({{"--plan", &arguments.plan, &arguments.initial_plan},
                      {"--json", &arguments.json},
                      {"--view", &arguments.view},
                      {"--svg", &arguments.picture.file}},
                     {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
-                     &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.known_plan});
+                     &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.initial_plan,
+                     &arguments.known_plan},
+                    !arguments.quiet);
   if (wrong.empty() && arguments.plan_format.is_given() && arguments.plan.empty())
     wrong = "--plan-format needs --plan";
   if (wrong.empty()) wrong = check_picture_options(arguments.picture);

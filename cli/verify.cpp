@@ -22,7 +22,8 @@ constexpr const char* kFooter =
 std::string check_verify_outputs(const VerifyArguments& arguments) {
   return check_outputs({{"--json", &arguments.json}},
                        {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
-                        &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan});
+                        &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan},
+                       !arguments.quiet);
 }
 
 Subcommand add_verify(CLI::App& program) {

@@ -39,9 +39,9 @@ Result<std::string> convert(const ConvertArguments& arguments, const GridInput& 
     error = write_plan(text, arguments.plan, input.instance.graph(), file->plan,
                        *arguments.to.discrete);
   } else if (arguments.to.discrete == PlanFormat::yaml) {
-    error = write_instance_yaml(text, input.source, input.instance);
+    error = write_instance_yaml(text, input.source, input.instance, input.names);
   } else {
-    error = write_instance_json(text, input.source, input.instance);
+    error = write_instance_json(text, input.source, input.instance, input.names);
   }
   if (error) return *error;
   return text.str();

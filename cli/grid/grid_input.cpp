@@ -45,7 +45,17 @@ Result<GridInput> load_map(const InputOptions& options) {
       scenario->rows.size(),       map->other_letters, name_other_map(*scenario, options.map)};
 }
 
-Result<discrete::Instance> read_instance(const InputOptions& options) {
+/// The contents decide, whatever the name; it helps where they may be either.
+bool is_yaml(const std::string& text, const std::string& extension) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  const char begin = first == std::string::npos ? '\0' : text[first];
+  if (begin == '{')
+    return (extension == ".yaml" || extension == ".yml") &&
+           text.find("\"quadrille\"") == std::string::npos;
+  return extension != ".json" || (begin >= 'a' && begin <= 'z');
+}
+
+Result<discrete::Instance> read_instance(const InputOptions& options, text::Names& names) {
   const std::filesystem::path path(options.instance);
   const std::string extension = path.extension().string();
   if (!options.instance_text) {
@@ -56,10 +66,9 @@ Result<discrete::Instance> read_instance(const InputOptions& options) {
   if (std::string why = why_no_instance(*options.instance_text); !why.empty())
     return Error{ErrorCode::syntax, std::move(why), {options.instance, 1}};
   std::istringstream in(*options.instance_text);
-  const bool is_yaml = extension == ".yaml" || extension == ".yml" ||
-                       (extension != ".json" && !options.instance_text->starts_with('{'));
-  return is_yaml ? discrete::read_instance_yaml(in, options.instance, options.most_vertices)
-                 : discrete::read_instance_json(in, options.instance, options.most_vertices);
+  return is_yaml(*options.instance_text, extension)
+             ? discrete::read_instance_yaml(in, options.instance, options.most_vertices, &names)
+             : discrete::read_instance_json(in, options.instance, options.most_vertices, &names);
 }
 
 }  // namespace
@@ -82,15 +91,18 @@ std::string check_grid_options(const InputOptions& options, Need need) {
 
 Result<GridInput> load_grid_input(const InputOptions& options) {
   if (options.instance.empty()) return load_map(options);
-  auto instance = read_instance(options);
+  text::Names names;
+  auto instance = read_instance(options, names);
   if (!instance) return instance.error();
   if (auto error = check_agents(options, instance->num_agents())) return *std::move(error);
   if (options.agents) {
     std::vector<discrete::Agent> agents(instance->agents().begin(), instance->agents().end());
     agents.resize(static_cast<std::size_t>(*options.agents));
     instance = discrete::Instance::make(instance->shared_graph(), std::move(agents));
+    names.agents.resize(static_cast<std::size_t>(*options.agents));
   }
-  return GridInput{std::move(instance.value()), options.instance, options.instance, 0, {}, ""};
+  return GridInput{
+      std::move(instance.value()), options.instance, options.instance, 0, {}, "", std::move(names)};
 }
 
 std::string describe_graph(const discrete::Graph& graph) {

@@ -8,6 +8,7 @@
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/movingai.hpp"
+#include "quadrille/text/names.hpp"
 
 namespace quadrille::cli {
 
@@ -22,6 +23,7 @@ struct GridInput {
   std::size_t rows = 0;     ///< Of the scenario; 0 without one.
   std::vector<discrete::LetterCount> other_letters;
   std::string other_map;  ///< What the scenario names, if it is not the map; else empty.
+  text::Names names = {};
 };
 /// Requires options that pass check_grid_options. Reads each file once, front to back.
 [[nodiscard]] Result<GridInput> load_grid_input(const InputOptions& options);

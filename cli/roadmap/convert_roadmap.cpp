@@ -35,7 +35,7 @@ Result<std::string> convert(const ConvertArguments& arguments, const RoadmapInpu
     error = write_plan(text, arguments.plan, input.instance, file->plan, *arguments.to.continuous,
                        input.grid_or_null());
   } else {
-    error = write_instance_json(text, input.source, input.instance);
+    error = write_instance_json(text, input.source, input.instance, input.names);
   }
   if (error) return *error;
   return text.str();

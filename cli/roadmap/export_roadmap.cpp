@@ -28,7 +28,7 @@ std::string check(const ExportArguments& arguments) {
   if (wrong.empty())
     wrong = check_outputs({{"--output", &arguments.output}},
                           {&arguments.input.instance, &arguments.roadmap.roadmap,
-                           &arguments.roadmap.task, &arguments.plan});
+                           &arguments.roadmap.task, &arguments.plan, &arguments.states});
   return wrong;
 }
 

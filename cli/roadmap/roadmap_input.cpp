@@ -37,6 +37,12 @@ bool is_nav_graph(const std::string& file) {
   return std::string_view(file).ends_with(".yaml") || std::string_view(file).ends_with(".yml");
 }
 
+Result<std::string> text_of(const std::string& file) {
+  std::ifstream in;
+  if (auto error = text::open_input(file, in)) return *error;
+  return text::read_all(in, file);
+}
+
 Result<continuous::MapXml> read_map(const std::string& file, const discrete::MapOptions& letters,
                                     double resolution, continuous::Speed speed) {
   if (is_nav_graph(file)) {
@@ -44,18 +50,25 @@ Result<continuous::MapXml> read_map(const std::string& file, const discrete::Map
     if (!graph) return graph.error();
     return continuous::MapXml{std::move(graph->roadmap), graph->num_zero_length_edges};
   }
-  if (!is_movingai_map(file))
-    return continuous::read_map_xml(std::filesystem::path(file), resolution);
-  auto map = discrete::read_map(std::filesystem::path(file), letters);
+  const auto text = text_of(file);
+  if (!text) return text.error();
+  std::istringstream in(*text);
+  // The program writes maps to files of any name.
+  if (!is_movingai_map(file) && !text->starts_with("type "))
+    return continuous::read_map_xml(in, file, resolution);
+  auto map = discrete::read_map(in, file, letters);
   if (!map) return with_letters_hint(map.error());
   return continuous::MapXml{OccupancyGrid{map->height, map->width, std::move(map->passable)}, 0};
 }
 
 /// `grid`: what the cells of a scenario belong to, if the map is one.
 Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGrid* grid) {
-  if (!std::string_view(file).ends_with(".scen"))
-    return continuous::read_task_xml(std::filesystem::path(file));
-  const auto scenario = discrete::read_scenario(std::filesystem::path(file));
+  const auto text = text_of(file);
+  if (!text) return text.error();
+  std::istringstream in(*text);
+  if (!std::string_view(file).ends_with(".scen") && !text->starts_with("version "))
+    return continuous::read_task_xml(in, file);
+  const auto scenario = discrete::read_scenario(in, file);
   if (!scenario) return scenario.error();
   continuous::TaskXml task{file, {}};
   for (const discrete::ScenarioRow& row : scenario->rows) {
@@ -95,7 +108,8 @@ Result<Numbers> quantise(const RoadmapOptions& options) {
 
 Result<RoadmapInput> read_instance(const InputOptions& input) {
   std::istringstream in(*input.instance_text);
-  auto instance = continuous::read_instance_json(in, input.instance);
+  text::Names names;
+  auto instance = continuous::read_instance_json(in, input.instance, &names);
   if (!instance) return instance.error();
   if (auto error = check_agents(input, instance->num_agents())) return *std::move(error);
   if (input.agents) {
@@ -103,10 +117,17 @@ Result<RoadmapInput> read_instance(const InputOptions& input) {
     agents.resize(static_cast<std::size_t>(*input.agents));
     instance = Instance::make(instance->shared_roadmap(), std::move(agents), instance->resolution(),
                               {}, instance->obstacles());
+    names.agents.resize(static_cast<std::size_t>(*input.agents));
   }
   const std::size_t count = instance->num_agents();
-  return RoadmapInput{
-      std::move(instance).value(), {}, input.instance, input.instance, count, "", 0};
+  return RoadmapInput{std::move(instance).value(),
+                      {},
+                      input.instance,
+                      input.instance,
+                      count,
+                      "",
+                      0,
+                      std::move(names)};
 }
 
 std::string range(double least, double most) {

@@ -10,6 +10,7 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/result.hpp"
+#include "quadrille/text/names.hpp"
 
 namespace quadrille::cli {
 
@@ -43,6 +44,7 @@ struct RoadmapInput {
   std::size_t rows = 0;     ///< Agents in that file.
   std::string kind;         ///< "32 x 32 grid, 2^3 neighbours, " or nothing.
   std::size_t num_zero_length_edges = 0;
+  text::Names names = {};
 
   [[nodiscard]] const continuous::GridRoadmap* grid_or_null() const {
     return grid ? &*grid : nullptr;

@@ -13,6 +13,7 @@ from . import _core
 from ._arrays import doubles, ints, listed, per_agent
 from ._errors import InputError
 from .graphs import Graph, Grid, Roadmap
+from .naming import file_names
 from .plans import Plan, StepPlan, TimedPlan
 from .rules import (
     Obstacle,
@@ -269,14 +270,20 @@ class Fleet(Generic[P]):
         """
         return self._make_plan(self._instance.read_plan(os.fspath(file), format))
 
-    def save(self, file: Union[str, os.PathLike[str]]) -> None:
-        """Writes the instance for the program: as YAML if the name says so, else as JSON. Reading it
-        back gives the same integers; names are not kept.
+    def save(self, file: Union[str, os.PathLike[str]], format: Optional[str] = None) -> None:
+        """Writes the instance for the program. ``read`` gives the same integers and names.
+
+        Args:
+            file: Its name.
+            format: "json", or on grids "yaml"; by default the name decides (.json, .yaml, .yml), and
+                a name without an ending is JSON.
 
         Raises:
             FileError: if it cannot be written.
+            InputError: for another format or ending, and for nodes of a roadmap that are neither
+                texts nor whole numbers nor tuples of these.
         """
-        self._instance.save(os.fspath(file))
+        self._instance.save(os.fspath(file), format, file_names(self._graph, self._names))
 
     def _make_plan(self, plan: Union[_core.StepPlan, _core.TimedPlan]) -> P:
         made: Plan

@@ -137,11 +137,12 @@ class Plan:
         Args:
             file: Its name.
             format: "json", "cbsh2", "visualizer" or "yaml", on roadmaps "json" or "ccbs"; by
-                default the name decides (.json, .yaml, .yml; .xml), else json.
+                default the name decides (.json, .yaml, .yml, on roadmaps .json, .xml), and a name
+                without an ending is JSON.
 
         Raises:
             FileError: if it cannot be written.
-            InputError: for a format that is not for this graph.
+            InputError: for a format that is not for this graph, and for other endings.
         """
         self._plan.save(self._fleet._instance, os.fspath(file), format)  # type: ignore[arg-type]
 

@@ -11,6 +11,7 @@ from . import _core
 from ._errors import BodyWarning
 from .fleet import Fleet
 from .graphs import Graph, Grid, Roadmap
+from .naming import agent_names, group_names, node_names
 from .rules import numbered_groups
 
 
@@ -73,7 +74,7 @@ def read(
         given[first] = names[0]
         if len(names) == 2:
             given[second] = names[1]
-    fleet = _fleet_of(_core.read(given))
+    fleet = _fleet_of(*_core.read(given))
     if "roadmap" in given and radius is None and len(fleet) > 0:
         warnings.warn(
             "nothing says how large the agents are: they are discs of radius sqrt(2)/4; give a radius",
@@ -83,15 +84,20 @@ def read(
     return fleet
 
 
-def _fleet_of(instance: Union[_core.StepInstance, _core.TimedInstance]) -> Fleet[Any]:
+def _fleet_of(
+    instance: Union[_core.StepInstance, _core.TimedInstance], names: _core.Names
+) -> Fleet[Any]:
     graph: Union[Grid, Graph, Roadmap]
     if isinstance(instance, _core.TimedInstance):
         graph = Roadmap.__new__(Roadmap)
         groups = numbered_groups(instance.graph.open_to(), instance.rules()["groups"])
-        graph._setup(instance.graph, instance.resolution, groups)
+        graph._setup(instance.graph, instance.resolution, group_names(names, groups))
+        nodes = node_names(names, graph.num_vertices)
+        if nodes is not None:
+            graph._name_nodes(nodes)
     else:
         graph = Grid.__new__(Grid) if instance.graph.is_grid else Graph.__new__(Graph)
         graph._graph = instance.graph
     fleet: Fleet[Any] = Fleet.__new__(Fleet)
-    fleet._setup(graph, instance, None)
+    fleet._setup(graph, instance, agent_names(names, instance.num_agents))
     return fleet

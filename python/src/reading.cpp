@@ -10,12 +10,14 @@
 #include "errors.hpp"
 #include "grid/grid_input.hpp"
 #include "roadmap/roadmap_input.hpp"
+#include "saving.hpp"
 #include "timed.hpp"
 
 namespace quadrille::python {
 namespace {
 
-/// A StepInstance or a TimedInstance. The names are those of the program's options.
+/// (a StepInstance or a TimedInstance, what the file calls its parts). The names are those of the
+/// program's options.
 py::object read(const py::dict& names) {
   cli::InputOptions input;
   cli::RoadmapOptions roadmap;
@@ -49,13 +51,14 @@ py::object read(const py::dict& names) {
     auto loaded = load_roadmap_input(roadmap, input);
     const py::gil_scoped_acquire acquire;
     if (!loaded) raise(loaded.error());
-    return py::cast(TimedInstance{std::move(loaded->instance), std::move(loaded->grid)});
+    return py::make_tuple(TimedInstance{std::move(loaded->instance), std::move(loaded->grid)},
+                          lists_of(loaded->names));
   }
   if (wrong.empty()) {
     auto loaded = load_grid_input(input);
     const py::gil_scoped_acquire acquire;
     if (!loaded) raise(loaded.error());
-    return py::cast(std::move(loaded->instance));
+    return py::make_tuple(std::move(loaded->instance), lists_of(loaded->names));
   }
   const py::gil_scoped_acquire acquire;
   refuse(wrong);

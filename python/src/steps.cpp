@@ -209,8 +209,8 @@ std::optional<discrete::PlanFormat> format_of(const std::optional<std::string>& 
 
 void save_plan(const Plan& plan, const Instance& instance, const std::filesystem::path& path,
                const std::optional<std::string>& name) {
-  const auto format =
-      format_of(name).value_or(discrete::plan_format_of(path).value_or(discrete::PlanFormat::json));
+  const auto format = format_for(path, format_of(name), discrete::plan_format_of(path),
+                                 "json, cbsh2, visualizer or yaml");
   save(path, [&](std::ostream& out) {
     return write_plan(out, path.string(), instance.graph(), plan, format);
   });
@@ -226,11 +226,22 @@ Plan read_plan(const Instance& instance, const std::filesystem::path& path,
       .plan;
 }
 
-void save_instance(const Instance& instance, const std::filesystem::path& path) {
-  const bool is_yaml = path.extension() == ".yaml" || path.extension() == ".yml";
+void save_instance(const Instance& instance, const std::filesystem::path& path,
+                   const std::optional<std::string>& name, const NameLists& lists) {
+  using discrete::PlanFormat;
+  const auto named = name ? discrete::parse_plan_format(*name) : std::nullopt;
+  if (name && named != PlanFormat::json && named != PlanFormat::yaml)
+    refuse("format: '" + *name + "' is not json or yaml");
+  const auto format = format_for(path, named, discrete::plan_format_of(path), "json or yaml");
+  text::Names names = names_of(lists);
+  names.agents.resize(instance.num_agents());
+  // Without a name an agent is called agent0 in YAML, and 0 in Python.
+  if (format == PlanFormat::yaml)
+    for (std::size_t i = 0; i < names.agents.size(); ++i)
+      if (!names.agents[i]) names.agents[i] = std::to_string(i);
   save(path, [&](std::ostream& out) {
-    return is_yaml ? write_instance_yaml(out, path.string(), instance)
-                   : write_instance_json(out, path.string(), instance);
+    return format == PlanFormat::yaml ? write_instance_yaml(out, path.string(), instance, names)
+                                      : write_instance_json(out, path.string(), instance, names);
   });
 }
 

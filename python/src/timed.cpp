@@ -125,10 +125,21 @@ std::optional<continuous::PlanFormat> format_of(const std::optional<std::string>
 
 void save_plan(const Plan& plan, const TimedInstance& self, const std::filesystem::path& path,
                const std::optional<std::string>& name) {
-  const auto format = format_of(name).value_or(
-      continuous::plan_format_of(path).value_or(continuous::PlanFormat::json));
+  const auto format =
+      format_for(path, format_of(name), continuous::plan_format_of(path), "json or ccbs");
   save(path, [&](std::ostream& out) {
     return write_plan(out, path.string(), self.instance, plan, format, self.grid_or_null());
+  });
+}
+
+void save_instance(const TimedInstance& self, const std::filesystem::path& path,
+                   const std::optional<std::string>& name, const NameLists& lists) {
+  using continuous::PlanFormat;
+  if (name && *name != "json") refuse("format: '" + *name + "' is not json");
+  const auto known = path.extension() == ".json" ? std::optional(PlanFormat::json) : std::nullopt;
+  format_for(path, name ? std::optional(PlanFormat::json) : std::nullopt, known, "json");
+  save(path, [&](std::ostream& out) {
+    return write_instance_json(out, path.string(), self.instance, names_of(lists));
   });
 }
 
@@ -187,11 +198,7 @@ void bind_timed(py::module_& module) {
       .def("solve", &solve_timed)
       .def("verify", &verify_timed)
       .def("read_plan", &read_plan)
-      .def("save", [](const TimedInstance& self, const std::filesystem::path& path) {
-        save(path, [&](std::ostream& out) {
-          return write_instance_json(out, path.string(), self.instance);
-        });
-      });
+      .def("save", &save_instance);
 }
 
 }  // namespace quadrille::python

@@ -3,13 +3,34 @@
 
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace quadrille::view {
 
+namespace {
+
+bool is_control(char c) {
+  const auto code = static_cast<unsigned char>(c);
+  return (code < 0x20 && c != '\t' && c != '\n' && c != '\r') || code == 0x7f;
+}
+
+/// With a sign of replacement for each byte that is no UTF-8.
+std::string as_utf8(std::string_view text) {
+  using Json = nlohmann::json;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
+}  // namespace
+
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : as_utf8(text)) {
+    if (is_control(c)) {  // XML has no such characters, however they are written
+      result += "\xef\xbf\xbd";
+      continue;
+    }
     switch (c) {
       case '&':
         result += "&amp;";

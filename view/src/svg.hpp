@@ -10,7 +10,8 @@
 
 namespace quadrille::view {
 
-/// The text of HTML and XML.
+/// The text of HTML and XML. Control characters and bytes that are no UTF-8 are replaced: files may
+/// have such names.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// Okabe and Ito's colours, as in view/page/palette.js.

@@ -11,6 +11,7 @@
 #include "formats/json_numbers.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/text/document.hpp"
+#include "quadrille/text/names.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
@@ -23,18 +24,19 @@ class InstanceReader {
  public:
   explicit InstanceReader(const Document& document) : document_(document), check_(document) {}
 
-  Result<Instance> run() {
-    std::optional<Node> kind, version, resolution, roadmap, agents, obstacles;
+  Result<Instance> run(text::Names* names) {
+    std::optional<Node> kind, version, resolution, roadmap, agents, obstacles, groups;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"resolution", &resolution, false},
                                           {"roadmap", &roadmap},
                                           {"agents", &agents},
-                                          {"obstacles", &obstacles, false}}) ||
+                                          {"obstacles", &obstacles, false},
+                                          {"group_names", &groups, false}}) ||
         !read_version(*kind, *version) ||
         (resolution && !read_resolution(document_, check_, *resolution, resolution_)) ||
         !read_roadmap(*roadmap) || !read_agents(*agents) ||
-        (obstacles && !read_obstacles(*obstacles)))
+        (obstacles && !read_obstacles(*obstacles)) || (groups && !read_group_names(*groups)))
       return check_.error();
     auto made = Roadmap::make(std::move(positions_), std::move(edges_));
     if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
@@ -43,6 +45,7 @@ class InstanceReader {
     if (!instance && instance.error().where.file.empty())
       return document_.error(obstacles ? *obstacles : *roadmap, instance.error().code,
                              instance.error().message);
+    if (instance && names != nullptr) *names = std::move(names_);
     return instance;
   }
 
@@ -57,15 +60,23 @@ class InstanceReader {
   }
 
   bool read_roadmap(Node node) {
-    std::optional<Node> vertices, edges;
-    if (!check_.members(node, {{"vertices", &vertices}, {"edges", &edges}}) ||
+    std::optional<Node> vertices, edges, names;
+    if (!check_.members(node,
+                        {{"vertices", &vertices}, {"edges", &edges}, {"names", &names, false}}) ||
         !check_.array(*vertices, "vertices") || !check_.array(*edges, "edges"))
       return false;
     for (Node v = document_.first(*vertices); v < document_.next(*vertices); v = document_.next(v))
       if (!read_vertex(v)) return false;
     for (Node e = document_.first(*edges); e < document_.next(*edges); e = document_.next(e))
       if (!read_edge(e)) return false;
-    return true;
+    return !names ||
+           read_vertex_names(check_, document_, *names, positions_.size(), names_.vertices);
+  }
+
+  bool read_group_names(Node node) {
+    if (!text::read_names(check_, document_, node, names_.groups)) return false;
+    return names_.groups.size() <= kMaxGroups ||
+           check_.fail(node, "there are only " + std::to_string(kMaxGroups) + " groups");
   }
 
   bool read_vertex(Node node) { return read_point(node, positions_.emplace_back()); }
@@ -176,10 +187,12 @@ class InstanceReader {
 
   bool read_agents(Node agents) {
     if (!check_.array(agents, "agents")) return false;
+    std::vector<Node> nodes;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
       std::optional<Node> start, goal, radius, polygon, speed, group, release, deadline, at_start,
-          at_goal;
+          at_goal, name;
       Agent agent;
+      std::optional<std::string> own_name;
       if (!check_.members(a, {{"start", &start},
                               {"goal", &goal},
                               {"radius", &radius, false},
@@ -189,19 +202,23 @@ class InstanceReader {
                               {"release", &release, false},
                               {"deadline", &deadline, false},
                               {"at_start", &at_start, false},
-                              {"at_goal", &at_goal, false}}) ||
+                              {"at_goal", &at_goal, false},
+                              {"name", &name, false}}) ||
           !read_vertex_number(*start, agent.start) || !read_vertex_number(*goal, agent.goal) ||
           !read_body(a, radius, polygon, agent.body) || !read_speed(a, speed, agent.speed) ||
           (group && !read_group(*group, agent.group)) ||
           (release && !read_time(*release, agent.release)) ||
           (deadline && !read_time(*deadline, agent.deadline.emplace())) ||
           (at_start && !read_choice(*at_start, "stay", "under_way", agent.under_way)) ||
-          (at_goal && !read_choice(*at_goal, "stay", "leave", agent.leaves)))
+          (at_goal && !read_choice(*at_goal, "stay", "leave", agent.leaves)) ||
+          (name && !text::read_name(check_, document_, *name, own_name)))
         return false;
+      nodes.push_back(a);
+      names_.agents.push_back(own_name);
       agents_.push_back(agent);
       places_.push_back({document_.file(), document_.line(a)});
     }
-    return true;
+    return are_distinct(check_, names_.agents, nodes);
   }
 
   bool read_obstacles(Node obstacles) {
@@ -340,16 +357,17 @@ class InstanceReader {
   std::vector<Agent> agents_;
   std::vector<SourcePlace> places_;
   std::vector<MovingObstacle> obstacles_;
+  text::Names names_;
 };
 
 }  // namespace
 
-Result<Instance> read_instance_json(std::istream& in, const std::string& file) {
+Result<Instance> read_instance_json(std::istream& in, const std::string& file, text::Names* names) {
   const auto text = text::read_all(in, file);
   if (!text) return text.error();
   const auto document = text::parse_json(*text, file);
   if (!document) return document.error();
-  return InstanceReader(*document).run();
+  return InstanceReader(*document).run(names);
 }
 
 Result<Instance> read_instance_json(const std::filesystem::path& path) {

@@ -69,10 +69,31 @@ std::string obstacles_json(const Instance& instance) {
   return text + "\n  ]";
 }
 
+/// The members about names, if there are any.
+std::string vertex_names_json(const text::Names& names) {
+  std::string text;
+  const char* separator = ",\n    \"names\": [";
+  for (const std::string& name : names.vertices) {
+    text += separator + name;
+    separator = ", ";
+  }
+  return text + (text.empty() ? "" : "]");
+}
+
+std::string group_names_json(const text::Names& names) {
+  std::string text;
+  const char* separator = ",\n  \"group_names\": [";
+  for (const std::optional<std::string>& name : names.groups) {
+    text += separator + (name ? text::quoted_json(*name) : "null");
+    separator = ", ";
+  }
+  return text + (text.empty() ? "" : "]");
+}
+
 }  // namespace
 
 std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
-                                         const Instance& instance) {
+                                         const Instance& instance, const text::Names& names) {
   const Resolution& resolution = instance.resolution();
   const auto number = [&](auto units) { return json_number(in_input_units(units, resolution)); };
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
@@ -89,9 +110,11 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
     out << separator << "      " << edge_json(edge, resolution);
     separator = ",\n";
   }
-  out << (*separator == ',' ? "\n    ]\n" : "]\n") << "  },\n  \"agents\": [";
+  out << (*separator == ',' ? "\n    ]" : "]") << vertex_names_json(names)
+      << "\n  },\n  \"agents\": [";
   separator = "\n";
-  for (const Agent& agent : instance.agents()) {
+  for (const AgentId i : instance.agent_ids()) {
+    const Agent& agent = instance.agent(i);
     out << separator << "    {\"start\": " << agent.start.index()
         << ", \"goal\": " << agent.goal.index() << ", " << body_json(agent.body, resolution)
         << ", \"speed\": " << json_number(speed_in_input_units(agent.speed, resolution));
@@ -100,10 +123,13 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
     if (agent.deadline) out << ", \"deadline\": " << number(*agent.deadline);
     if (agent.under_way) out << ", \"at_start\": \"under_way\"";
     if (agent.leaves) out << ", \"at_goal\": \"leave\"";
+    if (const std::string* name = names.agent(i.index()))
+      out << ", \"name\": " << text::quoted_json(*name);
     out << "}";
     separator = ",\n";
   }
-  out << (*separator == ',' ? "\n  ]" : "]") << obstacles_json(instance) << "\n}\n";
+  out << (*separator == ',' ? "\n  ]" : "]") << obstacles_json(instance) << group_names_json(names)
+      << "\n}\n";
   return text::finish_output(out, file);
 }
 

@@ -34,6 +34,24 @@ double last_digit(std::string_view text) {
   return std::pow(10.0, static_cast<double>(power - digits));
 }
 
+/// What a move of so many ticks in a log stands for: exactly what its edge takes, if it is about
+/// that.
+Ticks move_duration(const Instance& instance, AgentId agent, VertexId from, VertexId to,
+                    Ticks ticks) {
+  const ClassId c = instance.class_of(agent);
+  for (const EdgeId e : instance.out_edges(c, from)) {
+    if (instance.roadmap().edge(e).to != to) continue;
+    const Ticks exact = instance.duration(c, e);
+    if (abs(exact - ticks) <= kMoveTolerance) return exact;
+  }
+  return ticks;
+}
+
+/// Whether a duration is the same as a number and back.
+bool is_number(Ticks ticks, const Resolution& resolution) {
+  return std::llround(in_input_units(ticks, resolution) / resolution.time) == ticks.count();
+}
+
 class LogReader {
  public:
   LogReader(const XmlFile& xml, const Instance& instance, const GridRoadmap* grid)
@@ -136,20 +154,11 @@ class LogReader {
     if (ends[0] == ends[1]) {
       path.back().depart += ticks;
     } else {
-      const Ticks arrive = path.back().depart + move_duration(agent, ends[0], ends[1], ticks);
+      const Ticks arrive =
+          path.back().depart + move_duration(instance_, agent, ends[0], ends[1], ticks);
       path.push_back({ends[1], arrive, arrive});
     }
     return std::nullopt;
-  }
-
-  [[nodiscard]] Ticks move_duration(AgentId agent, VertexId from, VertexId to, Ticks ticks) const {
-    const ClassId c = instance_.class_of(agent);
-    for (const EdgeId e : instance_.out_edges(c, from)) {
-      if (instance_.roadmap().edge(e).to != to) continue;
-      const Ticks exact = instance_.duration(c, e);
-      if (abs(exact - ticks) <= kMoveTolerance) return exact;
-    }
-    return ticks;
   }
 
   std::optional<Error> read_vertex(const pugi::xml_node& node, const std::string& end,
@@ -190,6 +199,25 @@ Result<PlanFile> read_ccbs_log(const std::string& text, const std::string& file,
   const auto xml = XmlFile::parse(text, file);
   if (!xml) return xml.error();
   return LogReader(*xml, instance, grid).run();
+}
+
+std::string why_not_in_log(const Instance& instance, AgentId agent, const Path& path) {
+  if (agent.index() >= instance.num_agents())
+    return "there are " + std::to_string(instance.num_agents()) + " agents";
+  if (path.front().arrive != 0) return "the path does not begin at tick 0";
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    const Stop &stop = path[k], &next = path[k + 1];
+    const std::string at = "stop " + std::to_string(k) + ": ";
+    if (stop.depart < stop.arrive || next.arrive < stop.depart) return at + "time goes back";
+    if (next.vertex == stop.vertex) return at + "a move that ends where it begins";
+    const Ticks move = next.arrive - stop.depart;
+    if (move_duration(instance, agent, stop.vertex, next.vertex, move) != move)
+      return at + "the next move is by a tick or two not as long as its edge takes";
+    for (const Ticks duration : {stop.depart - stop.arrive, move})
+      if (!is_number(duration, instance.resolution()))
+        return at + std::to_string(duration.count()) + " ticks are too many for a number";
+  }
+  return "";
 }
 
 void write_ccbs_log(std::ostream& out, const Instance& instance, const Plan& plan,

@@ -4,11 +4,24 @@
 #include <fstream>
 #include <istream>
 #include <ostream>
+#include <string>
 
 #include "formats/plan_codecs.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
+namespace {
+
+std::string why_not_in_file(const Instance& instance, AgentId agent, const Path& path,
+                            PlanFormat format) {
+  if (path.empty()) return "the path is empty";
+  for (const Stop& stop : path)
+    if (stop.vertex.index() >= instance.roadmap().num_vertices())
+      return "there is no vertex " + std::to_string(stop.vertex.index());
+  return format == PlanFormat::ccbs ? why_not_in_log(instance, agent, path) : "";
+}
+
+}  // namespace
 
 std::string_view to_string(PlanFormat format) noexcept {
   return format == PlanFormat::json ? "json" : "ccbs";
@@ -47,6 +60,16 @@ Result<PlanFile> read_plan(const std::filesystem::path& path, const Instance& in
 std::optional<Error> write_plan(std::ostream& out, const std::string& file,
                                 const Instance& instance, const Plan& plan, PlanFormat format,
                                 const GridRoadmap* grid) {
+  if (format == PlanFormat::ccbs && plan.paths.empty() && instance.num_agents() > 0)
+    return Error{ErrorCode::invalid_plan, "a log of no agent is no plan for some", {file, 0}};
+  for (const AgentId i : IdRange<AgentId>(plan.paths.size())) {
+    const std::string why = why_not_in_file(instance, i, plan.paths[i], format);
+    if (!why.empty())
+      return Error{ErrorCode::invalid_plan,
+                   "agent " + std::to_string(i.index()) + " cannot be written as " +
+                       std::string(to_string(format)) + ": " + why,
+                   {file, 0}};
+  }
   if (format == PlanFormat::ccbs)
     write_ccbs_log(out, instance, plan, grid);
   else

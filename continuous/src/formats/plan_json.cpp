@@ -21,16 +21,17 @@ class JsonPlanReader {
 
   Result<PlanFile> run() {
     std::optional<Node> resolution, ticks, bound_ticks;
-    std::optional<Node> unread[3];  // Of a result.
+    std::optional<Node> unread[4];  // Of a result.
     Node paths = Document::kRoot;
     if (!header_.read({{"resolution", &resolution},
                        {"cost_ticks", &ticks, false},
                        {"lower_bound_ticks", &bound_ticks, false},
                        {"claim", &unread[0], false},
                        {"bodies", &unread[1], false},
-                       {"least_clearance", &unread[2], false}},
+                       {"least_clearance", &unread[2], false},
+                       {"second_opinion", &unread[3], false}},
                       file_.stated) ||
-        !check_resolution(*resolution) || !read_costs(ticks, bound_ticks) || !header_.plan(paths) ||
+        !header_.plan(paths) || !check_resolution(*resolution) || !read_costs(ticks, bound_ticks) ||
         !read_paths(paths) || !header_.agents(file_.plan.paths.size()))
       return check_.error();
     return std::move(file_);
@@ -66,13 +67,19 @@ class JsonPlanReader {
            (header_.is_null(time) || agrees(*time, *cost));
   }
 
-  /// A time that is stated beside its ticks.
-  bool agrees(Node node, std::int64_t units) {
+  /// A cost, a time or a coordinate that is stated beside its whole units.
+  template <class Units>
+  bool agrees(Node node, Units units) {
     double value = 0;
     if (!check_.number(node, value)) return false;
     if (is_about(value, units, instance_.resolution())) return true;
     return check_.fail(node, ErrorCode::invalid_plan,
-                       "this is not " + std::to_string(units) + " times the resolution");
+                       "this is not " + std::to_string(count(units)) + " times the resolution");
+  }
+  static std::int64_t count(Cost ticks) { return ticks; }
+  template <class Unit>
+  static std::int64_t count(Quantity<Unit> units) {
+    return units.count();
   }
 
   bool read_paths(Node plan) {
@@ -107,7 +114,7 @@ class JsonPlanReader {
     stop.vertex = VertexId(static_cast<std::size_t>(number));
     if (at && !read_place(*at, instance_.roadmap().position(stop.vertex))) return false;
     if (!read_tick(*arrive_ticks, stop.arrive)) return false;
-    if (arrive && !agrees(*arrive, stop.arrive.count())) return false;
+    if (arrive && !agrees(*arrive, stop.arrive)) return false;
     stop.depart = stop.arrive;
     if (is_last) {
       if (!depart && !depart_ticks) return true;
@@ -115,7 +122,7 @@ class JsonPlanReader {
                          "an agent stays at its last stop for ever");
     }
     if (!read_tick(*depart_ticks, stop.depart)) return false;
-    return !depart || agrees(*depart, stop.depart.count());
+    return !depart || agrees(*depart, stop.depart);
   }
 
   bool read_tick(Node node, Ticks& tick) {
@@ -135,7 +142,7 @@ class JsonPlanReader {
     Node at = document_.first(node);
     for (const Length coordinate : {point.x, point.y, point.z}) {
       if (at == document_.next(node)) break;
-      if (!agrees(at, coordinate.count())) return false;
+      if (!agrees(at, coordinate)) return false;
       at = document_.next(at);
     }
     return true;

@@ -35,6 +35,11 @@ std::optional<double> in_units(double value, double unit, std::int64_t limit) {
   return units;
 }
 
+/// Up to half of `unit`, and what is lost where numbers are written in decimals.
+bool agree(double value, double exact, double unit) {
+  return std::abs(value - exact) <= unit / 2 + 1e-12 * std::abs(exact);
+}
+
 }  // namespace
 
 std::optional<Length> quantise_coordinate(double value, const Resolution& resolution) {
@@ -137,9 +142,16 @@ double speed_in_input_units(Speed speed, const Resolution& resolution) {
   return divided(multiplied(units, resolution.length), resolution.time);
 }
 
-bool is_about(double value, std::int64_t ticks, const Resolution& resolution) {
-  const double exact = in_input_units(Ticks(ticks), resolution);
-  return std::abs(value - exact) <= resolution.time / 2 + 1e-12 * std::abs(exact);
+bool is_about(double value, Cost ticks, const Resolution& resolution) {
+  return agree(value, in_input_units(ticks, resolution), resolution.time);
+}
+
+bool is_about(double value, Ticks ticks, const Resolution& resolution) {
+  return agree(value, in_input_units(ticks, resolution), resolution.time);
+}
+
+bool is_about(double value, Length length, const Resolution& resolution) {
+  return agree(value, in_input_units(length, resolution), resolution.length);
 }
 
 }  // namespace quadrille::continuous

@@ -12,6 +12,7 @@
 #include "formats/instance_document.hpp"
 #include "formats/text_input.hpp"
 #include "quadrille/discrete/movingai.hpp"
+#include "quadrille/text/names.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -23,7 +24,7 @@ class JsonInstanceReader {
   JsonInstanceReader(const Document& document, std::size_t most_vertices)
       : document_(document), check_(document), most_vertices_(most_vertices) {}
 
-  Result<Instance> run() {
+  Result<Instance> run(text::Names* names) {
     std::optional<Node> kind, version, graph, grid, agents;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
@@ -39,7 +40,9 @@ class JsonInstanceReader {
     if (graph ? !read_graph(*graph) : !read_grid(*grid)) return check_.error();
     std::vector<PlacedTask> tasks;
     if (!read_agents(*agents, tasks)) return check_.error();
-    return make_instance(check_, std::move(*graph_), tasks);
+    auto instance = make_instance(check_, std::move(*graph_), tasks);
+    if (instance && names != nullptr) *names = std::move(names_);
+    return instance;
   }
 
  private:
@@ -127,10 +130,15 @@ class JsonInstanceReader {
 
   bool read_agents(Node agents, std::vector<PlacedTask>& tasks) {
     if (!check_.array(agents, "agents")) return false;
+    std::vector<Node> places;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, goal;
-      if (!check_.members(a, {{"start", &start}, {"goal", &goal}})) return false;
+      std::optional<Node> start, goal, name;
+      if (!check_.members(a, {{"start", &start}, {"goal", &goal}, {"name", &name, false}}))
+        return false;
+      auto& own = names_.agents.emplace_back();
+      if (name && !text::read_name(check_, document_, *name, own)) return false;
       PlacedTask placed{{}, *start, *goal};
+      places.push_back(a);
       if (!read_place(check_, document_, *graph_, *start, ErrorCode::invalid_instance,
                       placed.task.start) ||
           !read_place(check_, document_, *graph_, *goal, ErrorCode::invalid_instance,
@@ -138,13 +146,14 @@ class JsonInstanceReader {
         return false;
       tasks.push_back(placed);
     }
-    return true;
+    return are_distinct(check_, names_.agents, places);
   }
 
   const Document& document_;
   Checker check_;
   const std::size_t most_vertices_;
   std::optional<Graph> graph_;
+  text::Names names_;
 };
 
 void write_grid(std::ostream& out, const GridLayout& grid) {
@@ -174,12 +183,12 @@ void write_graph(std::ostream& out, const Graph& graph) {
 }  // namespace
 
 Result<Instance> read_instance_json(std::istream& in, const std::string& file,
-                                    std::size_t most_vertices) {
+                                    std::size_t most_vertices, text::Names* names) {
   const auto text = read_all(in, file);
   if (!text) return text.error();
   const auto document = parse_json(*text, file);
   if (!document) return document.error();
-  return JsonInstanceReader(*document, most_vertices).run();
+  return JsonInstanceReader(*document, most_vertices).run(names);
 }
 
 Result<Instance> read_instance_json(const std::filesystem::path& path, std::size_t most_vertices) {
@@ -189,7 +198,7 @@ Result<Instance> read_instance_json(const std::filesystem::path& path, std::size
 }
 
 std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
-                                         const Instance& instance) {
+                                         const Instance& instance, const text::Names& names) {
   const Graph& graph = instance.graph();
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion << ",\n";
   if (graph.layout())
@@ -203,9 +212,13 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   };
   out << ",\n  \"agents\": [";
   bool first = true;
-  for (const Agent& task : instance.agents()) {
+  for (const AgentId i : instance.agent_ids()) {
+    const Agent& task = instance.agents()[i];
     out << (first ? "\n" : ",\n") << "    {\"start\": " << place(task.start)
-        << ", \"goal\": " << place(task.goal) << '}';
+        << ", \"goal\": " << place(task.goal);
+    if (const std::string* name = names.agent(i.index()))
+      out << ", \"name\": " << text::quoted_json(*name);
+    out << '}';
     first = false;
   }
   out << (first ? "]\n}\n" : "\n  ]\n}\n");

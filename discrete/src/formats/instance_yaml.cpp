@@ -10,6 +10,7 @@
 #include "formats/document.hpp"
 #include "formats/instance_document.hpp"
 #include "formats/text_input.hpp"
+#include "quadrille/text/names.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -21,7 +22,7 @@ class YamlInstanceReader {
   YamlInstanceReader(const Document& document, std::size_t most_vertices)
       : document_(document), check_(document), most_vertices_(most_vertices) {}
 
-  Result<Instance> run() {
+  Result<Instance> run(text::Names* names) {
     std::optional<Node> map, agents, roadmap;
     std::vector<PlacedTask> tasks;
     // The roadmap comes first: files that have one have no map, and deserve the right reason.
@@ -33,7 +34,9 @@ class YamlInstanceReader {
         (!agents && !check_.fail(Document::kRoot, "the key 'agents' is missing")) ||
         !read_map(*map) || !read_agents(*agents, tasks))
       return check_.error();
-    return make_instance(check_, std::move(*graph_), tasks);
+    auto instance = make_instance(check_, std::move(*graph_), tasks);
+    if (instance && names != nullptr) *names = std::move(names_);
+    return instance;
   }
 
  private:
@@ -72,6 +75,7 @@ class YamlInstanceReader {
 
   bool read_agents(Node agents, std::vector<PlacedTask>& tasks) {
     if (!check_.array(agents, "agents")) return false;
+    std::vector<Node> places;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
       std::optional<Node> start, goal, name, potential;
       if (!check_.members(a, {{"start", &start},
@@ -81,9 +85,9 @@ class YamlInstanceReader {
         return false;
       if (potential) return check_.fail(*potential, "target assignment is not supported");
       if (!goal) return check_.fail(a, "the key 'goal' is missing");
-      if (name && document_.kind(*name) != Document::Kind::string &&
-          document_.kind(*name) != Document::Kind::integer)
-        return check_.fail(*name, "expected a name");
+      auto& own = names_.agents.emplace_back();
+      if (name && !text::read_name(check_, document_, *name, own)) return false;
+      places.push_back(a);
       PlacedTask placed{{}, *start, *goal};
       if (!read_place(check_, document_, *graph_, *start, ErrorCode::invalid_instance,
                       placed.task.start) ||
@@ -92,24 +96,25 @@ class YamlInstanceReader {
         return false;
       tasks.push_back(placed);
     }
-    return true;
+    return are_distinct(check_, names_.agents, places);
   }
 
   const Document& document_;
   Checker check_;
   const std::size_t most_vertices_;
   std::optional<Graph> graph_;
+  text::Names names_;
 };
 
 }  // namespace
 
 Result<Instance> read_instance_yaml(std::istream& in, const std::string& file,
-                                    std::size_t most_vertices) {
+                                    std::size_t most_vertices, text::Names* names) {
   const auto text = read_all(in, file);
   if (!text) return text.error();
   const auto document = parse_yaml(*text, file);
   if (!document) return document.error();
-  return YamlInstanceReader(*document, most_vertices).run();
+  return YamlInstanceReader(*document, most_vertices).run(names);
 }
 
 Result<Instance> read_instance_yaml(const std::filesystem::path& path, std::size_t most_vertices) {
@@ -119,7 +124,7 @@ Result<Instance> read_instance_yaml(const std::filesystem::path& path, std::size
 }
 
 std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& file,
-                                         const Instance& instance) {
+                                         const Instance& instance, const text::Names& names) {
   if (!instance.graph().layout())
     return Error{ErrorCode::invalid_instance, "this YAML format needs a grid", {file, 0}};
   const GridLayout& grid = *instance.graph().layout();
@@ -137,7 +142,12 @@ std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& f
   out << (any ? "\n" : " []\n") << "agents:" << (instance.num_agents() == 0 ? " []\n" : "\n");
   for (const AgentId i : instance.agent_ids()) {
     const Agent& task = instance.agents()[i];
-    out << "  - name: agent" << i.value() << "\n    start: " << pair(grid.cell_of(task.start))
+    out << "  - name: ";
+    if (const std::string* name = names.agent(i.index()))
+      out << text::quoted_json(*name);
+    else
+      out << "agent" << i.value();
+    out << "\n    start: " << pair(grid.cell_of(task.start))
         << "\n    goal: " << pair(grid.cell_of(task.goal)) << '\n';
   }
   return finish_output(out, file);

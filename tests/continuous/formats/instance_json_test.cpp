@@ -274,6 +274,43 @@ TEST(RoadmapJson, WhatIsWrittenIsReadBack) {
   }
 }
 
+TEST(RoadmapJson, NamesAreReadAndWritten) {
+  const auto read = [](const std::string& more, const std::string& names, text::Names* found) {
+    std::istringstream in(
+        R"({"quadrille": "instance", "version": 1, "roadmap": {"vertices": [[0, 0], [2, 0]],
+            "edges": [[0, 1], [1, 0]])" +
+        names + R"(}, "agents": [{"start": 0, "goal": 1, "radius": 0.1})" + more + "}");
+    return read_instance_json(in, "f", found);
+  };
+  text::Names names;
+  ASSERT_TRUE(read("]", "", &names).has_value());
+  EXPECT_EQ(names.agent(0), nullptr);
+  const auto instance = read(R"(, {"start": 1, "goal": 0, "radius": 0.1, "name": "a \"b\"\u0001"}],
+             "group_names": [null, "small"])",
+                             R"(, "names": ["1", [1, ["x", -2]]])", &names);
+  ASSERT_TRUE(instance.has_value()) << instance.error().to_string();
+  EXPECT_EQ(*names.agent(1), "a \"b\"\x01");
+  EXPECT_EQ(names.vertices, (std::vector<std::string>{"\"1\"", "[1, [\"x\", -2]]"}));
+  EXPECT_EQ(names.groups, (std::vector<std::optional<std::string>>{std::nullopt, "small"}));
+  std::stringstream file;
+  ASSERT_EQ(write_instance_json(file, "out", *instance, names), std::nullopt);
+  text::Names again;
+  ASSERT_TRUE(read_instance_json(file, "out", &again).has_value()) << file.str();
+  EXPECT_EQ(again, names);
+  const auto why = [&](const std::string& more, const std::string& wrong) {
+    return read(more, wrong, nullptr).error().message;
+  };
+  const std::string second = R"(, {"start": 1, "goal": 0, "radius": 0.1, "name": )";
+  EXPECT_EQ(why(second + "\"0\"}]", ""), "/agents/1: agents 0 and 1 are both called '0'");
+  EXPECT_EQ(why(second + "[]}]", ""), "/agents/1/name: expected a name");
+  EXPECT_EQ(why("]", R"(, "names": ["a", "a"])"), "/roadmap/names/1: another vertex has this name");
+  EXPECT_EQ(why("]", R"(, "names": ["a", "b", "c"])"),
+            "/roadmap/names/2: there are only 2 vertices");
+  EXPECT_EQ(why("]", R"(, "names": [0.5])"),
+            "/roadmap/names/0: a vertex is called by a text, a whole number or a list of these");
+  EXPECT_EQ(why("], \"group_names\": [[]]", ""), "/group_names/0: expected a name");
+}
+
 TEST(RoadmapJson, LengthAndTimeMayHaveResolutionsOfTheirOwn) {
   const auto read = [](const std::string& resolution) {
     std::istringstream file(

@@ -217,6 +217,73 @@ TEST(TimedPlanFiles, TheLatestTickIsReadBackAndNoLaterOne) {
   EXPECT_FALSE(verify(instance, late(kMaxTick + 1)).valid());
 }
 
+TEST(TimedPlanFiles, LengthsAndTimesMayHaveResolutionsOfTheirOwn) {
+  for (const Resolution resolution :
+       {Resolution(0.001, 0.01), Resolution(0.01, 0.001), Resolution(7, 1.0 / 3)}) {
+    const Instance instance = Instance::make(test::roadmap({{0, 0}, {2000, 350}}, {{0, 1}}),
+                                             {test::agent(0, 1, 300)}, resolution)
+                                  .value();
+    const Ticks arrive = 5 + instance.duration(instance.class_of(AgentId(0)), EdgeId(0));
+    Plan plan;
+    plan.paths.push_back({{VertexId(0), 0, 5}, {VertexId(1), arrive, arrive}});
+    std::stringstream file;
+    ASSERT_EQ(write_plan(file, "out", instance, plan, PlanFormat::json), std::nullopt);
+    const std::string text = file.str();
+    const auto again = read_plan(file, "out", instance);
+    ASSERT_TRUE(again.has_value()) << again.error().to_string() << text;
+    EXPECT_EQ(again->plan, plan);
+    // A coordinate is held against length units, not against ticks.
+    const auto at = text.find("[0, 0]");
+    ASSERT_NE(at, std::string::npos);
+    std::istringstream moved(std::string(text).replace(at, 6, "[0, 99]"));
+    const auto refused = read_plan(moved, "f", instance);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().message, "/plan/0/0/at/1: this is not 0 times the resolution");
+  }
+}
+
+TEST(TimedPlanFiles, AResultMayHaveASecondOpinion) {
+  std::istringstream in(test::with_fault(
+      test::contents(test::data("discs-plan.json")),
+      {"\"resolution\"", "\"second_opinion\": {\"by\": \"fcl\"}, \"resolution\"", ""}));
+  EXPECT_TRUE(read_discs(in).has_value());
+  std::istringstream none(
+      R"({"quadrille": "result", "status": "infeasible", "resolution": null, "plan": null})");
+  EXPECT_EQ(read_discs(none).error().message, "/plan: there is no plan");
+}
+
+// Read again, the plan would be another one, perhaps one that breaks no rule.
+TEST(TimedPlanFiles, WhatALogCannotSayIsNotWritten) {
+  const Plan good = read_plan(test::data("discs-plan.json"), discs()).value().plan;
+  const auto error = [&](const auto& change, PlanFormat format) {
+    Plan plan = good;
+    change(plan);
+    std::ostringstream out;
+    return write_plan(out, "out", discs(), plan, format);
+  };
+  const auto refused = [&](const auto& change, const std::string& why) {
+    const auto found = error(change, PlanFormat::ccbs);
+    ASSERT_TRUE(found.has_value()) << why;
+    EXPECT_EQ(found->message.substr(found->message.find(": ") + 2), why);
+    EXPECT_EQ(error(change, PlanFormat::json), std::nullopt) << why;
+  };
+  const AgentId first(0);
+  refused([&](Plan& plan) { plan.paths[first][0].arrive = 1; },
+          "the path does not begin at tick 0");
+  refused([&](Plan& plan) { plan.paths[first][1].depart -= 1; }, "stop 1: time goes back");
+  refused([&](Plan& plan) { plan.paths[first][1].arrive = 114; }, "stop 0: time goes back");
+  refused([&](Plan& plan) { plan.paths[first][1].vertex = plan.paths[first][0].vertex; },
+          "stop 0: a move that ends where it begins");
+  refused([&](Plan& plan) { plan.paths[first][0].depart += 1; },
+          "stop 0: the next move is by a tick or two not as long as its edge takes");
+  refused([&](Plan& plan) { plan.paths.push_back(plan.paths[first]); }, "there are 2 agents");
+  for (const PlanFormat format : {PlanFormat::json, PlanFormat::ccbs}) {
+    EXPECT_TRUE(error([&](Plan& plan) { plan.paths[first].clear(); }, format).has_value());
+    EXPECT_TRUE(
+        error([&](Plan& plan) { plan.paths[first][0].vertex = VertexId(99); }, format).has_value());
+  }
+}
+
 TEST(TimedPlanFiles, APlanForNoAgentsIsReadBack) {
   const auto roadmap =
       std::make_shared<const Roadmap>(Roadmap::make({{0, 0}, {1000, 0}}, {}).value());

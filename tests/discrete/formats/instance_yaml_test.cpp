@@ -28,6 +28,33 @@ TEST(InstanceYaml, ReadsFlowStyleAndIgnoresRepeatedObstacles) {
   EXPECT_EQ(instance->agents().items(), (std::vector<Agent>{{VertexId(0), VertexId(4)}}));
 }
 
+TEST(InstanceYaml, NamesAreReadAndWritten) {
+  const std::string text =
+      "map: {dimensions: [5, 2]}\n"
+      "agents: [{name: 'a: \"b\"', start: [0, 0], goal: [4, 0]}, {start: [1, 0], goal: [3, 0]},"
+      " {name: 7, start: [2, 0], goal: [2, 0]}]\n";
+  std::istringstream in(text);
+  text::Names names, yaml_names, json_names;
+  const Instance instance = read_instance_yaml(in, "f", &names).value();
+  EXPECT_EQ(*names.agent(0), "a: \"b\"");
+  EXPECT_EQ(names.agent(1), nullptr);
+  EXPECT_EQ(*names.agent(2), "7");
+  std::stringstream json, yaml;
+  ASSERT_EQ(write_instance_json(json, "f", instance, names), std::nullopt);
+  ASSERT_TRUE(read_instance_json(json, "f", &json_names).has_value()) << json.str();
+  EXPECT_EQ(json_names, names);
+  ASSERT_EQ(write_instance_yaml(yaml, "f", instance, names), std::nullopt);
+  ASSERT_TRUE(read_instance_yaml(yaml, "f", &yaml_names).has_value()) << yaml.str();
+  names.agents[1] = "agent1";  // which it is called where it has no name
+  EXPECT_EQ(yaml_names, names);
+  const auto twice = instance_of(
+      "map: {dimensions: [5, 2]}\nagents: [{name: x, start: [0, 0], goal: [4, 0]},\n"
+      " {name: x, start: [1, 0], goal: [3, 0]}]\n");
+  ASSERT_FALSE(twice.has_value());
+  EXPECT_EQ(twice.error().to_string(),
+            "test.yaml:3: /agents/1: agents 0 and 1 are both called 'x'");
+}
+
 TEST(InstanceYaml, AliasBombsAreRefusedAtOnce) {
   std::string text = "a: &a [x, x, x, x, x, x, x, x, x]\n";
   for (char c = 'b'; c <= 'z'; ++c) {

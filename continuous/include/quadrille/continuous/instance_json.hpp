@@ -9,6 +9,7 @@
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
+#include "quadrille/text/names.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -22,7 +23,8 @@ inline constexpr int kInstanceJsonVersion = 1;
 /// units and ticks. Unknown and repeated keys, missing keys and wrong types are refused. Errors:
 /// io, syntax, out_of_range, invalid_instance; with file, line and, once the syntax is right, the
 /// JSON path of the value, such as `/agents/3/start`.
-[[nodiscard]] Result<Instance> read_instance_json(std::istream& in, const std::string& file);
+[[nodiscard]] Result<Instance> read_instance_json(std::istream& in, const std::string& file,
+                                                  text::Names* names = nullptr);
 [[nodiscard]] Result<Instance> read_instance_json(const std::filesystem::path& path);
 /// Whether this is the text of such a file rather than of an instance on a graph or a grid: JSON
 /// with the key `roadmap`. What else may be wrong with it is for the reader to say.
@@ -30,7 +32,8 @@ inline constexpr int kInstanceJsonVersion = 1;
 
 /// Reading it back gives an equal instance. Errors: io when the stream fails.
 [[nodiscard]] std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
-                                                       const Instance& instance);
+                                                       const Instance& instance,
+                                                       const text::Names& names = {});
 
 }  // namespace quadrille::continuous
 

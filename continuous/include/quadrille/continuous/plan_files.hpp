@@ -51,7 +51,10 @@ struct PlanFile {
 
 /// Writes a plan. Reading it back with the same instance and grid gives an equal plan. In ccbs
 /// there is one <section> per move or wait, with its duration in the input's unit of time; with a
-/// grid, sections name cells, else vertex numbers. Requires vertices of the roadmap. Errors: io.
+/// grid, sections name cells, else vertex numbers. Errors: io; invalid_plan if a path is empty or a
+/// vertex is none of the roadmap's, and in ccbs for what a log cannot express: paths that begin
+/// later than tick 0, that go back in time or move without leaving, moves that are by a tick or two
+/// not as long as their edges take, and more paths than agents. Valid plans have nothing of these.
 [[nodiscard]] std::optional<Error> write_plan(std::ostream& out, const std::string& file,
                                               const Instance& instance, const Plan& plan,
                                               PlanFormat format, const GridRoadmap* grid = nullptr);

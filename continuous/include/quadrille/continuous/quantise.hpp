@@ -52,8 +52,11 @@ namespace quadrille::continuous {
 [[nodiscard]] double radius_in_input_units(Length radius, const Resolution& resolution);
 [[nodiscard]] double corner_in_input_units(Length coordinate, const Resolution& resolution);
 [[nodiscard]] double speed_in_input_units(Speed speed, const Resolution& resolution);
-/// Whether `value`, a time in the input's units, is that many ticks up to half a tick.
-[[nodiscard]] bool is_about(double value, std::int64_t ticks, const Resolution& resolution);
+/// Whether `value`, in the input's units of time or length, is that cost, time or coordinate up to
+/// half a unit of the resolution.
+[[nodiscard]] bool is_about(double value, Cost ticks, const Resolution& resolution);
+[[nodiscard]] bool is_about(double value, Ticks ticks, const Resolution& resolution);
+[[nodiscard]] bool is_about(double value, Length length, const Resolution& resolution);
 
 }  // namespace quadrille::continuous
 

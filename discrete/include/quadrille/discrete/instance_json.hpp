@@ -11,6 +11,7 @@
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
+#include "quadrille/text/names.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -25,13 +26,15 @@ inline constexpr int kInstanceJsonVersion = 1;
 /// is right, the JSON path of the value, such as `/agents/3/start`. More than `most_vertices`
 /// vertices are refused (out_of_range) before a graph is made of them; `solve` takes kMaxVertices.
 [[nodiscard]] Result<Instance> read_instance_json(std::istream& in, const std::string& file,
-                                                  std::size_t most_vertices = SIZE_MAX);
+                                                  std::size_t most_vertices = SIZE_MAX,
+                                                  text::Names* names = nullptr);
 [[nodiscard]] Result<Instance> read_instance_json(const std::filesystem::path& path,
                                                   std::size_t most_vertices = SIZE_MAX);
 /// Writes the grid form for grids, the graph form otherwise. Reading it back gives an equal
 /// instance.
 [[nodiscard]] std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
-                                                       const Instance& instance);
+                                                       const Instance& instance,
+                                                       const text::Names& names = {});
 
 }  // namespace quadrille::discrete
 

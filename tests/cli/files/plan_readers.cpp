@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// All that reads a file with a plan.
+#include <algorithm>
+#include <set>
+
+#include "cli/files/contents.hpp"
+#include "cli/files/files_case.hpp"
+
+namespace quadrille::cli::test {
+
+using nlohmann::json;
+
+std::string FilesCase::as_json(const std::string& file, const std::string& format, json& plan) {
+  std::string made = names_.next(".json");
+  Words words = {"--to", "json", "--output", made, file};
+  if (random_.percent(50)) words = words + Words{"--from", format};
+  on_input("convert", words, {0});
+  const std::string text = read_file(made);
+  expect(made, why_no_json(text));
+  plan = plan_in(text);
+  return made;
+}
+
+void FilesCase::read_plan(const std::string& file, const std::string& format) {
+  Words words = {file};
+  if (random_.percent(50)) words = words + Words{"--plan-format", format};
+  if (input_.in_time && random_.percent(30)) words = words + Words{"--check-with", "fcl"};
+  const std::string verdict = names_.next(".json");
+  on_input("verify", words + Words{"--json", verdict}, {0});
+  expect(verdict, why_no_json(read_file(verdict)));
+
+  json plan;
+  const std::string made = as_json(file, format, plan);
+  if (format == "json" && plan_in(read_file(file)) != plan) fail("the plan is another one");
+  if (json_plan_.empty()) json_plan_ = made;
+  if (random_.percent(40)) convert_there_and_back(file, format);
+  if (random_.percent(25)) view(file);
+  if (random_.percent(25)) execute(file);
+  if (input_.in_time && random_.percent(25)) export_it(file);
+  if (random_.percent(40)) begin_with(file);
+}
+
+void FilesCase::convert_there_and_back(const std::string& file, const std::string& format) {
+  json before, after;
+  as_json(file, format, before);
+  for (const std::string& to : plan_formats(input_)) {
+    const std::string made = names_.next(random_.percent(50) ? "." + to : "");
+    on_input("convert", {"--to", to, "--output", made, file}, {0});
+    on_input("verify", {made}, {0});
+    as_json(made, to, after);
+    if (before != after) fail("the plan is another one as " + to);
+  }
+}
+
+void FilesCase::view(const std::string& file) {
+  const std::string page = names_.next(".html"), picture = names_.next(".svg");
+  Words words = {"--output", page, file};
+  const bool draws = random_.percent(70);
+  if (draws) words = words + Words{"--svg", picture} + draw_picture(random_, input_);
+  on_input("view", words, {0});
+  expect(page, why_no_page(read_file(page)));
+  if (draws) expect(picture, why_no_xml(read_file(picture)));
+}
+
+void FilesCase::execute(const std::string& file) {
+  const std::string order = names_.next(".json"), report = names_.next(".json");
+  on_input("execute-check", {"--json", order, file}, {0, 1});
+  expect(order, why_no_json(read_file(order)));
+  Words words = {"--runs", "2", "--json", report, file};
+  if (random_.percent(50)) words = words + Words{"--delays", "0.5", "--longest", "2"};
+  if (random_.percent(30)) words = words + Words{"--rule", "coupled", "--seed", "3"};
+  on_input("simulate", words, {0});
+  expect(report, why_no_json(read_file(report)));
+}
+
+void FilesCase::export_it(const std::string& file) {
+  for (const std::string to : {"csv", "multidof", "path", "vda5050"}) {
+    const std::string made = names_.next("." + to);
+    const bool is_order = to == "vda5050";
+    Words words = {"--to", to, "--output", made, file};
+    if (is_order && input_.has_heights) {
+      on_input("export", words, {65});
+      continue;
+    }
+    // Units of time are of all sizes here.
+    const Ended ended =
+        on_input("export", is_order ? words : words + Words{"--rate", "1e-6"},
+                 is_order ? std::initializer_list<int>{0, 1} : std::initializer_list<int>{0});
+    if (ended.code != 0) continue;
+    const std::string text = read_file(made);
+    expect(made, to == "csv" ? why_no_table(text) : why_no_json(text));
+  }
+}
+
+void FilesCase::begin_with(const std::string& file) {
+  const std::string result = names_.next(".json");
+  Words words = objective_ + Words{"--initial-plan", file, "--json", result, "--cpu-limit", "2"};
+  // Which it may replace.
+  std::string plan = file;
+  if (random_.percent(50)) {
+    plan = names_.next(".plan");
+    write_file(plan, read_file(file));
+    words = objective_ +
+            Words{"--initial-plan", plan, "--json", result, "--cpu-limit", "2", "--plan", plan};
+  }
+  if (random_.percent(50)) words = words + Words{"--conflict-limit", "10"};
+  if (random_.percent(30)) words = words + Words{"--known-plan", file};
+  if (!bound_.empty() && random_.percent(30)) words = words + Words{"--known-bound", bound_};
+  on_input("solve", words, {0, 10});
+  on_input("verify", {plan}, {0});
+  on_input("verify", {result}, {0});
+  const json cost = json::parse(read_file(result)).at(input_.in_time ? "cost_ticks" : "cost");
+  if (cost_ && cost > *cost_) fail("it costs more than the plan that it began with");
+}
+
+namespace {
+
+/// What a verdict says, or only who breaks which rules.
+json violations(const json& verdict, bool only_who) {
+  json found = verdict.at("violations");
+  if (!only_who) return found;
+  std::set<std::string> who;
+  for (const json& one : found) who.insert(one.at("kind").dump() + one.at("agents").dump());
+  return who;
+}
+
+/// Each stop but the last has a departure.
+void settle_departures(json& path) {
+  for (std::size_t k = 0; k < path.size(); ++k)
+    if (k + 1 == path.size())
+      path[k].erase("depart_ticks");
+    else if (!path[k].contains("depart_ticks"))
+      path[k]["depart_ticks"] = path[k]["arrive_ticks"];
+}
+
+/// One change to a path; `plan` is the list of this project's JSON.
+void change(Random& random, json& plan, bool in_time) {
+  if (plan.empty()) return;
+  json& path = plan[random.below(plan.size())];
+  json& stop = path[random.below(path.size())];
+  if (in_time)
+    for (json& other : path)
+      for (const char* key : {"at", "arrive", "depart"}) other.erase(key);
+  switch (random.below(6)) {
+    case 0:  // An agent less.
+      plan.erase(plan.size() - 1);
+      return;
+    case 1:  // And one more.
+      plan.push_back(path);
+      return;
+    case 2:
+      if (path.size() > 1) path.erase(random.below(path.size() - 1));
+      return;
+    case 3:
+      path.insert(path.begin() + static_cast<std::ptrdiff_t>(random.below(path.size())), stop);
+      return;
+    default:
+      break;
+  }
+  if (!in_time) {
+    const json& other = plan[random.below(plan.size())];
+    stop = other[random.below(other.size())];
+    return;
+  }
+  const char* key = random.percent(50) ? "arrive_ticks" : "depart_ticks";
+  if (random.percent(25) || !stop.contains(key)) {
+    stop["vertex"] = path[random.below(path.size())]["vertex"];
+    return;
+  }
+  const std::vector<std::int64_t> steps = {-1, 1, 2, -3, 500};
+  stop[key] = std::max<std::int64_t>(0, stop[key].get<std::int64_t>() + random.pick(steps));
+}
+
+}  // namespace
+
+void FilesCase::break_plan(const std::string& file) {
+  const json whole = json::parse(read_file(file));
+  json broken = {{"quadrille", "plan"}, {"version", 1}, {"plan", whole.at("plan")}};
+  if (input_.in_time) broken["resolution"] = whole.at("resolution");
+  for (std::size_t k = random_.between(1, 3); k > 0; --k)
+    change(random_, broken["plan"], input_.in_time);
+  if (input_.in_time)
+    for (json& path : broken["plan"]) settle_departures(path);
+  const std::string made = names_.next(".json"), verdict = names_.next(".json");
+  write_file(made, broken.dump());
+  on_input("verify", {"--quiet", "--json", verdict, made}, {0, 1});
+  const json before = json::parse(read_file(verdict));
+  for (const std::string& to : plan_formats(input_)) {
+    const std::string other = names_.next("");
+    // What a format cannot express is refused.
+    if (on_input("convert", {"--to", to, "--output", other, made}, {0, 65}).code != 0) {
+      if (to != "ccbs") fail("a plan that breaks rules cannot be written as " + to);
+      continue;
+    }
+    on_input("verify", {"--quiet", "--json", verdict, other}, {0, 1});
+    const json after = json::parse(read_file(verdict));
+    // There all paths are as long as the longest, and end later.
+    const bool is_stretched = to == "visualizer";
+    if (violations(after, is_stretched) != violations(before, is_stretched))
+      fail("other rules are broken by the same plan as " + to);
+  }
+  if (random_.percent(20)) view(made);
+  if (random_.percent(20)) on_input("execute-check", {made, "--quiet"}, {0, 1, 65});
+}
+
+}  // namespace quadrille::cli::test
