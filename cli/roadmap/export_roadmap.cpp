@@ -7,6 +7,8 @@
 #include "arguments.hpp"
 #include "conversion.hpp"
 #include "quadrille/continuous/plan_files.hpp"
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/continuous/verify.hpp"
 #include "roadmap/releasing.hpp"
 
 namespace quadrille::cli {
@@ -45,6 +47,13 @@ Result<Checked> read_checked(const ExportArguments& arguments, const RoadmapInpu
   auto file = continuous::read_plan(std::filesystem::path(arguments.plan), input.instance,
                                     input.grid_or_null(), arguments.from.continuous);
   if (!file) return file.error();
+  if (arguments.to != ExportFormat::vda5050) {
+    // Samples have times: nobody waits for anybody, nor for obstacles.
+    const auto report = verify(input.instance, file->plan);
+    if (!report.valid())
+      return Error{ErrorCode::invalid_plan, report.violations.front().message, {arguments.plan, 0}};
+    return Checked{std::move(file->plan), {}};
+  }
   // Verifies the plan as well.
   const auto order = execution::precedences(input.instance, file->plan);
   if (!order) {
@@ -83,7 +92,7 @@ Result<std::string> convert(const ExportArguments& arguments, const RoadmapInput
   const double rate = arguments.rate.value_or(kDefaultRate);
   double time = 0;
   for (const AgentId agent : input.instance.agent_ids())
-    time += static_cast<double>(order.end(agent).count()) * input.instance.resolution().time;
+    time += continuous::in_input_units(cost(plan.paths[agent]), input.instance.resolution());
   if (time * rate > kMaxSamples)
     return Error{
         ErrorCode::out_of_range, "more than 10 million samples; take a smaller --rate", {}};
