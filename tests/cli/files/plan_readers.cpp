@@ -71,8 +71,10 @@ void FilesCase::execute(const std::string& file) {
   const std::string order = names_.next(".json"), report = names_.next(".json");
   on_input("execute-check", {"--json", order, file}, {0, 1});
   expect(order, why_no_json(read_file(order)));
-  Words words = {"--runs", "2", "--json", report, file};
-  if (random_.percent(50)) words = words + Words{"--delays", "0.5", "--longest", "2"};
+  // Units of time are of all sizes here, and plans may be short.
+  const double tick = json::parse(read_file(order)).at("tick");
+  Words words = {"--runs", "2", "--json", report, "--longest", number_text(20 * tick), file};
+  if (random_.percent(50)) words = words + Words{"--delays", "0.5"};
   if (random_.percent(30)) words = words + Words{"--rule", "coupled", "--seed", "3"};
   on_input("simulate", words, {0});
   expect(report, why_no_json(read_file(report)));
