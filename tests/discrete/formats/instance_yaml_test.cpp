@@ -35,16 +35,16 @@ TEST(InstanceYaml, NamesAreReadAndWritten) {
       " {name: 7, start: [2, 0], goal: [2, 0]}]\n";
   std::istringstream in(text);
   text::Names names, yaml_names, json_names;
-  const Instance instance = read_instance_yaml(in, "f", &names).value();
+  const Instance instance = read_instance_yaml(in, "f", SIZE_MAX, &names).value();
   EXPECT_EQ(*names.agent(0), "a: \"b\"");
   EXPECT_EQ(names.agent(1), nullptr);
   EXPECT_EQ(*names.agent(2), "7");
   std::stringstream json, yaml;
   ASSERT_EQ(write_instance_json(json, "f", instance, names), std::nullopt);
-  ASSERT_TRUE(read_instance_json(json, "f", &json_names).has_value()) << json.str();
+  ASSERT_TRUE(read_instance_json(json, "f", SIZE_MAX, &json_names).has_value()) << json.str();
   EXPECT_EQ(json_names, names);
   ASSERT_EQ(write_instance_yaml(yaml, "f", instance, names), std::nullopt);
-  ASSERT_TRUE(read_instance_yaml(yaml, "f", &yaml_names).has_value()) << yaml.str();
+  ASSERT_TRUE(read_instance_yaml(yaml, "f", SIZE_MAX, &yaml_names).has_value()) << yaml.str();
   names.agents[1] = "agent1";  // which it is called where it has no name
   EXPECT_EQ(yaml_names, names);
   const auto twice = instance_of(

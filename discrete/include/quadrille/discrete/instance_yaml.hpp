@@ -20,7 +20,8 @@ namespace quadrille::discrete {
 /// Reads an instance in the YAML of libMultiRobotPlanning: `map` with `dimensions` and `obstacles`,
 /// and `agents` with `start` and `goal`. Its target assignment (`potentialGoals`) and roadmaps are
 /// refused, as are anchors, aliases, unknown keys and tags other than `!!python/tuple`. Agents keep
-/// the order of the file; their names go to `names`, if that is given. Errors as read_instance_json.
+/// the order of the file; their names go to `names`, if that is given. Errors as
+/// read_instance_json.
 [[nodiscard]] Result<Instance> read_instance_yaml(std::istream& in, const std::string& file,
                                                   std::size_t most_vertices = SIZE_MAX,
                                                   text::Names* names = nullptr);
