@@ -21,7 +21,7 @@ class JsonPlanReader {
 
   Result<PlanFile> run() {
     std::optional<Node> resolution, ticks, bound_ticks;
-    std::optional<Node> unread[4];  // Of a result.
+    std::optional<Node> unread[5];  // Of a result.
     Node paths = Document::kRoot;
     if (!header_.read({{"resolution", &resolution},
                        {"cost_ticks", &ticks, false},
@@ -29,7 +29,8 @@ class JsonPlanReader {
                        {"claim", &unread[0], false},
                        {"bodies", &unread[1], false},
                        {"least_clearance", &unread[2], false},
-                       {"second_opinion", &unread[3], false}},
+                       {"second_opinion", &unread[3], false},
+                       {"duration_error", &unread[4], false}},
                       file_.stated) ||
         !header_.plan(paths) || !check_resolution(*resolution) || !read_costs(ticks, bound_ticks) ||
         !read_paths(paths) || !header_.agents(file_.plan.paths.size()))
