@@ -22,7 +22,7 @@ SpatialTraffic::SpatialTraffic(Scene& scene)
       squares_(grid_.size()) {}
 
 template <class Visit>
-void SpatialTraffic::for_each_near(const Box& box, const Visit& visit) {
+void SpatialTraffic::for_each_near(const Extent& box, const Visit& visit) {
   if (++query_ == 0) {  // all numbers have been used
     for (Passage& passage : passages_) passage.seen = 0;
     query_ = 1;
@@ -109,8 +109,8 @@ void SpatialTraffic::list_starts(EdgeId e, Ticks from, std::vector<TickInterval>
   const Instance& instance = scene_.instance();
   list_standing(Ban::start(e, kFirst), bans);
   const Edge& edge = instance.roadmap().edge(e);
-  const Box box = grid_.box_of(asking_, instance.roadmap().position(edge.from),
-                               instance.roadmap().position(edge.to));
+  const Extent box = grid_.box_of(asking_, instance.roadmap().position(edge.from),
+                                  instance.roadmap().position(edge.to));
   for_each_near(box, [&](const Passage& passage) {
     const ClassId other = entries_[passage.path].c;
     const Step& step = passage.step;

@@ -26,7 +26,7 @@ class SpatialTraffic final : public Traffic, private BanSource {
   /// A step of a path, and where its body may be.
   struct Passage {
     Step step;
-    Box box;
+    Extent box;
     Handle path = 0;
     std::uint32_t seen = 0;  // in which query
   };
@@ -43,7 +43,7 @@ class SpatialTraffic final : public Traffic, private BanSource {
 
   /// All passages of shown paths whose boxes meet this one.
   template <class Visit>
-  void for_each_near(const Box& box, const Visit& visit);
+  void for_each_near(const Extent& box, const Visit& visit);
 
   Scene& scene_;
   BanTable table_;

@@ -12,9 +12,9 @@
 namespace quadrille::continuous {
 
 /// Where a body may be: all points from `low` to `high`.
-struct Box {
+struct Extent {
   Point low, high;
-  [[nodiscard]] bool overlaps(const Box& other) const {
+  [[nodiscard]] bool overlaps(const Extent& other) const {
     return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y &&
            other.low.y < high.y && low.z < other.high.z && other.low.z < high.z;
   }
@@ -44,19 +44,19 @@ class SquareGrid {
 
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(columns_ * rows_); }
   /// Where an agent of class `c` may be that goes from `p` to `q`.
-  [[nodiscard]] Box box_of(ClassId c, const Point& p, const Point& q) const {
+  [[nodiscard]] Extent box_of(ClassId c, const Point& p, const Point& q) const {
     const Length reach = instance_.reach(c);
     return {{std::min(p.x, q.x) - reach, std::min(p.y, q.y) - reach, std::min(p.z, q.z) - reach},
             {std::max(p.x, q.x) + reach, std::max(p.y, q.y) + reach, std::max(p.z, q.z) + reach}};
   }
-  [[nodiscard]] Box box_of(ClassId c, const Step& step) const {
+  [[nodiscard]] Extent box_of(ClassId c, const Step& step) const {
     const Roadmap& roadmap = instance_.roadmap();
     const Point from = roadmap.position(step.is_move ? roadmap.edge(step.edge).from : step.vertex);
     return box_of(c, from, step.is_move ? roadmap.position(roadmap.edge(step.edge).to) : from);
   }
   /// Calls `visit` with the number of each square that the box covers.
   template <class Visit>
-  void for_each(const Box& box, const Visit& visit) const {
+  void for_each(const Extent& box, const Visit& visit) const {
     const std::int64_t left = square(box.low.x, origin_.x, columns_),
                        right = square(box.high.x, origin_.x, columns_),
                        bottom = square(box.low.y, origin_.y, rows_),

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "quadrille/core/internal_error.hpp"
 #include "quadrille/core/plan_claim.hpp"
 #include "quadrille/core/progress.hpp"
 #include "solve/auditors.hpp"
@@ -40,6 +41,10 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     try {
       search(scene);
     } catch (const LimitReached&) {
+      outcome_.plan = best();
+      keep_best(options_, outcome_);
+    } catch (const InternalError& error) {
+      outcome_.internal_error = Error{ErrorCode::internal, error.message, {}};
       outcome_.plan = best();
       keep_best(options_, outcome_);
     } catch (const std::bad_alloc&) {

@@ -16,7 +16,7 @@ ContinuousDomain::ContinuousDomain(Model& model)
       bans_(model.instance().roadmap()),
       clauses_(model, finder_, bans_),
       pair_lemmas_(model),
-      apart_(num_agents() * num_agents()) {
+      meetings_(model.scene()) {
   for (const AgentId i : model.instance().agent_ids()) {
     const TimedPath* path = search_.find(i, {}, kAnyCost).path();
     QUADRILLE_REQUIRE(path != nullptr, "goals can be reached");
@@ -52,27 +52,16 @@ void ContinuousDomain::on_explained(const lazy::Explanation& lemma, const PathTr
 }
 
 std::vector<Encounter> ContinuousDomain::conflicts(const PathTrail& /*trail*/) {
-  std::vector<Encounter> found;
-  for (const AgentId i : model_.instance().agent_ids()) {
-    for (AgentId j(i.index() + 1); j.index() < num_agents(); j = AgentId(j.index() + 1)) {
-      auto& apart = apart_[i.index() * num_agents() + j.index()];
-      const std::pair versions{paths_.path(i)->version, paths_.path(j)->version};
-      if (apart == versions) continue;
-      ++num_comparisons_;
-      if (auto encounter =
-              first_encounter(model_.scene(), i, paths_.path(i)->steps, j, paths_.path(j)->steps))
-        found.push_back(*encounter);
-      else
-        apart = versions;
-    }
-  }
-  return found;
+  for (const AgentId i : model_.instance().agent_ids())
+    meetings_.put(i, paths_.path(i)->steps, paths_.path(i)->version);
+  return meetings_.encounters();
 }
 
-void ContinuousDomain::exclude(const Encounter& e, const PathTrail& trail, FormulaWriter& writer) {
-  if (!note_collision(e, trail, writer))
-    clauses_.exclude(e, as_ticks(current_cost(e.first, trail)),
-                     as_ticks(current_cost(e.second, trail)), writer);
+std::vector<ObstacleId> ContinuousDomain::exclude(const Encounter& e, const PathTrail& trail,
+                                                  FormulaWriter& writer) {
+  if (note_collision(e, trail, writer)) return {};
+  return clauses_.exclude(e, as_ticks(current_cost(e.first, trail)),
+                          as_ticks(current_cost(e.second, trail)), writer);
 }
 
 bool ContinuousDomain::note_collision(const Encounter& e, const PathTrail& trail,

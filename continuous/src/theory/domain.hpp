@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "paths/meetings.hpp"
 #include "quadrille/lazy/theory.hpp"
 #include "theory/current_paths.hpp"
 #include "theory/encounters.hpp"
@@ -78,14 +78,15 @@ class ContinuousDomain {
   void before_conflicts(PathTrail& /*trail*/) {}
   /// The first one of each two agents.
   [[nodiscard]] std::vector<Encounter> conflicts(const PathTrail& trail);
-  void exclude(const Encounter& encounter, const PathTrail& trail, FormulaWriter& writer);
+  std::vector<ObstacleId> exclude(const Encounter& encounter, const PathTrail& trail,
+                                  FormulaWriter& writer);
 
   [[nodiscard]] PairLemmas& pair_lemmas() noexcept { return pair_lemmas_; }
   /// In steps of some 50 ns on every map. The weights are a least-squares fit to 48 runs on six
   /// maps: edges and visits 50 ns, steps of pairs 27 ns, literals 150 ns.
   [[nodiscard]] std::int64_t effort(std::int64_t num_assigned) const noexcept {
     return search_.effort() + finder_.effort() + pair_lemmas_.effort() / 2 + 3 * num_assigned +
-           100 * num_comparisons_;
+           100 * meetings_.num_comparisons();
   }
 
  private:
@@ -102,9 +103,7 @@ class ContinuousDomain {
   EncounterClauses clauses_;
   PairLemmas pair_lemmas_;
   std::uint64_t last_version_ = 0;
-  /// By pair of agents: the versions of their paths when they were last found not to collide.
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> apart_;
-  std::int64_t num_comparisons_ = 0;  // of two agents' paths
+  Meetings meetings_;
 };
 
 }  // namespace quadrille::continuous

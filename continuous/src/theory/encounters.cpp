@@ -16,24 +16,22 @@ bool is_worth_a_ban(const TickInterval& starts, Ticks min_length) {
 
 }  // namespace
 
-void EncounterClauses::exclude(const Encounter& encounter, Ticks stay_i, Ticks stay_j,
-                               FormulaWriter& writer) {
+std::vector<ObstacleId> EncounterClauses::exclude(const Encounter& encounter, Ticks stay_i,
+                                                  Ticks stay_j, FormulaWriter& writer) {
   const Instance& instance = model_.instance();
   const Party i{encounter.first, instance.class_of(encounter.first)};
   const Party j{encounter.second, instance.class_of(encounter.second)};
   if (encounter.a.is_move && encounter.b.is_move)
-    exclude_moves(i, encounter.a, j, encounter.b, writer);
-  else if (encounter.a.is_move)
-    exclude_stay(i, encounter.a, j, encounter.b, stay_j, writer);
-  else
-    exclude_stay(j, encounter.b, i, encounter.a, stay_i, writer);
+    return exclude_moves(i, encounter.a, j, encounter.b, writer);
+  if (encounter.a.is_move) return exclude_stay(i, encounter.a, j, encounter.b, stay_j, writer);
+  return exclude_stay(j, encounter.b, i, encounter.a, stay_i, writer);
 }
 
 // Every start of e in [s, t - lo] collides with every start of f in [t, s + hi], where lo and hi
 // are the first and the last unsafe offset: those of the corners are t - (t - lo) = lo and (s + hi)
 // - s = hi, and the others are between them.
-void EncounterClauses::exclude_moves(Party i, const Step& a, Party j, const Step& b,
-                                     FormulaWriter& writer) {
+std::vector<ObstacleId> EncounterClauses::exclude_moves(Party i, const Step& a, Party j,
+                                                        const Step& b, FormulaWriter& writer) {
   const auto offsets = model_.contacts().offsets(i.c, a.edge, j.c, b.edge);
   QUADRILLE_REQUIRE(offsets.has_value(), "the moves collide");
   const Ticks s = a.begin, t = b.begin;
@@ -41,7 +39,7 @@ void EncounterClauses::exclude_moves(Party i, const Step& a, Party j, const Step
   std::vector<Ban> bans_j{Ban::start(b.edge, {t, starts_against(*offsets, s).end})};
   lift(i, bans_i, j, bans_j[0].when.length() / 2, bans_j);
   lift(j, bans_j, i, bans_i[0].when.length() / 2, bans_i);
-  add_pair(i.agent, std::move(bans_i), j.agent, std::move(bans_j), writer);
+  return add_pair(i.agent, std::move(bans_i), j.agent, std::move(bans_j), writer);
 }
 
 // What collides with all bans of a together is what collides with each of them.
@@ -79,8 +77,9 @@ void EncounterClauses::lift_over_stay(Party a, Party b, const Ban& stay, Ticks m
   }
 }
 
-void EncounterClauses::exclude_stay(Party mover, const Step& move, Party stander, const Step& stay,
-                                    Ticks final_from, FormulaWriter& writer) {
+std::vector<ObstacleId> EncounterClauses::exclude_stay(Party mover, const Step& move, Party stander,
+                                                       const Step& stay, Ticks final_from,
+                                                       FormulaWriter& writer) {
   const auto window = model_.contacts().window(mover.c, move.edge, stander.c, stay.vertex);
   QUADRILLE_REQUIRE(window.has_value(), "the move meets the stay");
   const TickInterval contact = window->shifted(move.begin);
@@ -90,7 +89,7 @@ void EncounterClauses::exclude_stay(Party mover, const Step& move, Party stander
     const ObstacleId id =
         model_.keep_off_goal(mover.agent, stander.agent, contact.end, writer, is_new);
     if (is_new) add_price(id, writer);
-    return;
+    return {id};
   }
   // Any `from` before the departure gives a sound pair: all starts of the mover's ban are in
   // contact during all of the stander's. It is chosen half-way through the contact.
@@ -101,11 +100,11 @@ void EncounterClauses::exclude_stay(Party mover, const Step& move, Party stander
   const TickInterval starts{move.begin, starts_meeting_all(*window, ban_stander.when).end};
   std::vector<Ban> bans_mover{Ban::start(move.edge, starts)};
   lift_over_stay(mover, stander, ban_stander, starts.length() / 4, bans_mover);
-  add_pair(mover.agent, std::move(bans_mover), stander.agent, {ban_stander}, writer);
+  return add_pair(mover.agent, std::move(bans_mover), stander.agent, {ban_stander}, writer);
 }
 
-void EncounterClauses::add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
-                                std::vector<Ban> bans_j, FormulaWriter& writer) {
+std::vector<ObstacleId> EncounterClauses::add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
+                                                   std::vector<Ban> bans_j, FormulaWriter& writer) {
   bool is_new_i = false, is_new_j = false;
   const ObstacleId a = model_.usage(i, std::move(bans_i), j, writer, is_new_i);
   const ObstacleId b = model_.usage(j, std::move(bans_j), i, writer, is_new_j);
@@ -114,6 +113,7 @@ void EncounterClauses::add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
   writer.add({sat::LemmaKind::collision, clause, usages, false});
   if (is_new_i) add_price(a, writer);
   if (is_new_j) add_price(b, writer);
+  return {a, b};
 }
 
 // The path lemma whose only usage is this one.

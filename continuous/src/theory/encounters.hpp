@@ -15,26 +15,29 @@ class EncounterClauses {
   EncounterClauses(Model& model, PathFinder& finder, BanTable& bans)
       : model_(model), finder_(finder), bans_(bans) {}
 
-  /// Adds a clause that the encounter breaks. `stay_i`: from when on the first agent's stay at its
-  /// goal counts as final, at least its arrival; `stay_j` likewise.
-  void exclude(const Encounter& encounter, Ticks stay_i, Ticks stay_j, FormulaWriter& writer);
+  /// Adds a clause that the encounter breaks, and returns the obstacles that the two break.
+  /// `stay_i`: from when on the first agent's stay at its goal counts as final, at least its
+  /// arrival; `stay_j` likewise.
+  std::vector<ObstacleId> exclude(const Encounter& encounter, Ticks stay_i, Ticks stay_j,
+                                  FormulaWriter& writer);
 
  private:
   struct Party {
     AgentId agent;
     ClassId c;
   };
-  void exclude_moves(Party i, const Step& a, Party j, const Step& b, FormulaWriter& writer);
-  void exclude_stay(Party mover, const Step& move, Party stander, const Step& stay,
-                    Ticks final_from, FormulaWriter& writer);
+  std::vector<ObstacleId> exclude_moves(Party i, const Step& a, Party j, const Step& b,
+                                        FormulaWriter& writer);
+  std::vector<ObstacleId> exclude_stay(Party mover, const Step& move, Party stander,
+                                       const Step& stay, Ticks final_from, FormulaWriter& writer);
   /// Adds what b can do along edges that collides with all of `bans_of_a` (starts).
   void lift(Party a, std::span<const Ban> bans_of_a, Party b, Ticks min_length,
             std::vector<Ban>& bans_of_b);
   /// Adds moves of a that collide with any stay of b that `stay` bans.
   void lift_over_stay(Party a, Party b, const Ban& stay, Ticks min_length,
                       std::vector<Ban>& bans_of_a);
-  void add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j, std::vector<Ban> bans_j,
-                FormulaWriter& writer);
+  std::vector<ObstacleId> add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
+                                   std::vector<Ban> bans_j, FormulaWriter& writer);
   /// Adds what the obstacle alone costs its agent.
   void add_price(ObstacleId id, FormulaWriter& writer);
 

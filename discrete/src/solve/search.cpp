@@ -10,6 +10,7 @@
 
 #include "primal/plan_merger.hpp"
 #include "quadrille/core/free_bound.hpp"
+#include "quadrille/core/internal_error.hpp"
 #include "quadrille/core/progress.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/sat/cost_search.hpp"
@@ -60,6 +61,8 @@ class Search final : private sat::YieldPoint {
     try {
       search();
     } catch (const LimitReached&) {
+    } catch (const InternalError& error) {
+      outcome_.internal_error = Error{ErrorCode::internal, error.message, {}};
     } catch (const std::bad_alloc&) {
       // The search's memory is free again: the bound and the best plan are the answer.
       outcome_.stop = StopReason::memory;

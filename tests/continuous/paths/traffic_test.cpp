@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "continuous/support/random_instance.hpp"
+#include "continuous/support/random_walk.hpp"
 #include "paths/ready_traffic.hpp"
 #include "paths/spatial_traffic.hpp"
 #include "support/environment.hpp"
@@ -24,26 +25,6 @@ Instance draw_instance(std::uint32_t seed) {
   options.edge_percent = 30 + static_cast<int>(seed / 15 % 3) * 15;
   options.max_radius = 5;
   return random_instance(seed, options);
-}
-
-/// A walk that need not lead to the goal.
-std::vector<Step> draw_steps(Draw& draw, const Instance& instance, AgentId i) {
-  TimedPath path;
-  VertexId at = instance.agent(i).start;
-  Ticks now = 0;
-  for (std::int64_t k = draw.number(0, 6); k > 0; --k) {
-    const auto edges = instance.out_edges(instance.class_of(i), at);
-    if (edges.empty()) break;
-    const EdgeId e = edges[static_cast<std::size_t>(draw.number(0, std::ssize(edges) - 1))];
-    now += draw.chance(50) ? Ticks{0} : draw.ticks(1, 40);
-    path.moves.push_back({e, now});
-    now += instance.duration(instance.class_of(i), e);
-    at = instance.roadmap().edge(e).to;
-  }
-  path.arrival = now;
-  std::vector<Step> steps;
-  list_steps(instance, i, path, steps);
-  return steps;
 }
 
 /// What a table says of all places to which agents of the class can come, of starts from a tick on.

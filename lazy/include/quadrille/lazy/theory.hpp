@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/core/internal_error.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/lazy/path_cache.hpp"
 #include "quadrille/lazy/trail.hpp"
@@ -37,7 +38,10 @@ struct Explanation {
 ///   names obstacles without which no path costs less than `bound`. To be asked before the next
 ///   search.
 /// - `conflicts(trail)`: where the current paths of the agents that count meet. `exclude(conflict,
-///   trail, writer)` makes clauses and obstacles of it: nobody may find it again.
+///   trail, writer)` writes a clause about obstacles that the current paths break, unless it was
+///   written before, and returns these obstacles; or it writes a clause about costs and returns
+///   none. What was written and is no clause that is false forbids somebody his path: so nobody
+///   finds the conflict again. InternalError where that is not so.
 /// - `before_conflicts(trail)`: once in each complete assignment, to part paths without clauses.
 ///   `on_explained`, `on_obstacles`: a lemma about a path, or new obstacles, were written.
 template <class D>
@@ -52,7 +56,7 @@ concept Domain = TrailPaths<typename D::Paths> &&
   domain.obstacles();
   domain.find_cheapest(i, obstacles, cost);
   domain.conflicts(trail);
-  domain.exclude(conflict, trail, writer);
+  { domain.exclude(conflict, trail, writer) } -> std::same_as<std::vector<ObstacleId>>;
   domain.before_conflicts(trail);
   domain.on_explained(explanation, trail, writer);
   domain.on_obstacles(writer);
@@ -121,10 +125,13 @@ class PathTheory : public sat::Theory {
   /// Makes paths obey and their conflicts clauses, until there is none or something was written
   /// that excludes the assignment.
   void check_paths(CheckWriter& writer);
-  /// Makes clauses of a conflict and tells everybody.
-  template <class Conflict>
-  auto exclude(const Conflict& conflict, FormulaWriter& writer) {
-    return domain_.exclude(conflict, trail_, writer);
+  /// Makes clauses of a conflict, as the domain says, and holds it to its word.
+  std::vector<ObstacleId> exclude(const typename D::Conflict& conflict, FormulaWriter& writer) {
+    auto made = domain_.exclude(conflict, trail_, writer);
+    for (const ObstacleId id : made)
+      if (!domain_.paths().breaks(domain_.paths().path(domain_.obstacles()[id].agent), id))
+        throw InternalError{"a collision clause does not exclude the paths that collide"};
+    return made;
   }
   void notice_obstacles(FormulaWriter& writer) {
     trail_.notice(domain_.obstacles());
@@ -308,6 +315,8 @@ void PathTheory<D>::check_paths(CheckWriter& writer) {
     }
     notice_obstacles(writer);
     if (ends_check(writer)) return;
+    if (!trail_.any_violated([&](AgentId i) { return takes_part(i); }))
+      throw InternalError{"clauses that were written before do not exclude a collision"};
   }
 }
 
