@@ -116,30 +116,29 @@ TEST(ReaderFuzz, Scenarios) {
   });
 }
 
-template <class Read, class Write>
-void fuzz_instances(const std::vector<std::string>& files, Read read, Write write) {
+using ReadInstance = Result<Instance>(std::istream&, const std::string&, std::size_t, text::Names*);
+
+template <class Write>
+void fuzz_instances(const std::vector<std::string>& files, ReadInstance* read, Write write) {
   fuzz(files, [&](std::istream& in) {
-    const auto instance = read(in, "fuzz");
+    text::Names names, again;
+    const auto instance = read(in, "fuzz", SIZE_MAX, &names);
     if (!instance) return is_clear(instance.error());
     std::stringstream copy;
-    EXPECT_EQ(write(copy, "copy", *instance), std::nullopt);
-    EXPECT_TRUE(testing::equal(read(copy, "copy").value(), *instance));
+    EXPECT_EQ(write(copy, "copy", *instance, names), std::nullopt);
+    EXPECT_TRUE(testing::equal(read(copy, "copy", SIZE_MAX, &again).value(), *instance));
+    for (std::size_t i = 0; i < names.agents.size(); ++i)
+      if (names.agents[i]) EXPECT_EQ(again.agents[i], names.agents[i]);
     return true;
   });
 }
 
 TEST(ReaderFuzz, JsonInstances) {
-  fuzz_instances(
-      {"grid.json", "graph.json"},
-      [](std::istream& in, const std::string& f) { return read_instance_json(in, f); },
-      write_instance_json);
+  fuzz_instances({"grid.json", "graph.json"}, read_instance_json, write_instance_json);
 }
 
 TEST(ReaderFuzz, YamlInstances) {
-  fuzz_instances(
-      {"grid.yaml"},
-      [](std::istream& in, const std::string& f) { return read_instance_yaml(in, f); },
-      write_instance_yaml);
+  fuzz_instances({"grid.yaml"}, read_instance_yaml, write_instance_yaml);
 }
 
 TEST(ReaderFuzz, Plans) {
