@@ -127,8 +127,13 @@ void fuzz_instances(const std::vector<std::string>& files, ReadInstance* read, W
     std::stringstream copy;
     EXPECT_EQ(write(copy, "copy", *instance, names), std::nullopt);
     EXPECT_TRUE(testing::equal(read(copy, "copy", SIZE_MAX, &again).value(), *instance));
-    for (std::size_t i = 0; i < names.agents.size(); ++i)
-      if (names.agents[i]) EXPECT_EQ(again.agents[i], names.agents[i]);
+    // YAML has a name for every agent.
+    for (std::size_t i = 0; i < names.agents.size(); ++i) {
+      const std::string* const name = names.agent(i);
+      if (name != nullptr) {
+        EXPECT_EQ(again.agents[i], *name);
+      }
+    }
     return true;
   });
 }
