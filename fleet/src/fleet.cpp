@@ -7,6 +7,7 @@
 #include "conversions.hpp"
 #include "place_rounding.hpp"
 #include "quadrille/continuous/free_cost.hpp"
+#include "quadrille/continuous/quantise_polygon.hpp"
 #include "quadrille/geometry/body_index.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
@@ -26,13 +27,14 @@ Result<continuous::Body> to_units(const Disc& disc, const continuous::Resolution
 
 Result<continuous::Body> to_units(const Polygon& polygon,
                                   const continuous::Resolution& resolution) {
-  std::vector<continuous::Point> corners;
+  std::vector<std::pair<double, double>> corners;
   for (const Point& corner : polygon.corners) {
-    const auto point = to_units(corner, resolution);
-    if (!point) return out_of_range("has a polygon with a corner that is too far away");
-    corners.push_back(*point);
+    if (!to_units(corner, resolution))
+      return out_of_range("has a polygon with a corner that is too far away");
+    if (corner.z != Metres(0)) return invalid("has a polygon with a corner that has a height");
+    corners.emplace_back(corner.x.value(), corner.y.value());
   }
-  auto made = continuous::ConvexPolygon::make(std::move(corners));
+  auto made = continuous::quantise_polygon_up(corners, resolution);
   if (!made)
     return Error{made.error().code,
                  "has a polygon that is not supported at a resolution of " +

@@ -38,8 +38,8 @@ class Fleet(Generic[P]):
             float[n]; rounded up to a length unit, so that no body is smaller than given. Every
             agent on a roadmap needs a radius or a polygon: there is no default.
         polygon: On roadmaps, instead: float[k, 2], corners of a convex polygon around the agent's
-            place, which does not turn; or a list of n entries, None where the radius counts. Corners
-            are rounded towards zero.
+            place, which does not turn; or a list of n entries, None where the radius counts. It is
+            rounded outwards to length units, so that it contains the one given.
         speed: On roadmaps: length per time, a number or float[n]. Default 1.
         group: On roadmaps: the name of a group for all agents, or n entries, None without one. An agent
             may use the edges that are open to all, and those that are reserved for its group.

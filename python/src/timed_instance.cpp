@@ -15,6 +15,7 @@
 
 #include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/continuous/quantise_polygon.hpp"
 #include "quadrille/continuous/under_way.hpp"
 #include "timed.hpp"
 
@@ -34,14 +35,9 @@ std::string agent(py::ssize_t i) { return "agent " + std::to_string(i) + ": "; }
 continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution,
                             const std::string& who) {
   const auto xy = corners.unchecked<2>();
-  std::vector<Point> points;
-  for (py::ssize_t k = 0; k < xy.shape(0); ++k) {
-    const auto x = continuous::quantise_corner(xy(k, 0), resolution);
-    const auto y = continuous::quantise_corner(xy(k, 1), resolution);
-    if (!x || !y) refuse(who + "a corner is too far away for the resolution, or not finite");
-    points.push_back({*x, *y});
-  }
-  auto polygon = continuous::ConvexPolygon::make(std::move(points));
+  std::vector<std::pair<double, double>> points;
+  for (py::ssize_t k = 0; k < xy.shape(0); ++k) points.emplace_back(xy(k, 0), xy(k, 1));
+  auto polygon = continuous::quantise_polygon_up(points, resolution);
   if (!polygon) raise({polygon.error().code, who + polygon.error().message, {}});
   return *std::move(polygon);
 }

@@ -253,6 +253,17 @@ def test_no_body_is_smaller_than_given():
     assert fleet.obstacles[0].radius == pytest.approx(0.201, abs=1e-12)
 
 
+def test_polygons_are_not_smaller_than_given():
+    line = q.Roadmap([(0, 0), (3, 0)], [(0, 1)], resolution=0.001)
+    corners = [(-0.3001, -0.2), (0.3009, -0.2), (0.3001, 0.2004), (-0.3001, 0.2004)]
+    wide = [[-0.301, -0.2], [0.301, -0.2], [0.301, 0.201], [-0.301, 0.201]]
+    fleet = q.Fleet(line, [0], [1], polygon=corners, obstacles=[q.Obstacle([(9, 9, 0, 0)], polygon=corners)])
+    for body in fleet.bodies[0], fleet.obstacles[0].polygon:
+        assert np.array(sorted(body.tolist())) == pytest.approx(np.array(sorted(wide)), abs=1e-12)
+    again = q.Fleet(line, [0], [1], polygon=fleet.bodies[0])
+    assert again.bodies[0].tolist() == fleet.bodies[0].tolist()
+
+
 def test_rounded_durations_are_told():
     lanes = lambda tick: q.Roadmap([(0.1 * i, 0) for i in range(41)], [(i, i + 1) for i in range(40)],
                                    resolution=(0.001, tick))

@@ -28,8 +28,8 @@ struct Disc {
 
 /// A convex polygon around the robot's position, which it keeps without turning; a robot that turns
 /// is a disc around all its orientations. Not where there are heights. `corners`: relative to the
-/// position, in order, either way round; 3 .. 64. Each coordinate is rounded to the nearest
-/// multiple of the resolution.
+/// position, in order, either way round; 3 .. 64. It is rounded outwards to multiples of the
+/// resolution (quantise_polygon_up), so that it contains the one given.
 struct Polygon {
   std::vector<Point> corners;
   explicit Polygon(std::vector<Point> of_corners) : corners(std::move(of_corners)) {}
