@@ -6,10 +6,7 @@
 
 #include "conversions.hpp"
 #include "place_rounding.hpp"
-#include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise_polygon.hpp"
-#include "quadrille/geometry/body_index.hpp"
-#include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::fleet {
 namespace {
@@ -191,120 +188,13 @@ Result<std::vector<continuous::MovingObstacle>> Fleet::obstacles_in_units() cons
   return obstacles;
 }
 
-// Agents and edges are numbers in the errors of the layer below. What can still be wrong there is
-// found again here, in the words of the fleet.
-Error Fleet::in_words(const Error& error, const Roads& roads,
-                      const std::vector<continuous::Agent>& agents,
-                      const std::vector<continuous::MovingObstacle>& obstacles) const {
-  if (auto found = find_polygon_in_space(*roads, agents, obstacles)) return *found;
-  if (auto found = find_unsupported(*roads, agents)) return *found;
-  if (auto found = find_overlap(*roads, agents, &continuous::Agent::start, "starts")) return *found;
-  if (auto found = find_overlap(*roads, agents, &continuous::Agent::goal, "goals")) return *found;
-  if (auto found = find_blocked_start(*roads, agents, obstacles)) return *found;
-  for (std::size_t i = 0; i < agents.size(); ++i)
-    if (auto found = find_alone(roads, agents[i], AgentId(i))) return *found;
-  return error;
-}
-
-std::optional<Error> Fleet::find_polygon_in_space(
-    const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
-    const std::vector<continuous::MovingObstacle>& obstacles) const {
-  const auto is_high = [](const auto& stop) { return stop.at.z != 0; };
-  const auto flies = [&](const continuous::MovingObstacle& obstacle) {
-    return std::any_of(obstacle.path.begin(), obstacle.path.end(), is_high);
-  };
-  if (roads.is_flat() && std::none_of(obstacles.begin(), obstacles.end(), flies))
-    return std::nullopt;
-  const auto refusal = [](const std::string& name) {
-    return invalid("'" + name + "' is a polygon, but there are places with a height: in space " +
-                   "bodies are spheres");
-  };
-  for (std::size_t i = 0; i < agents.size(); ++i)
-    if (!std::holds_alternative<continuous::Disc>(agents[i].body)) return refusal(name(AgentId(i)));
-  for (std::size_t o = 0; o < obstacles.size(); ++o)
-    if (!std::holds_alternative<continuous::Disc>(obstacles[o].body))
-      return refusal(obstacle_name(o));
-  return std::nullopt;
-}
-
-// What stands in the way of a robot that is alone.
-std::optional<Error> Fleet::find_alone(const Roads& roads, const continuous::Agent& agent,
-                                       AgentId id) const {
-  const auto make = [&](const continuous::Agent& one) {
-    return continuous::Instance::make(roads, {one}, roadmap_.unit_sizes());
-  };
-  const auto alone = make(agent);
-  if (alone) return std::nullopt;
-  continuous::Agent patient = agent;
-  patient.deadline.reset();
-  const auto late = make(patient);
-  const std::string name = "'" + this->name(id) + "' cannot ";
-  if (!late)
-    return Error{late.error().code,
-                 name + "get from " + place_name(agent.start) + " to " + roadmap_.name(agent.goal),
-                 {}};
-  const continuous::Ticks arrival = continuous::free_cost(*late, AgentId(0)).value();
-  return Error{alone.error().code,
-               name + "arrive before " + to_string(in_seconds(arrival, roadmap_.unit_sizes())) +
-                   ", and its deadline is " +
-                   to_string(in_seconds(*agent.deadline, roadmap_.unit_sizes())),
-               {}};
-}
-
-std::optional<Error> Fleet::find_blocked_start(
-    const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
-    const std::vector<continuous::MovingObstacle>& obstacles) const {
-  for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    const continuous::MovingObstacle& obstacle = obstacles[o];
-    const std::string name = "'" + obstacle_name(o) + "'";
-    if (geometry::enclosing_radius(obstacle.body) > geometry::kMaxLength)
-      return out_of_range(name + " is too large");
-    if (obstacle.path.front().arrive > 0) continue;
-    for (std::size_t i = 0; i < agents.size(); ++i)
-      if (geometry::bodies_overlap(agents[i].body, roads.position(agents[i].start), obstacle.body,
-                                   obstacle.path.front().at))
-        return Error{ErrorCode::no_plan,
-                     name + " is at the start of '" + this->name(AgentId(i)) + "' at " +
-                         place_name(agents[i].start),
-                     {}};
-  }
-  return std::nullopt;
-}
-
-std::optional<Error> Fleet::find_unsupported(const continuous::Roadmap& roads,
-                                             const std::vector<continuous::Agent>& agents) const {
-  for (std::size_t i = 0; i < agents.size(); ++i) {
-    const std::string name = "'" + this->name(AgentId(i)) + "'";
-    if (geometry::enclosing_radius(agents[i].body) > geometry::kMaxLength)
-      return out_of_range(name + " is too large");
-    for (const continuous::Edge& lane : roads.edges())
-      if (!lane.duration && !continuous::travel_time(roads.position(lane.from),
-                                                     roads.position(lane.to), agents[i].speed))
-        return out_of_range("the lane from " + roadmap_.name(lane.from) + " to " +
-                            roadmap_.name(lane.to) + " takes " + name +
-                            " less than half a step of " + to_string(roadmap_.resolution().time) +
-                            ", or too long");
-  }
-  return std::nullopt;
-}
-
-std::optional<Error> Fleet::find_overlap(const continuous::Roadmap& roads,
-                                         const std::vector<continuous::Agent>& agents,
-                                         VertexId continuous::Agent::*end,
-                                         const std::string& what) const {
-  geometry::BodyIndex placed;
-  for (std::size_t j = 0; j < agents.size(); ++j) {
-    if (end == &continuous::Agent::goal && agents[j].leaves) continue;
-    const VertexId w = agents[j].*end;
-    if (const auto i = placed.first_overlap(agents[j].body, roads.position(w)))
-      return Error{ErrorCode::no_plan,
-                   "the " + what + " of '" + name(AgentId(*i)) + "' at " +
-                       place_name(agents[*i].*end) + " and '" + name(AgentId(j)) + "' at " +
-                       place_name(w) + " overlap",
-                   {}};
-    placed.add(j, agents[j].body, roads.position(w));
-  }
-  return std::nullopt;
+continuous::Words Fleet::words() const {
+  return {[this](AgentId id) { return "'" + name(id) + "'"; },
+          [this](std::size_t o) { return "'" + obstacle_name(o) + "'"; },
+          [this](VertexId v) { return place_name(v); },
+          [this](continuous::Ticks time) {
+            return to_string(in_seconds(time, roadmap_.unit_sizes()));
+          }};
 }
 
 Result<Fleet::Parts> Fleet::parts() const {
@@ -327,7 +217,8 @@ Result<continuous::Instance> Fleet::instance() const {
   auto instance = continuous::Instance::make(parts->roads, parts->agents, roadmap_.unit_sizes(), {},
                                              parts->obstacles);
   if (instance) return instance;
-  Error error = in_words(instance.error(), parts->roads, parts->agents, parts->obstacles);
+  Error error = continuous::in_words(instance.error(), parts->roads, parts->agents,
+                                     roadmap_.unit_sizes(), parts->obstacles, words());
   if (error.code == ErrorCode::no_plan) error.message += PlaceRounding(*this).doubt_about_refusal();
   return error;
 }

@@ -36,7 +36,11 @@ class StepPlan:
 
 class StepInstance:
     def __init__(
-        self, graph: StepGraph, starts: npt.NDArray[np.int64], goals: npt.NDArray[np.int64]
+        self,
+        graph: StepGraph,
+        starts: npt.NDArray[np.int64],
+        goals: npt.NDArray[np.int64],
+        names: list[str],
     ) -> None: ...
     @property
     def num_agents(self) -> int: ...
@@ -58,6 +62,7 @@ class TimedGraph:
         durations: npt.NDArray[np.float64],
         open_to: npt.NDArray[np.uint64],
         resolution: tuple[float, float],
+        both_ways: bool,
     ) -> None: ...
     @property
     def num_vertices(self) -> int: ...
@@ -90,7 +95,10 @@ class TimedInstance:
         bodies: list[Any],
         speeds: npt.NDArray[np.float64],
         rules: dict[str, Any],
+        called: dict[str, Any],
     ) -> None: ...
+    @property
+    def no_plan(self) -> Optional[str]: ...
     @property
     def num_agents(self) -> int: ...
     @property

@@ -23,8 +23,9 @@ class InputError(ValueError):
 
 
 class NoPlanError(InputError):
-    """No plan can exist, as is seen without a search: starts or goals of bodies overlap, or a goal
-    cannot be reached. The program's ``solve`` calls such a roadmap infeasible."""
+    """No plan can exist, as is seen without a search: starts or goals of bodies overlap, a goal cannot
+    be reached, or a deadline is too early. ``solve`` says so in its result and raises nothing; this is
+    raised where the instance itself is needed: its plans, ``save``, and all of a fleet from a file."""
 
 
 class FileError(InputError, OSError):

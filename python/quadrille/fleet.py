@@ -54,14 +54,18 @@ class Fleet(Generic[P]):
         names: n names for the agents, which plans and tables show; default "0", "1", ...
 
     Raises:
-        NoPlanError: on roadmaps, for starts or goals of bodies that overlap and goals out of reach.
         InputError: for places that do not exist or are blocked, two agents with the same start or
             the same goal, numbers that are out of range.
         ValueError: for arrays of another shape or type.
+
+    Starts or goals of bodies that overlap, goals out of reach and deadlines that are too early are no
+    errors: there is no plan, as ``solve`` says.
     """
 
     # Who is under way, as given.
     _moves: dict[int, Underway] = {}
+    # Why there is no plan, of a file: nothing else is known of it.
+    _unread: Optional[str] = None
 
     @overload
     def __init__(
@@ -108,6 +112,7 @@ class Fleet(Generic[P]):
         names: Optional[Sequence[str]] = None,
     ) -> None:
         instance: Union[_core.StepInstance, _core.TimedInstance]
+        called = [] if names is None else [repr(str(name)) for name in names]
         if isinstance(graph, Roadmap):
             begin, under_way = _starts(graph, starts)
             self._moves = {agent: Underway(*move) for agent, *move in under_way}
@@ -119,7 +124,7 @@ class Fleet(Generic[P]):
                 graph.resolution,
                 begin,
                 end,
-                _bodies(radius, polygon, n),
+                _bodies(radius, polygon, n, called),
                 per_agent(1.0 if speed is None else speed, "speed", n),
                 dict(
                     groups=group_numbers(group, graph._groups, n),
@@ -128,6 +133,10 @@ class Fleet(Generic[P]):
                     leaves=flags(False if leaves is None else leaves, "leaves", n),
                     under_way=under_way,
                     obstacles=[obstacle._given() for obstacle in obstacles],
+                ),
+                dict(
+                    agent=lambda i: called[i] if i < len(called) else f"agent {i}",
+                    vertex=graph._called,
                 ),
             )
         else:
@@ -139,7 +148,7 @@ class Fleet(Generic[P]):
             shape = (None, 2) if isinstance(graph, Grid) else (None,)
             begin, end = ints(starts, "starts", shape), ints(goals, "goals", shape)
             _check_lengths(len(begin), len(end))
-            instance = _core.StepInstance(graph._graph, begin, end)
+            instance = _core.StepInstance(graph._graph, begin, end, called)
         self._setup(graph, instance, names)
 
     def _setup(
@@ -160,7 +169,8 @@ class Fleet(Generic[P]):
         if len(self._names) != len(self):
             raise ValueError(f"names: {len(self._names)} names for {len(self)} agents")
         if len(set(self._names)) != len(self):
-            raise ValueError("names: two agents have the same name")
+            twice = next(name for at, name in enumerate(self._names) if name in self._names[:at])
+            raise ValueError(f"names: two agents are called {twice!r}")
 
     def __len__(self) -> int:
         """Number of agents."""
@@ -169,11 +179,21 @@ class Fleet(Generic[P]):
     @property
     def graph(self) -> Union[Grid, Graph, Roadmap]:
         """Where the agents move."""
+        self._require_parts()
         return self._graph
+
+    @property
+    def no_plan(self) -> Optional[str]:
+        """On roadmaps: why there is no plan, if that is seen without a search; else None. ``solve`` gives
+        it as the explanation."""
+        if isinstance(self._instance, _core.TimedInstance):
+            return self._instance.no_plan
+        return None
 
     @property
     def names(self) -> list[str]:
         """What the agents are called."""
+        self._require_parts()
         return list(self._names)
 
     @property
@@ -283,6 +303,7 @@ class Fleet(Generic[P]):
             InputError: for another format or ending, and for nodes of a roadmap that are neither
                 texts nor whole numbers nor tuples of these.
         """
+        self._require_parts()
         self._instance.save(os.fspath(file), format, file_names(self._graph, self._names))
 
     def _make_plan(self, plan: Union[_core.StepPlan, _core.TimedPlan]) -> P:
@@ -293,6 +314,11 @@ class Fleet(Generic[P]):
             made = TimedPlan(cast("Fleet[TimedPlan]", self), plan)
         return cast(P, made)
 
+    def _require_parts(self) -> None:
+        """A NoPlanError, where they are not known."""
+        if self._unread is not None:
+            self._instance.num_agents
+
     def _timed(self, what: str) -> _core.TimedInstance:
         if isinstance(self._instance, _core.TimedInstance):
             return self._instance
@@ -301,6 +327,8 @@ class Fleet(Generic[P]):
     def _duration_warning(self) -> str:
         """What there is to say of durations that are rounded too much; empty if nothing is."""
         if not isinstance(self._instance, _core.TimedInstance):
+            return ""
+        if self._instance.no_plan is not None:
             return ""
         worst = self._instance.duration_error()
         if worst is None or worst[0] < _core.NOTABLE_DURATION_ERROR:
@@ -319,6 +347,8 @@ class Fleet(Generic[P]):
         return cost
 
     def __repr__(self) -> str:
+        if self._unread is not None:
+            return f"<quadrille.Fleet that has no plan: {self._unread}>"
         return f"<quadrille.Fleet of {len(self)} on {self._graph!r}>"
 
 
@@ -333,8 +363,8 @@ def _starts(
     for agent, place in enumerate(places):
         if not isinstance(place, Underway):
             continue
-        source = graph._vertex(place.source, agent, "start")
-        target = graph._vertex(place.target, agent, "start")
+        source = graph._vertex(place.source, f"starts[{agent}]")
+        target = graph._vertex(place.target, f"starts[{agent}]")
         under_way.append((agent, source, target, float(place.fraction)))
         places[agent] = place.source
     return graph._vertices(places, "starts"), under_way
@@ -345,7 +375,7 @@ def _check_lengths(starts: int, goals: int) -> None:
         raise ValueError(f"there are {starts} starts and {goals} goals")
 
 
-def _bodies(radius: Any, polygon: Any, n: int) -> list[Any]:
+def _bodies(radius: Any, polygon: Any, n: int, called: Sequence[str]) -> list[Any]:
     """Per agent a float or float64[k, 2]."""
     radii: list[Optional[float]] = [None] * n
     if radius is not None:
@@ -365,5 +395,6 @@ def _bodies(radius: Any, polygon: Any, n: int) -> list[Any]:
             bodies = [doubles(polygon, "polygon", (None, 2))] * n
     for agent, body in enumerate(bodies):
         if body is None:
-            raise InputError(f"agent {agent} has no body: on a roadmap give a radius or a polygon")
+            who = called[agent] if agent < len(called) else f"agent {agent}"
+            raise InputError(f"{who} has no body: on a roadmap give a radius or a polygon")
     return bodies

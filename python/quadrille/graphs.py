@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import bools, doubles, ints, listed, with_places
+from ._errors import InputError
 from .rules import Only, only_of, open_to
 
 if TYPE_CHECKING:
@@ -135,15 +136,11 @@ class Roadmap:
         if durations is not None:
             times = doubles(durations, "durations", (len(ends),))
         masks, groups = open_to(only, len(ends))
-        if both_ways:
-            # An edge and its reverse are neighbours.
-            ends = np.stack([ends, ends[:, ::-1]], axis=1).reshape(-1, 2)
-            times, masks = np.repeat(times, 2), np.repeat(masks, 2)
         sizes = listed(doubles(np.broadcast_to(resolution, 2), "resolution", (2,)))
         if not all(0 < size < float("inf") for size in sizes):
             raise ValueError("resolution: a resolution is positive")
         pair = (sizes[0], sizes[1])
-        graph = _core.TimedGraph(places, np.ascontiguousarray(ends), times, masks, pair)
+        graph = _core.TimedGraph(places, ends, times, masks, pair, both_ways)
         self._setup(graph, pair, groups)
         if nodes is not None:
             self._name_nodes(nodes)
@@ -160,10 +157,12 @@ class Roadmap:
     def _name_nodes(self, nodes: Sequence[Hashable]) -> None:
         if len(nodes) != self.num_vertices:
             raise ValueError(f"nodes: {len(nodes)} names for {self.num_vertices} vertices")
-        self._nodes = list(nodes)
+        nodes = list(nodes)
+        self._nodes = nodes
         self._number = {node: number for number, node in enumerate(nodes)}
         if len(self._number) != len(nodes):
-            raise ValueError("nodes: two vertices have the same name")
+            twice = next(node for at, node in enumerate(nodes) if node in nodes[:at])
+            raise ValueError(f"nodes: two vertices are called {twice!r}")
 
     @classmethod
     def from_networkx(
@@ -265,14 +264,23 @@ class Roadmap:
         """Numbers of vertices that are given by number or by node."""
         if self._nodes is None:
             return ints(places, name, (None,))
-        return ints([self._vertex(place, agent, name) for agent, place in enumerate(places)], name, (None,))
+        return ints([self._vertex(place, f"{name}[{at}]") for at, place in enumerate(places)], name, (None,))
 
-    def _vertex(self, place: Any, agent: int, name: str) -> int:
+    def _vertex(self, place: Any, what: str) -> int:
         if self._nodes is None:
-            return int(ints(place, f"agent {agent}: {name}", ()))
-        if place not in self._number:
-            raise ValueError(f"agent {agent}: {name}: there is no node {place!r}")
-        return self._number[place]
+            return int(ints(place, what, ()))
+        try:
+            return self._number[place]
+        except (KeyError, TypeError):  # no vertex, or nothing that can be a name
+            raise InputError(f"{what}: the roadmap has no vertex called {place!r}") from None
+
+    def _called(self, vertex: int) -> str:
+        """For messages."""
+        if self._nodes is None:
+            return f"vertex {vertex}"
+        if vertex >= len(self._nodes):
+            return "the middle of its move"
+        return repr(self._nodes[vertex])
 
     def __repr__(self) -> str:
         return f"<quadrille.Roadmap {self.num_vertices} vertices, {self._graph.num_edges} edges>"

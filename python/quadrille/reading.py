@@ -46,6 +46,10 @@ def read(
         neighbourhood: On grids: moves to 2^k neighbours, 2 to 5; default 3.
         resolution: Size of a tick and of a length unit; default 0.000001.
 
+    A file of which it is seen that it has no plan (the program's ``solve`` calls it infeasible: starts
+    or goals of bodies overlap, a goal is out of reach, a deadline too early) gives a fleet that can only
+    be solved, and is infeasible; what else one asks of it raises ``NoPlanError``.
+
     Raises:
         InputError: with file, line and reason, as the program prints them.
 
@@ -75,7 +79,7 @@ def read(
         if len(names) == 2:
             given[second] = names[1]
     fleet = _fleet_of(*_core.read(given))
-    if "roadmap" in given and radius is None and len(fleet) > 0:
+    if "roadmap" in given and radius is None and (fleet._unread is not None or len(fleet) > 0):
         warnings.warn(
             "nothing says how large the agents are: they are discs of radius sqrt(2)/4; give a radius",
             BodyWarning,
@@ -88,6 +92,10 @@ def _fleet_of(
     instance: Union[_core.StepInstance, _core.TimedInstance], names: _core.Names
 ) -> Fleet[Any]:
     graph: Union[Grid, Graph, Roadmap]
+    fleet: Fleet[Any] = Fleet.__new__(Fleet)
+    if isinstance(instance, _core.TimedInstance) and instance.no_plan is not None:
+        fleet._instance, fleet._unread = instance, instance.no_plan
+        return fleet
     if isinstance(instance, _core.TimedInstance):
         graph = Roadmap.__new__(Roadmap)
         groups = numbered_groups(instance.graph.open_to(), instance.rules()["groups"])
@@ -98,6 +106,5 @@ def _fleet_of(
     else:
         graph = Grid.__new__(Grid) if instance.graph.is_grid else Graph.__new__(Graph)
         graph._graph = instance.graph
-    fleet: Fleet[Any] = Fleet.__new__(Fleet)
     fleet._setup(graph, instance, agent_names(names, instance.num_agents))
     return fleet

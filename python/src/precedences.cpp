@@ -68,7 +68,7 @@ py::tuple precedences_of(const Instance& instance, const Plan& plan) {
 void bind_precedences(py::module_& module) {
   module.def("step_precedences", &precedences_of<discrete::Instance, discrete::Plan>);
   module.def("timed_precedences", [](const TimedInstance& self, const continuous::Plan& plan) {
-    return precedences_of(self.instance, plan);
+    return precedences_of(self.instance(), plan);
   });
 }
 

@@ -50,8 +50,10 @@ py::object read(const py::dict& names) {
   if (timed && wrong.empty()) {
     auto loaded = load_roadmap_input(roadmap, input);
     const py::gil_scoped_acquire acquire;
+    if (!loaded && loaded.error().code == ErrorCode::no_plan)
+      return py::make_tuple(TimedInstance(loaded.error(), std::nullopt), lists_of({}));
     if (!loaded) raise(loaded.error());
-    return py::make_tuple(TimedInstance{std::move(loaded->instance), std::move(loaded->grid)},
+    return py::make_tuple(TimedInstance(std::move(loaded->instance), std::move(loaded->grid)),
                           lists_of(loaded->names));
   }
   if (wrong.empty()) {

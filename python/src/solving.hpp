@@ -14,10 +14,10 @@
 
 namespace quadrille::python {
 
-/// The parts of an outcome, by name, as quadrille.solving makes a Result of them. Costs are those
-/// of the library: timesteps or ticks.
-template <class Instance, class Outcome>
-py::dict outcome_of(const Instance& instance, Outcome outcome) {
+/// The parts of an outcome but for its attribution, by name, as quadrille.solving makes a Result of
+/// them. Costs are those of the library: timesteps or ticks.
+template <class Outcome>
+py::dict outcome_of(Outcome outcome) {
   py::dict dict;
   dict["status"] = std::string(to_string(outcome.status));
   dict["cost"] = outcome.cost;
@@ -30,7 +30,7 @@ py::dict outcome_of(const Instance& instance, Outcome outcome) {
                                ? py::object(py::str(outcome.internal_error->to_string()))
                                : py::object(py::none());
   dict["statistics"] = statistics_of(outcome.statistics);
-  dict["attribution"] = attribution_object(instance, outcome.attribution);
+  dict["attribution"] = py::none();
   dict["plan"] = outcome.plan ? py::cast(*std::move(outcome.plan)) : py::object(py::none());
   return dict;
 }
@@ -56,7 +56,11 @@ py::dict run_solve(const Instance& instance, const py::dict& given, const SetOpt
   auto options = set_options(arguments, conversation.interrupt());
   if (progress) options.on_progress = [&](const Progress& at) { conversation.tell(at); };
   if (on_plan) options.on_plan = [&](const Plan& plan) { conversation.tell(plan); };
-  return outcome_of(instance, take(conversation.run([&] { return solve(instance, options); })));
+  auto outcome = take(conversation.run([&] { return solve(instance, options); }));
+  const py::object attribution = attribution_object(instance, outcome.attribution);
+  py::dict parts = outcome_of(std::move(outcome));
+  parts["attribution"] = attribution;
+  return parts;
 }
 
 }  // namespace quadrille::python

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -119,15 +120,35 @@ py::array places(const Graph& graph, std::size_t n, const VertexOf& vertex) {
   return frozen(array);
 }
 
-Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, const Ints& goals) {
+/// As Instance::make says it, with names.
+void refuse_shared(const Graph& graph, const std::vector<discrete::Agent>& agents,
+                   VertexId discrete::Agent::*end, const std::string& what,
+                   const std::vector<std::string>& names) {
+  std::map<VertexId, std::size_t> owner;
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    if (const auto [at, is_new] = owner.try_emplace(agents[i].*end, i); !is_new)
+      raise({ErrorCode::invalid_instance,
+             names[at->second] + " and " + names[i] + " have the same " + what + " " +
+                 vertex_name(graph, agents[i].*end),
+             {}});
+}
+
+/// `names`: what agents are called in messages, or none.
+Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, const Ints& goals,
+                     const std::vector<std::string>& names) {
   std::vector<discrete::Agent> agents;
   const std::size_t size = place_size(*graph);
   for (std::size_t i = 0; i < static_cast<std::size_t>(starts.shape(0)); ++i) {
-    const std::string agent = "agent " + std::to_string(i);
+    const std::string agent = i < names.size() ? names[i] : "agent " + std::to_string(i);
     agents.push_back({vertex_of(*graph, starts.data() + size * i, agent + ": start"),
                       vertex_of(*graph, goals.data() + size * i, agent + ": goal")});
   }
-  return take(Instance::make(graph, std::move(agents)));
+  auto instance = Instance::make(graph, agents);
+  if (!instance && names.size() == agents.size()) {
+    refuse_shared(*graph, agents, &discrete::Agent::start, "start", names);
+    refuse_shared(*graph, agents, &discrete::Agent::goal, "goal", names);
+  }
+  return take(std::move(instance));
 }
 
 /// int32[n, T, 2] on grids, int32[n, T] otherwise; T - 1 is the makespan.

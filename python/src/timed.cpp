@@ -48,20 +48,36 @@ continuous::SolveOptions options_of(const continuous::Resolution& resolution, Ar
   return options;
 }
 
+/// An outcome without a search, once the arguments are those that a search takes.
+py::dict solve_refused(const TimedInstance& self, const py::dict& given) {
+  Arguments arguments(given);
+  arguments.take<py::function>("progress");
+  arguments.take<py::function>("on_plan");
+  const std::atomic<bool> interrupt = false;
+  // A bound is in ticks of any size here.
+  options_of({}, arguments, interrupt);
+  continuous::SolveOutcome outcome;
+  outcome.status = Status::infeasible;
+  outcome.explanation = self.no_plan()->to_string();
+  return outcome_of(std::move(outcome));
+}
+
 py::dict solve_timed(const TimedInstance& self, const py::dict& arguments) {
+  if (self.no_plan()) return solve_refused(self, arguments);
   const auto set_options = [&](Arguments& given, const std::atomic<bool>& interrupt) {
-    return options_of(self.instance.resolution(), given, interrupt);
+    return options_of(self.resolution(), given, interrupt);
   };
-  return run_solve<Plan>(self.instance, arguments, set_options);
+  return run_solve<Plan>(self.instance(), arguments, set_options);
 }
 
 /// (violations, sum of costs, makespan, clearances); a violation is (kind, agent, other, tick,
 /// message), clearances are (agents int32[k, 2], gap and tick float64[k, 2]).
 py::tuple verify_timed(const TimedInstance& self, const Plan& plan) {
+  const Instance& instance = self.instance();
   continuous::VerifyReport report;
   {
     const py::gil_scoped_release release;
-    report = verify(self.instance, plan);
+    report = verify(instance, plan);
   }
   py::list violations;
   for (const continuous::Violation& violation : report.violations)
@@ -128,7 +144,7 @@ void save_plan(const Plan& plan, const TimedInstance& self, const std::filesyste
   const auto format =
       format_for(path, format_of(name), continuous::plan_format_of(path), "json or ccbs");
   save(path, [&](std::ostream& out) {
-    return write_plan(out, path.string(), self.instance, plan, format, self.grid_or_null());
+    return write_plan(out, path.string(), self.instance(), plan, format, self.grid_or_null());
   });
 }
 
@@ -138,17 +154,19 @@ void save_instance(const TimedInstance& self, const std::filesystem::path& path,
   if (name && *name != "json") refuse("format: '" + *name + "' is not json");
   const auto known = path.extension() == ".json" ? std::optional(PlanFormat::json) : std::nullopt;
   format_for(path, name ? std::optional(PlanFormat::json) : std::nullopt, known, "json");
+  const Instance& instance = self.instance();
   save(path, [&](std::ostream& out) {
-    return write_instance_json(out, path.string(), self.instance, names_of(lists));
+    return write_instance_json(out, path.string(), instance, names_of(lists));
   });
 }
 
 Plan read_plan(const TimedInstance& self, const std::filesystem::path& path,
                const std::optional<std::string>& name) {
   const auto format = format_of(name);
+  const Instance& instance = self.instance();
   return take([&] {
            const py::gil_scoped_release release;
-           return continuous::read_plan(path, self.instance, self.grid_or_null(), format);
+           return continuous::read_plan(path, instance, self.grid_or_null(), format);
          }())
       .plan;
 }
@@ -172,19 +190,23 @@ void bind_timed(py::module_& module) {
       .def("save", &save_plan);
   py::class_<TimedInstance>(module, "TimedInstance")
       .def(py::init(&instance_of))
+      .def_property_readonly("no_plan",
+                             [](const TimedInstance& self) {
+                               return self.no_plan() ? std::optional(self.no_plan()->to_string())
+                                                     : std::nullopt;
+                             })
       .def_property_readonly("num_agents",
-                             [](const TimedInstance& self) { return self.instance.num_agents(); })
+                             [](const TimedInstance& self) { return self.agents().size(); })
       .def_property_readonly("resolution",
                              [](const TimedInstance& self) {
-                               const Resolution& resolution = self.instance.resolution();
+                               const Resolution& resolution = self.resolution();
                                return Sizes(resolution.length, resolution.time);
                              })
-      .def_property_readonly(
-          "graph",
-          [](const TimedInstance& self) {
-            // Nobody on this side can change it.
-            return std::const_pointer_cast<Roadmap>(self.instance.shared_roadmap());
-          })
+      .def_property_readonly("graph",
+                             [](const TimedInstance& self) {
+                               // Nobody on this side can change it.
+                               return std::const_pointer_cast<Roadmap>(self.roadmap());
+                             })
       .def("starts", &starts_of)
       .def("goals", &goals_of)
       .def("bodies", &bodies_of)
@@ -193,7 +215,7 @@ void bind_timed(py::module_& module) {
       .def("duration_error", &duration_error_of)
       .def("in_input_units",
            [](const TimedInstance& self, Cost ticks) {
-             return continuous::in_input_units(ticks, self.instance.resolution());
+             return continuous::in_input_units(ticks, self.resolution());
            })
       .def("solve", &solve_timed)
       .def("verify", &verify_timed)

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "errors.hpp"
@@ -30,22 +32,63 @@ inline VertexId vertex_of(std::int64_t vertex, std::size_t size, const std::stri
   return VertexId(static_cast<std::size_t>(vertex));
 }
 
-/// An instance in continuous time, and the grid that its roadmap comes from, if any: logs name its
-/// cells.
-struct TimedInstance {
-  continuous::Instance instance;
-  std::optional<continuous::GridRoadmap> grid;
+/// What an instance is made of.
+struct TimedParts {
+  std::shared_ptr<const continuous::Roadmap> roadmap;
+  std::vector<continuous::Agent> agents;
+  continuous::Resolution resolution;
+  std::vector<continuous::MovingObstacle> obstacles;
+};
 
-  [[nodiscard]] const continuous::GridRoadmap* grid_or_null() const {
-    return grid ? &*grid : nullptr;
+/// An instance in continuous time, and the grid that its roadmap comes from, if any: logs name its
+/// cells. Where it can be seen that there is no plan there is no instance, but the error that says
+/// why; and its parts, unless they are in a file.
+class TimedInstance {
+ public:
+  explicit TimedInstance(continuous::Instance instance,
+                         std::optional<continuous::GridRoadmap> grid = {})
+      : instance_(std::move(instance)), grid_(std::move(grid)) {}
+  TimedInstance(Error no_plan, std::optional<TimedParts> parts)
+      : no_plan_(std::move(no_plan)), parts_(std::move(parts)) {}
+
+  /// Why there is no plan, if that was seen.
+  [[nodiscard]] const std::optional<Error>& no_plan() const noexcept { return no_plan_; }
+  /// Raises `no_plan`.
+  [[nodiscard]] const continuous::Instance& instance() const {
+    if (no_plan_) raise(*no_plan_);
+    return *instance_;
   }
+  // Raise `no_plan` where they are not known.
+  [[nodiscard]] std::shared_ptr<const continuous::Roadmap> roadmap() const {
+    return parts_ ? parts_->roadmap : instance().shared_roadmap();
+  }
+  [[nodiscard]] std::span<const continuous::Agent> agents() const {
+    if (parts_) return parts_->agents;
+    return {instance().agents().begin(), instance().agents().end()};
+  }
+  [[nodiscard]] const continuous::Resolution& resolution() const {
+    return parts_ ? parts_->resolution : instance().resolution();
+  }
+  [[nodiscard]] const std::vector<continuous::MovingObstacle>& obstacles() const {
+    return parts_ ? parts_->obstacles : instance().obstacles();
+  }
+  [[nodiscard]] const continuous::GridRoadmap* grid_or_null() const {
+    return grid_ ? &*grid_ : nullptr;
+  }
+
+ private:
+  std::optional<Error> no_plan_;
+  std::optional<continuous::Instance> instance_;  // if there is no such error
+  std::optional<continuous::GridRoadmap> grid_;
+  std::optional<TimedParts> parts_;  // of one that cannot have a plan
 };
 
 /// Starts and goals are vertices; a body is a radius, or float64[k, 2], the corners of a polygon.
 /// `rules`: what rules_of gives, and `under_way`: [(agent, from, to, fraction)], instead of starts.
+/// `called`: "agent" and "vertex", functions from a number to what it is called in messages.
 TimedInstance instance_of(const std::shared_ptr<continuous::Roadmap>& roadmap, const Sizes& sizes,
                           const Ints& starts, const Ints& goals, const py::list& bodies,
-                          const Doubles& speeds, const py::dict& rules);
+                          const Doubles& speeds, const py::dict& rules, const py::dict& called);
 // And back: int32[n], a list as above, float64[n].
 py::array starts_of(const TimedInstance& self);
 py::array goals_of(const TimedInstance& self);

@@ -24,6 +24,8 @@ std::string entry(const char* array, py::ssize_t row) {
   return std::string(array) + "[" + std::to_string(row) + "]";
 }
 
+std::string number(VertexId v) { return std::to_string(v.index()); }
+
 /// A set of groups as the bits of a number.
 continuous::Groups groups_of(std::uint64_t bits) {
   continuous::Groups groups;
@@ -40,9 +42,9 @@ std::uint64_t bits_of(const continuous::Groups& groups) {
 }
 
 /// `xy`: [n, 2], or [n, 3] with heights, `edges`: [m, 2], `durations`: [m], NaN for none,
-/// `open_to`: [m], groups.
+/// `open_to`: [m], groups. `both_ways`: each edge is followed by its reverse.
 std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const Doubles& durations,
-                                    const Bits& open_to, const Sizes& sizes) {
+                                    const Bits& open_to, const Sizes& sizes, bool both_ways) {
   const Resolution resolution = resolution_of(sizes);
   const auto coordinates = xy.unchecked<2>();
   std::vector<Point> points;
@@ -69,6 +71,14 @@ std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const 
       if (!edge.duration)
         refuse(entry("durations", e) + ": the duration is less than one tick, or too long");
     }
+    if (edge.from == edge.to)
+      refuse(name + " leads from vertex " + number(edge.from) + " to itself");
+    if (!edge.duration && points[edge.from.index()] == points[edge.to.index()])
+      refuse(name + " leads from vertex " + number(edge.from) + " to vertex " + number(edge.to) +
+             ", which is in the same place at this resolution");
+    list.push_back(edge);
+    if (!both_ways) continue;
+    std::swap(edge.from, edge.to);
     list.push_back(edge);
   }
   return std::make_shared<Roadmap>(take(Roadmap::make(std::move(points), std::move(list))));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Agents on roadmaps, from arrays and back.
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "quadrille/continuous/duration_error.hpp"
+#include "quadrille/continuous/in_words.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/quantise_polygon.hpp"
 #include "quadrille/continuous/under_way.hpp"
@@ -27,9 +30,10 @@ using continuous::Point;
 using continuous::Resolution;
 using continuous::Roadmap;
 using continuous::Ticks;
+using continuous::Words;
 
-/// For messages: what is wrong with an agent.
-std::string agent(py::ssize_t i) { return "agent " + std::to_string(i) + ": "; }
+/// For messages: a number in the user's units.
+std::string text(double number) { return fmt::format("{}", number); }
 
 /// `corners`: float64[k, 2]. `who`: for messages.
 continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution,
@@ -38,7 +42,11 @@ continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution
   std::vector<std::pair<double, double>> points;
   for (py::ssize_t k = 0; k < xy.shape(0); ++k) points.emplace_back(xy(k, 0), xy(k, 1));
   auto polygon = continuous::quantise_polygon_up(points, resolution);
-  if (!polygon) raise({polygon.error().code, who + polygon.error().message, {}});
+  if (!polygon)
+    raise({polygon.error().code,
+           who + " has a polygon that is not supported at a resolution of " +
+               text(resolution.length) + ": " + polygon.error().message,
+           {}});
   return *std::move(polygon);
 }
 
@@ -47,7 +55,9 @@ continuous::Body body_of(const py::handle& body, const Resolution& resolution,
                          const std::string& who) {
   if (!py::isinstance<py::float_>(body)) return polygon_of(body.cast<Doubles>(), resolution, who);
   const auto radius = continuous::quantise_radius_up(body.cast<double>(), resolution);
-  if (!radius) refuse(who + "the radius is not positive, or too large");
+  if (!radius)
+    refuse(who + " has a radius of " + text(body.cast<double>()) +
+           ", which is not positive, or too large");
   return continuous::Disc{*radius};
 }
 
@@ -55,13 +65,13 @@ continuous::Body body_of(const py::handle& body, const Resolution& resolution,
 std::optional<Ticks> moment_of(double value, const Resolution& resolution, const std::string& who) {
   if (std::isnan(value)) return std::nullopt;
   const auto ticks = continuous::quantise_time(value, resolution);
-  if (!ticks) refuse(who + " is negative, or too late");
+  if (!ticks) refuse(who + " at " + text(value) + ", which is negative, or too late");
   return ticks;
 }
 
 continuous::MovingObstacle obstacle_of(const py::tuple& given, const Resolution& resolution,
                                        std::size_t number) {
-  const std::string who = "obstacle " + std::to_string(number) + ": ";
+  const std::string who = "obstacle " + std::to_string(number);
   continuous::MovingObstacle obstacle{
       body_of(given[0], resolution, who), {}, given[2].cast<bool>()};
   const auto path = given[1].cast<Doubles>();
@@ -72,17 +82,18 @@ continuous::MovingObstacle obstacle_of(const py::tuple& given, const Resolution&
     const auto x = continuous::quantise_coordinate(stops(k, 0), resolution);
     const auto y = continuous::quantise_coordinate(stops(k, 1), resolution);
     const auto z = continuous::quantise_coordinate(is_flat ? 0 : stops(k, 2), resolution);
-    const auto arrive = moment_of(stops(k, times), resolution, who + "an arrival");
-    const auto depart = moment_of(stops(k, times + 1), resolution, who + "a departure");
-    if (!x || !y || !z) refuse(who + "a place is too far away for the resolution, or not finite");
-    if (!arrive || !depart) refuse(who + "a time is not a number");
+    const auto arrive = moment_of(stops(k, times), resolution, who + " arrives");
+    const auto depart = moment_of(stops(k, times + 1), resolution, who + " departs");
+    if (!x || !y || !z)
+      refuse(who + " has a stop that is too far away for the resolution, or not finite");
+    if (!arrive || !depart) refuse(who + " has a time that is not a number");
     obstacle.path.push_back({{*x, *y, *z}, *arrive, *depart});
   }
   return obstacle;
 }
 
 /// What the rules say of each agent.
-void set_rules(const py::dict& rules, const Resolution& resolution,
+void set_rules(const py::dict& rules, const Resolution& resolution, const Words& words,
                std::vector<continuous::Agent>& agents) {
   const auto groups = rules["groups"].cast<Ints>();
   const auto releases = rules["releases"].cast<Doubles>();
@@ -92,9 +103,9 @@ void set_rules(const py::dict& rules, const Resolution& resolution,
     const auto row = static_cast<py::ssize_t>(i);
     continuous::Agent& made = agents[i];
     made.group = continuous::GroupId(static_cast<std::size_t>(groups.at(row)));
-    made.release =
-        moment_of(releases.at(row), resolution, agent(row) + "the release").value_or(Ticks{0});
-    made.deadline = moment_of(deadlines.at(row), resolution, agent(row) + "the deadline");
+    const std::string who = words.agent(AgentId(i));
+    made.release = moment_of(releases.at(row), resolution, who + " is released").value_or(Ticks{0});
+    made.deadline = moment_of(deadlines.at(row), resolution, who + " has its deadline");
     made.leaves = leaves.at(row);
   }
 }
@@ -107,13 +118,15 @@ Ticks move_of(const Roadmap& roadmap, VertexId from, VertexId to, const continuo
     if (roadmap.edge(e).to == to && roadmap.edge(e).duration) return *roadmap.edge(e).duration;
   const Point &begin = roadmap.position(from), &end = roadmap.position(to);
   const auto duration = continuous::travel_time(begin, end, made.speed);
-  if (begin == end || !duration) refuse(who + "its move takes less than half a tick, or too long");
+  if (begin == end || !duration)
+    refuse(who + " is in the middle of a move that takes less than half a tick, or too long");
   return *duration;
 }
 
 /// Agents in the middle of a move get a place of their own each, at the end of the vertices.
 std::shared_ptr<const Roadmap> put_under_way(const py::list& under_way,
                                              const std::shared_ptr<Roadmap>& roadmap,
+                                             const Words& words,
                                              std::vector<continuous::Agent>& agents) {
   if (under_way.empty()) return roadmap;
   std::vector<Point> points = roadmap->positions();
@@ -121,11 +134,12 @@ std::shared_ptr<const Roadmap> put_under_way(const py::list& under_way,
   for (const py::handle entry : under_way) {
     const auto [number, source, target, fraction] =
         entry.cast<std::tuple<std::size_t, std::int64_t, std::int64_t, double>>();
-    const std::string who = agent(static_cast<py::ssize_t>(number));
-    const VertexId from = vertex_of(source, roadmap->num_vertices(), who + "start");
-    const VertexId to = vertex_of(target, roadmap->num_vertices(), who + "start");
+    const std::string who = words.agent(AgentId(number));
+    const VertexId from = vertex_of(source, roadmap->num_vertices(), who + ": start");
+    const VertexId to = vertex_of(target, roadmap->num_vertices(), who + ": start");
     if (!(fraction >= 0 && fraction <= 1))
-      refuse(who + "the part of its move that lies behind it is not from 0 to 1");
+      refuse(who + " has a part of its move behind it of " + text(fraction) +
+             ", which is not from 0 to 1");
     continuous::Agent& made = agents[number];
     made.under_way = true;
     made.start = continuous::add_place_under_way(points, edges, from, to,
@@ -163,11 +177,24 @@ py::array stops_of(const continuous::MovingObstacle& obstacle, bool is_flat,
   return frozen(array);
 }
 
+/// `called`: "agent" and "vertex", functions from a number to a name.
+Words words_of(const py::dict& called, const Resolution& resolution) {
+  const auto name = [&called](const char* of) {
+    return [call = called[of].cast<py::function>()](std::size_t number) {
+      return call(number).cast<std::string>();
+    };
+  };
+  return {[agent = name("agent")](AgentId i) { return agent(i.index()); },
+          [](std::size_t o) { return "obstacle " + std::to_string(o); },
+          [vertex = name("vertex")](VertexId v) { return vertex(v.index()); },
+          [resolution](Ticks time) { return text(continuous::in_input_units(time, resolution)); }};
+}
+
 template <class VertexOf>
 py::array vertices(const TimedInstance& self, const VertexOf& vertex) {
-  auto array = new_array<std::int32_t>({self.instance.num_agents()});
+  auto array = new_array<std::int32_t>({self.agents().size()});
   std::int32_t* to = array.mutable_data();
-  for (const continuous::Agent& agent : self.instance.agents())
+  for (const continuous::Agent& agent : self.agents())
     *to++ = static_cast<std::int32_t>(vertex(agent).index());
   return frozen(array);
 }
@@ -176,25 +203,31 @@ py::array vertices(const TimedInstance& self, const VertexOf& vertex) {
 
 TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& sizes,
                           const Ints& starts, const Ints& goals, const py::list& bodies,
-                          const Doubles& speeds, const py::dict& rules) {
+                          const Doubles& speeds, const py::dict& rules, const py::dict& called) {
   const Resolution resolution = resolution_of(sizes);
+  const Words words = words_of(called, resolution);
   std::vector<continuous::Agent> agents;
   for (py::ssize_t i = 0; i < starts.shape(0); ++i) {
+    const std::string who = words.agent(AgentId(static_cast<std::size_t>(i)));
     continuous::Agent made;
-    made.start = vertex_of(starts.at(i), roadmap->num_vertices(), agent(i) + "start");
-    made.goal = vertex_of(goals.at(i), roadmap->num_vertices(), agent(i) + "goal");
-    made.body = body_of(bodies[static_cast<std::size_t>(i)], resolution, agent(i));
+    made.start = vertex_of(starts.at(i), roadmap->num_vertices(), who + ": start");
+    made.goal = vertex_of(goals.at(i), roadmap->num_vertices(), who + ": goal");
+    made.body = body_of(bodies[static_cast<std::size_t>(i)], resolution, who);
     const auto speed = continuous::quantise_speed(speeds.at(i), resolution);
-    if (!speed) refuse(agent(i) + "the speed is not between 0.000001 and 1000000");
+    if (!speed) refuse(who + " has a speed of " + text(speeds.at(i)) + ", which is not supported");
     made.speed = *speed;
     agents.push_back(std::move(made));
   }
-  set_rules(rules, resolution, agents);
-  const auto roads = put_under_way(rules["under_way"].cast<py::list>(), roadmap, agents);
+  set_rules(rules, resolution, words, agents);
+  const auto roads = put_under_way(rules["under_way"].cast<py::list>(), roadmap, words, agents);
   std::vector<continuous::MovingObstacle> obstacles;
   for (const py::handle obstacle : rules["obstacles"].cast<py::list>())
     obstacles.push_back(obstacle_of(obstacle.cast<py::tuple>(), resolution, obstacles.size()));
-  return {take(Instance::make(roads, std::move(agents), resolution, {}, std::move(obstacles))), {}};
+  auto instance = Instance::make(roads, agents, resolution, {}, obstacles);
+  if (instance) return TimedInstance(std::move(instance).value());
+  Error error = continuous::in_words(instance.error(), roads, agents, resolution, obstacles, words);
+  if (error.code != ErrorCode::no_plan) raise(error);
+  return {std::move(error), TimedParts{roads, std::move(agents), resolution, std::move(obstacles)}};
 }
 
 py::array starts_of(const TimedInstance& self) {
@@ -207,38 +240,37 @@ py::array goals_of(const TimedInstance& self) {
 
 py::list bodies_of(const TimedInstance& self) {
   py::list bodies;
-  for (const continuous::Agent& agent : self.instance.agents())
-    bodies.append(body_of(agent.body, self.instance.resolution()));
+  for (const continuous::Agent& agent : self.agents())
+    bodies.append(body_of(agent.body, self.resolution()));
   return bodies;
 }
 
 py::array speeds_of(const TimedInstance& self) {
-  auto array = new_array<double>({self.instance.num_agents()});
+  auto array = new_array<double>({self.agents().size()});
   double* to = array.mutable_data();
-  for (const continuous::Agent& agent : self.instance.agents())
-    *to++ = continuous::speed_in_input_units(agent.speed, self.instance.resolution());
+  for (const continuous::Agent& agent : self.agents())
+    *to++ = continuous::speed_in_input_units(agent.speed, self.resolution());
   return frozen(array);
 }
 
 py::object duration_error_of(const TimedInstance& self) {
-  const auto worst = continuous::largest_duration_error(self.instance);
+  const auto worst = continuous::largest_duration_error(self.instance());
   if (!worst) return py::none();
-  const continuous::Edge& edge = self.instance.roadmap().edge(worst->edge);
-  const Resolution& resolution = self.instance.resolution();
+  const continuous::Edge& edge = self.roadmap()->edge(worst->edge);
+  const Resolution& resolution = self.resolution();
   return py::make_tuple(worst->relative, worst->agent.index(), edge.from.index(), edge.to.index(),
                         continuous::in_input_units(worst->planned, resolution),
                         worst->exact * resolution.time);
 }
 
 py::dict rules_of(const TimedInstance& self) {
-  const Resolution& resolution = self.instance.resolution();
-  const std::size_t n = self.instance.num_agents();
+  const Resolution& resolution = self.resolution();
+  const std::size_t n = self.agents().size();
   auto groups = new_array<std::int64_t>({n});
   auto releases = new_array<double>({n}), deadlines = new_array<double>({n});
   auto leaves = new_array<bool>({n}), under_way = new_array<bool>({n});
-  for (const AgentId i : self.instance.agent_ids()) {
-    const continuous::Agent& agent = self.instance.agent(i);
-    const std::size_t at = i.index();
+  for (std::size_t at = 0; at < n; ++at) {
+    const continuous::Agent& agent = self.agents()[at];
     groups.mutable_data()[at] = static_cast<std::int64_t>(agent.group.index());
     releases.mutable_data()[at] = continuous::in_input_units(agent.release, resolution);
     deadlines.mutable_data()[at] =
@@ -246,11 +278,16 @@ py::dict rules_of(const TimedInstance& self) {
     leaves.mutable_data()[at] = agent.leaves;
     under_way.mutable_data()[at] = agent.under_way;
   }
+  const auto is_level = [](const continuous::MovingObstacle& obstacle) {
+    return std::all_of(obstacle.path.begin(), obstacle.path.end(),
+                       [](const auto& stop) { return stop.at.z == 0; });
+  };
+  const bool is_flat = self.roadmap()->is_flat() &&
+                       std::all_of(self.obstacles().begin(), self.obstacles().end(), is_level);
   py::list obstacles;
-  for (const continuous::MovingObstacle& obstacle : self.instance.obstacles())
+  for (const continuous::MovingObstacle& obstacle : self.obstacles())
     obstacles.append(py::make_tuple(body_of(obstacle.body, resolution),
-                                    stops_of(obstacle, self.instance.is_flat(), resolution),
-                                    obstacle.leaves));
+                                    stops_of(obstacle, is_flat, resolution), obstacle.leaves));
   py::dict rules;
   rules["groups"] = frozen(groups);
   rules["releases"] = frozen(releases);

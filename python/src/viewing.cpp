@@ -40,9 +40,9 @@ std::string step_page(const discrete::Instance& instance, const discrete::Plan& 
 
 std::string timed_page(const TimedInstance& instance, const continuous::Plan& plan,
                        std::string title) {
+  const continuous::Instance& made = instance.instance();
   const py::gil_scoped_release release;
-  return view::page(instance.instance, plan, page_options(std::move(title)),
-                    instance.grid_or_null());
+  return view::page(made, plan, page_options(std::move(title)), instance.grid_or_null());
 }
 
 std::string step_picture(const discrete::Instance& instance, const discrete::Plan& plan,
@@ -54,7 +54,7 @@ std::string step_picture(const discrete::Instance& instance, const discrete::Pla
 std::string timed_picture(const TimedInstance& instance, const continuous::Plan& plan,
                           const std::string& kind, std::string title,
                           const std::vector<std::size_t>& agents) {
-  return take(view::picture(instance.instance, plan,
+  return take(view::picture(instance.instance(), plan,
                             picture_options(kind, std::move(title), agents),
                             instance.grid_or_null()));
 }

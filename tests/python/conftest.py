@@ -41,6 +41,18 @@ def solve_by_program(file, *arguments):
     return json.loads(done.stdout)
 
 
+def if_possible(fleet):
+    """The fleet; None if it is seen without a search that it has no plan."""
+    return fleet if fleet.no_plan is None else None
+
+
+def assert_no_plan(fleet, why):
+    """It is infeasible, and `why` is all of the explanation."""
+    result = q.solve(fleet)
+    assert (result.status, result.plan, result.cost, result.lower_bound) == ("infeasible", None, None, None)
+    assert result.explanation == fleet.no_plan == why
+
+
 def random_grid_fleet(seed, agents=4, size=6):
     """Agents on a small grid with obstacles; often crowded, sometimes without a plan."""
     rng = random.Random(seed)
@@ -67,8 +79,8 @@ def random_roadmap_fleet(seed, agents=4):
     n = rng.randint(1, agents)
     square = np.array([(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)])
     polygons = [square * rng.uniform(0.5, 1) if rng.random() < 0.3 else None for _ in range(n)]
-    try:
-        return q.Fleet(
+    return if_possible(
+        q.Fleet(
             roadmap,
             rng.sample(range(len(xy)), n),
             rng.sample(range(len(xy)), n),
@@ -76,8 +88,7 @@ def random_roadmap_fleet(seed, agents=4):
             speed=[rng.choice([0.5, 1, 2]) for _ in range(n)],
             polygon=polygons if any(p is not None for p in polygons) else None,
         )
-    except q.NoPlanError:
-        return None
+    )
 
 
 def saved_fleets(make, count, file):

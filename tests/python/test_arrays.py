@@ -8,7 +8,7 @@ import weakref
 
 import numpy as np
 import pytest
-from conftest import need, random_grid_fleet, random_roadmap_fleet
+from conftest import assert_no_plan, need, random_grid_fleet, random_roadmap_fleet
 
 import quadrille as q
 
@@ -195,9 +195,8 @@ def test_networkx():
     assert roadmap.edges.tolist() == [[0, 1], [1, 2]]
     assert np.isnan(roadmap.durations[0]) and roadmap.durations[1] == 2.5
     assert q.solve(q.Fleet(roadmap, ["a"], ["c"], radius=0.3)).cost == 3.5
-    with pytest.raises(q.NoPlanError):
-        q.Fleet(roadmap, ["c"], ["a"], radius=0.3)
-    with pytest.raises(ValueError, match="no node 'z'"):
+    assert_no_plan(q.Fleet(roadmap, ["c"], ["a"], radius=0.3), "agent 0 cannot get from 'c' to 'a'")
+    with pytest.raises(ValueError, match=r"starts\[0\]: the roadmap has no vertex called 'z'"):
         q.Fleet(roadmap, ["z"], ["a"], radius=0.3)
     with pytest.raises(ValueError, match="'c' has no place"):
         q.Roadmap.from_networkx(one_way, {"a": (0, 0), "b": (1, 0)})

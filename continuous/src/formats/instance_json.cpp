@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/json_numbers.hpp"
+#include "model/decimal.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/text/document.hpp"
 #include "quadrille/text/names.hpp"
@@ -310,8 +311,9 @@ class InstanceReader {
     if (!check_.number(node, value)) return false;
     const auto units = quantise_radius(value, resolution_);
     if (!units)
-      return check_.fail(node, ErrorCode::out_of_range,
-                         "the radius is less than one length unit, or too large");
+      return check_.fail(
+          node, ErrorCode::out_of_range,
+          "the radius is less than one length unit, or too large: " + decimal(value));
     radius = *units;
     return true;
   }
@@ -330,7 +332,8 @@ class InstanceReader {
     if (!check_.number(node, value)) return false;
     const auto time = quantise_time(value, resolution_);
     if (!time)
-      return check_.fail(node, ErrorCode::out_of_range, "the time is negative, or too late");
+      return check_.fail(node, ErrorCode::out_of_range,
+                         "the time is negative, or too late: " + decimal(value));
     ticks = *time;
     return true;
   }
@@ -342,8 +345,9 @@ class InstanceReader {
     if (given && !check_.number(node, value)) return false;
     const auto units = quantise_speed(value, resolution_);
     if (!units)
-      return check_.fail(node, ErrorCode::out_of_range,
-                         "the speed is not 0.000001 .. 1000000 length units per tick");
+      return check_.fail(
+          node, ErrorCode::out_of_range,
+          "the speed is not 0.000001 .. 1000000 length units per tick: " + decimal(value));
     speed = *units;
     return true;
   }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <charconv>
 #include <string>
 
+#include "model/decimal.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/resolution.hpp"
 #include "quadrille/text/document.hpp"
@@ -12,11 +11,7 @@
 namespace quadrille::continuous {
 
 /// The shortest decimal number that is read as the same double, which has to be finite.
-[[nodiscard]] inline std::string json_number(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
+[[nodiscard]] inline std::string json_number(double value) { return decimal(value); }
 
 /// A number, or an object with one number for each of length and time.
 [[nodiscard]] inline std::string resolution_json(const Resolution& resolution) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/body_numbers.hpp"
+#include "model/decimal.hpp"
 #include "model/reachability.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -181,8 +182,11 @@ std::optional<Error> check_deadlines(const Instance& instance, std::size_t& at) 
     const Ticks arrival = free_cost(instance, i).value();
     if (arrival <= *agent.deadline) continue;
     at = i.index();
-    return no_plan(name(at) + " cannot arrive before tick " + std::to_string(arrival.count()) +
-                   ", and its deadline is tick " + std::to_string(agent.deadline->count()));
+    const auto when = [&](Ticks time) {
+      return decimal(in_input_units(time, instance.resolution()));
+    };
+    return no_plan(name(at) + " cannot arrive before " + when(arrival) + ", and its deadline is " +
+                   when(*agent.deadline));
   }
   return std::nullopt;
 }

@@ -90,7 +90,7 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithTheRulesOfFleets) {
       {"1.5, \"deadline", "true, \"deadline", "f:15: /agents/1/release: expected a number"},
       {"12", "-12", "f:15: /agents/1/deadline: the time is negative, or too late"},
       {"12", "null", "f:15: /agents/1/deadline: expected a number"},
-      {"12", "3.49", "f:15: agent 1 cannot arrive before tick 350, and its deadline is tick 349"},
+      {"12", "3.49", "f:15: agent 1 cannot arrive before 3.5, and its deadline is 3.49"},
       {"\"radius\": 0.2, ", "",
        "f:18: /obstacles/0: one of the keys 'radius' and 'polygon' is missing"},
       {"\"path\"", "\"way\"", "f:18: /obstacles/0/way: this key is not known here"},

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "quadrille/continuous/in_words.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
@@ -200,23 +201,7 @@ class Fleet {
   [[nodiscard]] Result<Roads> put_under_way(std::vector<continuous::Agent>& agents,
                                             std::vector<double>& off) const;
   [[nodiscard]] Result<std::vector<continuous::MovingObstacle>> obstacles_in_units() const;
-  [[nodiscard]] Error in_words(const Error& error, const Roads& roads,
-                               const std::vector<continuous::Agent>& agents,
-                               const std::vector<continuous::MovingObstacle>& obstacles) const;
-  [[nodiscard]] std::optional<Error> find_alone(const Roads& roads, const continuous::Agent& agent,
-                                                AgentId id) const;
-  [[nodiscard]] std::optional<Error> find_blocked_start(
-      const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
-      const std::vector<continuous::MovingObstacle>& obstacles) const;
-  [[nodiscard]] std::optional<Error> find_polygon_in_space(
-      const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents,
-      const std::vector<continuous::MovingObstacle>& obstacles) const;
-  [[nodiscard]] std::optional<Error> find_unsupported(
-      const continuous::Roadmap& roads, const std::vector<continuous::Agent>& agents) const;
-  [[nodiscard]] std::optional<Error> find_overlap(const continuous::Roadmap& roads,
-                                                  const std::vector<continuous::Agent>& agents,
-                                                  VertexId continuous::Agent::*end,
-                                                  const std::string& what) const;
+  [[nodiscard]] continuous::Words words() const;
 
   Roadmap roadmap_;
   IdVector<AgentId, Entry> robots_;

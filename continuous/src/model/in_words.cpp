@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/continuous/in_words.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <variant>
+
+#include "quadrille/continuous/free_cost.hpp"
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/geometry/body_index.hpp"
+#include "quadrille/geometry/body_pair.hpp"
+
+namespace quadrille::continuous {
+namespace {
+
+Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
+Error no_plan(const std::string& message) { return {ErrorCode::no_plan, message, {}}; }
+
+/// Finds again what is wrong: Instance::make has numbers only.
+class Finder {
+ public:
+  Finder(const std::shared_ptr<const Roadmap>& roads, const std::vector<Agent>& agents,
+         const Resolution& resolution, const std::vector<MovingObstacle>& obstacles,
+         const Words& words)
+      : roads_(roads),
+        agents_(agents),
+        resolution_(resolution),
+        obstacles_(obstacles),
+        words_(words) {}
+
+  [[nodiscard]] std::optional<Error> find() const {
+    if (auto found = find_polygon_in_space()) return found;
+    if (auto found = find_unsupported()) return found;
+    if (auto found = find_overlap(&Agent::start, "starts")) return found;
+    if (auto found = find_overlap(&Agent::goal, "goals")) return found;
+    if (auto found = find_obstacle()) return found;
+    for (std::size_t i = 0; i < agents_.size(); ++i)
+      if (auto found = find_alone(i)) return found;
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] std::string name(std::size_t i) const { return words_.agent(AgentId(i)); }
+  [[nodiscard]] std::optional<Error> find_polygon_in_space() const;
+  [[nodiscard]] std::optional<Error> find_unsupported() const;
+  [[nodiscard]] std::optional<Error> find_overlap(VertexId Agent::*end,
+                                                  const std::string& what) const;
+  [[nodiscard]] std::optional<Error> find_obstacle() const;
+  [[nodiscard]] std::optional<Error> find_alone(std::size_t i) const;
+
+  const std::shared_ptr<const Roadmap>& roads_;
+  const std::vector<Agent>& agents_;
+  const Resolution& resolution_;
+  const std::vector<MovingObstacle>& obstacles_;
+  const Words& words_;
+};
+
+std::optional<Error> Finder::find_polygon_in_space() const {
+  const auto is_high = [](const auto& stop) { return stop.at.z != 0; };
+  const auto flies = [&](const MovingObstacle& obstacle) {
+    return std::any_of(obstacle.path.begin(), obstacle.path.end(), is_high);
+  };
+  if (roads_->is_flat() && std::none_of(obstacles_.begin(), obstacles_.end(), flies))
+    return std::nullopt;
+  const auto refusal = [](const std::string& name) {
+    return invalid(name + " is a polygon, but there are places with a height: in space bodies " +
+                   "are spheres");
+  };
+  for (std::size_t i = 0; i < agents_.size(); ++i)
+    if (!std::holds_alternative<Disc>(agents_[i].body)) return refusal(name(i));
+  for (std::size_t o = 0; o < obstacles_.size(); ++o)
+    if (!std::holds_alternative<Disc>(obstacles_[o].body)) return refusal(words_.obstacle(o));
+  return std::nullopt;
+}
+
+std::optional<Error> Finder::find_unsupported() const {
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    if (geometry::enclosing_radius(agents_[i].body) > geometry::kMaxLength)
+      return out_of_range(name(i) + " is too large");
+    for (const Edge& lane : roads_->edges())
+      if (!lane.duration &&
+          !travel_time(roads_->position(lane.from), roads_->position(lane.to), agents_[i].speed))
+        return out_of_range("the lane from " + words_.vertex(lane.from) + " to " +
+                            words_.vertex(lane.to) + " takes " + name(i) +
+                            " less than half a step of " + words_.time(1) + ", or too long");
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> Finder::find_overlap(VertexId Agent::*end, const std::string& what) const {
+  geometry::BodyIndex placed;
+  for (std::size_t j = 0; j < agents_.size(); ++j) {
+    if (end == &Agent::goal && agents_[j].leaves) continue;
+    const VertexId w = agents_[j].*end;
+    if (const auto i = placed.first_overlap(agents_[j].body, roads_->position(w)))
+      return no_plan("the " + what + " of " + name(*i) + " at " + words_.vertex(agents_[*i].*end) +
+                     " and " + name(j) + " at " + words_.vertex(w) + " overlap");
+    placed.add(j, agents_[j].body, roads_->position(w));
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> Finder::find_obstacle() const {
+  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+    const MovingObstacle& obstacle = obstacles_[o];
+    if (geometry::enclosing_radius(obstacle.body) > geometry::kMaxLength)
+      return out_of_range(words_.obstacle(o) + " is too large");
+    if (obstacle.path.empty() || obstacle.path.front().arrive > 0) continue;
+    for (std::size_t i = 0; i < agents_.size(); ++i)
+      if (geometry::bodies_overlap(agents_[i].body, roads_->position(agents_[i].start),
+                                   obstacle.body, obstacle.path.front().at))
+        return no_plan(words_.obstacle(o) + " is at the start of " + name(i) + " at " +
+                       words_.vertex(agents_[i].start));
+  }
+  return std::nullopt;
+}
+
+// What stands in the way of an agent that is alone.
+std::optional<Error> Finder::find_alone(std::size_t i) const {
+  const auto make = [&](const Agent& one) { return Instance::make(roads_, {one}, resolution_); };
+  const auto alone = make(agents_[i]);
+  if (alone || alone.error().code != ErrorCode::no_plan) return std::nullopt;
+  Agent patient = agents_[i];
+  patient.deadline.reset();
+  const auto late = make(patient);
+  if (!late)
+    return no_plan(name(i) + " cannot get from " + words_.vertex(agents_[i].start) + " to " +
+                   words_.vertex(agents_[i].goal));
+  return no_plan(name(i) + " cannot arrive before " +
+                 words_.time(free_cost(*late, AgentId(0)).value()) + ", and its deadline is " +
+                 words_.time(*agents_[i].deadline));
+}
+
+}  // namespace
+
+Error in_words(const Error& error, const std::shared_ptr<const Roadmap>& roadmap,
+               const std::vector<Agent>& agents, const Resolution& resolution,
+               const std::vector<MovingObstacle>& obstacles, const Words& words) {
+  return Finder(roadmap, agents, resolution, obstacles, words).find().value_or(error);
+}
+
+}  // namespace quadrille::continuous
