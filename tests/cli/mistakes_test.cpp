@@ -17,8 +17,8 @@ constexpr const char* kGood = R"({
   "version": 1,
   "resolution": 0.001,
   "roadmap": {
-    "vertices": [[0, 0], [4, 0], [8, 0], [8, 9]],
-    "edges": [[0, 1], [1, 0], [1, 2], [2, 1]]
+    "vertices": [[0, 0], [4, 0], [8, 0], [8, 9], [4, 5]],
+    "edges": [[0, 1], [1, 0], [1, 2], [2, 1], [1, 4], [4, 1]]
   },
   "agents": [
     {"start": 0, "goal": 2, "radius": 0.3, "speed": 1},
@@ -52,7 +52,7 @@ TEST_F(MistakesTest, AreRefusedWithPlaceNameAndNumber) {
   const struct {
     const char *from, *to, *message;
   } cases[] = {
-      {"\"start\": 0", "\"start\": 7", "10: /agents/0/start: there is no vertex 7 among 4"},
+      {"\"start\": 0", "\"start\": 7", "10: /agents/0/start: there is no vertex 7 among 5"},
       {"\"radius\": 0.3", "\"radius\": -0.3",
        "10: /agents/0/radius: the radius is less than one length unit, or too large: -0.3"},
       {"\"radius\": 0.3", "\"radius\": 0.00025",
@@ -75,7 +75,7 @@ TEST_F(MistakesTest, AreRefusedWithPlaceNameAndNumber) {
       {"\"leave\"", "\"vanish\"",
        "11: /agents/1/at_goal: expected 'stay' or 'leave', found 'vanish'"},
       {"[1, 0]", "[0, 0]", "7: /roadmap/edges/1: the edge is a loop"},
-      {"[1, 0]", "[1, 9]", "7: /roadmap/edges/1/1: there is no vertex 9 among 4"},
+      {"[1, 0]", "[1, 9]", "7: /roadmap/edges/1/1: there is no vertex 9 among 5"},
       {"[4, 0]", "[4]", "6: /roadmap/vertices/1: expected 2 coordinates, found 1"},
       {"\"resolution\": 0.001", "\"resolution\": 0", "4: /resolution: a resolution is positive"},
       {"\"instance\"", "\"plan\"", "2: /quadrille: expected 'instance', found 'plan'"},
