@@ -101,8 +101,6 @@ void FilesCase::look_at_outputs(bool has_plan, int code) {
     const std::string text = read_file(outputs_.json);
     expect(outputs_.json, why_no_json(text));
     const json result = json::parse(text);
-    status_ = result.at("status");
-    cost_ = result.at(input_.in_time ? "cost_ticks" : "cost");
     if (has_plan) bound_ = result.at("lower_bound").dump();
     if (has_plan == result.at("plan").is_null()) fail("the result has no plan, or one too much");
     if (!has_plan &&

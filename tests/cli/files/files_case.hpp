@@ -3,7 +3,6 @@
 
 #include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "cli/files/inputs.hpp"
@@ -58,8 +57,6 @@ class FilesCase {
   Input input_;
   Outputs outputs_;
   std::string plan_format_;
-  std::string status_;
-  std::optional<nlohmann::json> cost_;  ///< Of the result, if there is one.
   Words objective_;
   std::string bound_;      ///< The lower bound of the result, in the units of the input.
   std::string json_plan_;  ///< A file with the plan in this project's JSON; empty without one.
