@@ -145,7 +145,7 @@ TEST_F(LimitsTest, OtherCommandsDieAtTheFirstSignal) {
 TEST_F(LimitsTest, ASilentInputEndsWithTheTime) {
   const std::vector<Words> inputs = silent_instances();
   // Each takes the second that it may wait.
-  for (const std::size_t k : {0, 2, 4}) {
+  for (const std::size_t k : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
     SCOPED_TRACE(testing::PrintToString(inputs[k]));
     const char* command = k == 2 ? "explain" : "solve";
     const Words words = Words{command, "--json", "-", "--time-limit", "0.1"} + inputs[k];

@@ -114,7 +114,7 @@ TEST(SolverLimits, TheFreeBoundIsNeverLost) {
     for (const Objective objective : {Objective::sum_of_costs, Objective::makespan})
       for (const System system : {System::dpll, System::smt_cbs})
         for (const Limits& limits : all)
-          for (const std::size_t threads : {1, 2}) {
+          for (const std::size_t threads : {std::size_t{1}, std::size_t{2}}) {
             SolveOptions options;
             options.objective = objective;
             options.system = system;

@@ -81,7 +81,7 @@ TEST(SolverCut, TheFreeBoundIsNeverLost) {
   for (const Objective objective : {Objective::sum_of_costs, Objective::makespan})
     for (TunedOptions options : all_systems(objective))
       for (const Limits& limits : all)
-        for (const std::size_t threads : {1, 3}) {
+        for (const std::size_t threads : {std::size_t{1}, std::size_t{3}}) {
           options.limits = limits;
           options.threads = threads;
           const SolveOutcome outcome = run(instance, options).outcome;
