@@ -9,9 +9,9 @@
 
 #include "primal/guide.hpp"
 #include "primal/lacam.hpp"
-#include "primal/settle.hpp"
 #include "primal/shortcuts.hpp"
 #include "quadrille/discrete/primal.hpp"
+#include "settle/settle.hpp"
 
 namespace quadrille::discrete {
 

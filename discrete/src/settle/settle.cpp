@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/settle.hpp"
+#include "settle/settle.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "model/component.hpp"
-#include "primal/exchange.hpp"
-#include "primal/full_blocks.hpp"
-#include "primal/shorten.hpp"
 #include "quadrille/core/contract.hpp"
+#include "settle/exchange.hpp"
+#include "settle/full_blocks.hpp"
+#include "settle/shorten.hpp"
 
 namespace quadrille::discrete {
 namespace {

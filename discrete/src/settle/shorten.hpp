@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "primal/board.hpp"
 #include "quadrille/core/ids.hpp"
+#include "settle/board.hpp"
 
 namespace quadrille::discrete {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/board.hpp"
+#include "settle/board.hpp"
 
 #include <algorithm>
 #include <utility>

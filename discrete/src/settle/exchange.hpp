@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "primal/board.hpp"
+#include "settle/board.hpp"
 
 namespace quadrille::discrete {
 
@@ -59,7 +59,7 @@ class Exchanger {
 
   const LocalGraph& graph_;
   Board& board_;
-  Marks blocked_, seen_, on_cycle_;
+  Marks kept_, seen_, on_cycle_;
   std::vector<Local> parent_, queue_;
   std::int64_t effort_ = 0;
 };

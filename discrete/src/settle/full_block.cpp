@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/full_block.hpp"
+#include "settle/full_block.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "primal/full_blocks.hpp"
+#include "settle/full_blocks.hpp"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
 
-#include "primal/full_block.hpp"
+#include "settle/full_block.hpp"
 
 namespace quadrille::discrete {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/exchange.hpp"
+#include "settle/exchange.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace quadrille::discrete {
 Exchanger::Exchanger(const LocalGraph& graph, Board& board)
     : graph_(graph),
       board_(board),
-      blocked_(graph.size()),
+      kept_(graph.size()),
       seen_(graph.size()),
       on_cycle_(graph.size()),
       parent_(graph.size(), kNoLocal) {}
@@ -233,11 +233,10 @@ bool Exchanger::exchange_down(Local lead, Local rear, Local next, std::size_t fi
   if (!graph_.on_cycle(junction))
     for (const Local side : graph_.neighbours(junction))
       if (side != stem && wanted.size() < way.size() + 2) wanted.push_back(side);
-  Marks& kept = blocked_;
-  kept.clear();
+  kept_.clear();
   for (const Local v : wanted) {
-    if (!free(v, pair, &kept)) return false;
-    kept.add(v);
+    if (!free(v, pair, &kept_)) return false;
+    kept_.add(v);
   }
   for (const Local v : way) {
     const Local follow = board_.vertex_of(lead);

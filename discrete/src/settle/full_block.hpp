@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "primal/board.hpp"
 #include "quadrille/core/limits.hpp"
+#include "settle/board.hpp"
 
 namespace quadrille::discrete {
 

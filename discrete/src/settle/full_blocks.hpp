@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "primal/board.hpp"
 #include "quadrille/core/limits.hpp"
+#include "settle/board.hpp"
 
 namespace quadrille::discrete {
 

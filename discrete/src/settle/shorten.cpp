@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/shorten.hpp"
+#include "settle/shorten.hpp"
 
 #include <algorithm>
 #include <utility>

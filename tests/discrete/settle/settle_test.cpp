@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Settling finds a plan exactly where the test in linear time says that there is one.
-#include "primal/settle.hpp"
+#include "settle/settle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "discrete/primal/primal_support.hpp"
-#include "primal/exchange.hpp"
 #include "primal/shortcuts.hpp"
-#include "primal/shorten.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "settle/exchange.hpp"
+#include "settle/shorten.hpp"
 #include "support/environment.hpp"
 #include "support/joint_search.hpp"
 
