@@ -161,6 +161,7 @@ class ComponentSettling {
         board_.move(agent, to);
       else if (!exchanger_.exchange(agent, board_.agent_at(to)))
         return false;
+      QUADRILLE_REQUIRE(board_.vertex_of(agent) == to, "each step leads nearer to the goal");
     }
     return true;
   }
