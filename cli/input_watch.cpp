@@ -20,16 +20,6 @@ constexpr double kGraceOfWaiting = 1;  // s
 
 }  // namespace
 
-Limits limits_left(Limits limits, const Usage& used) {
-  const auto take = [](std::optional<double>& limit, double part) {
-    if (limit) limit = std::max(0.0, *limit - part);
-  };
-  take(limits.wall_s, used.wall_s);
-  take(limits.cpu_s, used.cpu_s);
-  take(limits.memory_mib, used.memory_mib);
-  return limits;
-}
-
 InputWatch::InputWatch(const Limits& limits, End end)
     : limits_(limits),
       end_(std::move(end)),

@@ -7,18 +7,9 @@
 #include <thread>
 
 #include "exit_codes.hpp"
-#include "quadrille/core/limits.hpp"
+#include "quadrille/core/usage.hpp"
 
 namespace quadrille::cli {
-
-/// What the process has used since some moment.
-struct Usage {
-  double wall_s = 0, cpu_s = 0;
-  double memory_mib = 0;  ///< By which it has grown; not negative.
-};
-
-/// What `used` leaves of the limits of time and memory; not negative.
-[[nodiscard]] Limits limits_left(Limits limits, const Usage& used);
 
 /// Holds the limits, and heeds signals, while input is read and checked. That may take for ever
 /// where nobody looks at limits: a pipe need not deliver. So it is a thread that waits, and that

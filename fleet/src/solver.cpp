@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/fleet/solver.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include "numbers.hpp"
 #include "place_rounding.hpp"
 #include "quadrille/continuous/duration_error.hpp"
+#include "quadrille/core/usage.hpp"
 
 namespace quadrille::fleet {
 namespace {
@@ -77,13 +77,6 @@ void look_at_durations(const Fleet& fleet, const continuous::Instance& instance,
       "; a smaller resolution of time than " + to_string(roads.resolution().time) + " mends that");
 }
 
-/// What is left of the limits; at least 0.
-quadrille::Limits remaining(quadrille::Limits limits, const Statistics& used) {
-  if (limits.wall_s) limits.wall_s = std::max(0.0, *limits.wall_s - used.wall_s);
-  if (limits.cpu_s) limits.cpu_s = std::max(0.0, *limits.cpu_s - used.cpu_s);
-  return limits;
-}
-
 /// In the words of the fleet; the layer below would have agents and ticks.
 std::optional<Error> refuse_initial_plan(const Fleet& fleet, const SolveOptions& options) {
   if (!options.initial_plan) return std::nullopt;
@@ -122,9 +115,11 @@ Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
   outcome.rests_on_known_bound = solved->rests_on_known_bound;
   outcome.stop = solved->stop;
   outcome.explanation = std::move(solved->explanation);
-  if (outcome.status == Status::infeasible)
-    outcome.explanation += PlaceRounding(fleet).doubt_about(
-        solved->blocked, remaining(asked.limits, solved->statistics));
+  if (outcome.status == Status::infeasible) {
+    const Usage used{solved->statistics.wall_s, solved->statistics.cpu_s};
+    outcome.explanation +=
+        PlaceRounding(fleet).doubt_about(solved->blocked, limits_left(asked.limits, used));
+  }
   outcome.statistics = solved->statistics;
   outcome.internal_error = std::move(solved->internal_error);
   if (!solved->plan) return outcome;
