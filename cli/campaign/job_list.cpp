@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <concepts>
+#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -8,6 +10,7 @@
 #include <utility>
 
 #include "campaign/job.hpp"
+#include "campaign/whole.hpp"
 #include "quadrille/core/stated_outcome.hpp"
 #include "quadrille/core/terminal_text.hpp"
 #include "quadrille/text/document.hpp"
@@ -27,7 +30,11 @@ Json or_null(const std::optional<T>& value) {
 
 template <class T>
 void read_optional(const Json& json, std::optional<T>& value) {
-  if (!json.is_null()) value = json.get<T>();
+  if (json.is_null()) return;
+  if constexpr (std::integral<T>)
+    value = require_whole<T>(json);
+  else
+    value = json.get<T>();
 }
 
 Json job_json(const Job& job) {
@@ -63,10 +70,10 @@ Job read_job(const Json& json) {
   json.at("job").get_to(job.name);
   json.at("family").get_to(job.family);
   json.at("scenario").get_to(job.scenario);
-  json.at("agents").get_to(job.agents);
+  job.agents = require_whole<std::int64_t>(json.at("agents"));
   json.at("system").get_to(job.system);
   const auto objective = parse_objective(json.at("objective").get<std::string>());
-  json.at("seed").get_to(job.seed);
+  job.seed = require_whole<std::int64_t>(json.at("seed"));
   json.at("program").get_to(job.program);
   json.at("instance").get_to(job.instance);
   json.at("options").get_to(job.options);
@@ -96,9 +103,9 @@ SlurmOptions read_slurm(const Json& json) {
   json.at("account").get_to(slurm.account);
   json.at("qos").get_to(slurm.qos);
   json.at("time").get_to(slurm.time);
-  json.at("chunk").get_to(slurm.chunk);
-  json.at("parallel").get_to(slurm.parallel);
-  json.at("array_size").get_to(slurm.array_size);
+  slurm.chunk = require_whole<std::int64_t>(json.at("chunk"));
+  slurm.parallel = require_whole<std::int64_t>(json.at("parallel"));
+  slurm.array_size = require_whole<std::int64_t>(json.at("array_size"));
   json.at("options").get_to(slurm.options);
   require(slurm.chunk >= 1 && slurm.parallel >= 0 && slurm.array_size >= 1,
           "a number of tasks is too small");
@@ -182,15 +189,18 @@ class ListReader {
   void add_ladder(const Json& json) {
     Ladder ladder;
     json.at("ladder").get_to(ladder.name);
-    json.at("level").get_to(ladder.level);
-    json.at("allowed").get_to(ladder.allowed);
-    json.at("rungs").get_to(ladder.rungs);
-    require(!ladder.rungs.empty(), "a ladder has no rungs");
-    for (const auto& rung : ladder.rungs) {
-      require(!rung.empty(), "a rung has no jobs");
-      for (const std::size_t job : rung) {
+    ladder.level = require_whole<std::size_t>(json.at("level"));
+    ladder.allowed = require_whole<std::size_t>(json.at("allowed"));
+    const Json& rungs = json.at("rungs");
+    require(rungs.is_array() && !rungs.empty(), "a ladder has no rungs");
+    for (const Json& rung : rungs) {
+      require(rung.is_array() && !rung.empty(), "a rung has no jobs");
+      auto& jobs = ladder.rungs.emplace_back();
+      for (const Json& number : rung) {
+        const auto job = require_whole<std::size_t>(number);
         require(job < list_.jobs.size(), "a rung names a job that is not in the list");
         require(placed_.insert(job).second, "a job stands in two places");
+        jobs.push_back(job);
       }
     }
     list_.ladders.push_back(std::move(ladder));

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstdint>
 
+#include "campaign/whole.hpp"
+
 namespace quadrille::cli::campaign {
 namespace {
 
@@ -18,10 +20,10 @@ struct Motion {
 constexpr Motion kMotions[] = {{'u', 0, -1}, {'d', 0, 1}, {'l', -1, 0}, {'r', 1, 0}, {'w', 0, 0}};
 
 std::optional<discrete::Cell> cell_of(const Json& json) {
-  if (!json.is_array() || json.size() != 2 || !json[0].is_number_integer() ||
-      !json[1].is_number_integer())
-    return std::nullopt;
-  return discrete::Cell{json[0].get<std::int32_t>(), json[1].get<std::int32_t>()};
+  if (!json.is_array() || json.size() != 2) return std::nullopt;
+  const auto x = whole<std::int32_t>(json[0]), y = whole<std::int32_t>(json[1]);
+  if (!x || !y) return std::nullopt;
+  return discrete::Cell{*x, *y};
 }
 
 void append_run(std::string& text, char letter, std::int64_t times) {
@@ -59,7 +61,8 @@ std::optional<std::string> encode_path(const Json& path) {
     if (!next) return std::nullopt;
     const Motion* found = nullptr;
     for (const Motion& motion : kMotions)
-      if (next->x - at.x == motion.dx && next->y - at.y == motion.dy) found = &motion;
+      if (std::int64_t{next->x} - at.x == motion.dx && std::int64_t{next->y} - at.y == motion.dy)
+        found = &motion;
     if (found == nullptr) return std::nullopt;
     if (found->letter != letter) {
       append_run(text, letter, times);

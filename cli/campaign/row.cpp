@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "campaign/plan_text.hpp"
+#include "campaign/whole.hpp"
 #include "exit_codes.hpp"
 #include "quadrille/text/text_input.hpp"
 
@@ -21,11 +22,6 @@ std::string host_name() {
   std::array<char, 256> name{};
   if (::gethostname(name.data(), name.size() - 1) != 0) return "";
   return name.data();
-}
-
-std::optional<std::int64_t> integer(const Json& json) {
-  if (!json.is_number_integer()) return std::nullopt;
-  return json.get<std::int64_t>();
 }
 
 Json or_null(const std::optional<std::int64_t>& value) {
@@ -90,8 +86,8 @@ Row read_result(const Job& job, const Ended& ended, const std::string& status) {
   row.cost = result.at("cost");
   row.lower_bound = result.at("lower_bound");
   const bool ticks = result.contains("cost_ticks");
-  row.exact_cost = integer(ticks ? result["cost_ticks"] : row.cost);
-  row.exact_bound = integer(ticks ? result.at("lower_bound_ticks") : row.lower_bound);
+  row.exact_cost = whole<std::int64_t>(ticks ? result["cost_ticks"] : row.cost);
+  row.exact_bound = whole<std::int64_t>(ticks ? result.at("lower_bound_ticks") : row.lower_bound);
   row.statistics = result.at("statistics");
   result.at("version").get_to(row.version);
   row.history = member(result, "history");
@@ -211,8 +207,8 @@ Result<Row> read_row(std::string_view line) {
     json.at("explanation").get_to(row.explanation);
     row.cost = json.at("cost");
     row.lower_bound = json.at("lower_bound");
-    row.exact_cost = integer(json.at("exact_cost"));
-    row.exact_bound = integer(json.at("exact_bound"));
+    row.exact_cost = whole<std::int64_t>(json.at("exact_cost"));
+    row.exact_bound = whole<std::int64_t>(json.at("exact_bound"));
     json.at("process_cpu_s").get_to(row.process_cpu_s);
     json.at("wall_s").get_to(row.wall_s);
     row.statistics = json.at("statistics");

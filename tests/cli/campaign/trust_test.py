@@ -112,6 +112,8 @@ class Damage(CampaignCase):
         for old, new, message in (('"job":"', '"job":"x', "16 hexadecimal digits"),
                                   ('"objective":"sum', '"objective":"some', "the objective is none"),
                                   ('"agents":2', '"agents":-2', "the number of agents is none"),
+                                  ('"agents":2', '"agents":2.5', "2.5 is no whole number"),
+                                  ('"seed":0', '"seed":1e300', "1e+300 is no whole number"),
                                   ('"agents":2', '"agents":', "not valid JSON")):
             self.assertIn(old, good)
             self.write("m.campaign/jobs.json", good.replace(old, new, 1))
