@@ -53,7 +53,8 @@ view::PageOptions page_options(const std::string& source, Objective objective,
   options.lower_bound = outcome.lower_bound;
   options.attribution = outcome.attribution;
   if (outcome.status == Status::infeasible)
-    options.obstruction = view::Obstruction{outcome.explanation, {}, {}};
+    options.obstruction =
+        view::Obstruction{outcome.explanation, outcome.blocked, outcome.bottleneck};
   return options;
 }
 

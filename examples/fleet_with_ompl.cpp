@@ -91,7 +91,10 @@ int main() {
         .from(vertices[2 * i])
         .to(vertices[2 * i + 1]);
 
-  const auto outcome = solve(fleet, {.limits = {.wall = 60_s}, .gap_percent = 5}).value();
+  fleet::SolveOptions options;
+  options.limits.wall = 60_s;
+  options.gap_percent = 5;
+  const auto outcome = solve(fleet, options).value();
   const TimedPlan& plan = outcome.plan.value();
   std::size_t valid = 0;
   for (const quadrille::AgentId robot : fleet.robot_ids()) {

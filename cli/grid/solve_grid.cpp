@@ -110,12 +110,8 @@ class GridSolve {
     return result_json(&instance(), arguments_, outcome, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
-    view::PageOptions options = page_options(input_.source, objective(), outcome);
-    if (options.obstruction) {
-      discrete::Feasibility found = check_feasibility(instance());
-      options.obstruction = {found.reason, std::move(found.agents), std::move(found.vertices)};
-    }
-    return view::page(instance(), outcome.plan.value_or(discrete::Plan{}), options);
+    return view::page(instance(), outcome.plan.value_or(discrete::Plan{}),
+                      page_options(input_.source, objective(), outcome));
   }
   [[nodiscard]] Result<std::string> drawing(const discrete::Plan& plan) const {
     return view::picture(instance(), plan, arguments_.picture.options);

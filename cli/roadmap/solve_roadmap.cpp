@@ -50,13 +50,11 @@ std::optional<SolveOptions> options_of(const SolveArguments& arguments) {
       continuous::parse_system(to_string(arguments.system.value_or(discrete::System::dpll)));
   if (!system) return std::nullopt;
   SolveOptions options;
-  options.objective = arguments.options.objective;
+  static_cast<Choices&>(options) = arguments.options;
   options.system = *system;
   options.limits = arguments.options.limits;
-  options.gap_percent = arguments.options.gap_percent;
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
-  options.race = arguments.options.race;
   options.explain = arguments.options.explain;
   options.debug.audit = arguments.options.debug.audit;
   return options;
@@ -116,11 +114,8 @@ class RoadmapSolve {
     return result_json(&instance(), arguments_, options_, outcome, replay, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
-    view::PageOptions options = page_options(input_.source, objective(), outcome);
-    if (options.obstruction)
-      options.obstruction = {outcome.explanation, outcome.blocked, outcome.bottleneck};
-    return view::page(instance(), outcome.plan.value_or(continuous::Plan{}), options,
-                      input_.grid_or_null());
+    return view::page(instance(), outcome.plan.value_or(continuous::Plan{}),
+                      page_options(input_.source, objective(), outcome), input_.grid_or_null());
   }
   [[nodiscard]] Result<std::string> drawing(const continuous::Plan& plan) const {
     return view::picture(instance(), plan, arguments_.picture.options, input_.grid_or_null());

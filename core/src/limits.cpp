@@ -95,7 +95,7 @@ void LimitMonitor::look_at_meter(bool at_cpu) {
     stop(StopReason::cpu_time);
   else if (limits_.memory_mib && meter_.account().memory_mib() >= *limits_.memory_mib)
     stop(StopReason::memory);
-  if (pulse_ && reason_ == StopReason::none) pulse_();
+  if (pulse_ && num_quiet_ == 0 && reason_ == StopReason::none) pulse_();
 }
 
 bool LimitMonitor::has_room_for(std::size_t bytes) {

@@ -22,19 +22,16 @@ std::optional<double> number(const std::optional<Seconds>& time) {
 continuous::SolveOptions in_units(const Fleet& fleet, const continuous::Resolution& resolution,
                                   const SolveOptions& options) {
   continuous::SolveOptions result;
-  result.objective = options.objective;
+  static_cast<Choices&>(result) = options;
   result.limits.wall_s = number(options.limits.wall);
   result.limits.cpu_s = number(options.limits.cpu);
   result.limits.memory_mib = options.limits.memory_mib;
   result.limits.conflicts = options.limits.conflicts;
   result.limits.interrupt = options.limits.interrupt;
-  result.gap_percent = options.gap_percent;
   if (options.initial_plan) result.initial_plan = options.initial_plan->in_units();
   if (options.known_lower_bound)  // What is out of range becomes a negative number, and is refused.
     result.known_lower_bound =
         continuous::quantise_bound(options.known_lower_bound->value(), resolution).value_or(-1);
-  result.seed = options.seed;
-  result.threads = options.threads;
   result.progress_interval_s = options.progress_interval.value();
   result.plan_interval_s = options.plan_interval.value();
   if (options.on_progress)
@@ -115,6 +112,8 @@ Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
   outcome.rests_on_known_bound = solved->rests_on_known_bound;
   outcome.stop = solved->stop;
   outcome.explanation = std::move(solved->explanation);
+  outcome.blocked = solved->blocked;
+  outcome.bottleneck = solved->bottleneck;
   if (outcome.status == Status::infeasible) {
     const Usage used{solved->statistics.wall_s, solved->statistics.cpu_s};
     outcome.explanation +=

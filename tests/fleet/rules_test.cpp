@@ -25,6 +25,12 @@ RobotSpec disc(std::string name) {
   return {.name = std::move(name), .body = Disc(0.2_m), .speed = 1_mps};
 }
 
+SolveOptions within_5_s() {
+  SolveOptions options;
+  options.limits.wall = 5_s;
+  return options;
+}
+
 TEST(FleetRules, LanesForSomeAreNotTakenByOthers) {
   RoadmapBuilder roads;
   const VertexId a = roads.vertex(0_m, 0_m), b = roads.vertex(1_m, 0_m);
@@ -154,7 +160,7 @@ TEST(FleetRules, RobotsOfAnotherFleetAreObstacles) {
       Fleet one(all.roadmap());
       one.robot(all.spec(i)).from(*all.start(i)).to(*all.goal(i)).leaves(all.leaves(i));
       for (const MovingObstacle& obstacle : known) one.obstacle(obstacle);
-      const SolveOutcome outcome = solve(one, {.limits = {.wall = 5_s}}).value();
+      const SolveOutcome outcome = solve(one, within_5_s()).value();
       if (!outcome.plan) break;
       together.paths.push_back(outcome.plan->in_units().paths[AgentId(0)]);
       const auto obstacle = as_obstacle(one, *outcome.plan, AgentId(0));
@@ -217,7 +223,7 @@ TEST(FleetRules, WhatIsLeftOfAPlanIsAPlanOfRobotsUnderWay) {
     SCOPED_TRACE(seed);
     Fleet fleet = test::random_fleet(seed, 3);
     if (!fleet.instance()) continue;
-    const SolveOutcome whole = solve(fleet, {.limits = {.wall = 5_s}}).value();
+    const SolveOutcome whole = solve(fleet, within_5_s()).value();
     if (whole.status != Status::optimal) continue;
     const TimedPlan before = *whole.plan;
     const double step = fleet.roadmap().resolution().time.value();
@@ -237,7 +243,7 @@ TEST(FleetRules, WhatIsLeftOfAPlanIsAPlanOfRobotsUnderWay) {
       fleet[i].from_edge(last.vertex, next->vertex,
                          (now - last.depart) / (next->arrive - last.depart));
     }
-    const SolveOutcome rest = solve(fleet, {.limits = {.wall = 5_s}}).value();
+    const SolveOutcome rest = solve(fleet, within_5_s()).value();
     ++num_cut;
     if (rest.plan) {
       EXPECT_TRUE(verify(fleet, rest.plan->in_units()).value().valid());

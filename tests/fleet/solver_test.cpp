@@ -51,7 +51,9 @@ TEST(FleetSolver, ObjectivesAndRandomFleetsAgreeWithTheLayerBelow) {
     const Fleet fleet = test::random_fleet(seed, 2);
     const auto instance = fleet.instance();
     const auto objective = seed % 2 == 0 ? Objective::sum_of_costs : Objective::makespan;
-    const SolveOutcome outcome = solve(fleet, {.objective = objective}).value();
+    SolveOptions in_metres;
+    in_metres.objective = objective;
+    const SolveOutcome outcome = solve(fleet, in_metres).value();
     if (!instance) {
       EXPECT_EQ(outcome.status, Status::infeasible);
       EXPECT_EQ(outcome.summary(), "infeasible: " + instance.error().message);

@@ -138,7 +138,10 @@ TEST(OmplFleets, PlansOnRandomRoadmapsAreValidForOmpl) {
     }
     Fleet fleet(roads.build().value());
     for (const auto& [spec, task] : robots) fleet.robot(spec).from(task.first).to(task.second);
-    const auto outcome = solve(fleet, {.limits = {.conflicts = 200}, .gap_percent = 20});
+    fleet::SolveOptions options;
+    options.limits.conflicts = 200;
+    options.gap_percent = 20;
+    const auto outcome = solve(fleet, options);
     ASSERT_TRUE(outcome.has_value()) << outcome.error().message;
     if (!outcome->plan) continue;  // A roadmap in two parts, or pillars that leave no room.
     ++num_plans;

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "session/episodes.hpp"
-#include "solve/inheritance.hpp"
+#include "session/bound_cache.hpp"
+#include "solve/warm_start.hpp"
 
 namespace quadrille::continuous {
 

@@ -7,9 +7,9 @@
 #include "paths/scene_store.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/under_way.hpp"
-#include "session/episodes.hpp"
+#include "session/bound_cache.hpp"
 #include "session/lemma_store.hpp"
-#include "solve/inheritance.hpp"
+#include "solve/warm_start.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -43,7 +43,7 @@ struct Session::Parts {
   std::size_t num_added = 0;
   Situation now;
   SceneStore store;
-  Episodes episodes;
+  BoundCache bounds;
   LemmaStore lemmas;
 };
 
@@ -169,17 +169,16 @@ Result<SolveOutcome> Session::solve(const SolveOptions& options) {
   const auto instance = this->instance();
   if (!instance) return instance.error();
   parts_->store.adopt(*instance);
-  std::optional<Learned> legacy;
-  const Inheritance inheritance{&parts_->store,
-                                parts_->episodes.bounds(parts_->now, options.objective),
-                                parts_->episodes.drafts(parts_->now, *instance),
-                                parts_->lemmas.learned(parts_->now), &legacy};
+  std::optional<Learned> learned;
+  const WarmStart warm{&parts_->store, parts_->bounds.bounds(parts_->now, options.objective),
+                       parts_->bounds.drafts(parts_->now, *instance),
+                       parts_->lemmas.learned(parts_->now), &learned};
   SolveOptions traced = options;
   traced.explain = options.explain || options.threads == 1;
-  auto outcome = continuous::solve(*instance, traced, inheritance);
+  auto outcome = continuous::solve(*instance, traced, warm);
   if (!outcome) return outcome;
-  parts_->episodes.add(parts_->now, options.objective, *outcome);
-  if (legacy && !outcome->internal_error) parts_->lemmas.put(parts_->now, *std::move(legacy));
+  parts_->bounds.add(parts_->now, options.objective, *outcome);
+  if (learned && !outcome->internal_error) parts_->lemmas.put(parts_->now, *std::move(learned));
   if (!options.explain) outcome->attribution.reset();
   return outcome;
 }

@@ -6,7 +6,7 @@
 
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/sat/cost_search.hpp"
-#include "solve/news.hpp"
+#include "solve/desk.hpp"
 
 namespace quadrille::continuous {
 
@@ -23,7 +23,7 @@ class Correspondent {
   virtual ~Correspondent() = default;
   /// The bound or the plan may be better. May stop the limits. Returns what others have found,
   /// which may be nothing.
-  [[nodiscard]] virtual News report(const CostReport& report) = 0;
+  [[nodiscard]] virtual Message report(const CostReport& report) = 0;
   /// One of the levels is reached in every plan that is cheaper than the one reported last.
   virtual void report_core(const LevelCore& core) = 0;
   /// Elementary steps of work that no engine has counted.

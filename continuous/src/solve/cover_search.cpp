@@ -128,11 +128,11 @@ class CoverSearch {
  private:
   /// Tells what is known, and hears what others know.
   bool is_closed() {
-    const News news = context_.correspondent.report(report_);
-    if (news.plan && (!report_.plan || news.cost < cost(*report_.plan, kSum)))
-      report_.plan = *news.plan;
-    raise_bound(news.lower);
-    for (const News::Cores& told : news.cores)
+    const Message heard = context_.correspondent.report(report_);
+    if (heard.plan && (!report_.plan || heard.cost < cost(*report_.plan, kSum)))
+      report_.plan = *heard.plan;
+    raise_bound(heard.lower);
+    for (const ToldCores::Of& told : heard.extra.all)
       for (const auto& core : told.list) {
         problem_.take_core(*core);
         cover_.add(*core);

@@ -6,7 +6,6 @@
 
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/core/statistics.hpp"
-#include "solve/companion.hpp"
 #include "solve/cost_problem.hpp"
 #include "solve/cost_report.hpp"
 

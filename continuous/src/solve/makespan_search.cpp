@@ -32,10 +32,10 @@ CostReport search_makespan(CostProblem& problem, const CostReport& known, LimitM
   for (const AgentId i : model.instance().agent_ids())
     report.lower_bound = std::max(report.lower_bound, model.free_cost(i));
   while (true) {
-    const News news = correspondent.report(report);
-    report.lower_bound = std::max(report.lower_bound, news.lower);
-    if (news.plan && (!report.plan || news.cost < cost(*report.plan, Objective::makespan)))
-      report.plan = *news.plan;
+    const Message heard = correspondent.report(report);
+    report.lower_bound = std::max(report.lower_bound, heard.lower);
+    if (heard.plan && (!report.plan || heard.cost < cost(*report.plan, Objective::makespan)))
+      report.plan = *heard.plan;
     if (report.plan && cost(*report.plan, Objective::makespan) <= report.lower_bound) {
       report.end = SearchEnd::found;
       return report;

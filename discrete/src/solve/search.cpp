@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
-#include <new>
 #include <optional>
 #include <utility>
 
 #include "primal/plan_merger.hpp"
 #include "quadrille/core/free_bound.hpp"
-#include "quadrille/core/internal_error.hpp"
-#include "quadrille/core/progress.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/sat/cost_search.hpp"
+#include "quadrille/solve/frame.hpp"
 #include "solve/incumbent.hpp"
 #include "solve/plan_search.hpp"
 #include "solve/run.hpp"
@@ -21,74 +19,35 @@
 namespace quadrille::discrete {
 namespace {
 
-/// What the agents cost when each is alone.
-Attribution free_charges(const Instance& instance, const GoalDistances& distances,
-                         Objective objective) {
-  Attribution attribution;
-  attribution.objective = objective;
-  for (const AgentId i : instance.agent_ids()) {
-    const Cost cost = distances(i, instance.agents()[i].start);
-    attribution.agents.push_back({cost, {}});
-  }
-  attribution.free_bound = free_bound(instance.agent_ids(), objective,
-                                      [&](AgentId i) { return attribution.agents[i].free_cost; });
-  return attribution;
-}
-
-/// One solve, with what all systems have in common: bounds from both sides.
+/// One search, with what all systems have in common: bounds from both sides.
 class Search final : private sat::YieldPoint {
  public:
   Search(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
-         LimitMonitor& limits, SolveOutcome& outcome, Companion* companion)
+         const Desk& desk, const GetDistances& get_distances)
       : instance_(instance),
         options_(options),
         tuning_(tuning),
-        limits_(limits),
-        outcome_(outcome),
-        companion_(companion),
-        role_(companion != nullptr ? companion->role() : Role::both),
-        progress_(options.on_progress, options.progress_interval_s, limits),
-        incumbent_(options.objective),
-        known_(options.known_lower_bound.value_or(0)) {}
+        get_distances_(get_distances),
+        limits_(desk.limits),
+        known_(desk.known),
+        pulse_(desk.pulse),
+        exchange_(desk.exchange),
+        role_(desk.exchange.role()),
+        incumbent_(options.objective, desk.known) {}
 
   void run() {
-    incumbent_.raise(known_);
-    if (options_.initial_plan) {
-      Plan plan = *options_.initial_plan;
-      trim(plan);
-      incumbent_.offer(plan);
-    }
-    try {
-      search();
-    } catch (const LimitReached&) {
-    } catch (const InternalError& error) {
-      outcome_.internal_error = Error{ErrorCode::internal, error.message, {}};
-    } catch (const std::bad_alloc&) {
-      // The search's memory is free again: the bound and the best plan are the answer.
-      outcome_.stop = StopReason::memory;
-    }
-    run_ = nullptr;
-    if (!free_bound_) learn_free_bound(nullptr);
-    outcome_.lower_bound = lower();
-    outcome_.rests_on_known_bound = known_ > *free_bound_ && lower() <= known_;
-    if (outcome_.internal_error || !incumbent_.upper()) return;
-    if (*incumbent_.upper() < lower() && !is_bound_refuted()) {
-      outcome_.internal_error = Error{ErrorCode::internal, "a plan costs less than the bound", {}};
-      return;
-    }
-    outcome_.plan = incumbent_.plan();
-    outcome_.status = incumbent_.upper() == lower() ? Status::optimal : Status::feasible;
-  }
-
- private:
-  void search() {
+    incumbent_.raise(known_.claimed);
     enter(Phase::set_up);
-    const auto distances = companion_ != nullptr ? companion_->distances(limits_)
-                                                 : GoalDistances::make(instance_, limits_);
-    learn_free_bound(distances.get());
+    const auto distances = get_distances_(limits_);
     if (!distances) return;
+    const auto free_cost = [&](AgentId i) -> Cost {
+      return (*distances)(i, instance_.agents()[i].start);
+    };
+    const auto agents = instance_.agent_ids();
+    known_.prove(free_bound(agents, options_.objective, free_cost));
+    incumbent_.raise(known_.floor);
     if (options_.explain)
-      outcome_.attribution = free_charges(instance_, *distances, options_.objective);
+      known_.attribution = solve::free_charges(agents, options_.objective, free_cost);
     if (options_.first_plan) begin_plans(distances);
     if (role_ == Role::plans)
       look_for_plans();
@@ -96,22 +55,18 @@ class Search final : private sat::YieldPoint {
       search_costs(distances);
   }
 
-  /// There is a plan that is cheaper than what the user knows; who called this tells that.
-  [[nodiscard]] bool is_bound_refuted() const {
-    return incumbent_.upper() && *incumbent_.upper() < known_;
-  }
-
+ private:
   /// Looks for a first plan, unless there is one, for as long as everything else can wait for it.
   void begin_plans(const std::shared_ptr<const GoalDistances>& distances) {
     using Part = PrimalSearch::Part;
-    const Part part = role_ == Role::both    ? Part::all
+    const Part part = role_ == Role::all     ? Part::all
                       : role_ == Role::bound ? Part::first_guide
                                              : Part::rest;
     plans_.emplace(PlanSearchContext{instance_, distances, options_.objective, options_.seed, part,
                                      incumbent_, limits_});
     if (!options_.initial_plan) {
       enter(Phase::first_plan);
-      if (role_ == Role::both)
+      if (role_ == Role::all)
         while (plans_->start()) yield();
       else
         plans_->begin();
@@ -122,27 +77,6 @@ class Search final : private sat::YieldPoint {
     else
       yield();
   }
-
-  /// What the agents cost when each is alone. Without `distances`, because a limit was met, of as
-  /// many as can be looked at in little time.
-  void learn_free_bound(const GoalDistances* distances) {
-    const auto known = [&](AgentId i) -> Cost {
-      return (*distances)(i, instance_.agents()[i].start);
-    };
-    const auto found = [&](AgentId i) -> Cost {
-      const Agent& task = instance_.agents()[i];
-      return distances_from(instance_.graph(), task.goal)[task.start];
-    };
-    const auto agents = instance_.agent_ids();
-    Grace grace(options_.limits, limits_);
-    free_bound_ = distances != nullptr ? free_bound(agents, options_.objective, known)
-                                       : free_bound(agents, options_.objective, found, &grace);
-    incumbent_.raise(*free_bound_);
-  }
-
-  /// All that anybody has proved. The search's own bound stays its own, because it follows from its
-  /// cores.
-  [[nodiscard]] Cost lower() const { return std::max(incumbent_.lower(), heard_lower_); }
 
   /// Makes plans for as long as somebody else works on the bound.
   void look_for_plans() {
@@ -155,13 +89,14 @@ class Search final : private sat::YieldPoint {
     }
   }
 
+  /// The search's own bound stays its own, because it follows from its cores.
   void exchange(std::int64_t effort) {
-    if (companion_ == nullptr) return;
-    const auto heard = companion_->on_effort(effort, [this] { return news(); });
+    const auto heard = exchange_.arrive(effort, [this] { return message(); });
     if (!heard) return;
     heard_lower_ = std::max(heard_lower_, heard->lower);
+    known_.raise(heard->lower);
     if (heard->plan && heard->plan != heard_plan_) hear(heard->plan);
-    draft_ = heard->draft;
+    draft_ = heard->extra.paths;
     others_ended_ = heard->others_ended;
   }
 
@@ -182,18 +117,18 @@ class Search final : private sat::YieldPoint {
     if (plans_) plans_->hear(*before - *incumbent_.upper());
   }
 
-  [[nodiscard]] News news() {
-    News news;
-    news.lower = lower();
-    if (incumbent_.upper()) {
-      if (!told_plan_ || incumbent_.upper() != told_cost_)
-        told_plan_ = std::make_shared<const Plan>(incumbent_.plan());
-      news.plan = told_plan_;
-      news.cost = told_cost_ = *incumbent_.upper();
+  [[nodiscard]] Message message() {
+    incumbent_.share();
+    Message message;
+    message.lower = known_.lower();
+    if (known_.plan) {
+      if (!told_plan_ || known_.cost != told_cost_) told_plan_ = known_.plan;
+      message.plan = told_plan_;
+      message.cost = told_cost_ = *known_.cost;
     }
     if (role_ == Role::bound && run_ != nullptr)
-      news.draft = std::make_shared<const Plan>(run_->draft());
-    return news;
+      message.extra.paths = std::make_shared<const Plan>(run_->draft());
+    return message;
   }
 
   // sat::YieldPoint
@@ -202,9 +137,8 @@ class Search final : private sat::YieldPoint {
       exchange_while_searching();
       if (plans_) make_plans(run_->engine().effort());
     }
-    consider_stop();
-    report_progress();
-    report_plan();
+    incumbent_.share();
+    pulse_.beat();
   }
 
   void exchange_while_searching() {
@@ -215,9 +149,9 @@ class Search final : private sat::YieldPoint {
   /// drafts are left to it.
   void make_plans(std::int64_t search_effort) {
     std::function<Plan()> draft;
-    if (role_ == Role::both) draft = [this] { return run_->draft(); };
+    if (role_ == Role::all) draft = [this] { return run_->draft(); };
     std::function<void()> after_slice;
-    if (companion_ != nullptr)
+    if (exchange_.has_others())
       after_slice = [this] {
         exchange_while_searching();
         consider_stop();
@@ -225,30 +159,14 @@ class Search final : private sat::YieldPoint {
     plans_->advance(search_effort, draft, after_slice);
   }
 
-  /// Ends the search when the bounds meet, or are as close as was asked for.
   void consider_stop() {
-    const std::optional<Cost> cost = incumbent_.upper();
-    if (cost && (*cost <= lower() || is_within_gap(options_.gap_percent, *cost, lower())))
-      limits_.stop(StopReason::gap);
-  }
-
-  void report_progress() {
-    progress_.know(lower(), incumbent_.upper());
-    progress_.tell_if_due();
+    incumbent_.share();
+    pulse_.consider_stop();
   }
 
   void enter(Phase phase) {
-    progress_.know(lower(), incumbent_.upper());
-    progress_.enter(phase);
-  }
-
-  void report_plan() {
-    if (!options_.on_plan || !incumbent_.upper() || incumbent_.upper() == reported_cost_ ||
-        limits_.elapsed_wall() < next_plan_s_)
-      return;
-    options_.on_plan(incumbent_.plan());
-    reported_cost_ = incumbent_.upper();
-    next_plan_s_ = limits_.elapsed_wall() + options_.plan_interval_s;
+    incumbent_.share();
+    pulse_.enter(phase);
   }
 
   [[nodiscard]] sat::SearchEnd search_costs_of(Run& run, std::vector<Raise>* raises) {
@@ -258,7 +176,7 @@ class Search final : private sat::YieldPoint {
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
     if (options_.objective == Objective::sum_of_costs &&
         options_.cost_search.value_or(by_default) == CostSearch::core_guided)
-      return sat::search_by_cores(context, tuning_.cores, outcome_.statistics);
+      return sat::search_by_cores(context, tuning_.cores, known_.statistics);
     return sat::search_upwards(context);
   }
 
@@ -276,40 +194,36 @@ class Search final : private sat::YieldPoint {
       end = search_costs_of(*run, options_.explain ? &raises : nullptr);
     } catch (const LimitReached&) {  // the engine is left in order, and what was raised is proved
     }
-    if (outcome_.attribution) run->explain(std::move(raises), *outcome_.attribution);
-    run->engine().add_statistics(outcome_.statistics);
-    outcome_.statistics.checks = run->num_checks();
-    outcome_.statistics.rejected_models = run->num_rejected();
+    if (known_.attribution) run->explain(std::move(raises), *known_.attribution);
+    run->engine().add_statistics(known_.statistics);
+    known_.statistics.checks = run->num_checks();
+    known_.statistics.rejected_models = run->num_rejected();
     if (const auto complaint = run->complaint())
-      outcome_.internal_error = Error{ErrorCode::internal, *complaint, {}};
+      known_.fail(*complaint);
     else if (end == sat::SearchEnd::exhausted)
-      outcome_.internal_error =
-          Error{ErrorCode::internal, "the clauses of a feasible instance are unsatisfiable", {}};
-    else if (end == sat::SearchEnd::found && !incumbent_.are_closed() && !is_bound_refuted())
-      outcome_.internal_error =
-          Error{ErrorCode::internal, "the plan found does not cost the proven bound", {}};
+      known_.fail("the clauses of a feasible instance are unsatisfiable");
+    else if (end == sat::SearchEnd::found && !incumbent_.are_closed() && !known_.is_claim_refuted())
+      known_.fail("the plan found does not cost the proven bound");
+    else if (end == sat::SearchEnd::stopped && limits_.reason() == StopReason::none)
+      known_.why_open = "a path needs 2^20 timesteps or more: the MDD systems do not support it";
   }
 
   const Instance& instance_;
   const SolveOptions& options_;
   const Tuning tuning_;
+  const GetDistances& get_distances_;
   LimitMonitor& limits_;
-  SolveOutcome& outcome_;
-  Companion* const companion_;
+  Knowledge& known_;
+  solve::Pulse<Plan>& pulse_;
+  solve::Exchange<Message>& exchange_;
   const Role role_;
-  ProgressReporter progress_;
   Incumbent incumbent_;
-  const Cost known_;  // by the user
-  std::optional<Cost> free_bound_;
   std::optional<PlanSearch> plans_;
   std::optional<PlanMerger> merger_;
-  std::shared_ptr<const Plan> heard_plan_;
   const Run* run_ = nullptr;  // when it is prepared
-  double next_plan_s_ = 0;
-  std::optional<Cost> reported_cost_;
   // What was heard from others, and told to them.
   Cost heard_lower_ = 0;
-  std::shared_ptr<const Plan> draft_, told_plan_;
+  std::shared_ptr<const Plan> heard_plan_, draft_, told_plan_;
   Cost told_cost_ = 0;
   bool others_ended_ = false;
 };
@@ -317,8 +231,8 @@ class Search final : private sat::YieldPoint {
 }  // namespace
 
 void search(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
-            LimitMonitor& limits, Companion* companion, SolveOutcome& outcome) {
-  Search(instance, options, tuning, limits, outcome, companion).run();
+            const Desk& desk, const GetDistances& get_distances) {
+  Search(instance, options, tuning, desk, get_distances).run();
 }
 
 }  // namespace quadrille::discrete

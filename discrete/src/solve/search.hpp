@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "quadrille/core/limits.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/solver.hpp"
-#include "solve/portfolio.hpp"
+#include "solve/desk.hpp"
 #include "solve/tuning.hpp"
 
 namespace quadrille::discrete {
 
-/// Everything but the question whether there is a plan: goal distances, a first plan, the search
-/// for the least cost. `companion`, unless null: others that search beside it. The plan in the
-/// outcome is not verified yet. Limits and a lack of memory are in the outcome. Throws what
-/// callbacks throw.
+/// Null when a limit was met.
+using GetDistances = std::function<std::shared_ptr<const GoalDistances>(LimitMonitor&)>;
+
+/// One search: goal distances, a first plan, the search for the least cost. Requires an instance
+/// that has a plan. Leaves at `desk` what it finds, whatever ends it.
 void search(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
-            LimitMonitor& limits, Companion* companion, SolveOutcome& outcome);
+            const Desk& desk, const GetDistances& get_distances);
 
 }  // namespace quadrille::discrete

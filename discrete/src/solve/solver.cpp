@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/discrete/solver.hpp"
 
-#include <new>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "mdd/usages.hpp"
-#include "quadrille/core/plan_claim.hpp"
-#include "quadrille/core/progress.hpp"
 #include "quadrille/discrete/feasibility.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/solve/frame.hpp"
 #include "solve/portfolio.hpp"
-#include "solve/search.hpp"
 
 namespace quadrille::discrete {
 namespace {
-
-/// The plan has to pass `verify` and to cost what was proved.
-void check_plan(const Instance& instance, const SolveOptions& options, SolveOutcome& outcome) {
-  trim(*outcome.plan);
-  hold_to_replay(verify(instance, *outcome.plan), options.objective, options.known_lower_bound,
-                 outcome);
-}
 
 std::optional<Error> check_options(const Instance& instance, const SolveOptions& options) {
   const auto refuse = [](ErrorCode code, std::string message) {
@@ -41,121 +34,63 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
                     "the fractions of a check schedule increase between 0 and 1");
     last = f;
   }
-  if (options.gap_percent && !(*options.gap_percent >= 0))
-    return refuse(ErrorCode::out_of_range, "the gap is not a number of at least 0");
-  if (options.threads < 1 || options.threads > kMaxThreads)
-    return refuse(ErrorCode::out_of_range, "the number of threads is not from 1 to 64");
-  if (!(options.progress_interval_s >= 0))
-    return refuse(ErrorCode::out_of_range, "the progress interval is not a number of at least 0");
-  if (!(options.plan_interval_s >= 0))
-    return refuse(ErrorCode::out_of_range, "the plan interval is not a number of at least 0");
-  if (options.seed > 2'000'000'000)
-    return refuse(ErrorCode::out_of_range, "the seed is larger than 2000000000");
-  if (options.explain && (options.system != System::dpll || options.threads > 1))
-    return refuse(ErrorCode::out_of_range, "an explanation needs the system dpll and one thread");
-  if (options.known_lower_bound && *options.known_lower_bound < 0)
-    return refuse(ErrorCode::out_of_range, "the known lower bound is negative, or out of range");
-  std::optional<Error> error;
-  if (options.initial_plan) {
-    const VerifyReport report = verify(instance, *options.initial_plan);
-    error = refuse_invalid(report, "initial plan");
-    if (!error)
-      error = refuse_bound(options.known_lower_bound, options.objective == Objective::sum_of_costs
-                                                          ? report.sum_of_costs
-                                                          : report.makespan);
-  }
-  if (!error && options.debug.known_plan)
-    error = refuse_invalid(verify(instance, *options.debug.known_plan), "known plan");
-  return error;
+  if (options.explain && options.system != System::dpll)
+    return refuse(ErrorCode::out_of_range, "an explanation needs the system dpll");
+  return std::nullopt;
 }
 
-/// Fills in what was found, proved and checked. Throws what callbacks throw, and bad_alloc when
-/// memory does not even suffice for the answer.
-void answer(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
-            LimitMonitor& limits, Companion* companion, SolveOutcome& outcome) {
-  ProgressReporter(options.on_progress, options.progress_interval_s, limits)
-      .enter(Phase::feasibility);
-  const Feasibility feasibility = check_feasibility(instance);
-  if (!feasibility.feasible) {
-    outcome.status = Status::infeasible;
-    outcome.explanation = feasibility.reason;
-    if (options.initial_plan)
-      outcome.internal_error = Error{ErrorCode::internal, "infeasible, but a plan is known", {}};
-    return;
-  }
-  search(instance, options, tuning, limits, companion, outcome);
-  if (!outcome.plan) return;
-  check_plan(instance, options, outcome);
-  if (outcome.internal_error && outcome.stop == StopReason::memory) {
-    // It was being changed when memory ran out.
-    outcome.internal_error.reset();
-    outcome.plan.reset();
-    outcome.status = Status::unknown;
-  }
-}
+/// What solve::Frame asks for.
+class Domain {
+ public:
+  using Plan = discrete::Plan;
+  using Outcome = SolveOutcome;
 
-void complete(Attribution& attribution, const SolveOutcome& outcome) {
-  attribution.lower_bound = outcome.lower_bound;
-  if (outcome.plan)
-    for (const AgentId i : IdRange<AgentId>(attribution.agents.size()))
-      attribution.agents[i].cost = arrival(outcome.plan->paths[i]);
-  fit_to_bound(attribution);
-}
+  Domain(const Instance& instance, const SolveOptions& options, const Tuner& tuner)
+      : instance_(instance), options_(options), tuner_(tuner) {}
 
-std::string stop_text(StopReason reason) {
-  if (reason == StopReason::none)
-    return "a path needs 2^20 timesteps or more: the MDD systems do not support it";
-  if (reason == StopReason::memory) return "no more memory";  // short: needs no memory itself
-  return "stopped by the limit: " + std::string(to_string(reason));
-}
+  [[nodiscard]] VerifyReport verify(const Plan& plan) const {
+    return discrete::verify(instance_, plan);
+  }
+  [[nodiscard]] static Cost cost(const Plan& plan, Objective objective) {
+    return plan.cost(objective);
+  }
+  [[nodiscard]] static Cost cost_of(const Plan& plan, AgentId agent) {
+    return arrival(plan.paths[agent]);
+  }
+  static void tidy(Plan& plan) { trim(plan); }
+  [[nodiscard]] IdRange<AgentId> agents() const { return instance_.agent_ids(); }
+  [[nodiscard]] Cost free_cost(AgentId agent) const {
+    const Agent& task = instance_.agents()[agent];
+    return distances_from(instance_.graph(), task.goal)[task.start];
+  }
+
+  void search(LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
+              Knowledge& known, solve::Pulse<Plan>& pulse) {
+    pulse.enter(Phase::feasibility);
+    Feasibility feasibility = check_feasibility(instance_);
+    if (!feasibility.feasible) {
+      known.infeasible =
+          solve::Infeasibility{std::move(feasibility.reason), std::move(feasibility.agents),
+                               std::move(feasibility.vertices)};
+      return;
+    }
+    solve::Exchange<Message> alone;
+    search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone});
+  }
+
+ private:
+  const Instance& instance_;
+  const SolveOptions& options_;
+  const Tuner& tuner_;
+};
 
 }  // namespace
-
-SolveOutcome solve_alone(const Instance& instance, const SolveOptions& options, const Tuner& tuner,
-                         Companion* companion) {
-  SolveOutcome outcome;
-  LimitMonitor limits(options.limits, companion != nullptr ? companion->account() : nullptr);
-  if (companion != nullptr) limits.set_cancel(&companion->cancelled());
-  try {
-    answer(instance, options, tuner(options), limits, companion, outcome);
-  } catch (const LimitReached&) {  // before there was anything to tell
-  } catch (const std::bad_alloc&) {
-    outcome.status = Status::unknown;
-    outcome.plan.reset();
-    outcome.cost.reset();
-    outcome.stop = StopReason::memory;
-  }
-  if (outcome.status == Status::feasible || outcome.status == Status::unknown) {
-    if (outcome.stop == StopReason::none) outcome.stop = limits.reason();
-    if (outcome.status == Status::unknown || outcome.stop == StopReason::none)
-      outcome.explanation = stop_text(outcome.stop);
-  } else {
-    outcome.stop = StopReason::none;
-  }
-  if (outcome.internal_error) {
-    outcome.status = Status::unknown;
-    outcome.plan.reset();
-    outcome.cost.reset();
-    outcome.explanation = outcome.internal_error->message;
-    outcome.attribution.reset();
-    outcome.rests_on_known_bound = false;
-  }
-  if (outcome.attribution) complete(*outcome.attribution, outcome);
-  outcome.statistics.cpu_s = limits.elapsed_cpu();
-  outcome.statistics.wall_s = limits.elapsed_wall();
-  outcome.statistics.peak_rss_mib = peak_rss_mib();
-  return outcome;
-}
 
 Result<SolveOutcome> solve_tuned(const Instance& instance, const SolveOptions& options,
                                  const Tuner& tuner) {
   if (auto error = check_options(instance, options)) return *std::move(error);
-  SolveOutcome outcome = options.threads > 1 ? solve_portfolio(instance, options, tuner)
-                                             : solve_alone(instance, options, tuner, nullptr);
-  // A bound that was given wrongly is an error of the input.
-  if (outcome.internal_error && outcome.internal_error->code == ErrorCode::out_of_range)
-    return *std::move(outcome.internal_error);
-  return outcome;
+  Domain domain(instance, options, tuner);
+  return solve::Frame<Domain>(domain, options).solve();
 }
 
 Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {

@@ -149,6 +149,8 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     has_paused_ = false;
     host_.begin_solve();
     assumptions_.assign(assumptions.begin(), assumptions.end());
+    // What users do has no business inside of the solver: they have their turn between two calls.
+    const LimitMonitor::Quiet quiet(limits);
     const int answer = limits.exhausted_now() ? 0 : border_.solver([&] { return search(budget); });
     limits_ = nullptr;
     border_.rethrow();

@@ -16,6 +16,7 @@
 #include "paths/scene.hpp"
 #include "primal/first_plan.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "quadrille/core/free_bound.hpp"
 #include "quadrille/core/random.hpp"
 #include "solve/cost_run.hpp"
 #include "solve/portfolio.hpp"
@@ -23,6 +24,8 @@
 
 namespace quadrille::continuous::test {
 namespace {
+
+using solve::Settlement;
 
 Instance crowd(std::uint32_t seed, std::size_t num_agents) {
   RandomOptions random;
@@ -33,22 +36,39 @@ Instance crowd(std::uint32_t seed, std::size_t num_agents) {
   return random_instance(seed, random);
 }
 
-/// What both searches begin with. Null if the agents have no plan that is found at once.
+/// What both searches begin with. No plan if the agents have none that is found at once.
 struct Start {
-  Start(const Instance& instance, const SolveOptions& options)
-      : account(std::make_shared<ResourceAccount>()),
+  Start(const Instance& instance, const SolveOptions& the_options)
+      : options(the_options),
+        account(std::make_shared<ResourceAccount>()),
         limits(options.limits, account),
-        scene(instance, limits) {
-    for (const AgentId i : instance.agent_ids())
-      known.lower_bound = options.objective == Objective::sum_of_costs
-                              ? known.lower_bound + scene.free_cost(i)
-                              : std::max(known.lower_bound, scene.free_cost(i));
-    known.plan = find_first_plan(scene);
+        scene(instance, limits),
+        pulse(options, limits, known, true) {
+    known.prove(free_bound(instance.agent_ids(), options.objective,
+                           [&](AgentId i) { return scene.free_cost(i); }));
+    auto plan = find_first_plan(scene);
+    if (!plan) return;
+    const Cost its_cost = cost(*plan, options.objective);
+    known.take(std::make_shared<const Plan>(*std::move(plan)), its_cost);
   }
+  Settlement search(const solve::Pace& pace) {
+    search_side_by_side(scene, options, account, {limits, known, pulse, alone}, pace);
+    return settle(known, options.gap_percent);
+  }
+  Settlement search_beside(Exchange& exchange) {
+    solve::run_guarded(known, limits, [&] {
+      search_costs(scene, options, {limits, known, pulse, exchange});
+    });
+    return settle(known, options.gap_percent);
+  }
+
+  const SolveOptions& options;
   std::shared_ptr<ResourceAccount> account;
   LimitMonitor limits;
   Scene scene;
-  CostReport known;
+  Knowledge known;
+  solve::Pulse<Plan> pulse;
+  Exchange alone;
 };
 
 struct Case {
@@ -102,18 +122,17 @@ TEST(ContinuousThreads, FindWhatOneThreadFinds) {
       if (random.below(2) == 0) options.debug.known_plan = c.truth.plan;
       num_known += options.debug.known_plan && !options.debug.audit ? 1 : 0;
       Start start(c.instance, options);
-      const Pace pace{static_cast<std::int64_t>(100 + random.below(20'000)),
-                      static_cast<std::int64_t>(random.below(4))};
-      const SolveOutcome outcome =
-          search_side_by_side(start.scene, options, start.known, start.limits, start.account, pace);
-      ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
-      ASSERT_EQ(outcome.status, Status::optimal);
-      EXPECT_EQ(outcome.lower_bound, c.truth.cost);
-      EXPECT_EQ(outcome.cost, c.truth.cost);
-      ASSERT_TRUE(outcome.plan);
-      const VerifyReport replay = verify(c.instance, *outcome.plan);
+      const solve::Pace pace{static_cast<std::int64_t>(100 + random.below(20'000)),
+                             static_cast<std::int64_t>(random.below(4))};
+      const Settlement settled = start.search(pace);
+      ASSERT_FALSE(settled.error) << settled.error->message;
+      ASSERT_EQ(settled.status, Status::optimal);
+      EXPECT_EQ(start.known.lower(), c.truth.cost);
+      EXPECT_EQ(start.known.cost, c.truth.cost);
+      ASSERT_TRUE(start.known.plan);
+      const VerifyReport replay = verify(c.instance, *start.known.plan);
       ASSERT_TRUE(replay.valid());
-      EXPECT_EQ(cost(*outcome.plan, options.objective), c.truth.cost);
+      EXPECT_EQ(cost(*start.known.plan, options.objective), c.truth.cost);
       ++num_compared;
     }
   }
@@ -127,46 +146,48 @@ TEST(ContinuousThreads, FiveRunsGiveTheSameAnswer) {
     SolveOptions options;
     options.threads = threads;
     options.limits.conflicts = 150;
-    std::optional<SolveOutcome> first;
+    std::optional<Knowledge> first;
+    std::optional<Status> first_status;
     for (int run = 0; run < 5; ++run) {
       Start start(instance, options);
-      SolveOutcome outcome = search_side_by_side(start.scene, options, start.known, start.limits,
-                                                 start.account, {5000, 2});
-      ASSERT_TRUE(outcome.plan);
-      ASSERT_TRUE(verify(instance, *outcome.plan).valid());
+      const Status status = start.search({5000, 2}).status;
+      const Knowledge& known = start.known;
+      ASSERT_TRUE(known.plan);
+      ASSERT_TRUE(verify(instance, *known.plan).valid());
       if (!first) {
-        first = std::move(outcome);
+        first = known;
+        first_status = status;
         continue;
       }
-      EXPECT_EQ(outcome.status, first->status);
-      EXPECT_EQ(outcome.cost, first->cost);
-      EXPECT_EQ(outcome.lower_bound, first->lower_bound);
-      EXPECT_EQ(*outcome.plan, *first->plan);
-      EXPECT_EQ(outcome.statistics.conflicts, first->statistics.conflicts);
-      EXPECT_EQ(outcome.statistics.cores, first->statistics.cores);
+      EXPECT_EQ(status, first_status);
+      EXPECT_EQ(known.cost, first->cost);
+      EXPECT_EQ(known.lower(), first->lower());
+      EXPECT_EQ(*known.plan, *first->plan);
+      EXPECT_EQ(known.statistics.conflicts, first->statistics.conflicts);
+      EXPECT_EQ(known.statistics.cores, first->statistics.cores);
     }
   }
 }
 
 /// Others who know something after some time.
-class Prompter final : public Companion {
+class Prompter final : public Exchange {
  public:
-  Prompter(Role role, std::uint64_t silence, News news)
-      : role_(role), silence_(silence), news_(std::move(news)) {}
-  std::size_t worker() const override { return 0; }
+  Prompter(Role role, std::uint64_t silence, Message message)
+      : role_(role), silence_(silence), message_(std::move(message)) {}
+  bool has_others() const override { return true; }
   Role role() const override { return role_; }
-  std::optional<News> on_effort(std::int64_t, const std::function<News()>& tell) override {
-    const News told = tell();
+  std::optional<Message> arrive(std::int64_t, const std::function<Message()>& tell) override {
+    const Message told = tell();
     lower_ = std::max(lower_, told.lower);
-    if (++num_calls_ < silence_) return News();
-    return news_;
+    if (++num_calls_ < silence_) return Message();
+    return message_;
   }
   [[nodiscard]] Cost lower() const { return lower_; }
 
  private:
   const Role role_;
   const std::uint64_t silence_;
-  const News news_;
+  const Message message_;
   std::uint64_t num_calls_ = 0;
   Cost lower_ = 0;
 };
@@ -177,26 +198,25 @@ TEST(ContinuousThreads, WhatIsHeardNeverWorsensTheAnswer) {
   for (Case& c : cases(support::scaled(40))) {
     SCOPED_TRACE(describe(c.instance));
     for (const Role role : {Role::all, Role::bound, Role::plans, Role::cores}) {
-      News news;
+      Message message;
       if (random.below(2) == 0) {
-        news.plan = std::make_shared<const Plan>(*c.truth.plan);
-        news.cost = *c.truth.cost;
+        message.plan = std::make_shared<const Plan>(*c.truth.plan);
+        message.cost = *c.truth.cost;
         // No plan is cheaper than this one: so every core holds in those that are.
         const AgentId i(random.below(c.instance.num_agents()));
         if (random.below(2) == 0)
-          news.cores.push_back(
+          message.extra.all.push_back(
               {1, {std::make_shared<const LevelCore>(LevelCore{{i, *c.truth.cost * 2}})}});
       }
-      if (random.below(2) == 0) news.lower = *c.truth.cost - static_cast<Cost>(random.below(2));
-      Prompter prompter(role, random.below(8), news);
+      if (random.below(2) == 0) message.lower = *c.truth.cost - static_cast<Cost>(random.below(2));
+      Prompter prompter(role, random.below(8), message);
       Start start(c.instance, c.options);
-      const SolveOutcome outcome =
-          search_alone(start.scene, c.options, start.known, start.limits, &prompter);
-      ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
+      const Settlement settled = start.search_beside(prompter);
+      ASSERT_FALSE(settled.error) << settled.error->message;
       EXPECT_LE(prompter.lower(), *c.truth.cost);
-      ASSERT_EQ(outcome.status, Status::optimal);
-      EXPECT_EQ(outcome.cost, c.truth.cost);
-      EXPECT_TRUE(verify(c.instance, *outcome.plan).valid());
+      ASSERT_EQ(settled.status, Status::optimal);
+      EXPECT_EQ(start.known.cost, c.truth.cost);
+      EXPECT_TRUE(verify(c.instance, *start.known.plan).valid());
     }
   }
 }
@@ -204,13 +224,11 @@ TEST(ContinuousThreads, WhatIsHeardNeverWorsensTheAnswer) {
 TEST(ContinuousThreads, ABoundAboveAPlanIsAnInternalError) {
   const auto found = cases(5);
   for (const Case& c : found) {
-    News news;
-    news.lower = 2 * *c.truth.cost;
-    Prompter prompter(Role::bound, 0, news);
+    Message message;
+    message.lower = 2 * *c.truth.cost;
+    Prompter prompter(Role::bound, 0, message);
     Start start(c.instance, c.options);
-    const SolveOutcome outcome =
-        search_alone(start.scene, c.options, start.known, start.limits, &prompter);
-    EXPECT_TRUE(outcome.internal_error);
+    EXPECT_TRUE(start.search_beside(prompter).error);
   }
   EXPECT_EQ(found.size(), 5U);
 }

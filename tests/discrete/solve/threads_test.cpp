@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,10 +9,11 @@
 #include <optional>
 #include <utility>
 
-#include "quadrille/core/portfolio.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/discrete/verify.hpp"
-#include "solve/portfolio.hpp"
+#include "solve/desk.hpp"
+#include "solve/search.hpp"
+#include "solve/tuning.hpp"
 #include "support/case_text.hpp"
 #include "support/environment.hpp"
 #include "support/generators.hpp"
@@ -81,35 +81,44 @@ TEST(Threads, TheGapIsThatOfAllTogether) {
 }
 
 /// Others who know a plan and a bound after some time.
-class Prompter final : public Companion {
+class Prompter final : public solve::Exchange<Message> {
  public:
-  Prompter(Role role, int silence, News news)
-      : role_(role), silence_(silence), news_(std::move(news)) {}
+  Prompter(Role role, int silence, Message message)
+      : role_(role), silence_(silence), message_(std::move(message)) {}
+  bool has_others() const override { return true; }
   Role role() const override { return role_; }
-  std::optional<News> on_effort(std::int64_t, const std::function<News()>& tell) override {
-    const News told = tell();
+  std::optional<Message> arrive(std::int64_t, const std::function<Message()>& tell) override {
+    const Message told = tell();
     lower_ = std::max(lower_, told.lower);
-    if (++num_calls_ < silence_) return News();
-    return news_;
-  }
-  const std::atomic<bool>& cancelled() const override { return cancelled_; }
-  std::shared_ptr<ResourceAccount> account() const override { return account_; }
-  std::shared_ptr<const GoalDistances> distances(LimitMonitor& limits) override {
-    return GoalDistances::make(*instance, limits);
+    if (++num_calls_ < silence_) return Message();
+    return message_;
   }
   [[nodiscard]] Cost lower() const { return lower_; }
-
-  const Instance* instance = nullptr;
 
  private:
   const Role role_;
   const int silence_;
-  const News news_;
+  const Message message_;
   int num_calls_ = 0;
   Cost lower_ = 0;
-  const std::atomic<bool> cancelled_ = false;
-  const std::shared_ptr<ResourceAccount> account_ = std::make_shared<ResourceAccount>();
 };
+
+struct Found {
+  Knowledge known;
+  solve::Settlement settled;
+};
+
+Found search_beside(Prompter& prompter, const Instance& instance, const SolveOptions& options) {
+  Found found;
+  LimitMonitor limits(options.limits);
+  solve::Pulse<Plan> pulse(options, limits, found.known, true);
+  solve::run_guarded(found.known, limits, [&] {
+    search(instance, options, tuner_for(instance)(options), {limits, found.known, pulse, prompter},
+           [&](LimitMonitor& own) { return GoalDistances::make(instance, own); });
+  });
+  found.settled = settle(found.known, options.gap_percent);
+  return found;
+}
 
 // A plan or a bound that comes from elsewhere, at any moment, never makes the answer worse.
 TEST(Threads, WhatIsHeardNeverWorsensTheAnswer) {
@@ -121,36 +130,35 @@ TEST(Threads, WhatIsHeardNeverWorsensTheAnswer) {
       const auto truth = support::joint_search(instance, objective);
       if (truth.status != Status::optimal) continue;
       LimitMonitor limits{Limits{}};
-      News news;
+      Message message;
       if (random.percent(70)) {
         const auto plan = find_plan(instance, limits, static_cast<std::uint32_t>(round));
         ASSERT_TRUE(plan);
-        news.cost = plan->cost(objective);
-        news.plan = std::make_shared<const Plan>(*plan);
-        if (random.percent(50)) news.draft = news.plan;
+        message.cost = plan->cost(objective);
+        message.plan = std::make_shared<const Plan>(*plan);
+        if (random.percent(50)) message.extra.paths = message.plan;
       }
-      if (random.percent(50)) news.lower = truth.cost - static_cast<Cost>(random.below(2));
-      news.others_ended = true;
+      if (random.percent(50)) message.lower = truth.cost - static_cast<Cost>(random.below(2));
+      message.others_ended = true;
       SolveOptions options;
       options.objective = objective;
       const Role role = random.percent(30)   ? Role::plans
                         : random.percent(50) ? Role::bound
-                                             : Role::both;
-      Prompter prompter(role, static_cast<int>(random.below(6)), news);
-      prompter.instance = &instance;
-      const SolveOutcome outcome = solve_alone(instance, options, tuner_for(instance), &prompter);
-      ASSERT_FALSE(outcome.internal_error) << instance_text(instance);
+                                             : Role::all;
+      Prompter prompter(role, static_cast<int>(random.below(6)), message);
+      const Found found = search_beside(prompter, instance, options);
+      ASSERT_FALSE(found.settled.error) << instance_text(instance);
       EXPECT_LE(prompter.lower(), truth.cost) << instance_text(instance);
-      EXPECT_LE(outcome.lower_bound, truth.cost) << instance_text(instance);
-      ASSERT_TRUE(outcome.plan) << instance_text(instance);
-      ASSERT_TRUE(verify(instance, *outcome.plan).valid());
-      if (outcome.status == Status::optimal) {
-        EXPECT_EQ(outcome.cost, truth.cost);
+      EXPECT_LE(found.known.lower(), truth.cost) << instance_text(instance);
+      ASSERT_TRUE(found.known.plan) << instance_text(instance);
+      ASSERT_TRUE(verify(instance, *found.known.plan).valid());
+      if (found.settled.status == Status::optimal) {
+        EXPECT_EQ(found.known.cost, truth.cost);
       }
       if (role == Role::plans) continue;
       ++num_heard;
-      EXPECT_EQ(outcome.status, Status::optimal) << instance_text(instance);
-      EXPECT_EQ(outcome.cost, truth.cost) << instance_text(instance);
+      EXPECT_EQ(found.settled.status, Status::optimal) << instance_text(instance);
+      EXPECT_EQ(found.known.cost, truth.cost) << instance_text(instance);
     }
   }
   EXPECT_GE(num_heard, scaled(300));
@@ -159,38 +167,35 @@ TEST(Threads, WhatIsHeardNeverWorsensTheAnswer) {
 // Who looks for plans knows itself when its plan is good enough, and does not wait for the others.
 TEST(Threads, WhoMakesPlansEndsAtTheGap) {
   const Instance instance = crowd(14, 75, 4);
-  News news;
+  Message message;
   for (const AgentId i : instance.agent_ids())
-    news.lower +=
+    message.lower +=
         distances_from(instance.graph(), instance.agents()[i].goal)[instance.agents()[i].start];
-  Prompter prompter(Role::plans, 0, news);
-  prompter.instance = &instance;
+  Prompter prompter(Role::plans, 0, message);
   SolveOptions options;
   options.gap_percent = 20;
   options.limits.looks = 1'000'000;
-  const SolveOutcome outcome = solve_alone(instance, options, tuner_for(instance), &prompter);
-  EXPECT_EQ(outcome.stop, StopReason::gap);
-  ASSERT_TRUE(outcome.plan);
-  EXPECT_TRUE(is_proof(outcome));
-  EXPECT_TRUE(is_within_gap(options.gap_percent, *outcome.cost, outcome.lower_bound));
+  const Found found = search_beside(prompter, instance, options);
+  EXPECT_EQ(found.settled.stop, StopReason::gap);
+  ASSERT_TRUE(found.known.plan);
+  EXPECT_TRUE(is_proof(found.known, options.gap_percent));
+  EXPECT_TRUE(is_within_gap(options.gap_percent, *found.known.cost, found.known.lower()));
 }
 
 TEST(Threads, ABoundAboveAPlanIsAnInternalError) {
   const Instance instance = crowd(6, 5, 1);
-  News news;
-  news.lower = 100'000;
-  for (const Role role : {Role::plans, Role::both}) {
-    news.others_ended = true;
-    Prompter prompter(role, 0, news);
-    prompter.instance = &instance;
-    const SolveOutcome outcome = solve_alone(instance, {}, tuner_for(instance), &prompter);
-    if (role == Role::both && !outcome.internal_error) {
+  Message message;
+  message.lower = 100'000;
+  for (const Role role : {Role::plans, Role::all}) {
+    message.others_ended = true;
+    Prompter prompter(role, 0, message);
+    const solve::Settlement settled = search_beside(prompter, instance, {}).settled;
+    if (role == Role::all && !settled.error) {
       // It was over before it heard of it.
-      EXPECT_EQ(outcome.status, Status::optimal);
+      EXPECT_EQ(settled.status, Status::optimal);
       continue;
     }
-    EXPECT_TRUE(outcome.internal_error);
-    EXPECT_FALSE(outcome.plan);
+    EXPECT_TRUE(settled.error);
   }
 }
 

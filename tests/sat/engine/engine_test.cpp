@@ -182,6 +182,21 @@ TEST(Engine, StopsAtEachLimitAndNamesIt) {
   EXPECT_EQ(engine.solve({}, unlimited, {50, {}}), Verdict::unknown);
 }
 
+// What users do has no business inside of the solver.
+TEST(Engine, HasNoPulseWhileItSolves) {
+  Engine engine(nullptr);
+  add_pigeons(engine, 8);
+  LimitMonitor limits{Limits{}};
+  int num_beats = 0;
+  limits.set_pulse([&] { ++num_beats; });
+  SolveBudget budget;
+  budget.conflicts = 500;
+  EXPECT_EQ(engine.solve({}, limits, budget), Verdict::unknown);
+  EXPECT_EQ(num_beats, 0);
+  static_cast<void>(limits.exhausted_now());
+  EXPECT_EQ(num_beats, 1);
+}
+
 TEST(Engine, PausesWithTheSearchsStackWhenEffortIsUsedUp) {
   /// Agrees with everything and keeps what is assigned.
   struct Silent final : Theory {

@@ -75,6 +75,18 @@ class LimitMonitor {
   /// To be called whenever the monitor looks at the wall clock, until a limit is met; what it
   /// throws comes out of who asked. Empty: nothing.
   void set_pulse(std::function<void()> pulse) { pulse_ = std::move(pulse); }
+  /// As long as it lives the monitor has no pulse: for what must not be left by an exception of a
+  /// user, nor entered again by what a user does.
+  class Quiet {
+   public:
+    explicit Quiet(LimitMonitor& monitor) noexcept : monitor_(monitor) { ++monitor.num_quiet_; }
+    ~Quiet() { --monitor_.num_quiet_; }
+    Quiet(const Quiet&) = delete;
+    Quiet& operator=(const Quiet&) = delete;
+
+   private:
+    LimitMonitor& monitor_;
+  };
   /// From now on, and if no limit was met before, the search has to stop for that reason.
   void stop(StopReason reason) noexcept;
 
@@ -98,6 +110,7 @@ class LimitMonitor {
   std::int64_t conflicts_ = 0;
   std::int64_t calls_ = 0;
   StopReason reason_ = StopReason::none;
+  int num_quiet_ = 0;
 };
 
 }  // namespace quadrille

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string_view>
 
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
-#include "quadrille/core/limits.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -33,41 +31,6 @@ struct Progress {
   std::optional<Cost> cost;  ///< Of the best plan so far.
   double elapsed_s = 0;
   std::int64_t conflicts = 0;
-};
-
-/// Tells of a solve when a phase begins, and about once in an interval as long as its monitor is
-/// asked; nothing more once the callback has thrown. To be used by the thread that made it.
-class ProgressReporter {
- public:
-  /// `callback` may be empty. As long as this lives it is the pulse of `limits`, and so whatever
-  /// `callback` throws comes out of whoever asks these. The arguments outlive this.
-  ProgressReporter(const std::function<void(const Progress&)>& callback, double interval_s,
-                   LimitMonitor& limits);
-  ~ProgressReporter();
-  ProgressReporter(const ProgressReporter&) = delete;
-  ProgressReporter& operator=(const ProgressReporter&) = delete;
-
-  /// Tells it at once.
-  void enter(Phase phase);
-  /// To be told from now on.
-  void know(Cost lower_bound, std::optional<Cost> cost) noexcept {
-    lower_bound_ = lower_bound;
-    cost_ = cost;
-  }
-  /// To be called where the monitor is asked too rarely.
-  void tell_if_due();
-
- private:
-  void tell();
-
-  const std::function<void(const Progress&)>& callback_;
-  const double interval_s_;
-  LimitMonitor& limits_;
-  Phase phase_ = Phase::set_up;
-  Cost lower_bound_ = 0;
-  std::optional<Cost> cost_;
-  double next_s_ = 0;
-  bool is_told_ = false;  // now
 };
 
 }  // namespace quadrille

@@ -3,19 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "quadrille/core/attribution.hpp"
 #include "quadrille/core/export.hpp"
-#include "quadrille/core/limits.hpp"
-#include "quadrille/core/outcome.hpp"
-#include "quadrille/core/progress.hpp"
+#include "quadrille/core/request.hpp"
 #include "quadrille/core/result.hpp"
-#include "quadrille/core/statistics.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
 
@@ -92,77 +87,24 @@ struct LazyOptions {
   std::optional<bool> chronological;
 };
 
-/// Checks of the solver's own work. An error of the program then ends in an internal error instead
-/// of a wrong answer. Slow.
-struct DebugOptions {
-  /// Derive every lemma again from what it rests on, by other means.
-  bool audit = false;
-  /// A valid plan. Every clause is checked to allow it; no clause may exclude a valid plan.
-  std::optional<Plan> known_plan;
-};
+using DebugOptions = DebugRequest<Plan>;
 
-struct SolveOptions {
-  Objective objective = Objective::sum_of_costs;
+/// With more than one thread the first search raises the lower bound, the second makes plans (with
+/// first_plan), further ones search with other systems.
+struct SolveOptions : Request<Plan> {
   System system = System::dpll;
   /// For the sum of costs; the makespan is always searched upwards. Absent: core-guided for dpll,
   /// iterative for the published systems.
   std::optional<CostSearch> cost_search;
   MddOptions mdd;
   LazyOptions lazy;
-  Limits limits;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
   bool first_plan = true;
-  /// A plan to begin with, so that no first one is looked for: the answer costs no more, whenever
-  /// a limit ends the search. It has to be valid.
-  std::optional<Plan> initial_plan;
-  /// No plan costs less: known from elsewhere, such as an earlier solve. At least 0. The search
-  /// begins from it, and what rests on it alone says so: SolveOutcome::rests_on_known_bound.
-  std::optional<Cost> known_lower_bound;
-  /// Stop when the plan costs at most this many per cent more than the proven lower bound, see
-  /// quadrille/core/outcome.hpp. Not negative.
-  std::optional<double> gap_percent;
-  std::uint32_t seed = 0;  ///< 0 .. 2'000'000'000
-  /// More than one: that many searches side by side. The first raises the lower bound, the second
-  /// makes plans (with first_plan), further ones search with other systems. They exchange bounds
-  /// and plans; the first proof is the answer. 1 .. 64.
-  std::size_t threads = 1;
-  /// With several threads, exchange at once and take the proof that comes first in time. Otherwise
-  /// both go by steps, so that the answer is always the same.
-  bool race = false;
-  /// Called on the solving thread when a phase begins, and else about once in `progress_interval_s`
-  /// seconds. May be empty. What it throws ends the search and comes out of `solve`.
-  std::function<void(const Progress&)> on_progress;
-  double progress_interval_s = 0.25;  ///< At least 0.
-  /// Called on the solving thread with the best plan so far, if it is cheaper than at the last
-  /// call, at most once in `plan_interval_s` seconds; the answer may be better still. May be empty.
-  /// What it throws ends the search and comes out of `solve`.
-  std::function<void(const Plan&)> on_plan;
-  double plan_interval_s = 1;  ///< At least 0.
-  /// Say what the lower bound is made of: SolveOutcome::attribution. For dpll, with one thread. The
-  /// search is the same.
-  bool explain = false;
-  DebugOptions debug;
 };
 
-struct SolveOutcome {
-  Status status = Status::unknown;
-  /// Present for optimal and feasible, trimmed and verified.
-  std::optional<Plan> plan;
-  std::optional<Cost> cost;  ///< Of `plan`.
-  Cost lower_bound = 0;      ///< Proven, for every status but infeasible.
-  /// `lower_bound` is SolveOptions::known_lower_bound, and less than that was proved; an optimal
-  /// plan is optimal only if no plan costs less than that.
-  bool rests_on_known_bound = false;
-  StopReason stop = StopReason::none;
-  std::string explanation;  ///< For infeasible: why. For unknown: what stopped the search.
-  Statistics statistics;
-  /// With `explain`, for every status but infeasible; absent if a limit was met before the free
-  /// costs were known.
-  std::optional<Attribution> attribution;
-  /// A check of the program's own work failed; status is unknown then.
-  std::optional<Error> internal_error;
-};
+/// Infeasible: see Feasibility. `explain` is for dpll.
+using SolveOutcome = Outcome<Plan>;
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range

@@ -10,10 +10,9 @@
 
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/core/export.hpp"
-#include "quadrille/core/outcome.hpp"
 #include "quadrille/core/progress.hpp"
+#include "quadrille/core/request.hpp"
 #include "quadrille/core/result.hpp"
-#include "quadrille/core/statistics.hpp"
 #include "quadrille/fleet/fleet.hpp"
 #include "quadrille/fleet/timed_plan.hpp"
 
@@ -40,11 +39,8 @@ struct Progress {
 };
 
 /// As continuous::SolveOptions, where more is said.
-struct SolveOptions {
-  Objective objective = Objective::sum_of_costs;
+struct SolveOptions : Choices {
   Limits limits = {};
-  /// Stop when the plan costs at most this many per cent more than the proven lower bound.
-  std::optional<double> gap_percent = {};
   /// A plan to begin with, so that no first one is looked for: the answer costs no more, whenever a
   /// limit ends the search. It is verified first. One that was made for other roads or tasks will
   /// do if it is a plan of this fleet, too; one in whole units becomes one by TimedPlan::make.
@@ -52,10 +48,8 @@ struct SolveOptions {
   /// No plan costs less: known from elsewhere, such as an earlier solve. What rests on it alone
   /// says so. In ticks, it is rounded down.
   std::optional<Seconds> known_lower_bound = {};
-  std::uint32_t seed = 0;   ///< 0 .. 2'000'000'000
-  std::size_t threads = 1;  ///< 1 .. kMaxThreads
-  /// Called on the solving thread when a phase begins, and else about once in so many seconds; what
-  /// it throws ends the search and comes out of `solve`. May be empty.
+  /// Called on the solving thread when a phase begins, and else about once in so many seconds, as
+  /// Request says; what it throws ends the search and comes out of `solve`. May be empty.
   std::function<void(const Progress&)> on_progress = {};
   Seconds progress_interval = Seconds(0.25);
   /// Likewise with the best plan so far, if it is cheaper than at the last call, at most once in so
@@ -64,26 +58,15 @@ struct SolveOptions {
   Seconds plan_interval = Seconds(1);
 };
 
-struct SolveOutcome {
-  Status status = Status::unknown;
-  std::optional<TimedPlan> plan;  ///< Present for optimal and feasible; verified.
-  std::optional<Seconds> cost;    ///< Of `plan`, by the objective.
-  Seconds lower_bound;            ///< Proven, for every status but infeasible.
-  /// `lower_bound` is the one that was given, and less than that was proved.
-  bool rests_on_known_bound = false;
-  StopReason stop = StopReason::none;
-  /// For infeasible: why, and whether that rests on the rounding of places in the middle of moves.
-  /// For unknown: what stopped the search.
-  std::string explanation;
+/// Infeasible: the explanation also says whether that rests on the rounding of places in the middle
+/// of moves.
+struct SolveOutcome : Outcome<TimedPlan, Seconds> {
   /// What is not as it was asked for, in sentences: that durations are rounded by
   /// continuous::kNotableDurationError or more.
   std::vector<std::string> warnings;
   /// The largest relative error of the time that a robot takes for a lane that it may use, because
   /// it is rounded to whole steps: |rounded - exact| / exact.
   double duration_error = 0;
-  Statistics statistics;
-  /// A check of the program's own work failed; status is unknown then.
-  std::optional<Error> internal_error;
 
   /// One line, such as "feasible: 34.6 s, at least 33.8 s (gap 2.4 %)".
   [[nodiscard]] std::string summary() const;

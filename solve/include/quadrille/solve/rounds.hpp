@@ -14,11 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "quadrille/core/export.hpp"
-
-QUADRILLE_API_BEGIN
-
-namespace quadrille {
+namespace quadrille::solve {
 
 /// Searches in threads of their own that go through rounds of equal effort together, exchange what
 /// they know at the end of each, and agree on whose proof is the answer. What a search hears
@@ -26,15 +22,15 @@ namespace quadrille {
 /// it hears what each of the others told at its first arrival in round r - lag or later (in round r
 /// of the first, short ones).
 ///
-/// `News` is what they tell. `news.hear(other)` merges what another one told into it; its field
-/// `others_ended` becomes true for whom nobody else is at work.
-template <class News>
+/// `Message` is what they tell. `message.hear(other)` merges what another one told into it; its
+/// field `others_ended` becomes true for whom nobody else is at work.
+template <class Message>
 class Rounds {
  public:
   /// The first round ends when a worker arrives at all. Then one takes `length` steps; at first a
   /// thirty-second of it and twice as many again and again, because easy instances are over soon.
   /// With `race` nobody waits, and what is heard is what is known at the time. With a `lag` workers
-  /// wait less for each other, and news are older. Requires length >= 1, lag >= 0.
+  /// wait less for each other, and messages are older. Requires length >= 1, lag >= 0.
   Rounds(std::size_t num_workers, std::int64_t length, bool race, std::int64_t lag = 0)
       : length_(length), race_(race), lag_(lag), workers_(num_workers) {}
 
@@ -42,15 +38,15 @@ class Rounds {
 
   /// A worker has done `effort` steps in all. Within a round this returns nullopt at once; at the
   /// end of one it publishes `tell()`, waits for the others and returns what they told, merged.
-  [[nodiscard]] std::optional<News> arrive(std::size_t worker, std::int64_t effort,
-                                           const std::function<News()>& tell) {
+  [[nodiscard]] std::optional<Message> arrive(std::size_t worker, std::int64_t effort,
+                                              const std::function<Message()>& tell) {
     Worker& me = workers_[worker];
     const std::int64_t round = round_of(effort);
     if (round == me.round) return std::nullopt;  // Nobody else changes it.
-    News news = tell();
+    Message message = tell();
     std::unique_lock lock(mutex_);
     me.round = round;
-    me.told.push_back({me.round, std::move(news)});
+    me.told.push_back({me.round, std::move(message)});
     forget();
     decide();
     changed_.notify_all();
@@ -64,7 +60,7 @@ class Rounds {
     return heard_by(worker);
   }
   /// A worker does nothing more. With `has_proof` its answer ends all others.
-  void end(std::size_t worker, bool has_proof, News last) {
+  void end(std::size_t worker, bool has_proof, Message last) {
     const std::lock_guard lock(mutex_);
     Worker& me = workers_[worker];
     me.has_ended = true;
@@ -90,13 +86,13 @@ class Rounds {
   static constexpr std::int64_t kDoublings = 5;
   struct Told {
     std::int64_t round;
-    News news;
+    Message message;
   };
   struct Worker {
     std::int64_t round = 0;
     bool has_ended = false, has_proof = false;
     std::deque<Told> told;  // What somebody may still have to hear.
-    News last;
+    Message last;
   };
 
   /// Rounds end at length / 32, length / 16, ..., length, 2 length, 3 length, ...
@@ -106,7 +102,7 @@ class Rounds {
     return 1 + static_cast<std::int64_t>(std::bit_width(part));
   }
 
-  /// The round whose news are heard at the end of a round.
+  /// The round whose messages are heard at the end of a round.
   [[nodiscard]] std::int64_t heard_from(std::int64_t round) const {
     return std::max(round - lag_, std::min(round, 2 + kDoublings));
   }
@@ -136,25 +132,25 @@ class Rounds {
         w.told.pop_front();
   }
 
-  [[nodiscard]] News heard_by(std::size_t listener) const {
-    News heard;
+  [[nodiscard]] Message heard_by(std::size_t listener) const {
+    Message heard;
     heard.others_ended = true;
     const std::int64_t round = heard_from(workers_[listener].round);
     for (std::size_t w = 0; w < workers_.size(); ++w) {
       if (w == listener) continue;
       const Worker& other = workers_[w];
-      const News* news = &other.last;
+      const Message* message = &other.last;
       if (race_) {
-        if (!other.has_ended && !other.told.empty()) news = &other.told.back().news;
+        if (!other.has_ended && !other.told.empty()) message = &other.told.back().message;
         if (!other.has_ended) heard.others_ended = false;
       } else {
         const auto told = std::find_if(other.told.begin(), other.told.end(),
                                        [&](const Told& t) { return t.round >= round; });
-        if (told != other.told.end()) news = &told->news;
+        if (told != other.told.end()) message = &told->message;
         // Who has come as far as that may or may not have ended by now.
         if (!other.has_ended || other.round >= round) heard.others_ended = false;
       }
-      heard.hear(*news);
+      heard.hear(*message);
     }
     return heard;
   }
@@ -169,6 +165,4 @@ class Rounds {
   std::atomic<bool> over_ = false;
 };
 
-}  // namespace quadrille
-
-QUADRILLE_API_END
+}  // namespace quadrille::solve

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "quadrille/continuous/session.hpp"
-#include "solve/inheritance.hpp"
+#include "solve/warm_start.hpp"
 
 namespace quadrille::continuous {
 
@@ -35,7 +35,7 @@ struct Situation {
 
 /// The last answers of a session, and what they say about another situation on the same roadmap.
 /// Why that is true: docs/soundness/sessions.md.
-class Episodes {
+class BoundCache {
  public:
   /// The answer for a situation.
   void add(const Situation& situation, Objective objective, const SolveOutcome& outcome);
@@ -47,20 +47,19 @@ class Episodes {
                                                             const Instance& instance) const;
 
  private:
-  struct Episode {
+  struct Answer {
     Situation situation;
     std::vector<MemberId> members;  // by agent
     Objective objective = Objective::sum_of_costs;
     std::optional<Attribution> proved;
     std::optional<Plan> plan;
   };
-  [[nodiscard]] static std::optional<GroupBound> bound_of(const Episode& episode,
+  [[nodiscard]] static std::optional<GroupBound> bound_of(const Answer& answer,
                                                           const Situation& now);
-  [[nodiscard]] static IdVector<AgentId, Path> paths_of(const Episode& episode,
-                                                        const Situation& now,
+  [[nodiscard]] static IdVector<AgentId, Path> paths_of(const Answer& answer, const Situation& now,
                                                         const Instance& instance);
 
-  std::list<Episode> episodes_;  // the last one first
+  std::list<Answer> answers_;  // the last one first
 };
 
 }  // namespace quadrille::continuous

@@ -26,7 +26,7 @@ struct Learned {
 };
 
 /// What earlier solves on the same roadmap leave to one.
-struct Inheritance {
+struct WarmStart {
   SceneStore* store = nullptr;  ///< Null, or one that has adopted the instance.
   std::vector<GroupBound> bounds;
   /// Paths of some of the agents, which obey all rules and do not collide; empty for the others.
@@ -34,11 +34,11 @@ struct Inheritance {
   Learned learned = {};
   /// Unless null: where a search by clauses leaves what it has learned, with what of `learned` it
   /// has taken up. Not touched if there is none, or if callbacks throw.
-  std::optional<Learned>* legacy = nullptr;
+  std::optional<Learned>* learned_after = nullptr;
 };
 
 /// As continuous::solve, with what is known already.
 [[nodiscard]] Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options,
-                                         const Inheritance& inheritance);
+                                         const WarmStart& warm);
 
 }  // namespace quadrille::continuous

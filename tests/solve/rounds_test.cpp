@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "quadrille/core/rounds.hpp"
+#include "quadrille/solve/rounds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/random.hpp"
 
-namespace quadrille {
+namespace quadrille::solve {
 namespace {
 
 constexpr std::int64_t kRound = 1000;
@@ -181,4 +181,4 @@ TEST(Rounds, CancelWakesWhoWaits) {
 }
 
 }  // namespace
-}  // namespace quadrille
+}  // namespace quadrille::solve

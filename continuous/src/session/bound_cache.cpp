@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/episodes.hpp"
+#include "session/bound_cache.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 namespace quadrille::continuous {
 namespace {
 
-constexpr std::size_t kMaxEpisodes = 16, kMaxDrafts = 2;
+constexpr std::size_t kMaxAnswers = 16, kMaxDrafts = 2;
 
 /// That all agents together cost at least the bound.
 Attribution undivided(std::size_t num_agents, Objective objective, Cost bound) {
@@ -43,40 +43,40 @@ bool is_open(const Instance& instance, AgentId agent, const Path& path) {
 
 }  // namespace
 
-void Episodes::add(const Situation& situation, Objective objective, const SolveOutcome& outcome) {
+void BoundCache::add(const Situation& situation, Objective objective, const SolveOutcome& outcome) {
   if (outcome.internal_error || outcome.status == Status::infeasible) return;
-  Episode episode{situation, {}, objective, {}, outcome.plan};
-  for (const auto& [member, task] : situation.tasks) episode.members.push_back(member);
+  Answer answer{situation, {}, objective, {}, outcome.plan};
+  for (const auto& [member, task] : situation.tasks) answer.members.push_back(member);
   // A bound that the user knows is no proof.
   if (!outcome.rests_on_known_bound) {
-    episode.proved = outcome.attribution;
-    if (!episode.proved && !episode.members.empty())
-      episode.proved = undivided(episode.members.size(), objective, outcome.lower_bound);
+    answer.proved = outcome.attribution;
+    if (!answer.proved && !answer.members.empty())
+      answer.proved = undivided(answer.members.size(), objective, outcome.lower_bound);
   }
-  episodes_.push_front(std::move(episode));
-  if (episodes_.size() > kMaxEpisodes) episodes_.pop_back();
+  answers_.push_front(std::move(answer));
+  if (answers_.size() > kMaxAnswers) answers_.pop_back();
 }
 
-std::vector<GroupBound> Episodes::bounds(const Situation& now, Objective objective) const {
+std::vector<GroupBound> BoundCache::bounds(const Situation& now, Objective objective) const {
   std::vector<GroupBound> bounds;
-  for (const Episode& episode : episodes_)
-    if (episode.objective == objective && episode.proved)
-      if (auto bound = bound_of(episode, now)) bounds.push_back(std::move(*bound));
+  for (const Answer& answer : answers_)
+    if (answer.objective == objective && answer.proved)
+      if (auto bound = bound_of(answer, now)) bounds.push_back(std::move(*bound));
   return bounds;
 }
 
-std::optional<GroupBound> Episodes::bound_of(const Episode& episode, const Situation& now) {
-  const auto& closed = episode.situation.closed;
+std::optional<GroupBound> BoundCache::bound_of(const Answer& answer, const Situation& now) {
+  const auto& closed = answer.situation.closed;
   // With an edge that was closed then there may be cheaper plans.
   if (!std::includes(now.closed.begin(), now.closed.end(), closed.begin(), closed.end()))
     return std::nullopt;
   /// Those who have the same task now, by agent then.
-  std::vector<std::optional<AgentId>> same(episode.members.size());
+  std::vector<std::optional<AgentId>> same(answer.members.size());
   std::size_t index = 0;
   for (const auto& [member, task] : now.tasks) {
-    const auto then = episode.situation.tasks.find(member);
-    if (then != episode.situation.tasks.end() && then->second == task)
-      same[static_cast<std::size_t>(std::distance(episode.situation.tasks.begin(), then))] =
+    const auto then = answer.situation.tasks.find(member);
+    if (then != answer.situation.tasks.end() && then->second == task)
+      same[static_cast<std::size_t>(std::distance(answer.situation.tasks.begin(), then))] =
           AgentId(index);
     ++index;
   }
@@ -84,7 +84,7 @@ std::optional<GroupBound> Episodes::bound_of(const Episode& episode, const Situa
     return std::all_of(agents.begin(), agents.end(),
                        [&](AgentId i) { return same[i.index()].has_value(); });
   };
-  const Attribution& proved = *episode.proved;
+  const Attribution& proved = *answer.proved;
   GroupBound bound;
   std::set<AgentId> group;  // then
   Cost raised = 0;
@@ -109,11 +109,11 @@ std::optional<GroupBound> Episodes::bound_of(const Episode& episode, const Situa
   return bound;
 }
 
-std::vector<IdVector<AgentId, Path>> Episodes::drafts(const Situation& now,
-                                                      const Instance& instance) const {
+std::vector<IdVector<AgentId, Path>> BoundCache::drafts(const Situation& now,
+                                                        const Instance& instance) const {
   std::vector<IdVector<AgentId, Path>> drafts;
-  for (const Episode& episode : episodes_)
-    if (episode.plan) drafts.push_back(paths_of(episode, now, instance));
+  for (const Answer& answer : answers_)
+    if (answer.plan) drafts.push_back(paths_of(answer, now, instance));
   std::erase_if(drafts, [](const auto& paths) { return num_paths(paths) == 0; });
   std::stable_sort(drafts.begin(), drafts.end(),
                    [](const auto& a, const auto& b) { return num_paths(a) > num_paths(b); });
@@ -121,17 +121,17 @@ std::vector<IdVector<AgentId, Path>> Episodes::drafts(const Situation& now,
   return drafts;
 }
 
-IdVector<AgentId, Path> Episodes::paths_of(const Episode& episode, const Situation& now,
-                                           const Instance& instance) {
+IdVector<AgentId, Path> BoundCache::paths_of(const Answer& answer, const Situation& now,
+                                             const Instance& instance) {
   IdVector<AgentId, Path> paths(instance.num_agents());
   std::size_t index = 0;
   for (const auto& [member, task] : now.tasks) {
     const AgentId i(index++);
-    const auto then = episode.situation.tasks.find(member);
-    if (then == episode.situation.tasks.end() || !(then->second == task)) continue;
+    const auto then = answer.situation.tasks.find(member);
+    if (then == answer.situation.tasks.end() || !(then->second == task)) continue;
     const AgentId then_i(
-        static_cast<std::size_t>(std::distance(episode.situation.tasks.begin(), then)));
-    Path path = episode.plan->paths[then_i];
+        static_cast<std::size_t>(std::distance(answer.situation.tasks.begin(), then)));
+    Path path = answer.plan->paths[then_i];
     // The place of one that is under way may have another number now.
     path.front().vertex = instance.agent(i).start;
     if (is_open(instance, i, path)) paths[i] = std::move(path);
