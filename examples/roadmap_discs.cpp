@@ -58,7 +58,7 @@ int main() {
   for (const Violation& violation : report.violations) std::cout << violation.message << "\n";
   for (const Clearance& clearance : report.clearances)
     std::cout << "agents " << clearance.agent.value() << " and " << clearance.other.value()
-              << (clearance.gap < 1 ? " come within a millimetre of each other\n"
-                                    : " keep more than a millimetre apart\n");
+              << " come nearest: "
+              << (clearance.gap < 1 ? "within a millimetre\n" : "more than a millimetre apart\n");
   return report.valid() ? 0 : 1;
 }

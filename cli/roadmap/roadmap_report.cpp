@@ -48,10 +48,8 @@ Json body_json(const continuous::Body& body, const continuous::Resolution& resol
 }
 
 std::optional<continuous::Clearance> least_clearance(const VerifyReport& check) {
-  const auto least = std::min_element(check.clearances.begin(), check.clearances.end(),
-                                      [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  if (least == check.clearances.end()) return std::nullopt;
-  return *least;
+  if (check.clearances.empty()) return std::nullopt;
+  return check.clearances.front();
 }
 
 /// To a thousandth of a unit of this size; the digits after that are noise.

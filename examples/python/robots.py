@@ -26,7 +26,7 @@ plan = result.plan
 if plan is not None:
     report = plan.verify()
     assert report and report.clearances is not None
-    print("least clearance", round(float(report.clearances["gap"].min()), 3), "m")
+    print("least clearance", round(float(report.clearances["gap"][0]), 3), "m")
     for path in plan:
         print(path.name, [roadmap.nodes[stop["vertex"]] for stop in path.stops], path.cost)
     print("places 10 times a second:", plan.sample(10).shape)

@@ -101,10 +101,7 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
   state.sum_of_costs = seconds(continuous::cost(plan, Objective::sum_of_costs));
   state.makespan = seconds(continuous::cost(plan, Objective::makespan));
   state.delay = seconds(all_delays);
-  const auto least =
-      std::min_element(report->clearances.begin(), report->clearances.end(),
-                       [](const Clearance& a, const Clearance& b) { return a.gap < b.gap; });
-  if (least != report->clearances.end()) state.least_clearance = *least;
+  if (!report->clearances.empty()) state.least_clearance = report->clearances.front();
   return TimedPlan(std::make_shared<const State>(std::move(state)));
 }
 

@@ -58,11 +58,12 @@ std::string message(const Fleet& fleet, const continuous::Violation& violation,
 
 }  // namespace
 
-Result<VerifyReport> verify(const Fleet& fleet, const continuous::Plan& plan) {
+Result<VerifyReport> verify(const Fleet& fleet, const continuous::Plan& plan,
+                            std::size_t num_clearances) {
   const auto instance = fleet.instance();
   if (!instance) return instance.error();
   const continuous::Resolution& resolution = instance->resolution();
-  const continuous::VerifyReport found = continuous::verify(*instance, plan);
+  const continuous::VerifyReport found = continuous::verify(*instance, plan, num_clearances);
   VerifyReport report;
   for (const continuous::Violation& violation : found.violations) {
     const Seconds time = in_seconds(violation.tick, resolution);

@@ -419,10 +419,17 @@ class TimedPlan(Plan):
         columns.update((name, stops[name]) for name in self._stop.names or ())
         return columns
 
-    def verify(self) -> Report:
+    def verify(self, num_clearances: Optional[int] = 1) -> Report:
+        """Replays the plan over all time.
+
+        Args:
+            num_clearances: how many pairs of agents that come nearest are told; None for all pairs.
+        """
         fleet = self._fleet
         instance = cast(_core.TimedInstance, fleet._instance)
-        violations, sum_of_costs, makespan, (pairs, gaps) = instance.verify(self._plan)
+        violations, sum_of_costs, makespan, (pairs, gaps) = instance.verify(
+            self._plan, num_clearances
+        )
         clearances = np.empty(
             len(pairs), dtype=[("agent", "i4"), ("other", "i4"), ("gap", "f8"), ("time", "f8")]
         )

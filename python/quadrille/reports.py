@@ -33,8 +33,9 @@ class Report:
     """In timesteps, or in your unit of time; meaningful for valid plans."""
     makespan: float
     clearances: Optional[npt.NDArray[Any]] = None
-    """On roadmaps, per pair of agents: (agent, other, gap, time), the least distance between the
-    bodies over all time, in your unit of length, and a moment at which it is that small."""
+    """On roadmaps, of the pairs of agents that come nearest, nearest first: (agent, other, gap, time),
+    the least distance between the bodies over all time, in your unit of length, and a moment at
+    which it is that small."""
 
     @property
     def valid(self) -> bool:

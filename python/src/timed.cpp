@@ -72,12 +72,13 @@ py::dict solve_timed(const TimedInstance& self, const py::dict& arguments) {
 
 /// (violations, sum of costs, makespan, clearances); a violation is (kind, agent, other, tick,
 /// message), clearances are (agents int32[k, 2], gap and tick float64[k, 2]).
-py::tuple verify_timed(const TimedInstance& self, const Plan& plan) {
+py::tuple verify_timed(const TimedInstance& self, const Plan& plan,
+                       std::optional<std::size_t> num_clearances) {
   const Instance& instance = self.instance();
   continuous::VerifyReport report;
   {
     const py::gil_scoped_release release;
-    report = verify(instance, plan);
+    report = verify(instance, plan, num_clearances.value_or(continuous::kAllClearances));
   }
   py::list violations;
   for (const continuous::Violation& violation : report.violations)

@@ -209,7 +209,7 @@ TEST(TimedPlan, ClearancesOfSolvedFleetsAreWhatTheSamplesShow) {
     const auto outcome = continuous::solve(*instance, options).value();
     if (!outcome.plan) continue;
     const TimedPlan plan = TimedPlan::make(fleet, *outcome.plan).value();
-    const VerifyReport report = verify(fleet, *outcome.plan).value();
+    const VerifyReport report = verify(fleet, *outcome.plan, continuous::kAllClearances).value();
     Seconds sum, most, delay;
     for (const AgentId i : plan.robot_ids()) {
       sum += plan[i].cost();

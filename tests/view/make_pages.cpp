@@ -270,7 +270,7 @@ void make_continuous(const std::string& name, std::uint32_t seed, bool in_space)
                                  drawn.obstacles())
           .value();
   const continuous::Plan plan = random_plan(draw, instance);
-  const auto report = verify(instance, plan);
+  const auto report = verify(instance, plan, continuous::kAllClearances);
   save(name + ".html", page(instance, plan, {}));
   Json expected;
   expected["title"] = "Plan of " + std::to_string(instance.num_agents()) + " agents";

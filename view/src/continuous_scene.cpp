@@ -98,10 +98,6 @@ void add_report(const continuous::VerifyReport& report, Scene& scene) {
   scene.makespan = report.makespan;
   for (const continuous::Clearance& c : report.clearances)
     scene.nearest.push_back({c.agent.index(), c.other.index(), c.gap, c.tick});
-  std::sort(scene.nearest.begin(), scene.nearest.end(), [](const Nearness& a, const Nearness& b) {
-    return std::tie(a.gap, a.agent, a.other) < std::tie(b.gap, b.agent, b.other);
-  });
-  if (scene.nearest.size() > kMostNearest) scene.nearest.resize(kMostNearest);
   for (const Violation& violation : report.violations) {
     // A collision is best looked at where the two are nearest.
     const double time = violation.nearest.value_or(static_cast<double>(violation.tick.count()));
@@ -147,7 +143,7 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
       shown.stops.push_back({position_of(stop.at), stop.arrive.count(), stop.depart.count()});
     scene.obstacles.push_back(std::move(shown));
   }
-  add_report(verify(instance, plan), scene);
+  add_report(verify(instance, plan, kMostNearest), scene);
   return scene;
 }
 

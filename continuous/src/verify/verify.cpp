@@ -4,40 +4,16 @@
 #include "quadrille/continuous/verify.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <iterator>
 #include <limits>
 #include <utility>
 
-#include "quadrille/continuous/quantise.hpp"
-#include "verify/footprints.hpp"
+#include "verify/replay.hpp"
 
 namespace quadrille::continuous {
 namespace {
 
 using Kind = Violation::Kind;
-
-/// A stretch of a path along which the agent goes straight, or stands (from == to).
-struct Piece {
-  Ticks begin, end;
-  Point from, to;
-  VertexId start, goal;
-};
-
-std::string agent_name(AgentId i) { return "agent " + std::to_string(i.index()); }
-
-/// A number in few digits.
-std::string number(double value, int digits) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::general, digits);
-  return {text.data(), end.ptr};
-}
-
-/// A time as the input of the instance counts.
-std::string time_text(const Instance& instance, Ticks ticks) {
-  return number(in_input_units(ticks, instance.resolution()), 15);
-}
 
 class PathCheck {
  public:
@@ -132,198 +108,6 @@ class PathCheck {
   std::vector<Violation>& violations_;
 };
 
-/// The path as pieces without gaps; the last one ends at `horizon`, which is after every arrival,
-/// or with the path if the agent leaves.
-std::vector<Piece> pieces(const Roadmap& roadmap, const Path& path, bool leaves, Ticks horizon) {
-  std::vector<Piece> result;
-  for (std::size_t k = 0; k < path.size(); ++k) {
-    const Point at = roadmap.position(path[k].vertex);
-    const bool is_last = k + 1 == path.size();
-    const Ticks depart = is_last && !leaves ? horizon : path[k].depart;
-    if (depart > path[k].arrive)
-      result.push_back({path[k].arrive, depart, at, at, path[k].vertex, path[k].vertex});
-    if (!is_last)
-      result.push_back({path[k].depart, path[k + 1].arrive, at,
-                        roadmap.position(path[k + 1].vertex), path[k].vertex, path[k + 1].vertex});
-  }
-  return result;
-}
-
-/// Where b is as seen from a, at `begin` and at `end`, in floating point.
-RealStep real_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
-  const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) {
-    return static_cast<long double>((p.from.*axis).count()) +
-           static_cast<long double>((p.to.*axis - p.from.*axis).count()) *
-               static_cast<long double>((tick - p.begin).count()) /
-               static_cast<long double>((p.end - p.begin).count());
-  };
-  const auto apart = [&](Ticks tick) {
-    return RealPoint{at(b, tick, &Point::x) - at(a, tick, &Point::x),
-                     at(b, tick, &Point::y) - at(a, tick, &Point::y),
-                     at(b, tick, &Point::z) - at(a, tick, &Point::z)};
-  };
-  return {apart(begin), apart(end)};
-}
-
-/// The same, exactly: multiplied by both durations, positions are integers.
-ExactStep exact_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
-  const Integer duration_a = (a.end - a.begin).count(), duration_b = (b.end - b.begin).count();
-  const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) -> Integer {
-    return Integer((p.from.*axis).count()) * (p.end - p.begin).count() +
-           Integer((p.to.*axis - p.from.*axis).count()) * (tick - p.begin).count();
-  };
-  const auto apart = [&](Ticks tick, Length Point::*axis) -> Integer {
-    return at(b, tick, axis) * duration_a - at(a, tick, axis) * duration_b;
-  };
-  const auto place = [&](Ticks tick) -> ExactPoint {
-    return {apart(tick, &Point::x), apart(tick, &Point::y), apart(tick, &Point::z)};
-  };
-  return {place(begin), place(end), duration_a * duration_b};
-}
-
-std::string describe(const Piece& piece) {
-  const std::string from = "vertex " + std::to_string(piece.start.index());
-  if (piece.start == piece.goal) return "stands at " + from;
-  return "moves from " + from + " to vertex " + std::to_string(piece.goal.index());
-}
-
-/// Pieces, one after the other, that collide; when they last; and those two that come nearest.
-struct Collision {
-  Piece a, b;
-  Ticks begin, end;
-  Clearance nearest;
-};
-
-std::string describe(const Instance& instance, AgentId i, AgentId j, const Collision& c) {
-  const Resolution& resolution = instance.resolution();
-  const double overlap = -c.nearest.gap;
-  return "agents " + std::to_string(i.index()) + " and " + std::to_string(j.index()) +
-         " collide between times " + time_text(instance, c.begin) + " and " +
-         time_text(instance, c.end) + ": nearest at about " +
-         number(c.nearest.tick * resolution.time, 6) + ", while agent " +
-         std::to_string(i.index()) + " " + describe(c.a) + " and agent " +
-         std::to_string(j.index()) + " " + describe(c.b) + ", " +
-         (overlap < 1.5 ? "at most " + number(1.5 * resolution.length, 3)
-                        : "about " + number(overlap * resolution.length, 3)) +
-         " too close";
-}
-
-class PairCheck {
- public:
-  PairCheck(const Body& a, const Body& b, Clearance& clearance)
-      : pair_(a, b), clearance_(clearance) {
-    clearance.gap = std::numeric_limits<double>::infinity();
-  }
-
-  /// All collisions, in order of time.
-  std::vector<Collision> check(const std::vector<Piece>& a, const std::vector<Piece>& b) {
-    std::vector<Collision> collisions;
-    bool goes_on = false;
-    for (std::size_t k = 0, l = 0; k < a.size() && l < b.size();) {
-      const Ticks begin = std::max(a[k].begin, b[l].begin), end = std::min(a[k].end, b[l].end);
-      const auto found = begin <= end ? look(a[k], b[l], begin, end) : std::nullopt;
-      if (found && goes_on) {
-        Collision& last = collisions.back();
-        if (found->gap < last.nearest.gap) last = {a[k], b[l], last.begin, end, *found};
-        last.end = end;
-      } else if (found) {
-        collisions.push_back({a[k], b[l], begin, end, *found});
-      }
-      goes_on = found && pair_.interiors_meet(exact_step(a[k], b[l], end, end));
-      if (a[k].end < b[l].end)
-        ++k;
-      else if (b[l].end < a[k].end)
-        ++l;
-      else
-        ++k, ++l;
-    }
-    return collisions;
-  }
-
- private:
-  /// How near they come, if they collide.
-  std::optional<Clearance> look(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
-    const RealStep step = real_step(a, b, begin, end);
-    const long double least = pair_.least_gap(step);
-    if (least >= 1 && static_cast<double>(least) >= clearance_.gap) return std::nullopt;
-    const FootprintPair::Nearest near = pair_.nearest(step);
-    Clearance here = clearance_;
-    here.gap = static_cast<double>(near.gap);
-    here.tick = static_cast<double>(static_cast<long double>(begin.count()) +
-                                    near.share * static_cast<long double>((end - begin).count()));
-    if (here.gap < clearance_.gap) clearance_ = here;
-    // Coordinates are below 2^42 and the rounding error of `nearest`, even where long double is
-    // double, below 2^-5: those that are a whole unit apart need no exact look.
-    if (near.gap >= 1 || !pair_.interiors_meet(exact_step(a, b, begin, end))) return std::nullopt;
-    return here;
-  }
-
-  const FootprintPair pair_;
-  Clearance& clearance_;
-};
-
-/// As pieces() of a path.
-std::vector<Piece> pieces(const MovingObstacle& obstacle, Ticks horizon) {
-  std::vector<Piece> result;
-  for (std::size_t k = 0; k < obstacle.path.size(); ++k) {
-    const MovingObstacle::Stop& stop = obstacle.path[k];
-    const bool is_last = k + 1 == obstacle.path.size();
-    const Ticks depart = is_last && !obstacle.leaves ? horizon : stop.depart;
-    if (depart > stop.arrive)
-      result.push_back({stop.arrive, depart, stop.at, stop.at, VertexId(), VertexId()});
-    if (!is_last)
-      result.push_back({stop.depart, obstacle.path[k + 1].arrive, stop.at, obstacle.path[k + 1].at,
-                        VertexId(), VertexId()});
-  }
-  return result;
-}
-
-/// Collisions of agent i, whose path has these pieces, with obstacles.
-void check_obstacles(const Instance& instance, AgentId i, const std::vector<Piece>& trip,
-                     Ticks horizon, std::vector<Violation>& collisions) {
-  for (std::size_t o = 0; o < instance.obstacles().size(); ++o) {
-    const MovingObstacle& obstacle = instance.obstacles()[o];
-    Clearance clearance{i, i};
-    PairCheck pair(instance.agent(i).body, obstacle.body, clearance);
-    for (const Collision& found : pair.check(trip, pieces(obstacle, horizon)))
-      collisions.push_back({Kind::obstacle, i, std::nullopt, found.begin,
-                            agent_name(i) + " collides with obstacle " + std::to_string(o) +
-                                " between times " + time_text(instance, found.begin) + " and " +
-                                time_text(instance, found.end) + ", while it " +
-                                describe(found.a)});
-  }
-}
-
-void check_pairs(const Instance& instance, const Plan& plan, const IdVector<AgentId, bool>& sound,
-                 VerifyReport& report) {
-  Ticks horizon = 1;
-  for (const MovingObstacle& obstacle : instance.obstacles())
-    horizon = std::max(horizon, obstacle.path.back().depart + 1);
-  for (const AgentId i : instance.agent_ids())
-    if (sound[i]) horizon = std::max(horizon, plan.paths[i].back().arrive + 1);
-  IdVector<AgentId, std::vector<Piece>> trips(plan.paths.size());
-  for (const AgentId i : instance.agent_ids())
-    if (sound[i])
-      trips[i] = pieces(instance.roadmap(), plan.paths[i], instance.agent(i).leaves, horizon);
-  std::vector<Violation> collisions;
-  for (const AgentId i : instance.agent_ids()) {
-    check_obstacles(instance, i, trips[i], horizon, collisions);
-    for (const AgentId j : instance.agent_ids()) {
-      if (!(i < j && sound[i] && sound[j]) || trips[i].empty() || trips[j].empty()) continue;
-      Clearance clearance{i, j};
-      for (const Collision& found :
-           PairCheck(instance.agent(i).body, instance.agent(j).body, clearance)
-               .check(trips[i], trips[j]))
-        collisions.push_back({Kind::collision, i, j, found.begin, describe(instance, i, j, found),
-                              found.nearest.tick});
-      report.clearances.push_back(clearance);
-    }
-  }
-  std::stable_sort(collisions.begin(), collisions.end(),
-                   [](const Violation& a, const Violation& b) { return a.tick < b.tick; });
-  report.violations.insert(report.violations.end(), collisions.begin(), collisions.end());
-}
-
 }  // namespace
 
 std::string_view to_string(Violation::Kind kind) noexcept {
@@ -360,7 +144,7 @@ std::string_view to_string(Violation::Kind kind) noexcept {
   return "";
 }
 
-VerifyReport verify(const Instance& instance, const Plan& plan) {
+VerifyReport verify(const Instance& instance, const Plan& plan, std::size_t num_clearances) {
   VerifyReport report;
   if (plan.paths.size() != instance.num_agents()) {
     report.violations.push_back({Kind::path_count, AgentId(0), std::nullopt, 0,
@@ -372,7 +156,10 @@ VerifyReport verify(const Instance& instance, const Plan& plan) {
   IdVector<AgentId, bool> sound(plan.paths.size(), false);
   for (const AgentId i : instance.agent_ids())
     sound[i] = PathCheck(instance, i, report.violations).check(plan.paths[i]);
-  check_pairs(instance, plan, sound, report);
+  Happenings found = replay(instance, plan, sound, num_clearances);
+  std::move(found.collisions.begin(), found.collisions.end(),
+            std::back_inserter(report.violations));
+  report.clearances = std::move(found.clearances);
   report.sum_of_costs = cost(plan, Objective::sum_of_costs);
   report.makespan = cost(plan, Objective::makespan);
   if (report.sum_of_costs == std::numeric_limits<Cost>::max())

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "continuous/support/random_instance.hpp"
+#include "continuous/support/random_walk.hpp"
 #include "paths/scene.hpp"
 #include "primal/first_plan.hpp"
 #include "quadrille/continuous/verify.hpp"
@@ -22,7 +23,7 @@ using Verdict = SecondOpinion::Verdict;
 class Comparison {
  public:
   void look(const Instance& instance, const Plan& plan) {
-    const VerifyReport report = verify(instance, plan);
+    const VerifyReport report = verify(instance, plan, kAllClearances);
     const SecondOpinion opinion = ask_fcl(instance, plan);
     EXPECT_EQ(find_contradiction(report.valid(), opinion), "");
     const auto breaks_rule = [](const Violation& v) {
@@ -57,24 +58,6 @@ class Comparison {
  private:
   using Encounter = geometry::Encounter;
 };
-
-/// A path that knows nobody, at random; none if it does not come to the goal.
-Path wander(Draw& draw, const Instance& instance, AgentId i) {
-  const Agent& agent = instance.agent(i);
-  Path path{{agent.start, 0, agent.release}};
-  while (path.back().vertex != agent.goal || draw.chance(20)) {
-    if (path.size() > 30) break;
-    const auto ways = instance.out_edges(instance.class_of(i), path.back().vertex);
-    if (ways.empty()) break;
-    const EdgeId e =
-        ways[static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(ways.size()) - 1))];
-    if (draw.chance(50)) path.back().depart += draw.ticks(0, 30);
-    const Ticks arrive = path.back().depart + instance.duration(instance.class_of(i), e);
-    path.push_back({instance.roadmap().edge(e).to, arrive, arrive});
-  }
-  path.back().depart = path.back().arrive;
-  return path;
-}
 
 /// Changes one path: in most cases it keeps all rules of its own.
 void tamper(Draw& draw, const Instance& instance, Plan& plan) {
@@ -128,7 +111,8 @@ TEST(SecondOpinion, AgreesWithVerifyOnPlansGoodAndTampered) {
     }
     for (int k = good ? 5 : 0; k < 10; ++k) {
       plan = {};
-      for (const AgentId i : instance.agent_ids()) plan.paths.push_back(wander(draw, instance, i));
+      for (const AgentId i : instance.agent_ids())
+        plan.paths.push_back(test::draw_path(draw, instance, i));
       comparison.look(instance, plan);
     }
     if (HasFailure()) return;

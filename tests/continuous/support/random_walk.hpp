@@ -6,6 +6,7 @@
 
 #include "continuous/support/random_instance.hpp"
 #include "paths/steps.hpp"
+#include "quadrille/continuous/plan.hpp"
 
 namespace quadrille::continuous::test {
 
@@ -27,6 +28,24 @@ inline std::vector<Step> draw_steps(Draw& draw, const Instance& instance, AgentI
   std::vector<Step> steps;
   list_steps(instance, i, path, steps);
   return steps;
+}
+
+/// A path that knows nobody, at random; none if it does not come to the goal.
+inline Path draw_path(Draw& draw, const Instance& instance, AgentId i) {
+  const Agent& agent = instance.agent(i);
+  Path path{{agent.start, 0, agent.release}};
+  while (path.back().vertex != agent.goal || draw.chance(20)) {
+    if (path.size() > 30) break;
+    const auto ways = instance.out_edges(instance.class_of(i), path.back().vertex);
+    if (ways.empty()) break;
+    const EdgeId e =
+        ways[static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(ways.size()) - 1))];
+    if (draw.chance(50)) path.back().depart += draw.ticks(0, 30);
+    const Ticks arrive = path.back().depart + instance.duration(instance.class_of(i), e);
+    path.push_back({instance.roadmap().edge(e).to, arrive, arrive});
+  }
+  path.back().depart = path.back().arrive;
+  return path;
 }
 
 }  // namespace quadrille::continuous::test

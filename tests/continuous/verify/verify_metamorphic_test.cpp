@@ -150,7 +150,8 @@ TEST(VerifyMetamorphic, MovingMirroringAndTurningTheRoadmapChangesNothing) {
         agent.body = moved_body(agent.body, turn);
       };
       const Instance moved = changed(c.instance, move, turn_body).value();
-      const auto before = verify(c.instance, c.plan), after = verify(moved, c.plan);
+      const auto before = verify(c.instance, c.plan, kAllClearances);
+      const auto after = verify(moved, c.plan, kAllClearances);
       EXPECT_TRUE(after.valid());
       for (std::size_t k = 0; k < before.clearances.size(); ++k)
         EXPECT_NEAR(before.clearances[k].gap, after.clearances[k].gap, 1e-9);
@@ -168,7 +169,7 @@ TEST(VerifyMetamorphic, MovingMirroringAndTurningTheRoadmapChangesNothing) {
 TEST(VerifyMetamorphic, TheReportedClearanceIsTheRoomThereIs) {
   int boundaries = 0;
   for (const Case& c : cases()) {
-    const auto report = verify(c.instance, c.plan);
+    const auto report = verify(c.instance, c.plan, kAllClearances);
     for (const Clearance& clearance : report.clearances) {
       if (!std::holds_alternative<Disc>(c.instance.agent(clearance.agent).body)) continue;
       const auto room = Length(static_cast<std::int64_t>(std::floor(clearance.gap)));
@@ -230,7 +231,8 @@ TEST(VerifyMetamorphic, ScalingSpaceAndTimeScalesTheClearance) {
         stop.arrive *= kFactor;
         stop.depart *= kFactor;
       }
-    const auto before = verify(c.instance, c.plan), after = verify(scaled, plan);
+    const auto before = verify(c.instance, c.plan, kAllClearances);
+    const auto after = verify(scaled, plan, kAllClearances);
     EXPECT_TRUE(after.valid());
     EXPECT_EQ(after.sum_of_costs, kFactor * before.sum_of_costs);
     for (std::size_t k = 0; k < before.clearances.size(); ++k)

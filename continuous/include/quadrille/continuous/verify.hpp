@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,7 +57,8 @@ struct VerifyReport {
   /// All broken rules of the paths first, then all collisions by tick: what goes on
   /// from one move to the next is one.
   std::vector<Violation> violations;
-  /// Of every pair of agents with sound paths that take some time, by agent, then other. For the
+  /// The least ones of all pairs of agents with sound paths that take some time and are there at
+  /// the same time: as many as were asked for, least first, then by agent, then other. For the
   /// reader's information: collisions are decided in exact arithmetic.
   std::vector<Clearance> clearances;
   Cost sum_of_costs = 0;  ///< Meaningful when there are no violations.
@@ -63,10 +66,14 @@ struct VerifyReport {
   [[nodiscard]] bool valid() const noexcept { return violations.empty(); }
 };
 
+inline constexpr std::size_t kAllClearances = std::numeric_limits<std::size_t>::max();
+
 /// Replays a plan over all time, goal stays included. Shares no code with the search or with
-/// geometry/: a plan that passes is a plan. Takes any plan, however broken. Time is proportional to
-/// agents times stops.
-[[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan);
+/// geometry/: a plan that passes is a plan. Takes any plan, however broken. Where few are near each
+/// other at a time, time is proportional to moves times the logarithm of the number of agents.
+/// `kAllClearances` takes time and memory for each pair of agents.
+[[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan,
+                                  std::size_t num_clearances = 1);
 
 }  // namespace quadrille::continuous
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,13 +35,15 @@ struct Clearance {
 
 struct VerifyReport {
   std::vector<Violation> violations;
-  std::vector<Clearance> clearances;  ///< Of every pair of robots with sound paths.
+  /// The least ones, as many as were asked for: continuous::VerifyReport.
+  std::vector<Clearance> clearances;
   [[nodiscard]] bool valid() const noexcept { return violations.empty(); }
 };
 
 /// Replays a plan in whole units over all time, in exact arithmetic: continuous::verify, in the
 /// words of the fleet. Errors: those of `fleet.instance()`.
-[[nodiscard]] Result<VerifyReport> verify(const Fleet& fleet, const continuous::Plan& plan);
+[[nodiscard]] Result<VerifyReport> verify(const Fleet& fleet, const continuous::Plan& plan,
+                                          std::size_t num_clearances = 1);
 
 }  // namespace quadrille::fleet
 
