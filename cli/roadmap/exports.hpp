@@ -12,7 +12,8 @@
 
 namespace quadrille::cli {
 
-/// What plans on roadmaps are exported to for other systems; docs/formats.md has the fields.
+/// What plans on roadmaps are exported to for other systems; docs/formats-of-others.md has the
+/// fields.
 enum class ExportFormat {
   csv,       ///< agent,time,x,y,vx,vy: samples.
   multidof,  ///< trajectory_msgs/MultiDOFJointTrajectory, one message per agent, as JSON.

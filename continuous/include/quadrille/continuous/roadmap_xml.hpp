@@ -13,9 +13,9 @@
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/export.hpp"
 
-// The XML files of continuous-time planners; docs/formats.md has examples. Errors of the readers
-// carry file and, once the XML is well formed, line: io, syntax, out_of_range, invalid_instance.
-// Nothing is repaired, nothing is printed.
+// The XML files of continuous-time planners; docs/formats-of-others.md has examples. Errors of the
+// readers carry file and, once the XML is well formed, line: io, syntax, out_of_range,
+// invalid_instance. Nothing is repaired, nothing is printed.
 
 QUADRILLE_API_BEGIN
 

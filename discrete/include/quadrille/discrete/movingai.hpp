@@ -15,7 +15,8 @@
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/text/text_input.hpp"
 
-// MovingAI `.map` and `.scen` files; docs/formats.md has examples. For all readers and writers:
+// MovingAI `.map` and `.scen` files; docs/formats-of-others.md has examples. For all readers
+// and writers:
 //   - `file` only names the stream in messages; streams need not be seekable (pipes work).
 //   - Reader errors carry file and line: io (cannot open or read; a directory), syntax (the format
 //   is

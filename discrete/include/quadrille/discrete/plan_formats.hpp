@@ -18,7 +18,8 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
-/// The formats of plan files; docs/formats.md has an example of each.
+/// The formats of plan files; docs/formats.md and docs/formats-of-others.md show an example of
+/// each.
 enum class PlanFormat {
   json,        ///< This project's JSON: a plan, or the result of a solve.
   cbsh2,       ///< `Agent 0: (row,column)->(row,column)->`; grids only.
