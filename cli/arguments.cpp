@@ -129,8 +129,8 @@ CLI::Option* add_word(CLI::App& app, const std::string& name,
   return app.add_option_function<std::string>(name, read, help)->type_name("NAME");
 }
 
-void add_check_with(CLI::App& app, std::optional<SecondVerifier>& verifier) {
-  add_choice<std::optional<SecondVerifier>>(
+CLI::Option* add_check_with(CLI::App& app, std::optional<SecondVerifier>& verifier) {
+  return add_choice<std::optional<SecondVerifier>>(
       app, "--check-with", verifier, "fcl",
       [](std::string_view text) -> std::optional<std::optional<SecondVerifier>> {
         if (text != "fcl") return std::nullopt;

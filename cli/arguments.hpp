@@ -77,7 +77,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& choice,
 /// Who checks plans besides `verify`.
 enum class SecondVerifier { fcl };
 /// Adds --check-with.
-void add_check_with(CLI::App& app, std::optional<SecondVerifier>& verifier);
+CLI::Option* add_check_with(CLI::App& app, std::optional<SecondVerifier>& verifier);
 
 /// Says on stderr what is wrong with the command line.
 ExitCode usage_error(const CLI::App& app, const std::string& message);

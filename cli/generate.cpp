@@ -112,15 +112,16 @@ void add_options(CLI::App& app, GenerateArguments& arguments) {
   add_input_file(app, "--map", arguments.map, "Instead: make a scenario for this map");
   add_file(app, "--map-output", arguments.map_output, "Write the map");
   add_file(app, "--scen-output", arguments.scen_output, "Write a scenario with random agents");
-  add_integer(app, "--agents", arguments.agents, 0, kMost, "Number of agents");
+  add_integer(app, "--agents", arguments.agents, 0, kMost,
+              "Rows of the scenario, or agents on the roadmap");
   app.add_flag("--any-goal", arguments.any_goal, "Draw goals that may be out of reach, too");
   add_integer(app, "--seed", arguments.seed, 0, INT64_MAX, "Seed of all random choices; default 0");
   const auto add = [&](const char* name, std::optional<std::int64_t>& number, int least,
                        const char* help) {
     add_integer(app, name, number, least, kMost, help)->group("Kinds of map");
   };
-  add("--width", arguments.width, 1, "All but warehouse; default 32");
-  add("--height", arguments.height, 1, "All but warehouse; default 32");
+  add("--width", arguments.width, 1, "Columns; of a roadmap, its width; not warehouse; default 32");
+  add("--height", arguments.height, 1, "Rows; of a roadmap, its height; not warehouse; default 32");
   add_share(app, "--obstacles", arguments.obstacles, "Random: share of blocked cells; default 0.2")
       ->group("Kinds of map");
   add("--corridor-width", arguments.corridor_width, 1, "Maze; default 2");

@@ -216,7 +216,7 @@ Subcommand add_simulate(CLI::App& program) {
   add_positive(*app, "--longest", arguments->longest,
                "Longest pause, in the instance's unit of time; default 3");
   add_share(*app, "--slow", arguments->slowness,
-            "Agents are up to this share slower than planned; default 0.15");
+            "Agents are up to this share slower than planned, at most 0.95; default 0.15");
   add_positive(*app, "--period", arguments->period,
                "With a roadmap: time between two decisions; default: the 500th part of the\n"
                "plan's makespan");

@@ -106,14 +106,16 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
            "No plan costs less than this, as is known from elsewhere: begin with it")
       ->group(group);
   add_integer(app, "--threads", arguments.threads, 1, static_cast<std::int64_t>(kMaxThreads),
-              "Searches side by side: for the bound, for plans, further ones for either; default 1")
+              "Searches side by side, 1 to 64: for the bound, for plans, further ones for either; "
+              "default 1")
       ->group(group);
   app.add_flag(
          "--race", options.race,
          "With --threads: do not wait for each other, take the proof that comes first in time;\n"
          "the plan may differ from run to run then")
       ->group(group);
-  add_integer(app, "--seed", arguments.seed, 0, kMaxSeed, "Seed of all random choices; default 0")
+  add_integer(app, "--seed", arguments.seed, 0, kMaxSeed,
+              "Seed of all random choices, 0 to 2000000000; default 0")
       ->group(group);
 }
 
@@ -149,9 +151,9 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
       ->group(group);
   add_file(app, "--json", arguments.json, "Write the result as JSON; - is standard output")
       ->group(group);
-  add_check_with(app, arguments.check_with);
+  add_check_with(app, arguments.check_with)->group(group);
   app.add_flag("--history", arguments.history,
-               "Tell in the result when which bound and which cost was known")
+               "With --json: tell in the result when which bound and which cost was known")
       ->group(group);
   add_file(app, "--view", arguments.view,
            "Write a page that plays the plan in a browser; - is standard output")
@@ -219,7 +221,7 @@ Subcommand add_explain(CLI::App& program) {
                         "sum-of-costs or makespan", parse_objective,
                         "sum-of-costs (default) or makespan");
   add_integer(*app, "--seed", arguments->seed, 0, kMaxSeed,
-              "Seed of all random choices; default 0");
+              "Seed of all random choices, 0 to 2000000000; default 0");
   add_limit_options(*app, *arguments);
   add_file(*app, "--json", arguments->json, "Write it as JSON; - is standard output");
   add_file(*app, "--view", arguments->view,

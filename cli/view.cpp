@@ -45,7 +45,7 @@ Subcommand add_view(CLI::App& program) {
                   "the file says");
   add_file(*app, "--output", arguments->output,
            "Where to write the page; default - is standard output, or nowhere with --svg");
-  add_picture_options(*app, arguments->picture, "OPTIONS");
+  add_picture_options(*app, arguments->picture, "Pictures");
   app->footer(std::string(kFooter) + kExitCodesHelp);
   return {app, [app, arguments] {
             return is_roadmap(arguments->input, arguments->roadmap) ? view_roadmap(*app, *arguments)

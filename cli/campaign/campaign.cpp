@@ -87,7 +87,7 @@ Subcommand add_campaign(CLI::App& program) {
            "What file names in the manifest are relative to, instead of its own 'data'")
       ->type_name("DIR");
   add_integer(*app, "--jobs", arguments->processes, 1, kMaxProcesses,
-              "run, resume: jobs at a time; default 1");
+              "run, resume: jobs at a time, 1 to 1024; default 1");
   app->add_flag("--dry-run", arguments->dry_run, "submit: print what would be handed to Slurm");
   add_integer(*app, "--submission", arguments->submission, 1, kMaxNumber,
               "task: number of the submission");

@@ -59,7 +59,7 @@ void add_generate_roadmap_options(CLI::App& app, GenerateRoadmapOptions& options
   const std::string group = "Roadmaps (--kind roadmap)";
   add_integer(app, "--vertices", options.vertices, 1,
               static_cast<std::int64_t>(continuous::kMaxRandomVertices),
-              "Number of vertices; default 100")
+              "Number of vertices, at most 10000; default 100")
       ->group(group);
   add_positive(app, "--altitude", options.altitude,
                "Vertices in space, up to so high; agents are spheres")
@@ -68,10 +68,13 @@ void add_generate_roadmap_options(CLI::App& app, GenerateRoadmapOptions& options
       ->group(group);
   add_positive(app, "--speed", options.speed, "Speed of the agents; default 1")->group(group);
   add_positive(app, "--reach", options.reach,
-               "Edges between all vertices that are no further apart; by default few, without\n"
-               "crossings")
+               "Edges between all vertices that are no further apart; by default those of the\n"
+               "Gabriel graph, which do not cross")
       ->group(group);
-  app.add_flag("--mixed", options.mixed, "Draw radii and speeds from half of these up")
+  app.add_flag("--mixed", options.mixed,
+               "Draw radii and speeds from half of these up; half of the agents are polygons, "
+               "unless there\n"
+               "is an altitude")
       ->group(group);
   add_positive(app, "--resolution", options.resolution,
                "Size of a tick and of a length unit; default 0.000001")
