@@ -42,10 +42,11 @@ struct SumSearchContext {
 /// Finds a plan of least sum of costs by implicit hitting sets (Davies and Bacchus 2011, CP): the
 /// cheapest costs that hit all known cores are the agents' caps; either there is a plan within
 /// them, or there is a new core. The known plan is improved first, if there are no candidates to be
-/// tried; where cores are many, turns take place that improve it again and try bounds on the sum of
-/// all costs. Beside others it begins as its role says. Integer costs may be as large as they like.
-/// Ends by itself if the clauses allow no plan at all, which need not happen where none exists.
-/// Deterministic as long as no limit is met, and as the correspondent is.
+/// tried, because ceilings that follow from a dear plan let hardly anything be refuted; where cores
+/// are many, turns take place that improve it again and try bounds on the sum of all costs. Beside
+/// others it begins as its role says. Integer costs may be as large as they like. Ends by itself if
+/// the clauses allow no plan at all, which need not happen where none exists. Deterministic as long
+/// as no limit is met, and as the correspondent is.
 [[nodiscard]] CostReport search_by_covers(const SumSearchContext& context);
 
 }  // namespace quadrille::continuous

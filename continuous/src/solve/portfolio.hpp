@@ -18,8 +18,9 @@ inline constexpr solve::Pace kUsualPace{2'000'000, 4};
 
 /// One search as by search_costs, or with options.threads several in threads of their own: the
 /// first one with `scene` and `warm` raises the bound; the second one makes the plan cheaper, and
-/// then finds cores for the first one, as further ones do. They exchange bounds, plans and cores;
-/// see solve::Portfolio. `account`: that of `desk.limits`.
+/// then finds cores for the first one, as further ones do: of costs that are drawn at random around
+/// the last ones, which gives other cores than covers do, without waiting for these. They exchange
+/// bounds, plans and cores; see solve::Portfolio. `account`: that of `desk.limits`.
 void search_side_by_side(Scene& scene, const SolveOptions& options,
                          const std::shared_ptr<ResourceAccount>& account, const Desk& desk,
                          const solve::Pace& pace = kUsualPace, const WarmStart& warm = {});

@@ -13,7 +13,8 @@
 
 namespace quadrille::continuous {
 
-/// Says of two agents that collide again and again that one of them has to cost more.
+/// Says of two agents that collide again and again that one of them has to cost more. Decides when
+/// a search of the two pays, and how long, in proportion to what the path searches take.
 class PairLemmas {
  public:
   explicit PairLemmas(Model& model) : model_(model), search_(model.scene()) {}

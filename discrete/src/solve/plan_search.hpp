@@ -92,9 +92,9 @@ class PlanImprovement final : public sat::Strategy {
   std::int64_t effort_ = 0;
 };
 
-/// The schedule of both beside a search that raises the lower bound. Slices, and what the search
-/// did since the last one, are counted in elementary steps, never by clocks, so that all stays
-/// deterministic.
+/// The schedule of both beside a search that raises the lower bound: as much effort as their
+/// marginal gain deserves. Slices, and what the search did since the last one, are counted in
+/// elementary steps, never by clocks, so that all stays deterministic.
 class PlanSearch {
  public:
   explicit PlanSearch(const PlanSearchContext& context);

@@ -24,7 +24,7 @@ using quadrille::Progress;
 /// Graphs with more vertices are not solved.
 inline constexpr std::size_t kMaxVertices = std::size_t{1} << 21;
 
-/// The solving systems; see docs/architecture.md.
+/// The solving systems; docs/cli.md has a table of them.
 enum class System {
   dpll,      ///< The default. Lazy path model: paths live in the theory.
   dpll_mdd,  ///< MDD path model, collision clauses made inside the search as `check` says.
