@@ -35,7 +35,7 @@ inline constexpr std::size_t kMaxSites = 2;
 class RemainingLimits {
  public:
   explicit RemainingLimits(const Limits& limits) : limits_(limits) {}
-  /// For one more search of at most so many conflicts; nullopt: no time is left.
+  /// For one more search of at most `conflicts`; nullopt: no time is left.
   [[nodiscard]] std::optional<Limits> next(std::int64_t conflicts) const;
 
  private:

@@ -30,10 +30,10 @@ enum class Need {
   map,    ///< A map alone will do, and all rows of a scenario are taken by default.
 };
 
-/// What is wrong if an `--instance` with so many agents has fewer than `--agents` asks for.
+/// What is wrong if an `--instance` with this number of agents has fewer than `--agents` asks for.
 [[nodiscard]] std::optional<Error> check_agents(const InputOptions& options, std::size_t agents);
 
-/// What is wrong if a map, in this file, has so many passable cells.
+/// What is wrong if a map, in this file, has too many passable cells.
 [[nodiscard]] std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,
                                                   const std::string& file);
 

@@ -38,7 +38,7 @@ double gap_of(const nlohmann::ordered_json& bound, const nlohmann::ordered_json&
   return low > 0 ? 100 * (high - low) / low : kInfinity;
 }
 
-/// After so many seconds.
+/// The gap that was known after `seconds`.
 double gap_at(const nlohmann::ordered_json& history, double seconds) {
   double gap = kInfinity;
   for (const auto& point : history) {

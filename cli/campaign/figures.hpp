@@ -34,10 +34,10 @@ struct Series {
 /// Figures as SVG.
 /// Systems, and the solvers of the reference on the instances that are asked.
 [[nodiscard]] std::string cactus_plot(const Merged& merged, const std::vector<Series>& series);
-/// One for each map: how many of its scenarios are solved with so many agents.
+/// One for each map: how many of its scenarios are solved, by the number of agents.
 [[nodiscard]] std::string ladder_plots(const Merged& merged, const std::vector<Series>& series);
-/// One for each system: the share of its runs whose gap is at most so much, over time. Empty if no
-/// row has a history.
+/// One for each system: the share of its runs whose gap is at most a given one, over time. Empty
+/// if no row has a history.
 [[nodiscard]] std::string gap_plots(const Merged& merged, const std::vector<Series>& series);
 
 }  // namespace quadrille::cli::campaign

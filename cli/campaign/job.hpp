@@ -41,7 +41,7 @@ struct Ladder {
   std::string name;       ///< Of its first job.
   std::size_t level = 0;  ///< Of its first rung; ladders of a list that never stops have one rung.
   std::vector<std::vector<std::size_t>> rungs;  ///< Numbers of jobs.
-  /// A rung is the last one if more of its jobs than so many are not solved.
+  /// A rung is the last one if more of its jobs than this are not solved.
   std::size_t allowed = 0;
 };
 

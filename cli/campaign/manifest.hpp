@@ -25,7 +25,7 @@ struct AgentSteps {
   std::int64_t step = 0;           ///< 0: geometric, by the factor, and with `to` as its last rung.
   double factor = 0;               ///< > 1.
 
-  /// The rungs for a file with so many agents. A list is given as it is.
+  /// The rungs for a file with this number of agents. A list is given as it is.
   [[nodiscard]] std::vector<std::int64_t> rungs(std::int64_t agents_in_file) const;
 };
 

@@ -72,8 +72,8 @@ class Follower {
   Times times_;
 };
 
-/// A guess at the seconds that are left with so many processes; nullopt as long as nothing is
-/// known.
+/// A guess at the seconds that are left with this number of processes; nullopt as long as nothing
+/// is known.
 [[nodiscard]] std::optional<double> estimate_s(const Schedule& schedule,
                                                const Follower::Times& times,
                                                const JobLimits& limits, std::size_t processes);

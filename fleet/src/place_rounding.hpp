@@ -26,7 +26,7 @@ class PlaceRounding {
                                         const quadrille::Limits& limits) const;
 
  private:
-  /// The agents, smaller where their places are off; `most`: by so many length units.
+  /// The agents, smaller where their places are off; `most`: by how many length units at most.
   struct Smaller {
     std::vector<continuous::Agent> agents;
     double most = 0;

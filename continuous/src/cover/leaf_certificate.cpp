@@ -6,7 +6,7 @@
 namespace quadrille::continuous {
 namespace {
 
-/// Room in a row beyond so many times what is taken off all columns is of no use.
+/// Room in a row beyond kMostRoom times what is taken off all columns is of no use.
 constexpr Cost kMostRoom = 4;
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace quadrille::continuous {
 /// low end, says that the cores it hits, and its low end, ask for no more than it pays.
 class LeafCertificate {
  public:
-  /// Of a tick: of so many multipliers rounded down less than a tick is lost.
+  /// Of a tick: rounding down this number of multipliers loses less than a tick.
   static constexpr Cost kFraction = 1024;
 
   /// The simplex outlives this, and says which leaf it is about.

@@ -13,12 +13,12 @@ constexpr double kPromise = 1e-9;
 /// Of the multipliers, what a refined linear program is about: much more than doubles are wrong by.
 constexpr Cost kMarginPart = 1 << 20;
 constexpr int kMostRounds = 3;
-/// Sums are looked for where there are more programs than so many, at each so many, and until there
-/// are so many. Measured on the cores of six hard instances, 600 to 900 of each: 0.1 to 0.66 of the
-/// programs; up to 300 sums take 1.09 times the time, up to 150 as long.
+/// Sums are looked for after kProgramsBeforeSums programs, kSumsPerProgram of them at each, until
+/// there are kMostSums. Measured on the cores of six hard instances, 600 to 900 of each: 0.1 to
+/// 0.66 of the programs; up to 300 sums take 1.09 times the time, up to 150 as long.
 constexpr int kProgramsBeforeSums = 20;
 constexpr std::size_t kSumsPerProgram = 3, kMostSums = 200;
-/// Of so many calls in which a sum is there it is of use once, or goes.
+/// A sum that is of use in none of this number of calls goes.
 constexpr int kCallsPerUse = 4;
 constexpr double kMostExcess = 1e-6;
 constexpr std::uint32_t kNone = LevelSimplex::kGone;

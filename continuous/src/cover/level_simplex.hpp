@@ -115,7 +115,7 @@ class LevelSimplex {
     bool is_column = false;
     std::size_t at = 0;  // the column's number, or the position of the row
     double sign = 1;
-    double most = std::numeric_limits<double>::max();  // it may change by so much
+    double most = std::numeric_limits<double>::max();  // by which it may change
   };
   struct Leaving {
     bool is_row = false;

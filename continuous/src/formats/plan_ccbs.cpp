@@ -34,8 +34,7 @@ double last_digit(std::string_view text) {
   return std::pow(10.0, static_cast<double>(power - digits));
 }
 
-/// What a move of so many ticks in a log stands for: exactly what its edge takes, if it is about
-/// that.
+/// What a move of `ticks` in a log stands for: exactly what its edge takes, if it is about that.
 Ticks move_duration(const Instance& instance, AgentId agent, VertexId from, VertexId to,
                     Ticks ticks) {
   const ClassId c = instance.class_of(agent);

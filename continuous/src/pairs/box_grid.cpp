@@ -6,7 +6,7 @@
 namespace quadrille::continuous {
 namespace {
 
-/// Of the grid, for so many boxes.
+/// Cells of the grid for each box, at most.
 constexpr std::int64_t kCellsPerBox = 4;
 
 }  // namespace

@@ -38,7 +38,7 @@ class PairSearch {
   [[nodiscard]] Ticks refuted_raise(const Party& i, const Party& j, Ticks max_raise,
                                     std::int64_t max_steps);
 
-  /// Starts that are not the earliest are split into intervals of so many ticks (at least 1), or of
+  /// Starts that are not the earliest are split into intervals of `width` ticks (at least 1), or of
   /// half the slack of the cap if that is less. Short ones refute more, and take longer.
   void set_width(Ticks width) noexcept { width_ = width; }
   /// Of the longest intervals of the last search; 0 if it was not made, as it would be too large.

@@ -13,7 +13,7 @@ namespace {
 /// cost too much at the end, with up to 8 and 16 agents: sparse 1.1 and 0.3 %, empty16 0.28 and
 /// 0.25 %, room64 0.16 and 0.13 %.
 constexpr std::size_t kMaxChosen = 16;
-/// Steps without gain after which it pays no more: some to begin with, and so many for each step up
+/// Steps without gain after which it pays no more: kLeastPatience, and kPatience for each step up
 /// to the last gain. Measured: 4,000,000 instead of 2,000,000 changes little; two for each step
 /// take two to four times as long, and the plans of sparse, empty16 and room64 cost 0.30, 0.25 and
 /// 0.13 % too much instead of 0.59, 0.48 and 0.14 %, but proofs are no faster with them.

@@ -20,7 +20,7 @@ class PlanImprover {
   /// `plan` is a valid plan of the scene's instance.
   PlanImprover(Scene& scene, Plan plan);
 
-  /// Goes on for about so much effort. True if the plan is cheaper now. Stops early when the limits
+  /// Goes on for about `effort` steps. True if the plan is cheaper now. Stops early when the limits
   /// of the scene are met.
   bool improve(std::int64_t effort);
   /// It has not been without gain for as long as all before took, and some more; and if little is

@@ -18,9 +18,9 @@ constexpr sat::SolveBudget kRaiseBudget{20, 60}, kDropBudget{100, 350};
 /// stands in bench/notebook, continuous-cores.
 constexpr int kMostJointTests = 3;
 
-/// Tests that fail take most of the time of the drops, and on sparse maps nearly all do: there are
-/// so many to begin with and for each level that could be dropped. One core in eight is tested
-/// anyway.
+/// Tests that fail take most of the time of the drops, and on sparse maps nearly all do: allowed
+/// are kKeptToBegin, and kKeptPerDrop for each level that could be dropped. One core in kTry is
+/// tested anyway.
 constexpr std::int64_t kKeptToBegin = 200, kKeptPerDrop = 24, kTry = 8;
 
 bool has(const LevelCore& core, const Level& level) {

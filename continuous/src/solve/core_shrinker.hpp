@@ -56,8 +56,8 @@ class CoreShrinker {
   void raise(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
   void raise_together(Climb& climb, const IdVector<AgentId, Cost>& ceilings);
   void raise_singly(Climb& climb, const IdVector<AgentId, Cost>& ceilings);
-  /// Whether that is still a core with so many thresholds, none below `good`. Then it has these,
-  /// and is without the levels that are not needed.
+  /// Whether that is still a core with each level raised by its number of thresholds in `goods`,
+  /// none below `good`. Then it has these, and is without the levels that are not needed.
   bool has_raised(Climb& climb, const std::vector<std::size_t>& goods,
                   const IdVector<AgentId, Cost>& ceilings);
   [[nodiscard]] Ladder ladder(const Level& level, Cost ceiling) const;

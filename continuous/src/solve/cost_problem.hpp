@@ -18,7 +18,7 @@ namespace quadrille::continuous {
 struct Question {
   /// Each of these agents costs less than its level. Requires levels above the free costs.
   std::vector<Level> below = {};
-  /// The other agents cost at most so much (kAnyCost: anything). Empty: anything.
+  /// The most that each of the other agents costs (kAnyCost: anything). Empty: anything.
   IdVector<AgentId, Cost> ceilings = {};
   /// When to give up.
   sat::SolveBudget budget = {};

@@ -26,9 +26,10 @@ constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000, kMostEffort 
 /// Covers by greed between two cheapest ones, whatever these take: where no plan is known, costs by
 /// greed may rise for ever.
 constexpr int kMaxGreedyRounds = 50;
-/// Of questions between the cheapest cover and the plan (bench/notebook, continuous-cores): which
-/// part of the way, conflicts, and elementary steps, a hundredth of a second: where two agents have
-/// much room, a conflict takes a tenth of a second, and few pairs are searched in such questions.
+/// Of questions whose costs lie between the cheapest cover and the plan (bench/notebook,
+/// continuous-cores). How far on the way: one part in kInnerPart. The budget has few conflicts, and
+/// elementary steps for a hundredth of a second, because one conflict may take a tenth of a second
+/// where two agents have much room.
 constexpr Cost kInnerPart = 7;
 constexpr sat::SolveBudget kInnerBudget{50, {}, 200'000};
 /// Of a question for any plan, where none is known.

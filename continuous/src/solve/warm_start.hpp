@@ -12,8 +12,8 @@
 
 namespace quadrille::continuous {
 
-/// Proved: these agents alone, as if there were no others, cost at least so much together
-/// (makespan: one of them).
+/// Proved: these agents alone, as if there were no others, cost at least `cost` together (makespan:
+/// one of them).
 struct GroupBound {
   std::vector<AgentId> agents;  ///< Increasing.
   Cost cost = 0;

@@ -8,8 +8,8 @@
 
 namespace quadrille::continuous {
 
-/// Turns collisions into clauses that exclude them and much of what is like them. docs: see the
-/// proofs at the functions.
+/// Turns collisions into clauses that exclude them and much of what is like them. The proofs stand
+/// at the functions, and in docs/soundness/continuous.md.
 class EncounterClauses {
  public:
   EncounterClauses(Model& model, PathFinder& finder, BanTable& bans)

@@ -11,40 +11,42 @@ namespace {
 /// pair of caps takes up to 25,000,000 steps, and without that there is no end of collisions. The
 /// most is what can still be multiplied.
 constexpr std::int64_t kFirstSteps = 50'000, kMoreSteps = 4, kMostSteps = std::int64_t{1} << 40;
-/// Steps for dropping obstacles, and for each raise: so many times what the search was allowed, up
-/// to a limit, or so many times what the refutation took. With less, less is raised: with 4
-/// refutations den520d (k = 3, task 3, 62 agents) takes more than 60 instead of 22 s.
+/// Steps for dropping obstacles, and for each raise: kSearchesForMore times what the search was
+/// allowed, up to a limit, or, if that is more, kRefutationsForMore times what the refutation took.
+/// With less, less is raised: with 4 refutations den520d (k = 3, task 3, 62 agents) takes more than
+/// 60 instead of 22 s.
 constexpr std::int64_t kSearchesForMore = 8, kMostStepsForMore = 30'000'000,
                        kRefutationsForMore = 8;
-/// Of one test while obstacles are dropped: so many, what the search was allowed, or so many times
-/// what the refutation took. Without the least number sparse (task 3, 25 agents) takes more than 30
-/// instead of 12 s; with 4,000,000 task 2 with 34 agents takes 20 instead of 12 s.
+/// Steps of one test while obstacles are dropped: the most of kLeastPerTest, what the search was
+/// allowed, and kRefutationsPerTest times what the refutation took. Without the first, sparse (task
+/// 3, 25 agents) takes more than 30 instead of 12 s; with 4,000,000 task 2 with 34 agents takes 20
+/// instead of 12 s.
 constexpr std::int64_t kLeastPerTest = 1'000'000, kRefutationsPerTest = 2;
-/// A search that refutes nothing is repeated with intervals half as long, if it took no more than
-/// such a part of its steps, and intervals are not yet as short as what they have to tell apart.
+/// A search that refutes nothing is repeated with intervals half as long, if it took at most one
+/// part in kPartForHalf of its steps, and intervals are longer than what they have to tell apart.
 /// Without that, caps of two agents who have to change sides (sparse, task 3, agents 4 and 17) rose
 /// tick by tick.
 constexpr std::int64_t kPartForHalf = 8;
-/// All searches of pairs that refute nothing: so many steps, and one for so many of the path
-/// searches, which take twice as long. More are in vain where many pairs are near each other. Those
-/// that refute do not count: what they take would keep the next one waiting, while collisions of
-/// the same two come without end.
+/// Searches of pairs that refute nothing may take this many steps in all: kFirstWaste, and one for
+/// kPathStepsPerStep steps of the path searches, which take twice as long each. More are in vain
+/// where many pairs are near each other. Searches that refute something do not count: they would
+/// keep the next one waiting, while the same two collide without end.
 constexpr std::int64_t kFirstWaste = 12'000'000, kPathStepsPerStep = 2;
 
 constexpr std::int64_t kSmallPart = 64;
-/// The first raise that is tried is such a part of one move: higher ones are searched in larger
-/// pieces, and refute less. Where it refutes nothing, lower ones are tried, each such a part of the
-/// one before: otherwise caps would rise tick by tick.
+/// The first raise that is tried is one part in kFirstRaise of a move: higher ones are searched in
+/// larger pieces, and refute less. Where it refutes nothing, lower ones are tried, each one part in
+/// kLowerRaise of the one before: otherwise caps would rise tick by tick.
 constexpr std::int64_t kFirstRaise = 4, kLowerRaise = 4;
 constexpr int kMostLowerRaises = 3;
 /// Most pairs need no such search: the clauses do as well. Those that do need it are worth it
 /// early.
 constexpr int kFirstTry = 4;
-/// Caps that were refuted and come again, with other obstacles, are left to clauses until there are
-/// so many times as many collisions. Measured with searches from the 64th collision on: den520d
-/// (k = 3, task 5, 62 agents) takes 14 s instead of more than 30, task 1 with 69 agents 23 instead
-/// of 28. After other refutations every other collision becomes clauses: where the two have no plan
-/// at all, caps would rise for ever, and clauses may prove it.
+/// Caps that were refuted and come again, with other obstacles, are left to clauses until the
+/// number of collisions has grown by this factor. Measured with searches from the 64th collision
+/// on: den520d (k = 3, task 5, 62 agents) takes 14 s instead of more than 30, task 1 with 69 agents
+/// 23 instead of 28. After other refutations every other collision becomes clauses: where the two
+/// have no plan at all, caps would rise for ever, and clauses may prove it.
 constexpr int kAgain = 4;
 
 PairSearch::Party searched(const PairLemmas::Party& party) {

@@ -19,7 +19,7 @@ namespace quadrille::discrete {
 /// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
 class ExplicitPaths {
  public:
-  /// So many variables are worth so many path lemmas. Both at least 1. Measured where maps have
+  /// As many `variables` are worth as many path `lemmas`. Both at least 1. Measured where maps have
   /// walls: 1 for 1 leaves agents in mazes with twice the conflicts, 64 for 1 makes the formulas of
   /// large maps too large.
   struct Price {

@@ -20,8 +20,7 @@ class BreadthFirst {
 
   /// From a vertex to all others. False if a limit was met. O(V + E).
   bool run(VertexId source, LimitMonitor* limits = nullptr);
-  /// Only to those that are at most so many moves away. O(number of these), from the second call
-  /// on.
+  /// Only to those that are at most `moves` away. O(number of these), from the second call on.
   void run_within(VertexId source, Timestep moves);
 
   /// By vertex, kUnreachable where the last search did not come; and one entry more, without

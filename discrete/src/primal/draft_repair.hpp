@@ -52,8 +52,8 @@ class DraftRepair {
   std::int64_t pause_ = 0, num_to_skip_ = 0;  // Drafts to let pass.
   std::int64_t patience_ = 1;                 // Grows when drafts are dropped.
   std::int64_t effort_per_halving_ = 0;
-  std::int64_t half_ = 0;        // As many meetings at most are wanted next,
-  std::int64_t dropped_at_ = 0;  // before so much effort is spent.
+  std::int64_t half_ = 0;        // The draft is dropped unless it comes to this number of meetings
+  std::int64_t dropped_at_ = 0;  // before it has taken this effort.
 };
 
 }  // namespace quadrille::discrete

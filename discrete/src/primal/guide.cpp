@@ -12,8 +12,8 @@ namespace quadrille::discrete {
 namespace {
 
 constexpr int kRounds = 3;
-/// Vertices that may be looked at for one path: so many for each timestep, and some. Where more are
-/// needed the agent keeps the path it has.
+/// Vertices that may be looked at for one path: kEffortPerTimestep for each timestep, and
+/// kLeastEffort. Where more are needed the agent keeps the path it has.
 constexpr std::int64_t kEffortPerTimestep = 50, kLeastEffort = 1000;
 
 /// Makes the paths.

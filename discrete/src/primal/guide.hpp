@@ -17,7 +17,8 @@ namespace quadrille::discrete {
 /// planning", ICRA 2022; as a guide of LaCAM: Okumura, "Engineering LaCAM*", AAMAS 2024).
 class Guide {
  public:
-  /// Seconds. Agents that are left then keep the path they have, at first a shortest one.
+  /// Elementary steps, a few seconds. Agents that are left then keep the path they have, at first a
+  /// shortest one.
   static constexpr std::int64_t kMostEffort = 10'000'000;
 
   /// Plans a path without waits for one agent after the other, with as few meetings as possible

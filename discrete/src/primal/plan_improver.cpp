@@ -9,11 +9,11 @@
 namespace quadrille::discrete {
 namespace {
 
-// A neighbourhood is given up when its new paths take more effort than so much per timestep of the
-// old ones (measured; free paths take about one), plus something for short paths.
+// A neighbourhood is given up when its new paths take more effort than this per timestep of the old
+// ones (measured; free paths take about one), plus something for short paths.
 constexpr std::int64_t kEffortPerTimestep = 20;
 constexpr std::int64_t kLeastEffort = 1000;
-/// One part in so many of the effort is for trying all choices alike. Measured with 400 agents on
+/// One part in kExplored of the effort is for trying all choices alike. Measured with 400 agents on
 /// room-64-64-8: in 2 s 40,798; with all choices in one of four draws, whatever they take, 46,492.
 constexpr std::int64_t kExplored = 8;
 

@@ -9,12 +9,12 @@
 namespace quadrille::discrete {
 namespace {
 
-// A path is given up when it takes more effort than so much per timestep of the old one, plus
-// something for short paths; the more failures, the more.
+// A path is given up when it takes more effort than this per timestep of the old one, plus
+// something for short paths; the limit grows with the failures.
 constexpr std::int64_t kEffortPerTimestep = 100;
 constexpr std::int64_t kLeastEffort = 1000;
 constexpr std::int64_t kFailuresPerEffort = 8;
-// More than so many count as so many: slices remain slices, and memory bounded.
+// More failures than this count as this many: slices remain slices, and memory bounded.
 constexpr std::int64_t kMostFailures = 64;
 // Agents taken out together: powers of two. One or two at first, which keeps most paths.
 constexpr std::uint64_t kFirstSizes = 2, kMostSizes = 4;
@@ -22,7 +22,7 @@ constexpr std::uint64_t kFirstSizes = 2, kMostSizes = 4;
 // the plan, and the sooner the planner knows that there is nothing better.
 constexpr Timestep kLeastSlack = 2;
 constexpr std::uint64_t kFirstSlacks = 3, kMostSlacks = 10;
-// After so many failures both ranges are wider by one.
+// Failures after which both ranges are wider by one.
 constexpr std::int64_t kPatience = 4;
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 /// 5,026 timesteps for 500 agents in a maze and 550 in rooms: jumps of less than 256 hardly ever
 /// succeed, and those that visit more configurations than timesteps seldom do.
 constexpr Timestep kMostReach = 2048, kLeastReach = 256;
-/// A pass that gains less than one in so many timesteps is the last one.
+/// A pass that shortens the plan by less than one part in kLeastGain is the last one.
 constexpr Timestep kLeastGain = 50;
 /// Configurations that a jump may visit, for each timestep that it is to replace.
 constexpr std::int64_t kConfigurationsPerTimestep = 1;

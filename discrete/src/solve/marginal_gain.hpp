@@ -17,7 +17,7 @@ class MarginalGain {
   /// As well for plans; decides on the share from now on. `gap_percent`: what is left.
   void count_plans(std::int64_t effort, Cost gain, double gap_percent);
 
-  /// Steps for plans that are due for so many of the search.
+  /// Steps for plans that are due for `search_effort` steps of the search.
   [[nodiscard]] std::int64_t due(std::int64_t search_effort) const {
     return search_effort * kStepOfSearch * share_ / kUnit;
   }

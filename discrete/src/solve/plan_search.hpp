@@ -57,9 +57,9 @@ class PlanImprovement final : public sat::Strategy {
 
   /// Tells where paths can be had that may collide, or none; they are taken when they are wanted.
   void offer_draft(const std::function<Plan()>& draft);
-  /// Requires an incumbent, and a slice with effort: so much for the incumbent (a quarter of it
-  /// while the first draft is being repaired) or a second chance beside it, so much for the repair
-  /// of a draft if there is one, and so much again for the rival when it is repaired.
+  /// Requires an incumbent, and a slice with effort. The incumbent, or a second chance instead of
+  /// it, gets all of the slice (a quarter while the first draft is being repaired). A draft that is
+  /// being repaired gets another slice, and when that is done the rival gets one more.
   [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
   /// The first draft is being repaired: what comes of it is a better incumbent than long
   /// improvement of a first plan makes, as a rule. Measured: 1,000 agents on
@@ -107,8 +107,8 @@ class PlanSearch {
   /// null, is called again and again.
   void advance(std::int64_t search_effort, const std::function<Plan()>& draft,
                const std::function<void()>& after_slice);
-  /// The incumbent is so much cheaper by what others told: nobody here gained that. Before the
-  /// first one, nothing.
+  /// What others told has made the incumbent cheaper by `less`: nobody here gained that. 0 for the
+  /// first incumbent.
   void hear(Cost less);
   /// Steps of `advance` so far.
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }

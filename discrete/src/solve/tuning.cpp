@@ -6,7 +6,7 @@
 namespace quadrille::discrete {
 namespace {
 
-/// Measured: from so many agents on chronological backtracking is the better way.
+/// Measured: from this number of agents on chronological backtracking is the better way.
 constexpr std::size_t kManyAgents = 175;
 
 /// Whether the search for the least cost also looks for plans from above. The MDD model would have

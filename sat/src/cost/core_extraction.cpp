@@ -13,8 +13,8 @@ namespace {
 /// So many passes in a row that are no better than the best one are the last. Measured: where
 /// passes gain anything, one that does not is soon followed by one that does.
 constexpr int kPassesWithoutGain = 2;
-/// Conflicts that make a core hard in later passes: one in so many of those of the first. What was
-/// learned makes all cores but the last ones easy.
+/// In later passes a core is hard after this part (one in kLaterPassShare) of the conflicts that
+/// make it hard in the first one: what was learned makes all cores but the last ones easy.
 constexpr std::int64_t kLaterPassShare = 4;
 /// Of one core.
 constexpr Cost kMaxLift = 1024;

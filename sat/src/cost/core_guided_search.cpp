@@ -11,7 +11,7 @@
 namespace quadrille::sat {
 namespace {
 
-/// Slices from below and from above grow, up to so many conflicts.
+/// Conflicts of the longest slices from below and from above, which grow.
 constexpr std::int64_t kLongestSlice = 1 << 28;
 
 SearchEnd end_of(Outcome outcome) {

@@ -10,8 +10,8 @@ namespace {
 /// Of one try; longer ones seldom succeed. Measured: without any, room-64-64-8 with 70 agents takes
 /// five times as long.
 constexpr SolveBudget kTryBudget{60, 1000};
-/// Conflicts that make cores smaller may exceed those of the search by so many; so may those that
-/// raise them.
+/// Conflicts that make cores smaller may exceed those of the search by this number; so may those
+/// that raise them.
 constexpr std::int64_t kFreeConflicts = 200;
 /// Likewise, in steps of the engine. Where paths are long and have much time, a try without any
 /// conflict can take a second. Measured, against conflicts alone: maze-32-32-4 with 35 agents 3.7

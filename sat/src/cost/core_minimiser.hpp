@@ -12,17 +12,18 @@ namespace quadrille::sat {
 /// Drops from cores what they do not need, by deletion: each try solves a part of the core, under a
 /// budget counted in conflicts and decisions, so that all is deterministic. Agents that the part
 /// does not bound are absent. What is learned on the way is kept in any case.
+///
+/// All tries of one kind may take about as many conflicts as the search had, `searched`, and about
+/// as much effort as the engine spent on everything else.
 class CoreMinimiser {
  public:
   explicit CoreMinimiser(const CostSearchContext& context) : context_(context) {}
 
-  /// A part of `core` that cannot hold either. `searched`: conflicts of the search so far; those of
-  /// this exceed them by little, and its effort exceeds by little what the engine did elsewhere.
+  /// A part of `core` that cannot hold either.
   [[nodiscard]] std::vector<Lit> minimise(std::vector<Lit> core, std::int64_t searched);
-  /// The largest number of units found, at most `max_lift` >= 1, that some soft of the core has to
-  /// be violated by: twice as many again and again, as long as less is refuted, then by halves.
-  /// Drops softs that it does without. `searched`: as above, but what was spent on refutations
-  /// counts as search.
+  /// The largest `lift` found, at most `max_lift` >= 1, such that not all softs of the core can be
+  /// violated by less than `lift` units. It is doubled as long as that is refuted, then found by
+  /// bisection. Drops softs that a refutation does not need. Tries that refute are free.
   [[nodiscard]] Cost raise(Relaxation& relaxation, std::vector<Lit>& core, Cost max_lift,
                            std::int64_t searched);
 

@@ -29,8 +29,8 @@ class Relaxation {
   /// That no soft is violated: with it a plan costs `bound()`.
   [[nodiscard]] std::vector<Lit> assumptions() const;
   /// That each soft of a core, some of `assumptions()`, is violated by less than `lift` units: what
-  /// has to be refuted before it is relaxed by so many. No literal for a soft that is not violated
-  /// by so many units in any plan. Nothing if a limit came before that was done.
+  /// has to be refuted before the core is relaxed by `lift`. No literal for a soft that no plan
+  /// violates by `lift` units. Nothing if a limit came before that was done.
   [[nodiscard]] std::optional<std::vector<Lit>> raised(std::span<const Lit> core, Cost lift);
   /// Pays for a core whose softs cannot all be violated by less than `lift` >= 1 units: the bound
   /// rises by that. Watches for what the others of its softs come to up to there, and for what each
@@ -61,7 +61,7 @@ class Relaxation {
     Cost bound;
   };
   [[nodiscard]] bool grow(const Soft& soft, Cost units);
-  /// That the soft is violated by so many units, at least 1. Invalid if it never is.
+  /// That the soft is violated by `units` >= 1 or more. Invalid if it never is.
   [[nodiscard]] Lit violated_by(const Soft& soft, Cost units) const;
   /// Adds the soft if it can be violated. False: a limit was met.
   [[nodiscard]] bool add(const Soft& soft);

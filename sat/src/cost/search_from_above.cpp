@@ -8,7 +8,7 @@
 namespace quadrille::sat {
 namespace {
 
-/// After so many more cores what they leave open is counted anew.
+/// What the cores leave open is counted anew when they have raised the bound by this.
 constexpr Cost kRebaseAfter = 8;
 
 }  // namespace

@@ -26,9 +26,9 @@ class Releaser {
   /// who waits for them. NodeOrder::cycle; empty if all arrive.
   [[nodiscard]] const std::vector<MoveId>& cycle() const noexcept { return cycle_; }
 
-  /// The first so many moves of the agent are released.
+  /// How many moves of the agent, from the first on, are released.
   [[nodiscard]] std::uint32_t released(AgentId agent) const { return released_[agent]; }
-  /// The first so many moves of the agent have ended. Never goes back; at most as many as were
+  /// The first `count` moves of the agent have ended. Never goes back; at most as many as were
   /// released (what an agent did without release may have collided, and is refused).
   void end_moves(AgentId agent, std::uint32_t count);
   /// The agents that got moves released since the last call, by id. Time of all calls together:

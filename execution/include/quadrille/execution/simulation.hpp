@@ -28,8 +28,8 @@ enum class Rule {
 /// What holds up agents.
 struct DelayOptions {
   double pause_chance = 0.1;  ///< Of a pause on each move; 0 .. 1.
-  Ticks longest_pause = 1;    ///< Pauses take 1 to so many ticks; at least 1.
-  double slowness = 0.15;     ///< Agents are up to so much slower than planned; 0 .. 0.95.
+  Ticks longest_pause = 1;    ///< At least 1; the shortest takes 1.
+  double slowness = 0.15;     ///< Agents are slower than planned by up to this share; 0 .. 0.95.
 };
 
 /// What holds up one agent, whatever the others do.

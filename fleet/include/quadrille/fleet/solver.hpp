@@ -48,12 +48,12 @@ struct SolveOptions : Choices {
   /// No plan costs less: known from elsewhere, such as an earlier solve. What rests on it alone
   /// says so. In ticks, it is rounded down.
   std::optional<Seconds> known_lower_bound = {};
-  /// Called on the solving thread when a phase begins, and else about once in so many seconds, as
-  /// Request says; what it throws ends the search and comes out of `solve`. May be empty.
+  /// Called on the solving thread when a phase begins, and else about once in `progress_interval`,
+  /// as Request says; what it throws ends the search and comes out of `solve`. May be empty.
   std::function<void(const Progress&)> on_progress = {};
   Seconds progress_interval = Seconds(0.25);
-  /// Likewise with the best plan so far, if it is cheaper than at the last call, at most once in so
-  /// many seconds; the answer may be better still.
+  /// Likewise with the best plan so far, if it is cheaper than at the last call, at most once in
+  /// `plan_interval`; the answer may be better still.
   std::function<void(const TimedPlan&)> on_plan = {};
   Seconds plan_interval = Seconds(1);
 };

@@ -43,7 +43,7 @@ namespace quadrille::ompl_bridge {
                                                         const ::ompl::base::Planner& planner);
 
 struct JoinOptions {
-  std::size_t neighbours = 6;  ///< To be joined with so many, if there are.
+  std::size_t neighbours = 6;  ///< How many to be joined with, if there are that many.
   /// These only, such as the vertices of the roadmap of one class; by default all there are.
   std::optional<std::vector<VertexId>> among = {};
 };

@@ -63,7 +63,7 @@ struct CoreGuidedOptions {
   /// was learned, which makes for smaller ones; two times in a row without gain are the last. At
   /// least 1. Measured: 2 to 6 make little difference, one is up to four times as slow.
   int passes = 3;
-  /// The first slice after the passes is so many times as long as `first_turn`: cores alone often
+  /// How many times as long as `first_turn` the first slice after the passes is: cores alone often
   /// come to the end in it. At least 1. Measured, 4 to 8 against 1: random-32-32-10 with 180 agents
   /// 12 instead of 25 s, random-32-32-20 with 100 agents 11 to 25 instead of 22 s, no difference
   /// elsewhere.

@@ -60,7 +60,8 @@ class Engine {
   void clear_phase(Lit lit);
 
   /// Searches for an assignment that satisfies all clauses, the assumptions and the theory.
-  /// `unknown` only when `limits` or `budget` ended the search.
+  /// `unknown` only when `limits` or `budget` ended the search. Throws what theory and observer
+  /// throw, and std::bad_alloc; then there is no verdict, and the engine must not solve again.
   [[nodiscard]] Verdict solve(std::span<const Lit> assumptions, LimitMonitor& limits,
                               const SolveBudget& budget = {});
   /// Requires that the last verdict was sat and a literal that is older than that verdict. Clauses

@@ -47,7 +47,8 @@ class TheoryContext {
   ~TheoryContext() = default;
 };
 
-/// A decision procedure inside the SAT search. One thread; never throws.
+/// A decision procedure inside the SAT search. One thread. What it throws, LimitReached for
+/// instance, ends the running solve and comes out of Engine::solve.
 ///
 /// The engine shows the theory one stack of true literals. `on_assign` pushes, `on_retract` pops.
 /// No variable is on the stack twice. After a retraction, literals that the solver kept at lower
