@@ -147,7 +147,7 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
                   "name of the file, else json")
       ->group(group);
   add_seconds(app, "--plan-every", arguments.plan_every,
-              "Write each better plan to the file of --plan, at most once in so many seconds")
+              "Write each better plan to the file of --plan, at most once in this time")
       ->group(group);
   add_file(app, "--json", arguments.json, "Write the result as JSON; - is standard output")
       ->group(group);
