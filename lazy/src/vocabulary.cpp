@@ -47,11 +47,11 @@ Vocabulary::Rung& Vocabulary::rung(AgentId agent, Cost cost, FormulaWriter& writ
   ladder.insert(at, {cost, made, false});
   const auto order = [&](Lit stronger, Lit weaker) {
     const Lit clause[] = {~stronger, weaker};
-    writer.add({sat::LemmaKind::order, clause, {}, false});
+    writer.add({sat::why::Order{agent}, clause, {}, false});
   };
   if (cost >= cost_bound(agent)) {
     const Lit clause[] = {~made};
-    writer.add({sat::LemmaKind::order, clause, {}, false});
+    writer.add({sat::why::Ceiling{agent}, clause, {}, false});
   }
   if (index > 0) order(made, ladder[index - 1].at_least);
   if (index + 1 < ladder.size()) order(ladder[index + 1].at_least, made);

@@ -149,7 +149,7 @@ class SeatDomain {
     const ObstacleId b = vocabulary_.seat(conflict.second, seat, writer);
     if (!written_.insert({a, b}).second) return {a, b};
     const sat::Lit clause[] = {~obstacles()[a].allowed, ~obstacles()[b].allowed};
-    writer.add({sat::LemmaKind::collision, clause, {}, false});
+    writer.add({sat::why::Vertex{}, clause, {}, false});
     return {a, b};
   }
   [[nodiscard]] std::int64_t effort(std::int64_t num_assigned) const { return num_assigned; }

@@ -15,7 +15,7 @@ class RecordingContext final : public sat::TheoryContext {
   explicit RecordingContext(sat::TheoryContext& context) : context_(context) {}
 
   std::vector<std::vector<sat::Lit>> lemmas;
-  std::vector<sat::LemmaKind> kinds;  // of the lemmas
+  std::vector<sat::Why> reasons;  // of the lemmas
   bool made_literal = false, stopped = false;
   bool is_trial = false;  // lemmas stay here
 
@@ -25,7 +25,7 @@ class RecordingContext final : public sat::TheoryContext {
   [[nodiscard]] std::size_t num_variables() const override { return context_.num_variables(); }
   void add_lemma(const sat::Lemma& lemma) override {
     lemmas.emplace_back(lemma.clause.begin(), lemma.clause.end());
-    kinds.push_back(lemma.kind);
+    reasons.push_back(lemma.why);
     if (!is_trial) context_.add_lemma(lemma);
   }
   void propagate(sat::Lit implied) override { context_.propagate(implied); }

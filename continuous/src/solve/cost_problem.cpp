@@ -128,11 +128,11 @@ void CostProblem::add_core(const std::vector<Level>& core,
     if (clause.empty()) auditor_->audit(clause);
   }
   if (clause.empty()) return;
-  engine_.add_clause({sat::LemmaKind::core, clause, {}, false});
+  engine_.add_clause({sat::why::Core{}, clause, {}, false});
 }
 
 void CostProblem::take_core(const std::vector<Level>& core) {
-  engine_.add_clause({sat::LemmaKind::core, clause_of(core), {}, false});
+  engine_.add_clause({sat::why::Core{}, clause_of(core), {}, false});
 }
 
 std::vector<Lit> CostProblem::clause_of(const std::vector<Level>& core) {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "solve/auditors.hpp"
 #include "solve/cost_problem.hpp"
 #include "solve/cover_search.hpp"
 #include "solve/lemma_keeper.hpp"
 #include "solve/makespan_search.hpp"
-#include "theory/lemma_recorder.hpp"
+#include "theory/collision_sites.hpp"
+#include "theory/lemma_auditor.hpp"
 #include "theory/theory.hpp"
 
 namespace quadrille::continuous {
@@ -32,14 +32,16 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     pulse_.enter(Phase::search);
     Model model(scene);
     ContinuousTheory theory(model);
-    Auditors auditors(model, options_.debug);
+    std::optional<LemmaAuditor> auditor;
+    if (options_.debug.audit || options_.debug.known_plan)
+      auditor.emplace(model, options_.debug.audit, options_.debug.known_plan);
     const bool in_search = options_.system == System::dpll;
     sat::EngineOptions engine_options;
     engine_options.seed = options_.seed;
-    engine_options.observer = auditors.is_needed() ? &auditors : nullptr;
-    std::optional<LemmaRecorder> recorder;
+    engine_options.observer = auditor ? &*auditor : nullptr;
+    std::optional<lazy::Recorder> recorder;
     if (options_.explain) {
-      recorder.emplace(model, engine_options.observer);
+      recorder.emplace(model, model.instance().num_agents(), engine_options.observer);
       engine_options.observer = &*recorder;
     }
     std::optional<LemmaKeeper> keeper;
@@ -49,13 +51,14 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     }
     sat::Engine engine(in_search ? &theory : nullptr, engine_options);
     engine_ = &engine;
-    CostProblem problem(model, engine, theory, in_search, this, auditors.of_cores());
+    CostProblem problem(model, engine, theory, in_search, this,
+                        auditor ? auditor->cores() : nullptr);
     const Cost spared = options_.debug.known_plan ? cost_of(*options_.debug.known_plan) : 0;
     CostTrace trace;
     CostTrace* const traced = recorder ? &trace : nullptr;
     const auto conclude = [&](bool has_plan) {
       if (keeper) leave(*keeper);
-      if (recorder) explain(*recorder, std::move(trace), has_plan);
+      if (recorder) explain(model, *recorder, std::move(trace), has_plan);
       engine.add_statistics(known_.statistics);
       known_.statistics.checks = theory.num_checks();
       engine_ = nullptr;
@@ -77,7 +80,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     }
     conclude(known_.plan || report.plan);
     take(report);
-    if (const auto complaint = auditors.complaint())
+    if (const auto complaint = auditor ? auditor->complaint() : std::nullopt)
       known_.fail(*complaint);
     else if (report.end == sat::SearchEnd::exhausted)
       known_.infeasible = solve::Infeasibility{"every combination of paths collides"};
@@ -87,13 +90,13 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
   }
 
  private:
-  void explain(const LemmaRecorder& recorder, CostTrace trace, bool has_plan) {
+  void explain(const Model& model, const lazy::Recorder& recorder, CostTrace trace, bool has_plan) {
     sat::Dependence dependence = recorder.dependence(has_plan);
     for (CoreUse& core : trace.cores) dependence.imply(core.agents, std::move(core.ceilings));
     for (Raise& raise : trace.raises) dependence.add_bystanders(raise);
     if (!known_.attribution) known_.attribution.emplace();
     known_.attribution->raises = std::move(trace.raises);
-    known_.attribution->sites = recorder.sites();
+    known_.attribution->sites = collision_sites(model, recorder);
   }
 
   void leave(const LemmaKeeper& keeper) {

@@ -15,10 +15,6 @@ namespace {
 using Kind = LemmaStock::Kind;
 using sat::Lit;
 
-sat::LemmaKind kind_of(Kind kind) {
-  return kind == Kind::path ? sat::LemmaKind::path : sat::LemmaKind::collision;
-}
-
 /// Makes literals again, and clauses of them.
 class Taker {
  public:
@@ -81,7 +77,17 @@ class Taker {
       const Lit lit = kind == Kind::collision ? ~obstacle.allowed : obstacle.allowed;
       if (std::find(clause.begin(), clause.end(), lit) == clause.end()) clause.push_back(lit);
     }
-    writer_.add({kind_of(kind), clause, usages, false});
+    writer_.add({why(kind, levels), clause, usages, false});
+  }
+
+  [[nodiscard]] sat::Why why(Kind kind, const std::vector<Level>& levels) const {
+    const auto owner = [&](ObstacleId id) { return model_.obstacles()[id].agent; };
+    if (kind == Kind::path) return sat::why::Path{owner(obstacles_.front())};
+    if (kind == Kind::pair) return sat::why::Pair{levels[0].agent, levels[1].agent};
+    const bool is_stay = std::any_of(obstacles_.begin(), obstacles_.end(), [&](ObstacleId id) {
+      return model_.obstacles()[id].cause.kind == Ban::Kind::stay;
+    });
+    return is_stay ? sat::Why(sat::why::Stay{}) : sat::Why(sat::why::Moves{});
   }
 
   const LemmaStock& stock_;
@@ -110,21 +116,19 @@ LemmaStock::Obstacle kept(const Model& model, ObstacleId id) {
 }  // namespace
 
 void LemmaKeeper::on_lemma(const sat::Lemma& lemma) {
-  if (next_ != nullptr) next_->on_lemma(lemma);
-  const bool is_path = lemma.kind == sat::LemmaKind::path;
-  if ((!is_path && lemma.kind != sat::LemmaKind::collision) || lemma.usages.empty()) return;
+  PassingObserver::on_lemma(lemma);
+  const auto* path = std::get_if<sat::why::Path>(&lemma.why);
+  const auto* pair = std::get_if<sat::why::Pair>(&lemma.why);
+  if ((path == nullptr && !sat::is_collision(lemma.why)) || lemma.usages.empty()) return;
   LemmaStock::Lemma kept;
-  kept.kind = is_path ? Kind::path : Kind::collision;
-  // Literals of obstacles around goals are costs, too: those are of others than the path's agent,
-  // and come after the two of a pair.
-  if (!is_path && model_.variable(lemma.clause[0]).kind == Model::VariableKind::cost)
-    kept.kind = Kind::pair;
+  kept.kind = path != nullptr ? Kind::path : pair != nullptr ? Kind::pair : Kind::collision;
+  // The literals of obstacles around goals are costs, too: of others than the path's agent, and
+  // after the two of a pair.
   for (std::size_t k = 0; k < lemma.clause.size(); ++k) {
     const auto meaning = model_.variable(lemma.clause[k]);
-    const bool is_level = kept.kind == Kind::pair
-                              ? k < 2
-                              : is_path && meaning.kind == Model::VariableKind::cost &&
-                                    meaning.agent == lemma.usages.front().agent;
+    const bool is_level =
+        path != nullptr ? meaning.kind == Model::VariableKind::cost && meaning.agent == path->agent
+                        : pair != nullptr && k < 2;
     if (is_level) kept.levels.push_back({meaning.agent, meaning.cost});
   }
   for (const sat::Usage& usage : lemma.usages)
@@ -134,16 +138,6 @@ void LemmaKeeper::on_lemma(const sat::Lemma& lemma) {
     lemmas_.erase(lemmas_.begin(), lemmas_.begin() + kMostLemmas);
   lemmas_.push_back(std::move(kept));
 }
-
-void LemmaKeeper::on_learned(std::span<const Lit> clause) {
-  if (next_ != nullptr) next_->on_learned(clause);
-}
-
-void LemmaKeeper::on_core(std::span<const Lit> clause) {
-  if (next_ != nullptr) next_->on_core(clause);
-}
-
-bool LemmaKeeper::wants_learned() const { return next_ != nullptr && next_->wants_learned(); }
 
 LemmaStock LemmaKeeper::stock() const {
   LemmaStock stock;

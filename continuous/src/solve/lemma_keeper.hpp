@@ -12,15 +12,13 @@ namespace quadrille::continuous {
 
 /// Remembers the last lemmas of a search about paths, collisions and pairs, those among them that
 /// it was given. Passes everything on to another observer.
-class LemmaKeeper final : public sat::ClauseObserver {
+class LemmaKeeper final : public sat::PassingObserver {
  public:
   /// Both outlive the keeper; `next` may be null.
-  LemmaKeeper(const Model& model, sat::ClauseObserver* next) : model_(model), next_(next) {}
+  LemmaKeeper(const Model& model, sat::ClauseObserver* next)
+      : PassingObserver(next), model_(model) {}
 
   void on_lemma(const sat::Lemma& lemma) override;
-  void on_learned(std::span<const sat::Lit> clause) override;
-  void on_core(std::span<const sat::Lit> clause) override;
-  [[nodiscard]] bool wants_learned() const override;
 
   /// Lemmas in stock, at most. Measured in sessions of 15 and 30 agents: most searches leave fewer,
   /// and a third is hardly worse.
@@ -29,7 +27,6 @@ class LemmaKeeper final : public sat::ClauseObserver {
 
  private:
   const Model& model_;
-  sat::ClauseObserver* const next_;
   std::vector<LemmaStock::Lemma> lemmas_;  // with obstacles by id
 };
 

@@ -39,7 +39,8 @@ std::vector<ObstacleId> EncounterClauses::exclude_moves(Party i, const Step& a, 
   std::vector<Ban> bans_j{Ban::start(b.edge, {t, starts_against(*offsets, s).end})};
   lift(i, bans_i, j, bans_j[0].when.length() / 2, bans_j);
   lift(j, bans_j, i, bans_i[0].when.length() / 2, bans_i);
-  return add_pair(i.agent, std::move(bans_i), j.agent, std::move(bans_j), writer);
+  return add_pair(i.agent, std::move(bans_i), j.agent, std::move(bans_j), sat::why::Moves{},
+                  writer);
 }
 
 // What collides with all bans of a together is what collides with each of them.
@@ -100,17 +101,19 @@ std::vector<ObstacleId> EncounterClauses::exclude_stay(Party mover, const Step& 
   const TickInterval starts{move.begin, starts_meeting_all(*window, ban_stander.when).end};
   std::vector<Ban> bans_mover{Ban::start(move.edge, starts)};
   lift_over_stay(mover, stander, ban_stander, starts.length() / 4, bans_mover);
-  return add_pair(mover.agent, std::move(bans_mover), stander.agent, {ban_stander}, writer);
+  return add_pair(mover.agent, std::move(bans_mover), stander.agent, {ban_stander},
+                  sat::why::Stay{}, writer);
 }
 
 std::vector<ObstacleId> EncounterClauses::add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
-                                                   std::vector<Ban> bans_j, FormulaWriter& writer) {
+                                                   std::vector<Ban> bans_j, const sat::Why& why,
+                                                   FormulaWriter& writer) {
   bool is_new_i = false, is_new_j = false;
   const ObstacleId a = model_.usage(i, std::move(bans_i), j, writer, is_new_i);
   const ObstacleId b = model_.usage(j, std::move(bans_j), i, writer, is_new_j);
   const sat::Lit clause[] = {~model_.obstacles()[a].allowed, ~model_.obstacles()[b].allowed};
   const sat::Usage usages[] = {{i, a.value()}, {j, b.value()}};
-  writer.add({sat::LemmaKind::collision, clause, usages, false});
+  writer.add({why, clause, usages, false});
   if (is_new_i) add_price(a, writer);
   if (is_new_j) add_price(b, writer);
   return {a, b};
@@ -126,7 +129,7 @@ void EncounterClauses::add_price(ObstacleId id, FormulaWriter& writer) {
   std::vector<sat::Lit> clause{model_.obstacles()[id].allowed};
   if (arrival) clause.push_back(model_.at_least(i, as_cost(*arrival), writer));
   const sat::Usage usages[] = {{i, id.value()}};
-  writer.add({sat::LemmaKind::path, clause, usages, false});
+  writer.add({sat::why::Path{i}, clause, usages, false});
 }
 
 }  // namespace quadrille::continuous

@@ -37,7 +37,8 @@ class EncounterClauses {
   void lift_over_stay(Party a, Party b, const Ban& stay, Ticks min_length,
                       std::vector<Ban>& bans_of_a);
   std::vector<ObstacleId> add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,
-                                   std::vector<Ban> bans_j, FormulaWriter& writer);
+                                   std::vector<Ban> bans_j, const sat::Why& why,
+                                   FormulaWriter& writer);
   /// Adds what the obstacle alone costs its agent.
   void add_price(ObstacleId id, FormulaWriter& writer);
 

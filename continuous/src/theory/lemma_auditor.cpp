@@ -60,31 +60,47 @@ Ticks next_start(const std::vector<Ban>& bans, EdgeId e, Ticks tick) {
 
 }  // namespace
 
-LemmaAuditor::LemmaAuditor(const Model& model) : model_(model) {}
-
-void LemmaAuditor::on_lemma(const sat::Lemma& lemma) {
-  if (complaint_) return;
-  std::string wrong;
-  switch (lemma.kind) {
-    case sat::LemmaKind::path:
-      wrong = audit_path(lemma);
-      break;
-    case sat::LemmaKind::collision:
-      wrong = audit_collision(lemma);
-      break;
-    case sat::LemmaKind::order:
-      wrong = audit_order(lemma);
-      break;
-    case sat::LemmaKind::counting:
-      wrong = "this theory counts nothing";
-      break;
-    case sat::LemmaKind::core:
-      return;
+LemmaAuditor::LemmaAuditor(const Model& model, bool derive, const std::optional<Plan>& known_plan)
+    : ClauseAuditor(derive, known_plan.has_value()), model_(model) {
+  if (!known_plan) return;
+  const Instance& instance = model.instance();
+  for (const AgentId i : instance.agent_ids()) {
+    paths_.push_back(without_stops(instance, i, known_plan->paths[i]));
+    PathUses uses;
+    uses.assign(instance, i, paths_[i]);
+    uses_.push_back(uses);
   }
+}
+
+std::string LemmaAuditor::audit(const sat::Lemma& lemma) {
   ++num_derived_;
-  if (wrong.empty()) return;
-  complaint_ = wrong + " (" + std::string(to_string(lemma.kind)) + "):";
-  for (const sat::Lit lit : lemma.clause) *complaint_ += " " + std::to_string(lit.dimacs());
+  if (const auto* path = std::get_if<sat::why::Path>(&lemma.why))
+    return audit_path(lemma, path->agent);
+  if (lemma.is<sat::why::Moves>() || lemma.is<sat::why::Stay>()) return audit_collision(lemma);
+  if (lemma.is<sat::why::Pair>()) return audit_pair(lemma);
+  if (lemma.is<sat::why::Order>() || lemma.is<sat::why::Ceiling>()) return audit_order(lemma);
+  return "continuous time has no such lemmas";
+}
+
+std::optional<bool> LemmaAuditor::find_in_plan(sat::Lit lit) const {
+  const auto meaning = model_.variable(lit);
+  switch (meaning.kind) {
+    case Kind::cost:
+      return (as_cost(paths_[meaning.agent].arrival) >= meaning.cost) == lit.positive();
+    case Kind::usage:  // the variable forbids
+      return uses_[meaning.agent].breaks(model_.obstacles()[meaning.obstacle].bans) !=
+             lit.positive();
+    case Kind::auxiliary:
+    case Kind::own:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::string LemmaAuditor::describe(Clause clause) const {
+  std::string text;
+  for (const sat::Lit lit : clause) text += " " + std::to_string(lit.dimacs());
+  return text;
 }
 
 std::string LemmaAuditor::audit_usages(const sat::Lemma& lemma) const {
@@ -131,10 +147,9 @@ std::string LemmaAuditor::audit_goal_bans(const Obstacle& o, AgentId resident, T
   return "";
 }
 
-std::string LemmaAuditor::audit_path(const sat::Lemma& lemma) const {
+std::string LemmaAuditor::audit_path(const sat::Lemma& lemma, AgentId i) const {
   if (lemma.usages.empty()) return "a path lemma without obstacles";
   if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
-  const AgentId i = lemma.usages[0].agent;
   std::vector<Ban> bans;
   for (const sat::Usage& usage : lemma.usages) {
     const Obstacle& o = obstacle(usage);
@@ -192,11 +207,8 @@ bool LemmaAuditor::has_path(AgentId i, const std::vector<Ban>& bans, Ticks bound
   return false;
 }
 
-std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) {
+std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
   if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
-  for (const sat::Lit lit : lemma.clause)
-    if (const auto meaning = model_.variable(lit); meaning.kind == Kind::cost)
-      return audit_pair(lemma);
   if (lemma.usages.size() != 2 || lemma.clause.size() != 2) return "a collision has two sides";
   const Obstacle &a = obstacle(lemma.usages[0]), &b = obstacle(lemma.usages[1]);
   if (a.agent == b.agent) return "a collision has two agents";
@@ -244,6 +256,7 @@ geometry::BodyPair LemmaAuditor::bodies(AgentId i, AgentId j) const {
 }
 
 std::string LemmaAuditor::audit_pair(const sat::Lemma& lemma) {
+  if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
   PairReplay::Party parties[2];
   for (const std::size_t side : {0U, 1U}) {
     const auto meaning =

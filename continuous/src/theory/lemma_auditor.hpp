@@ -5,34 +5,33 @@
 #include <string>
 #include <vector>
 
+#include "quadrille/continuous/plan.hpp"
 #include "quadrille/geometry/body_pair.hpp"
+#include "quadrille/sat/clause_auditor.hpp"
 #include "theory/model.hpp"
 
 namespace quadrille::continuous {
 
-/// Derives every lemma again from its usages while the solver runs, by other means than those that
-/// found it: path lemmas by a search of its own, which looks at bans one by one; collision lemmas
+/// Derives lemmas again from their usages while the solver runs, by other means than those that
+/// found them: path lemmas by a search of its own, which looks at bans one by one; collision lemmas
 /// by asking the geometry whether extreme starts collide, never for intervals; lemmas of pairs by a
-/// joint search of the two agents tick by tick, if that takes few states. Keeps the first
-/// complaint. Core clauses are consequences of the others and are not looked at. Slow.
-class LemmaAuditor final : public sat::ClauseObserver {
+/// joint search of the two agents tick by tick, if that takes few states. Slow.
+class LemmaAuditor final : public sat::ClauseAuditor {
  public:
-  /// `model` outlives the auditor.
-  explicit LemmaAuditor(const Model& model);
+  /// `model` outlives the auditor. `known_plan` must be a valid plan if given.
+  LemmaAuditor(const Model& model, bool derive, const std::optional<Plan>& known_plan);
 
-  void on_lemma(const sat::Lemma& lemma) override;
-  void on_learned(std::span<const sat::Lit> /*clause*/) override {}
-
-  [[nodiscard]] const std::optional<std::string>& complaint() const noexcept { return complaint_; }
   /// Lemmas that were derived again.
   [[nodiscard]] std::int64_t num_derived() const noexcept { return num_derived_; }
   /// Lemmas of pairs that would have taken too many states.
   [[nodiscard]] std::int64_t num_skipped() const noexcept { return num_skipped_; }
 
  private:
-  /// Each returns what is wrong, empty if nothing is.
-  [[nodiscard]] std::string audit_path(const sat::Lemma& lemma) const;
-  [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma);
+  [[nodiscard]] std::string audit(const sat::Lemma& lemma) override;
+  [[nodiscard]] std::optional<bool> find_in_plan(sat::Lit lit) const override;
+  [[nodiscard]] std::string describe(Clause clause) const override;
+  [[nodiscard]] std::string audit_path(const sat::Lemma& lemma, AgentId i) const;
+  [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma) const;
   [[nodiscard]] std::string audit_pair(const sat::Lemma& lemma);
   [[nodiscard]] std::string audit_order(const sat::Lemma& lemma) const;
   /// Whether the literals of the usages say what their bans say, and whether the clause has them.
@@ -53,7 +52,9 @@ class LemmaAuditor final : public sat::ClauseObserver {
   [[nodiscard]] geometry::BodyPair bodies(AgentId i, AgentId j) const;
 
   const Model& model_;
-  std::optional<std::string> complaint_;
+  // Of the known plan; empty without one.
+  IdVector<AgentId, TimedPath> paths_;
+  IdVector<AgentId, PathUses> uses_;
   std::int64_t num_derived_ = 0, num_skipped_ = 0;
 };
 

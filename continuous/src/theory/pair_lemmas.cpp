@@ -229,7 +229,7 @@ void PairLemmas::add_clause(const PairSearch::Party& i, const PairSearch::Party&
       if (std::find(clause.begin(), clause.end(), obstacle.allowed) == clause.end())
         clause.push_back(obstacle.allowed);
     }
-  writer.add({sat::LemmaKind::collision, clause, usages, false});
+  writer.add({sat::why::Pair{i.agent, j.agent}, clause, usages, false});
 }
 
 /// About one move, as a way round it often costs as much.

@@ -30,7 +30,7 @@ std::vector<ObstacleId> EncounterClauses::exclude_corridor(const Encounter& e,
   std::vector<ObstacleId> usages;
   for (const Corridors::Exit& exit : {exits->first, exits->second})
     usages.push_back(model_.range(exit.agent, exit.vertex, exit.first, exit.last, writer));
-  write(usages, writer);
+  write(usages, sat::why::Corridor{e.vertex}, writer);
   return usages;
 }
 
@@ -44,11 +44,12 @@ std::vector<ObstacleId> EncounterClauses::exclude_rectangle(const Encounter& e,
   std::vector<ObstacleId> usages;
   for (const Rectangle::Side& side : rectangle->sides)
     if (!side.inevitable) usages.push_back(model_.barrier(side.agent, side.visits, writer));
-  write(usages, writer);
+  write(usages, rectangle->why, writer);
   return usages;
 }
 
-void EncounterClauses::write(std::vector<ObstacleId>& ids, FormulaWriter& writer) {
+void EncounterClauses::write(std::vector<ObstacleId>& ids, const sat::Why& why,
+                             FormulaWriter& writer) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   if (!written_.insert(ids).second) return;
@@ -58,7 +59,7 @@ void EncounterClauses::write(std::vector<ObstacleId>& ids, FormulaWriter& writer
     clause.push_back(~model_.obstacles()[id].allowed);
     usages.push_back({model_.obstacles()[id].agent, id.value()});
   }
-  writer.add({sat::LemmaKind::collision, clause, usages, false});
+  writer.add({why, clause, usages, false});
 }
 
 }  // namespace quadrille::discrete

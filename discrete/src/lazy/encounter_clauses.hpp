@@ -29,7 +29,7 @@ class EncounterClauses {
   /// Each returns nothing if it does not apply.
   std::vector<ObstacleId> exclude_corridor(const Encounter& encounter, FormulaWriter& writer);
   std::vector<ObstacleId> exclude_rectangle(const Encounter& encounter, FormulaWriter& writer);
-  void write(std::vector<ObstacleId>& usages, FormulaWriter& writer);
+  void write(std::vector<ObstacleId>& usages, const sat::Why& why, FormulaWriter& writer);
 
   LazyModel& model_;
   const PathIndex& paths_;

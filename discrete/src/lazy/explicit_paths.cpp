@@ -25,7 +25,7 @@ class ExplicitPaths::AgentFormula final : public MddPaths::Formula {
     return model_.cost_above(agent_, free_cost + delay - 1, writer_);
   }
   void add(std::span<const Lit> clause) override {
-    writer_.add({sat::LemmaKind::path, clause, {}, false});
+    writer_.add({sat::why::ExplicitPath{agent_}, clause, {}, false});
   }
   bool charges_delays() const override { return true; }
 
@@ -83,13 +83,13 @@ void ExplicitPaths::link(AgentId agent, ObstacleId id, Timestep old_cap, Formula
     const Lit at = paths.at(v, t);
     if (!at.valid() || !is_new(v, t)) return;
     const std::array clause{~at, o.allowed};
-    writer.add({sat::LemmaKind::path, clause, {}, false});
+    writer.add({sat::why::ExplicitPath{agent}, clause, {}, false});
   };
   const auto move = [&](VertexId v, VertexId w) {
     const Lit from = paths.at(v, o.first), to = paths.at(w, o.first + 1);
     if (!from.valid() || !to.valid() || !(is_new(v, o.first) || is_new(w, o.first + 1))) return;
     const std::array clause{~from, ~to, o.allowed};
-    writer.add({sat::LemmaKind::path, clause, {}, false});
+    writer.add({sat::why::ExplicitPath{agent}, clause, {}, false});
   };
   switch (o.kind) {
     case Obstacle::Kind::point:

@@ -56,13 +56,19 @@ std::string LazyAuditor::audit_usages(const sat::Lemma& lemma) const {
   return "";
 }
 
-std::string LazyAuditor::audit_path(const sat::Lemma& lemma) const {
-  for (const Lit lit : lemma.clause)
-    if (const auto var = model_.variable(lit); var.kind == VariableKind::own)
-      return audit_explicit(lemma.clause, var.agent);
+std::string LazyAuditor::audit(const sat::Lemma& lemma) {
+  if (const auto* path = std::get_if<sat::why::Path>(&lemma.why))
+    return audit_path(lemma, path->agent);
+  if (const auto* path = std::get_if<sat::why::ExplicitPath>(&lemma.why))
+    return audit_explicit(lemma.clause, path->agent);
+  if (lemma.is<sat::why::Order>()) return audit_order(lemma.clause);
+  if (sat::is_collision(lemma.why)) return audit_collision(lemma);
+  return "the lazy model has no such lemmas";
+}
+
+std::string LazyAuditor::audit_path(const sat::Lemma& lemma, AgentId agent) const {
   if (lemma.usages.empty() || lemma.clause.empty()) return "a path lemma has an agent";
   if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
-  const AgentId agent = lemma.usages[0].agent;
   const auto cost = model_.variable(lemma.clause[0]);
   if (cost.kind != VariableKind::cost || cost.agent != agent || lemma.clause[0].positive())
     return "a path lemma begins with a cost";

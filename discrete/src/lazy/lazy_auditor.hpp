@@ -19,12 +19,12 @@ class LazyAuditor final : public sat::ClauseAuditor {
   LazyAuditor(const LazyModel& model, bool derive, std::optional<Plan> known_plan);
 
  private:
-  [[nodiscard]] std::string audit_path(const sat::Lemma& lemma) const override;
-  [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma) const override;
-  [[nodiscard]] std::string audit_order(Clause clause) const override;
+  [[nodiscard]] std::string audit(const sat::Lemma& lemma) override;
   [[nodiscard]] std::optional<bool> find_in_plan(sat::Lit lit) const override;
   [[nodiscard]] std::string describe(Clause clause) const override;
-  /// Of the clauses about explicit paths.
+  [[nodiscard]] std::string audit_path(const sat::Lemma& lemma, AgentId agent) const;
+  [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma) const;
+  [[nodiscard]] std::string audit_order(Clause clause) const;
   [[nodiscard]] std::string audit_explicit(Clause clause, AgentId agent) const;
   [[nodiscard]] std::string audit_usages(const sat::Lemma& lemma) const;
 

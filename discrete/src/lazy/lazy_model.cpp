@@ -28,12 +28,13 @@ std::optional<ObstacleId> LazyModel::find_user(const Users& users, AgentId agent
   return std::nullopt;
 }
 
-void LazyModel::join(Users& users, ObstacleId newcomer, FormulaWriter& writer) {
+void LazyModel::join(Users& users, ObstacleId newcomer, const sat::Why& why,
+                     FormulaWriter& writer) {
   const auto usage_of = [&](ObstacleId id) { return sat::Usage{obstacles_[id].agent, id.value()}; };
   for (const ObstacleId other : users) {
     const Lit clause[] = {~obstacles_[other].allowed, ~obstacles_[newcomer].allowed};
     const sat::Usage usages[] = {usage_of(other), usage_of(newcomer)};
-    writer.add({sat::LemmaKind::collision, clause, usages, false});
+    writer.add({why, clause, usages, false});
   }
   users.push_back(newcomer);
 }
@@ -42,7 +43,7 @@ ObstacleId LazyModel::point(AgentId agent, Visit visit, FormulaWriter& writer) {
   Users& users = points_[static_cast<std::uint64_t>(visit.timestep) << 32 | visit.vertex.value()];
   if (const auto known = find_user(users, agent)) return *known;
   const ObstacleId made = obstacles_.add_point(agent, make_usage(agent, writer), visit);
-  join(users, made, writer);
+  join(users, made, sat::why::Vertex{}, writer);
   return made;
 }
 
@@ -52,7 +53,7 @@ ObstacleId LazyModel::edge(AgentId agent, VertexId u, VertexId v, Timestep t,
   Users& users = edges_[{u, v, t}];
   if (const auto known = find_user(users, agent)) return *known;
   const ObstacleId made = obstacles_.add_edge(agent, make_usage(agent, writer), u, v, t);
-  join(users, made, writer);
+  join(users, made, sat::why::Edge{}, writer);
   return made;
 }
 

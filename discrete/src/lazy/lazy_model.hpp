@@ -71,7 +71,7 @@ class LazyModel final : public lazy::Vocabulary {
   }
   [[nodiscard]] std::optional<ObstacleId> find_user(const Users& users, AgentId agent) const;
   /// Adds to the users of a place and time, of whom only one may be there.
-  void join(Users& users, ObstacleId newcomer, FormulaWriter& writer);
+  void join(Users& users, ObstacleId newcomer, const sat::Why& why, FormulaWriter& writer);
 
   const Instance& instance_;
   std::shared_ptr<const GoalDistances> goal_distances_;

@@ -159,7 +159,7 @@ sat::Lemma CollisionTheory::explain(Lit implied, std::vector<Lit>& clause) {
   const auto var = model_.variable(x);
   reason_usages_ = {vertex_usage(model_.variable(implied).agent, var.vertex, var.number),
                     vertex_usage(var.agent, var.vertex, var.number)};
-  return {sat::LemmaKind::collision, {}, reason_usages_, true};
+  return {sat::why::Vertex{}, {}, reason_usages_, true};
 }
 
 void CollisionTheory::check_paths(sat::TheoryContext& context) {

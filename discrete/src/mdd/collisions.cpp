@@ -48,7 +48,7 @@ void CollisionClauses::vertex(Lit x, Lit y, const Sink& sink) {
   const Lit clause[] = {~x, ~y};
   const sat::Usage usages[] = {vertex_usage(a.agent, a.vertex, a.number),
                                vertex_usage(b.agent, b.vertex, b.number)};
-  sink({sat::LemmaKind::collision, clause, usages, false});
+  sink({sat::why::Vertex{}, clause, usages, false});
 }
 
 void CollisionClauses::swap(Lit x, Lit x_next, Lit y, Lit y_next, const Sink& sink) {
@@ -56,7 +56,7 @@ void CollisionClauses::swap(Lit x, Lit x_next, Lit y, Lit y_next, const Sink& si
   const Lit clause[] = {~x, ~x_next, ~y, ~y_next};
   const sat::Usage usages[] = {move_usage(a.agent, a.vertex, b.vertex, a.number),
                                move_usage(b.agent, b.vertex, a.vertex, b.number)};
-  sink({sat::LemmaKind::collision, clause, usages, false});
+  sink({sat::why::Edge{}, clause, usages, false});
 }
 
 void CollisionClauses::rest(Lit x, AgentId resident, Lit late, const Sink& sink) {
@@ -64,7 +64,7 @@ void CollisionClauses::rest(Lit x, AgentId resident, Lit late, const Sink& sink)
   const Lit clause[] = {~x, late};
   const sat::Usage usages[] = {rest_usage(resident, a.vertex, a.number),
                                vertex_usage(a.agent, a.vertex, a.number)};
-  sink({sat::LemmaKind::collision, clause, usages, false});
+  sink({sat::why::Goal{resident}, clause, usages, false});
 }
 
 }  // namespace quadrille::discrete

@@ -65,12 +65,16 @@ LemmaAuditor::LemmaAuditor(const MddModel& model, bool derive, std::optional<Pla
       model_(model),
       known_plan_(std::move(known_plan)) {}
 
-std::string LemmaAuditor::audit_path(const sat::Lemma& lemma) const {
-  return lemma.usages.size() == 1 ? audit_path_of(lemma.clause, lemma.usages[0].agent)
-                                  : "a path lemma is about one agent";
+std::string LemmaAuditor::audit(const sat::Lemma& lemma) {
+  if (const auto* path = std::get_if<sat::why::Path>(&lemma.why))
+    return audit_path(lemma.clause, path->agent);
+  if (lemma.is<sat::why::Order>()) return audit_order(lemma.clause);
+  if (lemma.is<sat::why::Vertex>() || lemma.is<sat::why::Edge>() || lemma.is<sat::why::Goal>())
+    return audit_collision(lemma);
+  return "decision diagrams have no such lemmas";
 }
 
-std::string LemmaAuditor::audit_path_of(Clause clause, AgentId agent) const {
+std::string LemmaAuditor::audit_path(Clause clause, AgentId agent) const {
   Escape escape;
   for (const Lit lit : clause) {
     const auto var = model_.variable(lit);

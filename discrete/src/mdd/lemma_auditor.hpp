@@ -18,13 +18,12 @@ class LemmaAuditor final : public sat::ClauseAuditor {
   LemmaAuditor(const MddModel& model, bool derive, std::optional<Plan> known_plan);
 
  private:
-  [[nodiscard]] std::string audit_path(const sat::Lemma& lemma) const override;
-  [[nodiscard]] std::string audit_order(Clause clause) const override;
-  [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma) const override;
+  [[nodiscard]] std::string audit(const sat::Lemma& lemma) override;
   [[nodiscard]] std::optional<bool> find_in_plan(sat::Lit lit) const override;
   [[nodiscard]] std::string describe(Clause clause) const override;
-  /// Of a clause about one agent.
-  [[nodiscard]] std::string audit_path_of(Clause clause, AgentId agent) const;
+  [[nodiscard]] std::string audit_path(Clause clause, AgentId agent) const;
+  [[nodiscard]] std::string audit_order(Clause clause) const;
+  [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma) const;
 
   const MddModel& model_;
   std::optional<Plan> known_plan_;

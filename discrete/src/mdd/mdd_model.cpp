@@ -52,8 +52,7 @@ Lit MddModel::delay_at_least(AgentId agent, Timestep delay) {
   entry->second = lit;
   const auto implies = [&](Lit stronger, Lit weaker) {
     const Lit clause[] = {~stronger, weaker};
-    const sat::Usage usages[] = {path_usage(agent)};
-    engine_->add_clause({sat::LemmaKind::order, clause, usages, false});
+    engine_->add_clause({sat::why::Order{agent}, clause, {}, false});
   };
   if (const auto above = std::next(entry); above != delays.end()) implies(above->second, lit);
   if (entry != delays.begin()) implies(lit, std::prev(entry)->second);
@@ -87,8 +86,7 @@ class MddModel::AgentFormula final : public MddPaths::Formula {
   }
   Lit delay_at_least(Timestep delay) override { return model_.delay_at_least(agent_, delay); }
   void add(std::span<const Lit> clause) override {
-    const sat::Usage usages[] = {path_usage(agent_)};
-    model_.engine_->add_clause({sat::LemmaKind::path, clause, usages, false});
+    model_.engine_->add_clause({sat::why::Path{agent_}, clause, {}, false});
   }
   bool charges_delays() const override { return model_.objective_ == Objective::sum_of_costs; }
 

@@ -13,14 +13,13 @@ namespace quadrille::discrete {
 /// opposite directions at the same timestep, or when one is a vertex at t and the other a rest
 /// there from t or earlier on.
 enum class UsageKind : std::uint8_t {
-  path = 0,    ///< The agent's path as a whole (of path lemmas).
   vertex = 1,  ///< Being in `vertex` at `timestep`.
   move = 2,    ///< Leaving `vertex` for `to` at `timestep`.
   rest = 3,    ///< Being in `vertex` from `timestep` on, for ever.
 };
 
 struct DecodedUsage {
-  UsageKind kind = UsageKind::path;
+  UsageKind kind = UsageKind::vertex;
   VertexId vertex, to;
   Timestep timestep = 0;
   friend bool operator==(const DecodedUsage&, const DecodedUsage&) = default;
@@ -46,7 +45,6 @@ inline constexpr Timestep kMaxTimestep = (1 << 20) - 1;
           static_cast<Timestep>(resource >> 42 & static_cast<std::uint64_t>(kMaxTimestep))};
 }
 
-[[nodiscard]] constexpr sat::Usage path_usage(AgentId agent) { return {agent, 0}; }
 [[nodiscard]] constexpr sat::Usage vertex_usage(AgentId agent, VertexId v, Timestep t) {
   return {agent, encode_usage({UsageKind::vertex, v, VertexId(), t})};
 }

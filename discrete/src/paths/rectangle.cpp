@@ -84,7 +84,8 @@ class RectangleFinder {
     Rectangle rectangle{{side(horizontal, from, start, {0, dy_}, height),
                          side(horizontal, {to.x, from.y}, start + width, {0, dy_}, height),
                          side(vertical, from, start, {dx_, 0}, width),
-                         side(vertical, {from.x, to.y}, start + height, {dx_, 0}, width)}};
+                         side(vertical, {from.x, to.y}, start + height, {dx_, 0}, width)},
+                        {horizontal.agent, vertical.agent, from.x, from.y, to.x, to.y, start}};
     for (const Rectangle::Side& s : rectangle.sides)
       if (s.visits.empty()) return std::nullopt;
     return rectangle;

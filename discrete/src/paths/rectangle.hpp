@@ -8,6 +8,7 @@
 #include "paths/agent_distances.hpp"
 #include "paths/obstacles.hpp"
 #include "paths/path_index.hpp"
+#include "quadrille/sat/lemma.hpp"
 
 namespace quadrille::discrete {
 
@@ -22,6 +23,7 @@ struct Rectangle {
     bool inevitable = false;
   };
   std::array<Side, 4> sides;  // entry and exit of one agent, then of the other
+  sat::why::Rectangle why;
 };
 
 /// The rectangle around a vertex conflict of two paths on a grid; nullopt if they do not cross, or

@@ -3,11 +3,11 @@
 
 #include <utility>
 
+#include "lazy/collision_sites.hpp"
 #include "lazy/lazy_auditor.hpp"
 #include "lazy/lazy_model.hpp"
 #include "lazy/lazy_problem.hpp"
 #include "lazy/lazy_theory.hpp"
-#include "lazy/lemma_recorder.hpp"
 #include "mdd/collision_theory.hpp"
 #include "mdd/eager_collisions.hpp"
 #include "mdd/lemma_auditor.hpp"
@@ -86,8 +86,8 @@ class LazyRun final : public Run {
           std::make_unique<LazyAuditor>(*model_, options_.debug.audit, options_.debug.known_plan);
     sat::ClauseObserver* observer = auditor_.get();
     if (options_.explain) {
-      recorder_ = std::make_unique<LemmaRecorder>(*model_, observer);
-      observer = recorder_.get();
+      recorder_.emplace(*model_, instance_.num_agents(), observer);
+      observer = &*recorder_;
     }
     engine_ =
         std::make_unique<sat::Engine>(theory_.get(), engine_options(options_, tuning_, observer));
@@ -106,10 +106,10 @@ class LazyRun final : public Run {
     return auditor_ ? auditor_->complaint() : std::nullopt;
   }
   void explain(std::vector<Raise> raises, Attribution& attribution) const override {
-    const sat::Dependence dependence = recorder_->dependence();
+    const sat::Dependence dependence = recorder_->dependence(true);
     for (Raise& raise : raises) dependence.add_bystanders(raise);
     attribution.raises = std::move(raises);
-    attribution.sites = recorder_->sites();
+    attribution.sites = collision_sites(*model_, *recorder_);
   }
 
  private:
@@ -119,7 +119,7 @@ class LazyRun final : public Run {
   std::unique_ptr<LazyModel> model_;
   std::unique_ptr<LazyTheory> theory_;
   std::unique_ptr<LazyAuditor> auditor_;
-  std::unique_ptr<LemmaRecorder> recorder_;
+  std::optional<lazy::Recorder> recorder_;
   std::unique_ptr<sat::Engine> engine_;
   std::unique_ptr<LazyProblem> problem_;
 };

@@ -37,7 +37,7 @@ Outcome CandidateSearch::advance(Slice slice) {
     if (verdict == Verdict::unsat) {
       if (offline_.refutes_everything()) return Outcome::exhausted;
       const std::array refuted{not_cheaper};
-      context_.engine.add_clause({LemmaKind::core, refuted, {}, false});
+      context_.engine.add_clause({why::Core{}, refuted, {}, false});
       bounds.raise(*best);
       break;
     }
@@ -47,7 +47,7 @@ Outcome CandidateSearch::advance(Slice slice) {
         std::vector<Lit> core = context_.engine.core();
         if (core.empty()) return Outcome::exhausted;
         for (Lit& lit : core) lit = ~lit;
-        context_.engine.add_clause({LemmaKind::core, core, {}, false});
+        context_.engine.add_clause({why::Core{}, core, {}, false});
       }
     }
     left -= limits.conflicts() - before + 1;

@@ -24,7 +24,7 @@ Lit CoreCounter::at_least(int level, int count) {
     if (!lit.valid()) return {};
     if (reached == 0) continue;
     const std::array order{~lit, counter(reached).at_least(count)};
-    engine_.add_clause({LemmaKind::counting, order, {}, false});
+    engine_.add_clause({why::Counter{}, order, {}, false});
   }
   return counter(level).at_least(count);
 }

@@ -65,7 +65,7 @@ bool Relaxation::relax(std::span<const Lit> core, Cost lift) {
     if (lit.valid()) violated.push_back(lit);
     softs_.erase(~assumption);
   }
-  engine_.add_clause({LemmaKind::core, violated, {}, false});
+  engine_.add_clause({why::Core{}, violated, {}, false});
   std::vector<AgentId> agents;
   if (keeps_raises_) {
     agents = agents_of(softs);

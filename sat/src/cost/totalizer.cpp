@@ -28,7 +28,7 @@ Lit Totalizer::output(std::size_t item, int k) const {
 }
 
 void Totalizer::add(std::vector<Lit>& clause) {
-  engine_.add_clause({LemmaKind::counting, clause, {}, false});
+  engine_.add_clause({why::Counter{}, clause, {}, false});
 }
 
 // Requires that both children know all sums up to k and this adder all up to k-1. Pairs (a, b) with

@@ -35,19 +35,10 @@ void ClauseAuditor::on_core(Clause clause) {
 
 std::string ClauseAuditor::derive_again(const Lemma& lemma) {
   cores_->on_lemma(lemma);
-  switch (lemma.kind) {
-    case LemmaKind::path:
-      return audit_path(lemma);
-    case LemmaKind::collision:
-      return audit_collision(lemma);
-    case LemmaKind::order:
-      return audit_order(lemma.clause);
-    case LemmaKind::counting:
-      return "";  // definitions of new variables
-    case LemmaKind::core:
-      return cores_->complaint() ? "a core does not follow from the clauses" : "";
-  }
-  return "";
+  if (lemma.is<why::Counter>()) return "";  // definitions of new variables
+  if (lemma.is<why::Core>())
+    return cores_->complaint() ? "a core does not follow from the clauses" : "";
+  return audit(lemma);
 }
 
 bool ClauseAuditor::is_true_in_plan(Lit lit) const {
@@ -62,7 +53,7 @@ bool ClauseAuditor::is_false_in_plan(Clause clause) const {
 }
 
 bool ClauseAuditor::define_output(const Lemma& lemma) {
-  if (lemma.kind != LemmaKind::counting) return false;
+  if (!lemma.is<why::Counter>()) return false;
   for (const Lit lit : lemma.clause)
     if (lit.positive() && !find_in_plan(lit)) {
       const auto index = static_cast<std::size_t>(lit.variable());

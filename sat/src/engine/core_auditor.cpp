@@ -14,7 +14,7 @@ void CoreAuditor::make_variables(std::span<const Lit> lits) {
 }
 
 void CoreAuditor::on_lemma(const Lemma& lemma) {
-  if (lemma.kind == LemmaKind::core) audit(lemma.clause);
+  if (lemma.is<why::Core>()) audit(lemma.clause);
   make_variables(lemma.clause);
   solver_.add_clause(lemma);
 }

@@ -128,7 +128,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
 
   void count(const Lemma& lemma) {
     ++num_clauses_;
-    if (lemma.kind == LemmaKind::collision) ++num_collision_clauses_;
+    if (is_collision(lemma.why)) ++num_collision_clauses_;
     if (observer_ != nullptr) observer_->on_lemma(lemma);
     if (!keeps_clauses_) return;
     kept_.insert(kept_.end(), lemma.clause.begin(), lemma.clause.end());

@@ -26,7 +26,7 @@ void OfflineSolver::catch_up() {
       clause.push_back(lit);
       continue;
     }
-    solver_.add_clause({LemmaKind::core, clause, {}, false});
+    solver_.add_clause({why::Core{}, clause, {}, false});
     clause.clear();
   }
 }

@@ -17,7 +17,7 @@ class Keeper final : public FormulaWriter {
  public:
   [[nodiscard]] sat::Lit new_lit() override { return sat::Lit::from_dimacs(++last_); }
   void add(const sat::Lemma& lemma) override {
-    if (lemma.kind == sat::LemmaKind::collision)
+    if (sat::is_collision(lemma.why))
       collisions.emplace_back(lemma.usages.begin(), lemma.usages.end());
   }
   std::vector<std::vector<sat::Usage>> collisions;

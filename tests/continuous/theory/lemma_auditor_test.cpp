@@ -22,13 +22,14 @@ using testing::HasSubstr;
 class Keeper final : public FormulaWriter {
  public:
   struct Kept {
-    sat::LemmaKind kind;
+    sat::Why why;
+    [[nodiscard]] bool is_path() const { return std::holds_alternative<sat::why::Path>(why); }
     std::vector<Lit> clause;
     std::vector<sat::Usage> usages;
   };
   [[nodiscard]] Lit new_lit() override { return Lit::from_dimacs(++last_); }
   void add(const sat::Lemma& lemma) override {
-    kept_.push_back({lemma.kind,
+    kept_.push_back({lemma.why,
                      {lemma.clause.begin(), lemma.clause.end()},
                      {lemma.usages.begin(), lemma.usages.end()}});
   }
@@ -40,8 +41,8 @@ class Keeper final : public FormulaWriter {
 };
 
 std::optional<std::string> complaint(const Model& model, const Keeper::Kept& kept) {
-  LemmaAuditor auditor(model);
-  auditor.on_lemma({kept.kind, kept.clause, kept.usages, false});
+  LemmaAuditor auditor(model, true, std::nullopt);
+  auditor.on_lemma({kept.why, kept.clause, kept.usages, false});
   return auditor.complaint();
 }
 
@@ -106,8 +107,8 @@ TEST(LemmaAuditor, DerivesLemmasOfEncounters) {
     const auto kept = encounters.writer().kept();
     for (const auto& lemma : kept) {
       ASSERT_EQ(complaint(encounters.model(), lemma), std::nullopt);
-      paths += lemma.kind == sat::LemmaKind::path ? 1 : 0;
-      if (lemma.kind != sat::LemmaKind::collision) continue;
+      paths += lemma.is_path() ? 1 : 0;
+      if (!sat::is_collision(lemma.why)) continue;
       ++collisions;
       // The bans of both sides are as long as can be at their ends, which a tick more shows.
       for (const std::size_t side : {0U, 1U}) {
@@ -129,9 +130,9 @@ class LemmaAuditorOnACrossing : public testing::Test {
             Instance::make(roadmap({{0, 50}, {100, 50}, {50, 0}, {50, 100}}, {}, {{0, 1}, {2, 3}}),
                            {agent(0, 1, 10), agent(2, 3, 10)})
                 .value()) {}
-  [[nodiscard]] Keeper::Kept first(sat::LemmaKind kind) {
+  [[nodiscard]] Keeper::Kept first_path() {
     for (const auto& lemma : encounters_.writer().kept())
-      if (lemma.kind == kind) return lemma;
+      if (lemma.is_path()) return lemma;
     ADD_FAILURE() << "no such lemma";
     return {};
   }
@@ -142,7 +143,7 @@ class LemmaAuditorOnACrossing : public testing::Test {
 };
 
 TEST_F(LemmaAuditorOnACrossing, SeesACostThatIsATickTooHigh) {
-  Keeper::Kept lemma = first(sat::LemmaKind::path);
+  Keeper::Kept lemma = first_path();
   ASSERT_EQ(said_of(lemma), std::nullopt);
   for (Lit& lit : lemma.clause) {
     const auto meaning = encounters_.model().variable(lit);
@@ -153,7 +154,7 @@ TEST_F(LemmaAuditorOnACrossing, SeesACostThatIsATickTooHigh) {
 }
 
 TEST_F(LemmaAuditorOnACrossing, SeesAMissingLiteral) {
-  Keeper::Kept lemma = first(sat::LemmaKind::path);
+  Keeper::Kept lemma = first_path();
   const Lit allowed =
       encounters_.model().obstacles()[ObstacleId(std::size_t{lemma.usages[0].resource})].allowed;
   std::erase(lemma.clause, allowed);
@@ -164,8 +165,8 @@ TEST_F(LemmaAuditorOnACrossing, SeesAnOrderTheWrongWayRound) {
   Model& model = encounters_.model();
   const Lit weaker = model.at_least(AgentId(0), 110, encounters_.writer());
   const Lit stronger = model.at_least(AgentId(0), 111, encounters_.writer());
-  EXPECT_EQ(said_of({sat::LemmaKind::order, {~stronger, weaker}, {}}), std::nullopt);
-  EXPECT_TRUE(said_of({sat::LemmaKind::order, {~weaker, stronger}, {}}));
+  EXPECT_EQ(said_of({sat::why::Order{AgentId(0)}, {~stronger, weaker}, {}}), std::nullopt);
+  EXPECT_TRUE(said_of({sat::why::Order{AgentId(0)}, {~weaker, stronger}, {}}));
 }
 
 TEST(LemmaAuditor, SeesALemmaOfAPairThatIsATickTooStrong) {
@@ -176,7 +177,7 @@ TEST(LemmaAuditor, SeesALemmaOfAPairThatIsATickTooStrong) {
           .value());
   Model& model = encounters.model();
   const auto said_of = [&](Cost first, Cost second) {
-    return complaint(model, {sat::LemmaKind::collision,
+    return complaint(model, {sat::why::Pair{AgentId(0), AgentId(1)},
                              {model.at_least(AgentId(0), first, encounters.writer()),
                               model.at_least(AgentId(1), second, encounters.writer())},
                              {}});
@@ -199,7 +200,8 @@ TEST(LemmaAuditor, DerivesBansAroundAGoal) {
     const ObstacleId id =
         model.keep_off_goal(AgentId(1), AgentId(0), tick, encounters.writer(), is_new);
     return complaint(
-        model, {sat::LemmaKind::path, {model.obstacles()[id].allowed}, {{AgentId(1), id.value()}}});
+        model,
+        {sat::why::Path{AgentId(1)}, {model.obstacles()[id].allowed}, {{AgentId(1), id.value()}}});
   };
   EXPECT_EQ(said_of_goal_from(120), std::nullopt);
   EXPECT_THAT(said_of_goal_from(121).value_or(""), HasSubstr("some path breaks"));

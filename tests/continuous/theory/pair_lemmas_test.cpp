@@ -12,7 +12,7 @@
 #include "continuous/support/random_instance.hpp"
 #include "continuous/support/roads.hpp"
 #include "support/environment.hpp"
-#include "theory/known_plan_auditor.hpp"
+#include "theory/lemma_auditor.hpp"
 
 namespace quadrille::continuous::test {
 namespace {
@@ -25,8 +25,7 @@ class Collector final : public FormulaWriter {
  public:
   [[nodiscard]] sat::Lit new_lit() override { return sat::Lit::from_dimacs(++last_); }
   void add(const sat::Lemma& lemma) override {
-    if (lemma.kind == sat::LemmaKind::collision)
-      clauses_.emplace_back(lemma.clause.begin(), lemma.clause.end());
+    if (lemma.is<sat::why::Pair>()) clauses_.emplace_back(lemma.clause.begin(), lemma.clause.end());
   }
   [[nodiscard]] const std::vector<std::vector<sat::Lit>>& clauses() const { return clauses_; }
 
@@ -72,8 +71,8 @@ class PairLemmaAudit {
       ++count_.clauses;
       count_.with_obstacles += clause.size() > 2 ? 1 : 0;
       for (const Plan& known : plans) {
-        KnownPlanAuditor auditor(model, known);
-        auditor.on_lemma({sat::LemmaKind::collision, clause, {}, false});
+        LemmaAuditor auditor(model, false, known);
+        auditor.on_lemma({sat::why::Pair{}, clause, {}, false});
         ASSERT_FALSE(auditor.complaint()) << *auditor.complaint();
       }
     }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,7 +17,7 @@
 #include "support/environment.hpp"
 #include "support/patience.hpp"
 #include "support/theory_driver.hpp"
-#include "theory/known_plan_auditor.hpp"
+#include "theory/lemma_auditor.hpp"
 
 namespace quadrille::continuous::test {
 namespace {
@@ -47,14 +48,14 @@ class Auditor {
  public:
   Auditor(const Model& model, const std::vector<Plan>& plans, Count& count)
       : model_(model), count_(count) {
-    for (const Plan& plan : plans) of_plans_.emplace_back(model, plan);
+    for (const Plan& plan : plans) of_plans_.emplace_back(model, false, plan);
   }
   void on_lemma(const sat::Lemma& lemma) {
-    for (KnownPlanAuditor& auditor : of_plans_) {
+    for (LemmaAuditor& auditor : of_plans_) {
       auditor.on_lemma(lemma);
       EXPECT_EQ(auditor.complaint().value_or(""), "");
     }
-    if (lemma.kind == sat::LemmaKind::path) derive_path_lemma(lemma);
+    if (lemma.is<sat::why::Path>()) derive_path_lemma(lemma);
   }
 
  private:
@@ -90,7 +91,7 @@ class Auditor {
 
   const Model& model_;
   Count& count_;
-  std::vector<KnownPlanAuditor> of_plans_;
+  std::deque<LemmaAuditor> of_plans_;
 };
 
 class Session final : private FormulaWriter {

@@ -65,7 +65,7 @@ class RulesProblem final : public CostProblem, public Bounds {
       std::vector<Lit> clause;
       for (const auto& [agent, cost] : rule.dear) clause.push_back(above(agent, cost));
       for (const auto& [agent, cost] : rule.cheap) clause.push_back(~above(agent, cost));
-      engine_.add_clause({LemmaKind::collision, clause, {}, false});
+      engine_.add_clause({why::Vertex{}, clause, {}, false});
     }
   }
 
@@ -112,10 +112,10 @@ class RulesProblem final : public CostProblem, public Bounds {
   void add_literal(std::vector<Lit>& lits) {
     lits.push_back(engine_.new_lit());
     const std::vector<Lit> never{~lits.back()};
-    if (lits.size() > max_cost_) engine_.add_clause({LemmaKind::order, never, {}, false});
+    if (lits.size() > max_cost_) engine_.add_clause({why::Order{}, never, {}, false});
     if (lits.size() < 2) return;
     const std::vector<Lit> order{~lits.back(), lits[lits.size() - 2]};
-    engine_.add_clause({LemmaKind::order, order, {}, false});
+    engine_.add_clause({why::Order{}, order, {}, false});
   }
 
   Engine& engine_;
@@ -231,7 +231,7 @@ TEST(CoreGuidedSearch, LongDelaysTakeFewCores) {
     std::vector<Lit> clause;
     for (const auto& [agent, cost] : least)
       clause.push_back(problem.cost_above(AgentId(agent), cost - 1));
-    engine.add_clause({LemmaKind::collision, clause, {}, false});
+    engine.add_clause({why::Vertex{}, clause, {}, false});
   };
   add({{0, 300}, {1, 170}});
   add({{1, 60}, {2, 90}});
@@ -256,7 +256,7 @@ class CoreObserver final : public ClauseObserver {
  public:
   explicit CoreObserver(const std::vector<Lit>& above) : above_(above) {}
   void on_lemma(const Lemma& lemma) override {
-    if (lemma.kind != LemmaKind::core) return;
+    if (!lemma.is<why::Core>()) return;
     Agents agents;
     for (const Lit lit : lemma.clause)
       agents.push_back(
@@ -286,7 +286,7 @@ Agents first_core(const std::vector<Agents>& parts) {
   const auto add = [&](const Agents& agents, std::vector<Lit> hidden_by) {
     std::vector<Lit> clause = std::move(hidden_by);
     for (const std::size_t i : agents) clause.push_back(above[i]);
-    engine.add_clause({LemmaKind::collision, clause, {}, false});
+    engine.add_clause({why::Vertex{}, clause, {}, false});
   };
   for (const Agents& part : parts) {
     const Lit a = engine.new_lit(), b = engine.new_lit();

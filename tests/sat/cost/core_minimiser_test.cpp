@@ -57,7 +57,7 @@ class CoreMinimiserTest : public testing::Test {
       for (const Lit d : {b, ~b}) {
         std::vector<Lit> clause{c, d};
         for (const std::size_t k : set) clause.push_back(~assumptions[k]);
-        engine.add_clause({LemmaKind::collision, clause, {}, false});
+        engine.add_clause({why::Vertex{}, clause, {}, false});
       }
   }
   std::vector<std::size_t> minimise(std::int64_t searched = 1000) {
@@ -109,7 +109,7 @@ int tries_with(std::int64_t steps_of_theory) {
   // Refuted with any two, but no single one.
   for (std::size_t a = 0; a < lits.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      engine.add_clause({LemmaKind::collision, std::vector<Lit>{~lits[a], ~lits[b]}, {}, false});
+      engine.add_clause({why::Vertex{}, std::vector<Lit>{~lits[a], ~lits[b]}, {}, false});
   CoreMinimiser minimiser({engine, problem, bounds, limits, nobody});
   for (int round = 0; round < 40; ++round)
     EXPECT_GE(minimiser.minimise({lits[0], lits[1]}, 1'000'000).size(), 2u);
@@ -151,7 +151,7 @@ TEST_F(CoreMinimiserTest, WhatIsLeftIsACoreAndMinimal) {
       for (const Lit lit : lits)
         if (random.below(3) == 0) clause.push_back(~lit);
       if (clause.empty()) clause.push_back(~lits[0]);
-      fresh.add_clause({LemmaKind::collision, clause, {}, false});
+      fresh.add_clause({why::Vertex{}, clause, {}, false});
       clauses.push_back(clause);
     }
     const auto is_core = [&](const std::vector<Lit>& part) {

@@ -15,7 +15,7 @@ struct Numbers {
       for (int k = 1; k <= max; ++k) number.push_back(engine.new_lit());
       for (std::size_t k = 1; k < number.size(); ++k) {
         const Lit clause[] = {~number[k], number[k - 1]};
-        engine.add_clause({LemmaKind::order, clause, {}, false});
+        engine.add_clause({why::Order{}, clause, {}, false});
       }
     }
   }

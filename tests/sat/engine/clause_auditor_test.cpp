@@ -15,8 +15,8 @@ Lit lit(int dimacs) { return Lit::from_dimacs(dimacs); }
 class PlainAuditor final : public ClauseAuditor {
  public:
   PlainAuditor(bool derive, bool has_known_plan) : ClauseAuditor(derive, has_known_plan) {}
-  void tell(LemmaKind kind, const std::vector<int>& clause) {
-    on_lemma({kind, lits(clause), {}, false});
+  void tell(const Why& why, const std::vector<int>& clause) {
+    on_lemma({why, lits(clause), {}, false});
   }
   void tell_core(const std::vector<int>& clause) { on_core(lits(clause)); }
   void tell_learned(const std::vector<int>& clause) { on_learned(lits(clause)); }
@@ -27,9 +27,7 @@ class PlainAuditor final : public ClauseAuditor {
     for (const int l : clause) lits_.push_back(lit(l));
     return lits_;
   }
-  std::string audit_path(const Lemma&) const override { return ""; }
-  std::string audit_collision(const Lemma&) const override { return ""; }
-  std::string audit_order(Clause) const override { return ""; }
+  std::string audit(const Lemma&) override { return ""; }
   std::optional<bool> find_in_plan(Lit l) const override {
     if (l.variable() > 4) return std::nullopt;
     return (l.variable() <= 2) == l.positive();
@@ -47,8 +45,8 @@ constexpr bool kDerives = true, kHasPlan = true;
 
 TEST(ClauseAuditor, ProvesTheCoresOfRefutations) {
   PlainAuditor auditor(kDerives, !kHasPlan);
-  auditor.tell(LemmaKind::path, {1, 2});
-  auditor.tell(LemmaKind::collision, {-1, 3});
+  auditor.tell(why::Path{}, {1, 2});
+  auditor.tell(why::Vertex{}, {-1, 3});
   auditor.tell_core({2, 3});
   EXPECT_EQ(auditor.complaint(), std::nullopt);
   auditor.tell_core({3});
@@ -60,10 +58,10 @@ TEST(ClauseAuditor, ProvesTheCoresOfRefutations) {
 TEST(ClauseAuditor, ProvesCoresWithoutLiterals) {
   PlainAuditor auditor(kDerives, !kHasPlan), other(kDerives, !kHasPlan);
   for (PlainAuditor* a : {&auditor, &other}) {
-    a->tell(LemmaKind::path, {1, 2});
-    a->tell(LemmaKind::collision, {-1});
+    a->tell(why::Path{}, {1, 2});
+    a->tell(why::Vertex{}, {-1});
   }
-  auditor.tell(LemmaKind::collision, {-2});
+  auditor.tell(why::Vertex{}, {-2});
   auditor.tell_core({});
   EXPECT_EQ(auditor.complaint(), std::nullopt);
   other.tell_core({});
@@ -75,8 +73,8 @@ TEST(ClauseAuditor, HoldsAllAgainstTheKnownPlan) {
     SCOPED_TRACE(what);
     PlainAuditor auditor(!kDerives, kHasPlan);
     const auto tell = [&](const std::vector<int>& clause) {
-      if (what == 0) auditor.tell(LemmaKind::path, clause);
-      if (what == 1) auditor.tell(LemmaKind::core, clause);
+      if (what == 0) auditor.tell(why::Path{}, clause);
+      if (what == 1) auditor.tell(why::Core{}, clause);
       if (what == 2) auditor.tell_learned(clause);
       if (what == 3) auditor.tell_core(clause);
     };
@@ -97,9 +95,9 @@ TEST(ClauseAuditor, TheKnownPlanExcludesThatThereIsNone) {
 
 TEST(ClauseAuditor, CountersAreAsLowAsTheirDefinitionsAllow) {
   PlainAuditor auditor(!kDerives, kHasPlan);
-  auditor.tell(LemmaKind::counting, {-1, -3, 5});  // input 3 is false: 5 may be false
-  auditor.tell(LemmaKind::counting, {-1, -2, 6});  // both inputs are true
-  auditor.tell(LemmaKind::counting, {-6, 7});
+  auditor.tell(why::Counter{}, {-1, -3, 5});  // input 3 is false: 5 may be false
+  auditor.tell(why::Counter{}, {-1, -2, 6});  // both inputs are true
+  auditor.tell(why::Counter{}, {-6, 7});
   auditor.tell_core({-5});
   auditor.tell_core({6});
   auditor.tell_core({7});

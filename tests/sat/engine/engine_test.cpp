@@ -16,7 +16,7 @@ namespace {
 using Clause = std::vector<Lit>;
 
 void add(Engine& engine, const Clause& clause) {
-  engine.add_clause({LemmaKind::path, clause, {}, false});
+  engine.add_clause({why::Path{}, clause, {}, false});
 }
 
 Verdict solve(Engine& engine, const std::vector<Lit>& assumptions = {}) {
@@ -47,10 +47,10 @@ class ExactlySum final : public Theory {
     if (yes.size() > sum_) {
       Clause clause;
       for (std::size_t i = 0; i <= sum_; ++i) clause.push_back(~yes[i]);
-      context.add_lemma({LemmaKind::path, clause, {}, false});
+      context.add_lemma({why::Path{}, clause, {}, false});
     } else if (no.size() > lits_.size() - sum_) {
       Clause clause(no.begin(), no.begin() + static_cast<std::ptrdiff_t>(lits_.size() - sum_ + 1));
-      context.add_lemma({LemmaKind::path, clause, {}, false});
+      context.add_lemma({why::Path{}, clause, {}, false});
     } else if (style_ == Style::propagating && yes.size() == sum_) {
       for (const Lit lit : lits_) {
         if (context.value(lit) != Truth::unassigned) continue;
@@ -64,7 +64,7 @@ class ExactlySum final : public Theory {
     clause.push_back(implied);
     for (const Lit lit : because_[static_cast<std::size_t>(implied.variable())])
       clause.push_back(~lit);
-    return {LemmaKind::path, {}, {}, true};
+    return {why::Path{}, {}, {}, true};
   }
 
  private:
@@ -203,7 +203,7 @@ TEST(Engine, PausesWithTheSearchsStackWhenEffortIsUsedUp) {
     void on_assign(std::span<const Lit> newly_true) override { stack += newly_true.size(); }
     void on_retract(std::size_t kept) override { stack = kept; }
     void check(Effort, TheoryContext&) override {}
-    Lemma explain(Lit, Clause&) override { return {LemmaKind::path, {}, {}, false}; }
+    Lemma explain(Lit, Clause&) override { return {why::Path{}, {}, {}, false}; }
     void on_pause() override {
       ++pauses;
       if (stack > 0) ++pauses_within;

@@ -43,7 +43,7 @@ class NoNeighbours final : public Theory {
         const Lit b = lit(next);
         if (context.value(b) == Truth::is_true && a < b) {
           const Lit clause[] = {~a, ~b};
-          context.add_lemma({LemmaKind::collision, clause, {}, false});
+          context.add_lemma({why::Vertex{}, clause, {}, false});
         } else if (propagates_ && context.value(b) == Truth::unassigned) {
           context.propagate(~b);
         }
@@ -57,7 +57,7 @@ class NoNeighbours final : public Theory {
     for (const Lit l : stack)
       if (l.positive() && std::abs(l.variable() - v) == 1) because = l;
     clause = {implied, ~because};
-    return {LemmaKind::collision, {}, {}, true};
+    return {why::Vertex{}, {}, {}, true};
   }
 
   std::vector<Lit> stack;

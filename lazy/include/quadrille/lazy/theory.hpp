@@ -291,7 +291,7 @@ void PathTheory<D>::explain_bound(AgentId i, const Cheapest& found, Cost bound,
     const sat::Lit allowed = domain_.obstacles()[id].allowed;
     if (std::find(clause.begin(), clause.end(), allowed) == clause.end()) clause.push_back(allowed);
   }
-  writer.add({sat::LemmaKind::path, clause, usages, false});
+  writer.add({sat::why::Path{i}, clause, usages, false});
   domain_.on_explained({i, bound, blamed, clause}, trail_, writer);
 }
 

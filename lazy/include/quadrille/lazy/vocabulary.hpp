@@ -77,6 +77,14 @@ class Vocabulary {
   [[nodiscard]] bool is_at_least(sat::Lit lit) const noexcept {
     return lit.positive() == (costs_are_ == Costs::positive);
   }
+  /// An obstacle that keeps an agent off the goal of another one that costs less than `cost`.
+  struct GoalObstacle {
+    AgentId agent, resident;
+    Cost cost;
+    ObstacleId obstacle;
+  };
+  /// All that were made, in that order.
+  [[nodiscard]] const std::vector<GoalObstacle>& goal_obstacles() const { return goal_obstacles_; }
   /// The positive literals of all usage and cost variables, in the order in which they were made.
   [[nodiscard]] std::vector<sat::Lit> literals() const;
 
@@ -100,6 +108,7 @@ class Vocabulary {
     if (const auto known = goals_.find(key); known != goals_.end()) return {known->second, false};
     const ObstacleId made = make(at_least(resident, cost, writer));
     goals_.emplace(key, made);
+    goal_obstacles_.push_back({agent, resident, cost, made});
     return {made, true};
   }
 
@@ -110,6 +119,7 @@ class Vocabulary {
   const Costs costs_are_;
   IdVector<AgentId, std::vector<Rung>> ladders_;
   std::map<std::tuple<AgentId, AgentId, Cost>, ObstacleId> goals_;
+  std::vector<GoalObstacle> goal_obstacles_;
   std::vector<Variable> variables_;  // by variable
 };
 

@@ -16,7 +16,7 @@ namespace quadrille::sat {
 
 /// Checks while the solver runs that no clause excludes a plan, and keeps the first complaint.
 ///
-/// On request, each lemma is derived again: path, collision and order lemmas as the domain says,
+/// On request, each lemma is derived again: those about agents as the domain says,
 /// cores by a CoreAuditor: core clauses, and the core of each refutation, also where it becomes a
 /// bound and no clause, and where it has no literals. With a known plan, which may cost anything,
 /// each lemma, each learned clause and each core has to be true in it. Counters are definitions
@@ -29,15 +29,16 @@ class ClauseAuditor : public ClauseObserver {
   void on_core(std::span<const Lit> clause) final;
 
   [[nodiscard]] const std::optional<std::string>& complaint() const noexcept { return complaint_; }
+  /// Null unless lemmas are derived again.
+  [[nodiscard]] CoreAuditor* cores() noexcept { return cores_ ? &*cores_ : nullptr; }
 
  protected:
   using Clause = std::span<const Lit>;
   ClauseAuditor(bool derive, bool has_known_plan);
 
-  // Each returns what is wrong, empty if nothing is.
-  [[nodiscard]] virtual std::string audit_path(const Lemma& lemma) const = 0;
-  [[nodiscard]] virtual std::string audit_collision(const Lemma& lemma) const = 0;
-  [[nodiscard]] virtual std::string audit_order(Clause clause) const = 0;
+  /// What is wrong with a lemma of the domain, that is, no counter and no core; empty if nothing
+  /// is.
+  [[nodiscard]] virtual std::string audit(const Lemma& lemma) = 0;
 
   /// Whether the literal is true in the known plan; nullopt for auxiliary variables.
   [[nodiscard]] virtual std::optional<bool> find_in_plan(Lit lit) const = 0;

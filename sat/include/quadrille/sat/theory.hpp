@@ -69,7 +69,7 @@ class Theory {
   [[nodiscard]] virtual Lit decide(TheoryContext& /*context*/) { return {}; }
   /// Appends a clause that holds in the theory, contains `implied` and whose other literals were
   /// false when `propagate(implied)` was called. May be asked late: after retractions, and outside
-  /// of solve. Returns kind, usages (valid until the next call) and forgettability; the clause in
+  /// of solve. Returns why, usages (valid until the next call) and forgettability; the clause in
   /// the result is not looked at.
   virtual Lemma explain(Lit implied, std::vector<Lit>& clause) = 0;
   /// The running solve ends soon because its effort is used up: called once then. The stack is
