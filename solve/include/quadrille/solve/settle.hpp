@@ -61,8 +61,8 @@ struct Settlement {
 
 /// The decision table of docs/cli.md, in both domains. Pure.
 [[nodiscard]] Settlement settle(Facts facts, std::optional<double> wanted_gap);
-/// Whether nothing more is to be done.
-[[nodiscard]] bool is_proof(const Facts& facts, std::optional<double> wanted_gap);
+/// Whether nothing more is to be done. Takes no memory.
+[[nodiscard]] bool is_proof(const Facts& facts, std::optional<double> wanted_gap) noexcept;
 
 }  // namespace quadrille::solve
 
