@@ -36,8 +36,8 @@ std::vector<Motion> roadmap(std::size_t count, bool grid) {
     const std::int64_t reach = (grid ? 1 : 3 * kUnit);
     const Point to{from.x + draw(-reach, reach) * step, from.y + draw(-reach, reach) * step};
     if (from == to) continue;
-    const double length = std::hypot(static_cast<double>((to.x - from.x).count()),
-                                     static_cast<double>((to.y - from.y).count()));
+    const double length = std::hypot(static_cast<double>((to.x - from.x).value()),
+                                     static_cast<double>((to.y - from.y).value()));
     motions.push_back({from, to, std::max(Ticks{1}, Ticks(std::llround(length)))});
   }
   return motions;
@@ -51,7 +51,7 @@ Body body(std::int64_t kind) {
     return ConvexPolygon::make({{-r, -r / 2}, {r, -r / 2}, {r, r / 2}, {-r, r / 2}}).value();
   std::vector<Point> corners;
   for (int k = 0; k < 64; ++k) {
-    const double angle = k * std::acos(-1) / 32, size = static_cast<double>(r.count());
+    const double angle = k * std::acos(-1) / 32, size = static_cast<double>(r.value());
     corners.push_back({Length(std::llround(size * std::cos(angle))),
                        Length(std::llround(size * std::sin(angle)))});
   }
@@ -88,7 +88,7 @@ void collide(benchmark::State& state) {
   std::size_t next = 0;
   for ([[maybe_unused]] auto _ : state) {
     const Pair& at = pairs[next % pairs.size()];
-    const auto range = (at.a.duration + at.b.duration).count();
+    const auto range = (at.a.duration + at.b.duration).value();
     const Ticks offset = Ticks(static_cast<std::int64_t>(next++) * 7919 % range) - at.b.duration;
     benchmark::DoNotOptimize(pair.collide(at.a, at.b, offset));
   }

@@ -92,8 +92,8 @@ std::string order_json(const ExecutionCase& c, const NodeOrder& nodes) {
     for (const TimedMove& move : path)
       moves.push_back({{"from", move.from.value()},
                        {"to", move.to.value()},
-                       {"begin", move.begin.count()},
-                       {"end", move.end.count()}});
+                       {"begin", move.begin.value()},
+                       {"end", move.end.value()}});
     text += separator + moves.dump();
     separator = ",\n    ";
   }
@@ -102,7 +102,7 @@ std::string order_json(const ExecutionCase& c, const NodeOrder& nodes) {
   for (const Precedence& p : c.order.list) {
     text += separator + Json{{"leader", move_json(p.leader)},
                              {"follower", move_json(p.follower)},
-                             {"slack", p.slack.count()}}
+                             {"slack", p.slack.value()}}
                             .dump();
     separator = ",\n    ";
   }

@@ -24,7 +24,7 @@ void add_execution_options(CLI::App& app, ExecutionArguments& arguments) {
 }
 
 std::string ExecutionCase::time(Ticks ticks) const {
-  return fmt::format("{:.6g}", static_cast<double>(ticks.count()) * tick);
+  return fmt::format("{:.6g}", static_cast<double>(ticks.value()) * tick);
 }
 
 std::variant<ExecutionCase, ExitCode> load_execution(const CLI::App& app,

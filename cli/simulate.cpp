@@ -129,7 +129,7 @@ class Simulator {
 
  private:
   [[nodiscard]] double units(Ticks ticks) const {
-    return static_cast<double>(ticks.count()) * case_.tick;
+    return static_cast<double>(ticks.value()) * case_.tick;
   }
   /// In ticks, at least one. `time` is small enough.
   [[nodiscard]] Ticks whole(double time) const {
@@ -186,7 +186,7 @@ ExitCode simulate_plan(const CLI::App& app, SimulateArguments& arguments) {
     return usage_error(app, "--period is for roadmaps; a period is a timestep here");
   for (const auto& [option, time] :
        {std::pair("--longest", arguments.longest), std::pair("--period", arguments.period)})
-    if (time && *time / c.tick > static_cast<double>(geometry::kMaxDuration.count()))
+    if (time && *time / c.tick > static_cast<double>(geometry::kMaxDuration.value()))
       return usage_error(app, fmt::format("{} is too long", option));
   Delivery delivery(arguments.execution.quiet, "", arguments.execution.json);
   if (!delivery.probe()) return ExitCode::output;

@@ -91,7 +91,7 @@ int main() {
         .from(vertices[2 * i])
         .to(vertices[2 * i + 1]);
 
-  fleet::SolveOptions options;
+  SolveOptions options;
   options.limits.wall = 60_s;
   options.gap_percent = 5;
   const auto outcome = solve(fleet, options).value();

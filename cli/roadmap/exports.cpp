@@ -128,8 +128,8 @@ Json order_message(const Instance& instance, AgentId agent, const Path& path,
                      {"actions", Json::array()}});
     if (k + 1 == path.size()) break;
     const auto& q = instance.roadmap().position(path[k + 1].vertex);
-    const double way = std::hypot(static_cast<double>((q.x - p.x).count()),
-                                  static_cast<double>((q.y - p.y).count())) *
+    const double way = std::hypot(static_cast<double>((q.x - p.x).value()),
+                                  static_cast<double>((q.y - p.y).value())) *
                        length;
     Json edge = {
         {"edgeId", fmt::format("v{}-v{}", path[k].vertex.value(), path[k + 1].vertex.value())},
@@ -137,7 +137,7 @@ Json order_message(const Instance& instance, AgentId agent, const Path& path,
         {"released", k < state.released}};
     if (way > 0)
       edge["maximumSpeed"] =
-          way / (static_cast<double>((path[k + 1].arrive - path[k].depart).count()) * time);
+          way / (static_cast<double>((path[k + 1].arrive - path[k].depart).value()) * time);
     edge["actions"] = Json::array();
     edges.push_back(edge);
   }

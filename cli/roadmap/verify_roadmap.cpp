@@ -44,7 +44,7 @@ class RoadmapVerdict {
       json["agents"].push_back(violation.agent.index());
     if (violation.other) json["agents"].push_back(violation.other->index());
     json["time"] = continuous::in_input_units(violation.tick, input_.instance.resolution());
-    json["tick"] = violation.tick.count();
+    json["tick"] = violation.tick.value();
     return json;
   }
 

@@ -9,8 +9,8 @@
 namespace quadrille::execution {
 namespace {
 
-double real(Ticks ticks) { return static_cast<double>(ticks.count()); }
-double real(geometry::Length length) { return static_cast<double>(length.count()); }
+double real(Ticks ticks) { return static_cast<double>(ticks.value()); }
+double real(geometry::Length length) { return static_cast<double>(length.value()); }
 
 /// How far the body reaches in the direction of a unit vector.
 double extent(const geometry::Body& body, double ux, double uy) {
@@ -166,7 +166,7 @@ void ClearanceWatch::add(std::span<const Ticks> before, std::span<const Ticks> a
 void ConflictWatch::add(std::span<const Ticks> before, std::span<const Ticks> after) {
   std::multimap<VertexId, AgentId> was, is;
   const auto place = [&](std::size_t i, Ticks clock) {
-    return discrete::position(plan_.paths[AgentId(i)], static_cast<Timestep>(clock.count()));
+    return discrete::position(plan_.paths[AgentId(i)], static_cast<Timestep>(clock.value()));
   };
   const auto meet = [&](AgentId i, AgentId j) {
     contacts_.emplace(std::min(i, j), std::max(i, j));

@@ -72,7 +72,7 @@ class Simulation {
       goes_on = true;
       return;
     }
-    const std::int64_t way = period_.count() * delay.speed + state.fraction;
+    const std::int64_t way = period_.value() * delay.speed + state.fraction;
     wanted = std::min(end, clock + Ticks(way / kFullSpeed));
     if (state.next_pause < delay.pauses.size())
       wanted = std::min(wanted, delay.pauses[state.next_pause].clock);
@@ -86,14 +86,14 @@ class Simulation {
     const std::size_t i = agent.index();
     if (targets_[i] > clocks_[i]) {
       goes_on = true;
-      const std::int64_t way = period_.count() * delays_[agent].speed + agents_[i].fraction;
+      const std::int64_t way = period_.value() * delays_[agent].speed + agents_[i].fraction;
       agents_[i].fraction =
           targets_[i] == clocks_[i] + Ticks(way / kFullSpeed) ? way % kFullSpeed : 0;
       if (targets_[i] >= order_.end(agent)) result_.finish[agent] = now;
     }
     if (targets_[i] < wanted_[i])
       result_.held[agent] +=
-          Ticks((wanted_[i] - targets_[i]).count() * kFullSpeed / delays_[agent].speed);
+          Ticks((wanted_[i] - targets_[i]).value() * kFullSpeed / delays_[agent].speed);
   }
 
   const Precedences& order_;
@@ -141,8 +141,8 @@ Delays draw_delays(const Precedences& order, const DelayOptions& options, std::u
       // All are drawn, so that the same seed means the same with another chance.
       const bool pauses = random.chance(options.pause_chance);
       const Ticks clock =
-          move.begin + Ticks(draw_up_to(random, (move.end - move.begin).count() - 1));
-      const Ticks duration(1 + draw_up_to(random, options.longest_pause.count() - 1));
+          move.begin + Ticks(draw_up_to(random, (move.end - move.begin).value() - 1));
+      const Ticks duration(1 + draw_up_to(random, options.longest_pause.value() - 1));
       if (pauses) delay.pauses.push_back({clock, duration});
     }
     delays.push_back(std::move(delay));

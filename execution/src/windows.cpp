@@ -30,7 +30,7 @@ std::optional<UnsafeWindow> unsafe_window(const geometry::BodyPair& bodies,
   fine_b.duration *= parts;
   const auto offsets = bodies.unsafe_offsets(fine_a, fine_b);
   if (!offsets) return std::nullopt;
-  const Ticks below(floor_div(offsets->first().count(), parts));
+  const Ticks below(floor_div(offsets->first().value(), parts));
   return UnsafeWindow{below, below + 1};
 }
 

@@ -87,8 +87,8 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
           continuous::travel_time(positions.position(begin->from), positions.position(begin->to),
                                   state.instance.agent(i).speed)
               .value()
-              .count());
-      const auto left = static_cast<double>(plan.paths[i][1].arrive.count());
+              .value());
+      const auto left = static_cast<double>(plan.paths[i][1].arrive.value());
       path.under_way_ = UnderWay{begin->from, begin->to, (whole - left) / whole};
     }
     // There is a way to the goal: the plan takes one.

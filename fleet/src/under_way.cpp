@@ -19,7 +19,7 @@ Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range
 double distance_off(const continuous::Point& place, const continuous::Point& from,
                     const continuous::Point& to, double fraction) {
   const auto off = [&](continuous::Length at, continuous::Length a, continuous::Length b) {
-    return static_cast<double>((at - a).count()) - fraction * static_cast<double>((b - a).count());
+    return static_cast<double>((at - a).value()) - fraction * static_cast<double>((b - a).value());
   };
   const double distance = std::hypot(off(place.x, from.x, to.x), off(place.y, from.y, to.y),
                                      off(place.z, from.z, to.z));

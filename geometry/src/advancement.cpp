@@ -24,7 +24,7 @@ Length size_of(const Body& body) {
 
 std::shared_ptr<fcl::CollisionGeometryd> make_geometry(const Body& body, double scale) {
   if (const auto* disc = std::get_if<Disc>(&body))
-    return std::make_shared<fcl::Sphered>(scale * static_cast<double>(disc->radius.count()));
+    return std::make_shared<fcl::Sphered>(scale * static_cast<double>(disc->radius.value()));
   return make_prism(std::get<ConvexPolygon>(body).vertices(), scale, 1);
 }
 
@@ -37,7 +37,7 @@ struct Advancement::Shapes {
   std::shared_ptr<fcl::CollisionGeometryd> b;
 
   Shapes(const Body& body_a, const Body& body_b)
-      : scale(1 / static_cast<double>(std::max(size_of(body_a), size_of(body_b)).count())),
+      : scale(1 / static_cast<double>(std::max(size_of(body_a), size_of(body_b)).value())),
         a(make_geometry(body_a, scale)),
         b(make_geometry(body_b, scale)) {}
 
@@ -64,7 +64,7 @@ struct Advancement::Shapes {
 };
 
 Advancement::Advancement(const Body& a, const Body& b, std::span<const Point> shape, Length reach)
-    : shapes_(std::make_unique<const Shapes>(a, b)), reach_(static_cast<double>(reach.count())) {
+    : shapes_(std::make_unique<const Shapes>(a, b)), reach_(static_cast<double>(reach.value())) {
   for (const Point& corner : shape) shape_.push_back(to_vec(corner));
 }
 

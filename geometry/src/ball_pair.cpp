@@ -6,7 +6,7 @@
 namespace quadrille::geometry::balls {
 namespace {
 
-double to_double(Length length) { return static_cast<double>(length.count()); }
+double to_double(Length length) { return static_cast<double>(length.value()); }
 
 // The point of a parallelogram that is nearest to the origin, as far as doubles tell.
 Vec3 nearest_point(const Vec3 (&corners)[4]) {
@@ -74,8 +74,8 @@ RealInterval likely_offsets(const Motion& a, const Motion& b, Length reach) {
   const Vec3 apart = to_vec3(b.from - a.from);
   const Vec3 step_a = to_vec3(a.to - a.from);
   const Vec3 step_b = to_vec3(b.to - b.from);
-  const double duration_a = static_cast<double>(a.duration.count());
-  const double duration_b = static_cast<double>(b.duration.count());
+  const double duration_a = static_cast<double>(a.duration.value());
+  const double duration_b = static_cast<double>(b.duration.value());
   const double radius = to_double(reach);
   RealInterval offsets;
   include_ends(apart, step_a, step_b, duration_a, duration_b, radius, offsets);

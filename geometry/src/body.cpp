@@ -62,8 +62,8 @@ Length enclosing_radius(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body)) return disc->radius;
   Wide square = 0;
   for (const Point& corner : std::get<ConvexPolygon>(body).vertices())
-    square = std::max(square, Wide{corner.x.count()} * corner.x.count() +
-                                  Wide{corner.y.count()} * corner.y.count());
+    square = std::max(square, Wide{corner.x.value()} * corner.x.value() +
+                                  Wide{corner.y.value()} * corner.y.value());
   // At most 2^81: the root of the rounded number is off by less than a unit.
   auto radius = static_cast<std::int64_t>(std::sqrt(static_cast<long double>(square)));
   while (Wide{radius} * radius < square) ++radius;

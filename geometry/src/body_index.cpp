@@ -25,7 +25,7 @@ using Box = boost::geometry::model::box<Corner>;
 
 /// From `place` with what is added at the least and at the most.
 Box box_at(const Point& place, const Point& low, const Point& high) {
-  const auto sum = [](Length a, Length b) { return static_cast<double>((a + b).count()); };
+  const auto sum = [](Length a, Length b) { return static_cast<double>((a + b).value()); };
   return {{sum(place.x, low.x), sum(place.y, low.y), sum(place.z, low.z)},
           {sum(place.x, high.x), sum(place.y, high.y), sum(place.z, high.z)}};
 }

@@ -120,7 +120,7 @@ bool BodyPair::collide_unchecked(const Motion& a, const Motion& b, Ticks offset)
     if (const int verdict = shape_->filter(path)) return verdict > 0;
   } else {
     const double apart = distance(Vec{}, path.begin, path.end);
-    const double reach = static_cast<double>(reach_.count());
+    const double reach = static_cast<double>(reach_.value());
     if (apart < reach - path.error) return true;
     if (apart >= reach + path.error) return false;
   }
@@ -141,7 +141,7 @@ bool BodyPair::can_meet(const Motion& a, const Motion& b) const {
   if (reach_ == 0) return false;
   const double error = error_bound(a, b, size());
   const double apart = sides_distance(places, corners());
-  const double reach = static_cast<double>(reach_.count());
+  const double reach = static_cast<double>(reach_.value());
   if (apart < reach - error) return true;
   if (apart >= reach + error) return false;
   return exact::sides_within(places, corners(), reach_);
@@ -159,14 +159,14 @@ std::optional<TickInterval> BodyPair::unsafe_offsets(const Motion& a, const Moti
   else if (shape_)
     likely = shape_->likely_offsets(a, b);
   else
-    include_disc(a, b, Vec{}, static_cast<double>(reach_.count()), likely);
+    include_disc(a, b, Vec{}, static_cast<double>(reach_.value()), likely);
 
   const Ticks least = -b.duration;
   const Ticks most = a.duration;
   const auto unsafe = [&](Ticks offset) { return collide_unchecked(a, b, offset); };
   const auto to_ticks = [&](double value) {  // Clamps; the limits are exact in doubles.
     return Ticks(static_cast<std::int64_t>(
-        std::clamp(value, static_cast<double>(least.count()), static_cast<double>(most.count()))));
+        std::clamp(value, static_cast<double>(least.value()), static_cast<double>(most.value()))));
   };
   Ticks low = 0;
   Ticks high = 0;
@@ -216,7 +216,7 @@ std::optional<Gap> BodyPair::gap(const Motion& a, const Motion& b, Ticks offset)
   if (is_in_space(a, b)) return balls::gap(a, b, offset, *window, reach_);
   const RelativePath path = relative_path(a, b, offset, *window, size());
   const double apart = (shape_ ? shape_->distance(path) : distance(Vec{}, path.begin, path.end)) -
-                       static_cast<double>(reach_.count());
+                       static_cast<double>(reach_.value());
   if (apart <= path.error && exact::touch(a, b, offset, *window, corners(), reach_)) return Gap{};
   return Gap{std::max(0.0, apart - path.error), apart + path.error};
 }

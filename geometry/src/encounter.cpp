@@ -26,8 +26,8 @@ using Vector = Eigen::Vector3d;
 constexpr int kMaxSteps = 200;
 
 Vector to_vector(const Point& p) {
-  return {static_cast<double>(p.x.count()), static_cast<double>(p.y.count()),
-          static_cast<double>(p.z.count())};
+  return {static_cast<double>(p.x.value()), static_cast<double>(p.y.value()),
+          static_cast<double>(p.z.value())};
 }
 
 /// A body about its centre, in length units.
@@ -40,7 +40,7 @@ struct Outline {
   explicit Outline(const Body& body) {
     if (const auto* disc = std::get_if<Disc>(&body)) {
       QUADRILLE_REQUIRE(1 <= disc->radius && disc->radius <= kMaxLength, "radius out of range");
-      radius = inner = outer = static_cast<double>(disc->radius.count());
+      radius = inner = outer = static_cast<double>(disc->radius.value());
       return;
     }
     const std::vector<Point>& vertices = std::get<ConvexPolygon>(body).vertices();
@@ -154,8 +154,8 @@ class Shapes {
 /// The share of the leg that is over at a tick.
 double share(const Leg& leg, Ticks tick) {
   return leg.end == leg.begin ? 0
-                              : static_cast<double>((tick - leg.begin).count()) /
-                                    static_cast<double>((leg.end - leg.begin).count());
+                              : static_cast<double>((tick - leg.begin).value()) /
+                                    static_cast<double>((leg.end - leg.begin).value());
 }
 
 /// The point of a segment that is nearest to the origin.
@@ -176,7 +176,7 @@ class EncounterCheck::Pair {
     // two of them times rounded shares; reaches are sums of lengths that are no larger than the
     // bodies and the ways between them. 2^-46 is 128 times the rounding error of one of these.
     const double size = outer + a_.centre.norm() + b_.centre.norm();
-    error_ = std::ldexp(static_cast<double>(extent.count()) + size, -46);
+    error_ = std::ldexp(static_cast<double>(extent.value()) + size, -46);
     const double shrinking = std::max(kRelativeTolerance, 4 * error_ / inner);
     least_apart_ = 2 * std::max(error_, kRelativeTolerance * outer / 4);
     tolerance_ = std::max(shrinking * outer, least_apart_) + error_;

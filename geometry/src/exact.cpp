@@ -15,7 +15,7 @@ Vector operator-(const Vector& p, const Vector& q) { return {p.x - q.x, p.y - q.
 Integer dot(const Vector& p, const Vector& q) { return p.x * q.x + p.y * q.y; }
 Integer cross(const Vector& p, const Vector& q) { return p.x * q.y - p.y * q.x; }
 Vector scaled(const Point& p, const Integer& factor) {
-  return {factor * p.x.count(), factor * p.y.count()};
+  return {factor * p.x.value(), factor * p.y.value()};
 }
 
 // Both ends of the relative path, and the shape, times `scale`.
@@ -28,15 +28,15 @@ struct ScaledPath {
 ScaledPath scaled_path(const Motion& a, const Motion& b, Ticks offset, Window window) {
   const Ticks unit_a = a.is_rest() ? Ticks{1} : a.duration;
   const Ticks unit_b = b.is_rest() ? Ticks{1} : b.duration;
-  const Integer scale = Integer(unit_a.count()) * unit_b.count();
+  const Integer scale = Integer(unit_a.value()) * unit_b.value();
   const auto at = [&](Ticks time) {
-    const Integer done_a = Integer(time.count()) * unit_b.count();
-    const Integer done_b = Integer((time - offset).count()) * unit_a.count();
+    const Integer done_a = Integer(time.value()) * unit_b.value();
+    const Integer done_b = Integer((time - offset).value()) * unit_a.value();
     const Point apart = b.from - a.from;
     const Point step_a = a.to - a.from;
     const Point step_b = b.to - b.from;
-    return Vector{scale * apart.x.count() + done_b * step_b.x.count() - done_a * step_a.x.count(),
-                  scale * apart.y.count() + done_b * step_b.y.count() - done_a * step_a.y.count()};
+    return Vector{scale * apart.x.value() + done_b * step_b.x.value() - done_a * step_a.x.value(),
+                  scale * apart.y.value() + done_b * step_b.y.value() - done_a * step_a.y.value()};
   };
   return {scale, at(window.begin), at(window.end)};
 }
@@ -149,7 +149,7 @@ Fraction smallest_squared_distance(const ScaledPath& path, std::span<const Vecto
 }
 
 Integer squared(Length reach, const Integer& scale) {
-  const Integer scaled_reach = scale * reach.count();
+  const Integer scaled_reach = scale * reach.value();
   return scaled_reach * scaled_reach;
 }
 

@@ -14,7 +14,7 @@ struct Vector3 {
 };
 Vector3 operator-(const Vector3& p, const Vector3& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
 Integer dot(const Vector3& p, const Vector3& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-Vector3 to_vector(const Point& p) { return {p.x.count(), p.y.count(), p.z.count()}; }
+Vector3 to_vector(const Point& p) { return {p.x.value(), p.y.value(), p.z.value()}; }
 
 // Of the origin from a segment. By Lagrange's identity the squared cross product of two vectors is
 // the product of their squares minus the square of their product.
@@ -37,16 +37,16 @@ struct ScaledPath {
 ScaledPath scaled_path(const Motion& a, const Motion& b, Ticks offset, Window window) {
   const Ticks unit_a = a.is_rest() ? Ticks{1} : a.duration;
   const Ticks unit_b = b.is_rest() ? Ticks{1} : b.duration;
-  const Integer scale = Integer(unit_a.count()) * unit_b.count();
+  const Integer scale = Integer(unit_a.value()) * unit_b.value();
   const Point apart = b.from - a.from;
   const Point step_a = a.to - a.from;
   const Point step_b = b.to - b.from;
   const auto at = [&](Ticks time) {
-    const Integer done_a = Integer(time.count()) * unit_b.count();
-    const Integer done_b = Integer((time - offset).count()) * unit_a.count();
+    const Integer done_a = Integer(time.value()) * unit_b.value();
+    const Integer done_b = Integer((time - offset).value()) * unit_a.value();
     const auto coordinate = [&](Length Point::*of) -> Integer {
-      return scale * (apart.*of).count() + done_b * (step_b.*of).count() -
-             done_a * (step_a.*of).count();
+      return scale * (apart.*of).value() + done_b * (step_b.*of).value() -
+             done_a * (step_a.*of).value();
     };
     return Vector3{coordinate(&Point::x), coordinate(&Point::y), coordinate(&Point::z)};
   };
@@ -60,7 +60,7 @@ Fraction distance(const Motion& a, const Motion& b, Ticks offset) {
 }
 
 Integer squared(Length reach, const Integer& scale) {
-  const Integer scaled_reach = scale * reach.count();
+  const Integer scaled_reach = scale * reach.value();
   return scaled_reach * scaled_reach;
 }
 

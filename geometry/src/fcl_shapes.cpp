@@ -28,8 +28,8 @@ std::shared_ptr<fcl::CollisionGeometryd> make_prism(std::span<const Point> corne
                                                     double height) {
   std::vector<Eigen::Vector2d> scaled;
   for (const Point& corner : corners)
-    scaled.emplace_back(scale * static_cast<double>(corner.x.count()),
-                        scale * static_cast<double>(corner.y.count()));
+    scaled.emplace_back(scale * static_cast<double>(corner.x.value()),
+                        scale * static_cast<double>(corner.y.value()));
   return make_prism(scaled, height);
 }
 

@@ -30,8 +30,8 @@ void include_disc(const Motion& a, const Motion& b, Vec centre, double radius,
   const Vec apart = to_vec(b.from - a.from) - centre;
   const Vec step_a = to_vec(a.to - a.from);
   const Vec step_b = to_vec(b.to - b.from);
-  const double duration_a = static_cast<double>(a.duration.count());
-  const double duration_b = static_cast<double>(b.duration.count());
+  const double duration_a = static_cast<double>(a.duration.value());
+  const double duration_b = static_cast<double>(b.duration.value());
 
   include_ends(apart, step_a, step_b, duration_a, duration_b, radius, offsets);
 
@@ -60,8 +60,8 @@ void include_polygon(const Motion& a, const Motion& b, std::span<const Vec> corn
   const Vec step_a = to_vec(a.to - a.from);
   const Vec step_b = to_vec(b.to - b.from);
   const auto include = [&](double p, double q) {
-    offsets.include(p * static_cast<double>(a.duration.count()) -
-                    q * static_cast<double>(b.duration.count()));
+    offsets.include(p * static_cast<double>(a.duration.value()) -
+                    q * static_cast<double>(b.duration.value()));
   };
   for (const double end : {0.0, 1.0}) {
     const RealInterval q = inner_fractions(apart - end * step_a, step_b, corners);

@@ -29,7 +29,7 @@ BodyPair::Shape::Shape(const Body& a, const Body& b, Length reach)
     outer_ = std::max(outer_, norm(vecs_[i]));
   }
   // Each is off by less than 8 u of the coordinates (u = 2^-53).
-  const double error = std::ldexp(static_cast<double>(size_.count()), -48);
+  const double error = std::ldexp(static_cast<double>(size_.value()), -48);
   inner_ -= error;
   outer_ += error;
 }
@@ -44,12 +44,12 @@ double BodyPair::Shape::outside(const RelativePath& path) const {
 
 bool BodyPair::Shape::meets(const RelativePath& path) const {
   return depth(path) > path.error ||
-         (reach_ > 0 && distance(path) < static_cast<double>(reach_.count()) - path.error);
+         (reach_ > 0 && distance(path) < static_cast<double>(reach_.value()) - path.error);
 }
 
 bool BodyPair::Shape::contains(Vec position, double error) const {
   // Rounding is less than 32 u of the polygon's coordinates, as in the constructor.
-  return meets({position, position, error + std::ldexp(static_cast<double>(size_.count()), -48)});
+  return meets({position, position, error + std::ldexp(static_cast<double>(size_.value()), -48)});
 }
 
 bool BodyPair::Shape::meet_at_ends(const Motion& a, const Motion& b) const {
@@ -67,13 +67,13 @@ bool BodyPair::Shape::keeps_apart(Vec direction, const RelativePath& path) const
   double support = -std::numeric_limits<double>::infinity();
   for (const Vec corner : vecs_) support = std::max(support, dot(n, corner - path.begin));
   return std::min(0.0, dot(n, path.end - path.begin)) - support >=
-         static_cast<double>(reach_.count()) + path.error;
+         static_cast<double>(reach_.value()) + path.error;
 }
 
 // The nearest points of a convex polygon and a way that does not meet it: an end of the way and a
 // point of a side, see outside(), or a corner and a point of the way.
 bool BodyPair::Shape::is_apart(const RelativePath& path) const {
-  if (outside(path) >= static_cast<double>(reach_.count()) + path.error) return true;
+  if (outside(path) >= static_cast<double>(reach_.value()) + path.error) return true;
   const Vec along = path.end - path.begin;
   const double square = dot(along, along);
   double least = std::numeric_limits<double>::infinity();
@@ -135,7 +135,7 @@ RealInterval BodyPair::Shape::likely_offsets(const Motion& a, const Motion& b) c
   RealInterval offsets;
   include_polygon(a, b, vecs_, offsets);
   if (reach_ == 0) return offsets;
-  const double reach = static_cast<double>(reach_.count());
+  const double reach = static_cast<double>(reach_.value());
   for (std::size_t i = 0; i < vecs_.size(); ++i) {
     const Vec next = vecs_[(i + 1) % vecs_.size()];
     const Vec out = reach * normals_[i];

@@ -33,10 +33,10 @@ inline double norm(Vec p) { return std::sqrt(dot(p, p)); }
 inline Point operator+(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
 inline Point operator-(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
 inline Vec to_vec(const Point& p) {
-  return {static_cast<double>(p.x.count()), static_cast<double>(p.y.count())};
+  return {static_cast<double>(p.x.value()), static_cast<double>(p.y.value())};
 }
 /// An area, in square length units.
-inline Wide product(Length p, Length q) { return static_cast<Wide>(p.count()) * q.count(); }
+inline Wide product(Length p, Length q) { return static_cast<Wide>(p.value()) * q.value(); }
 inline Wide cross(const Point& p, const Point& q) { return product(p.x, q.y) - product(p.y, q.x); }
 inline Length extent(const Point& p) { return std::max(abs(p.x), abs(p.y)); }
 
@@ -85,7 +85,7 @@ struct RelativePath {
 /// are no larger. 64 u leaves room for the comparisons themselves.
 inline double error_bound(const Motion& a, const Motion& b, Length size) {
   const Length sum = extent(b.from - a.from) + extent(a.to - a.from) + extent(b.to - b.from) + size;
-  return 32 * std::numeric_limits<double>::epsilon() * static_cast<double>(sum.count());
+  return 32 * std::numeric_limits<double>::epsilon() * static_cast<double>(sum.value());
 }
 
 /// Where b is as seen from a, when the window begins and when it ends; `to_vector` makes doubles of
@@ -99,7 +99,7 @@ auto relative_ends(const Motion& a, const Motion& b, Ticks offset, Window window
   const auto fraction = [](Ticks time, Ticks duration) {
     return duration == 0
                ? 0.0
-               : static_cast<double>(time.count()) / static_cast<double>(duration.count());
+               : static_cast<double>(time.value()) / static_cast<double>(duration.value());
   };
   const auto at = [&](Ticks time) {
     return apart + fraction(time - offset, b.duration) * step_b -

@@ -20,8 +20,8 @@ inline Vec3 cross(Vec3 p, Vec3 q) {
 }
 inline double norm(Vec3 p) { return std::sqrt(dot(p, p)); }
 inline Vec3 to_vec3(const Point& p) {
-  return {static_cast<double>(p.x.count()), static_cast<double>(p.y.count()),
-          static_cast<double>(p.z.count())};
+  return {static_cast<double>(p.x.value()), static_cast<double>(p.y.value()),
+          static_cast<double>(p.z.value())};
 }
 inline Length extent3(const Point& p) { return std::max(extent(p), abs(p.z)); }
 
@@ -54,7 +54,7 @@ struct SpacePath {
 inline double space_error_bound(const Motion& a, const Motion& b, Length reach) {
   const Length sum =
       extent3(b.from - a.from) + extent3(a.to - a.from) + extent3(b.to - b.from) + reach;
-  return 32 * std::numeric_limits<double>::epsilon() * static_cast<double>(sum.count());
+  return 32 * std::numeric_limits<double>::epsilon() * static_cast<double>(sum.value());
 }
 
 inline SpacePath space_path(const Motion& a, const Motion& b, Ticks offset, Window window,

@@ -58,7 +58,7 @@ struct SweptHull::Shape {
     std::vector<Point> ends(corners.begin(), corners.end());
     for (const Point& corner : corners) ends.push_back(corner + (motion.to - motion.from));
     ends = convex_hull(std::move(ends));
-    scale = 1 / static_cast<double>(size_of(ends, 0).count());
+    scale = 1 / static_cast<double>(size_of(ends, 0).value());
     prism = make_prism(ends, scale, 1);
   }
 
@@ -84,12 +84,12 @@ double SweptHull::clearance(const Motion& line, Vec direction) const {
   const double hull = support + std::max(0.0, dot(n, to_vec(motion_.to - motion_.from)));
   const double beyond =
       dot(n, to_vec(line.from - motion_.from)) + std::min(0.0, dot(n, to_vec(line.to - line.from)));
-  return beyond - hull - static_cast<double>(reach_.count()) - error_bound(motion_, line, size_);
+  return beyond - hull - static_cast<double>(reach_.value()) - error_bound(motion_, line, size_);
 }
 
 double SweptHull::tolerance() const {
   const Length size = extent(motion_.to - motion_.from) + size_;
-  return 1e-6 * static_cast<double>(size.count());
+  return 1e-6 * static_cast<double>(size.value());
 }
 
 Vec SweptHull::direction(const Motion& line) {

@@ -146,11 +146,11 @@ class SweptVolumes::Tree {
 
     // Lines that are farther from each other do not meet.
     [[nodiscard]] double outer() const {
-      return static_cast<double>(reach.count()) + (shape != nullptr ? shape->outer() : 0);
+      return static_cast<double>(reach.value()) + (shape != nullptr ? shape->outer() : 0);
     }
     [[nodiscard]] bool meet_where_nearest(const LineDistance& apart, double error) const {
       const double inner = shape != nullptr ? shape->inner() : 0;
-      if (inner >= 0 && apart.distance < static_cast<double>(reach.count()) + inner - error)
+      if (inner >= 0 && apart.distance < static_cast<double>(reach.value()) + inner - error)
         return true;
       return shape != nullptr && shape->contains({apart.between.x, apart.between.y}, error);
     }

@@ -30,8 +30,8 @@ py::tuple arrays_of(const Precedences& precedences) {
       *to++ = number++;
       *to++ = static_cast<std::int64_t>(move.from.index());
       *to++ = static_cast<std::int64_t>(move.to.index());
-      *to++ = move.begin.count();
-      *to++ = move.end.count();
+      *to++ = move.begin.value();
+      *to++ = move.end.value();
     }
   }
   auto list = new_array<std::int64_t>({precedences.list.size(), 5});
@@ -41,7 +41,7 @@ py::tuple arrays_of(const Precedences& precedences) {
     *to++ = precedence.leader.move;
     *to++ = static_cast<std::int64_t>(precedence.follower.agent.index());
     *to++ = precedence.follower.move;
-    *to++ = precedence.slack.count();
+    *to++ = precedence.slack.value();
   }
   const auto nodes = execution::node_order(precedences);
   auto cycle = new_array<std::int64_t>({nodes.cycle.size(), 2});

@@ -85,7 +85,7 @@ py::tuple verify_timed(const TimedInstance& self, const Plan& plan,
     violations.append(py::make_tuple(
         to_string(violation.kind), violation.agent.index(),
         violation.other ? py::object(py::int_(violation.other->index())) : py::object(py::none()),
-        violation.tick.count(), violation.message));
+        violation.tick.value(), violation.message));
   auto pairs = new_array<std::int32_t>({report.clearances.size(), 2});
   auto gaps = new_array<double>({report.clearances.size(), 2});
   std::int32_t* pair = pairs.mutable_data();

@@ -90,13 +90,13 @@ TEST(Quantity, CountsLikeAnInteger) {
     for (const std::int64_t b : {-3L, 1L, 7L, kMost / 4}) {
       SCOPED_TRACE(testing::Message() << a << ", " << b);
       const Apples x(a), y(b);
-      EXPECT_EQ((x + y).count(), a + b);
-      EXPECT_EQ((x - y).count(), a - b);
-      EXPECT_EQ((-x).count(), -a);
-      EXPECT_EQ(abs(x).count(), std::abs(a));
-      EXPECT_EQ((x * 3).count(), a * 3);
-      EXPECT_EQ((-3 * x).count(), -3 * a);
-      EXPECT_EQ((x / 2).count(), a / 2);
+      EXPECT_EQ((x + y).value(), a + b);
+      EXPECT_EQ((x - y).value(), a - b);
+      EXPECT_EQ((-x).value(), -a);
+      EXPECT_EQ(abs(x).value(), std::abs(a));
+      EXPECT_EQ((x * 3).value(), a * 3);
+      EXPECT_EQ((-3 * x).value(), -3 * a);
+      EXPECT_EQ((x / 2).value(), a / 2);
       EXPECT_EQ(x / y, a / b);
       EXPECT_EQ(x < y, a < b);
       EXPECT_EQ(x == y, a == b);
@@ -107,10 +107,10 @@ TEST(Quantity, CountsLikeAnInteger) {
       EXPECT_EQ(sum, y);
       sum *= 2;
       EXPECT_EQ(sum, y + y);
-      EXPECT_EQ((++sum).count(), 2 * b + 1);
+      EXPECT_EQ((++sum).value(), 2 * b + 1);
     }
-  EXPECT_EQ(Apples(kMost).count(), kMost);
-  EXPECT_EQ(Apples(-kMost - 1).count(), -kMost - 1);
+  EXPECT_EQ(Apples(kMost).value(), kMost);
+  EXPECT_EQ(Apples(-kMost - 1).value(), -kMost - 1);
 }
 
 TEST(Quantity, TakesLiterals) {
@@ -119,7 +119,7 @@ TEST(Quantity, TakesLiterals) {
   const std::vector<Apples> all{1, 2, three};
   EXPECT_EQ(all.back(), three);
   const std::optional<Apples> none = all.empty() ? std::optional(three) : std::nullopt;
-  EXPECT_EQ(none.value_or(Apples{5}).count(), 5);
+  EXPECT_EQ(none.value_or(Apples{5}).value(), 5);
 }
 
 TEST(Quantity, IsPrintedAsANumber) {

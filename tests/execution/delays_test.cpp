@@ -24,7 +24,7 @@ constexpr Replay::Real kTouch = -1e-9L;
 
 std::vector<Replay::Real> real(const Clocks& clocks) {
   std::vector<Replay::Real> result;
-  for (const Ticks clock : clocks) result.push_back(static_cast<Replay::Real>(clock.count()));
+  for (const Ticks clock : clocks) result.push_back(static_cast<Replay::Real>(clock.value()));
   return result;
 }
 
@@ -83,7 +83,7 @@ class DelayRun {
       targets[i] = random_.percent(60)
                        ? std::max(clocks_[i], most)
                        : clocks_[i] + Ticks(std::int64_t(random_.below(
-                                          std::size_t((most - clocks_[i]).count()) + 1)));
+                                          std::size_t((most - clocks_[i]).value()) + 1)));
       idle = targets == clocks_ ? idle + 1 : 0;
       go(targets);
     }
@@ -165,7 +165,7 @@ TEST(Delays, PlansWithTimestepsNeitherCollideNorGetStuck) {
           if (targets[i] > clocks[i]) is_ready[i] = false;
         const auto numbers = [](const Clocks& from) {
           std::vector<std::size_t> to;
-          for (const Ticks clock : from) to.push_back(std::size_t(clock.count()));
+          for (const Ticks clock : from) to.push_back(std::size_t(clock.value()));
           return to;
         };
         collided = collided || collide(c->plan, numbers(clocks), numbers(targets));

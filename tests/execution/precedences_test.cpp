@@ -136,15 +136,15 @@ bool discs_collide(const ContinuousCase& c, const Precedences& order, const Move
                    const MoveId& b, std::int64_t lead) {
   const auto point = [&](VertexId vertex) {
     const Point& p = c.instance.roadmap().position(vertex);
-    return std::array<Wide, 3>{p.x.count(), p.y.count(), p.z.count()};
+    return std::array<Wide, 3>{p.x.value(), p.y.value(), p.z.value()};
   };
   const TimedMove &ma = order.at(a), &mb = order.at(b);
-  const Wide duration_a = (ma.end - ma.begin).count(), duration_b = (mb.end - mb.begin).count();
+  const Wide duration_a = (ma.end - ma.begin).value(), duration_b = (mb.end - mb.begin).value();
   const auto radius = [&](const MoveId& id) -> Wide {
-    return std::get<Disc>(c.instance.agent(id.agent).body).radius.count();
+    return std::get<Disc>(c.instance.agent(id.agent).body).radius.value();
   };
   // s: since a began. b is at s - shift. All is multiplied by both durations.
-  const Wide shift = (mb.begin - ma.begin).count() - lead;
+  const Wide shift = (mb.begin - ma.begin).value() - lead;
   const Wide first = std::max<Wide>(0, shift), last = std::min(duration_a, duration_b + shift);
   if (first > last) return false;
   const auto [ax0, ay0, az0] = point(ma.from);
@@ -173,7 +173,7 @@ bool discs_collide(const ContinuousCase& c, const Precedences& order, const Move
 /// The least separation of two bodies on the moves `a` and `b`, b's clock ahead of a's by `lead`.
 Replay::Real separation(const Replay& replay, const Precedences& order, const MoveId& a,
                         const MoveId& b, Replay::Real lead) {
-  const auto real = [](Ticks ticks) { return static_cast<Replay::Real>(ticks.count()); };
+  const auto real = [](Ticks ticks) { return static_cast<Replay::Real>(ticks.value()); };
   const TimedMove &ma = order.at(a), &mb = order.at(b);
   const Replay::Real low = std::max(real(ma.begin), real(mb.begin) - lead);
   const Replay::Real high = std::min(real(ma.end), real(mb.end) - lead);
@@ -184,7 +184,7 @@ Replay::Real separation(const Replay& replay, const Precedences& order, const Mo
 /// Whether the two collide with a lead of a tick more than the slack, or some part of one. A hair
 /// more, because who leaves is still there in its last moment, but not for Replay.
 bool collide_within_a_tick(const Replay& replay, const Precedences& order, const Precedence& p) {
-  const auto slack = static_cast<Replay::Real>(p.slack.count());
+  const auto slack = static_cast<Replay::Real>(p.slack.value());
   for (int part = 4097; part >= 1; --part)
     if (separation(replay, order, p.leader, p.follower, slack + part / Replay::Real{4096}) < 0)
       return true;
@@ -202,7 +202,7 @@ TEST(Precedences, OneTickMoreThanEachSlackAndTheTwoCollide) {
     for (const Precedence& p : order->list) {
       SCOPED_TRACE("seed " + std::to_string(seed));
       ASSERT_GE(p.slack, Ticks(0));
-      const std::int64_t slack = p.slack.count();
+      const std::int64_t slack = p.slack.value();
       if (!std::holds_alternative<Disc>(c->instance.agent(p.leader.agent).body) ||
           !std::holds_alternative<Disc>(c->instance.agent(p.follower.agent).body)) {
         ++num_polygons;

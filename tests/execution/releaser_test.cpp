@@ -58,11 +58,11 @@ TEST(Releaser, WholeMovesInAnyOrderNeitherCollideNorGetStuckWithoutACycle) {
       const std::size_t i = random.pick(able);
       const TimedMove& move = order.moves[AgentId(i)][ended[i]];
       auto after = clocks;
-      const auto end = static_cast<Replay::Real>(move.end.count());
+      const auto end = static_cast<Replay::Real>(move.end.value());
       after[i] =
           random.percent(50)
               ? end
-              : (std::max(clocks[i], static_cast<Replay::Real>(move.begin.count())) + end) / 2;
+              : (std::max(clocks[i], static_cast<Replay::Real>(move.begin.value())) + end) / 2;
       ASSERT_GE(replay.least_separation(clocks, after), -1e-9L);
       clocks = after;
       if (after[i] >= end) releaser.end_moves(AgentId(i), ++ended[i]);

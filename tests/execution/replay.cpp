@@ -12,8 +12,8 @@ namespace {
 
 using Real = Replay::Real;
 
-Real real(geometry::Ticks ticks) { return static_cast<Real>(ticks.count()); }
-Real real(geometry::Length length) { return static_cast<Real>(length.count()); }
+Real real(geometry::Ticks ticks) { return static_cast<Real>(ticks.value()); }
+Real real(geometry::Length length) { return static_cast<Real>(length.value()); }
 
 /// The moments of [x0, x1], as shares of it, at which a path begins or ends a move.
 void add_breaks(const continuous::Path& path, Real x0, Real x1, std::vector<Real>& shares) {

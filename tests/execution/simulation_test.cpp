@@ -15,7 +15,7 @@ using quadrille::support::scaled;
 
 std::vector<Replay::Real> real(std::span<const Ticks> clocks) {
   std::vector<Replay::Real> result;
-  for (const Ticks clock : clocks) result.push_back(static_cast<Replay::Real>(clock.count()));
+  for (const Ticks clock : clocks) result.push_back(static_cast<Replay::Real>(clock.value()));
   return result;
 }
 
@@ -27,8 +27,8 @@ TEST(Simulation, WithoutDelaysThePlanIsKept) {
     Delays none(order.num_agents());
     const auto result = simulate(order, none, Rule::coupled, 1);
     ASSERT_TRUE(result.all_arrived);
-    EXPECT_EQ(result.sum_of_costs().count(), cost(c->plan, Objective::sum_of_costs));
-    EXPECT_EQ(result.makespan().count(), cost(c->plan, Objective::makespan));
+    EXPECT_EQ(result.sum_of_costs().value(), cost(c->plan, Objective::sum_of_costs));
+    EXPECT_EQ(result.makespan().value(), cost(c->plan, Objective::makespan));
     for (const Ticks held : result.held) EXPECT_EQ(held, Ticks(0));
   }
 }
@@ -49,10 +49,10 @@ TEST(Simulation, DelaysAreThoseThatWereDrawn) {
     for (const auto& pause : delays[i].pauses) pauses += pause.duration;
     // Exactly as slow as drawn, but for what is lost of the fraction of a tick at each pause.
     const double least =
-        static_cast<double>(order.end(i).count()) * 1e6 / static_cast<double>(delays[i].speed) +
-        static_cast<double>(pauses.count());
-    EXPECT_GE(static_cast<double>(alone.finish[i].count()), least - 1);
-    EXPECT_LE(static_cast<double>(alone.finish[i].count()),
+        static_cast<double>(order.end(i).value()) * 1e6 / static_cast<double>(delays[i].speed) +
+        static_cast<double>(pauses.value());
+    EXPECT_GE(static_cast<double>(alone.finish[i].value()), least - 1);
+    EXPECT_LE(static_cast<double>(alone.finish[i].value()),
               least + 2 + 2 * static_cast<double>(order.moves[i].size()));
   }
 }

@@ -129,20 +129,20 @@ struct Exact {
 Exact by_hand(const continuous::Instance& instance, const continuous::Path& path,
               long double tick) {
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-    const auto depart = static_cast<long double>(path[k].depart.count());
-    const auto arrive = static_cast<long double>(path[k + 1].arrive.count());
+    const auto depart = static_cast<long double>(path[k].depart.value());
+    const auto arrive = static_cast<long double>(path[k + 1].arrive.value());
     const auto& p = instance.roadmap().position(path[k].vertex);
     const auto& q = instance.roadmap().position(path[k + 1].vertex);
-    const auto px = static_cast<long double>(p.x.count()),
-               py = static_cast<long double>(p.y.count());
+    const auto px = static_cast<long double>(p.x.value()),
+               py = static_cast<long double>(p.y.value());
     if (tick < depart) return {px, py, 0, 0};
     if (tick >= arrive) continue;
-    const long double vx = static_cast<long double>((q.x - p.x).count()) / (arrive - depart);
-    const long double vy = static_cast<long double>((q.y - p.y).count()) / (arrive - depart);
+    const long double vx = static_cast<long double>((q.x - p.x).value()) / (arrive - depart);
+    const long double vy = static_cast<long double>((q.y - p.y).value()) / (arrive - depart);
     return {px + (tick - depart) * vx, py + (tick - depart) * vy, vx, vy};
   }
   const auto& p = instance.roadmap().position(path.back().vertex);
-  return {static_cast<long double>(p.x.count()), static_cast<long double>(p.y.count()), 0, 0};
+  return {static_cast<long double>(p.x.value()), static_cast<long double>(p.y.value()), 0, 0};
 }
 
 TEST(TimedPlan, RandomWalksAreWhereTheIntegersSay) {
@@ -178,7 +178,7 @@ TEST(TimedPlan, RandomWalksAreWhereTheIntegersSay) {
       EXPECT_EQ(path.velocity(samples[k].time), samples[k].velocity);
     }
     EXPECT_EQ(samples.size(),
-              static_cast<std::size_t>(plan.paths[AgentId(0)].back().arrive.count()) + 1);
+              static_cast<std::size_t>(plan.paths[AgentId(0)].back().arrive.value()) + 1);
     for (int query = 0; query < 50; ++query) {
       // Never a moment of change, whose last bit would decide.
       const double at = (static_cast<double>(random.below(100'000)) + 0.5) / 37;

@@ -100,7 +100,7 @@ TEST(UnderWay, PartsOfAMoveAddUpToWholeSteps) {
       steps += taken;
       left -= taken;
       plan = c.plan();
-      ASSERT_EQ(plan.in_units().paths[c.robot].back().arrive.count(), 500 - steps) << run;
+      ASSERT_EQ(plan.in_units().paths[c.robot].back().arrive.value(), 500 - steps) << run;
       ASSERT_EQ(by_hand.plan()[c.robot].cost(), plan[c.robot].cost()) << run;
     }
   }

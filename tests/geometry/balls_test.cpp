@@ -104,7 +104,7 @@ TEST(Balls, TurnedCasesAreAnsweredAsThoseInThePlane) {
 cpp_rational least_square(const Motion& a, const Motion& b) {
   using Vector = std::array<cpp_rational, 3>;
   const auto vector = [](const Point& p, const Point& q) {
-    return Vector{(q.x - p.x).count(), (q.y - p.y).count(), (q.z - p.z).count()};
+    return Vector{(q.x - p.x).value(), (q.y - p.y).value(), (q.z - p.z).value()};
   };
   const auto dot = [](const Vector& p, const Vector& q) -> cpp_rational {
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
@@ -138,7 +138,7 @@ TEST(Balls, CanMeetIsExact) {
     const Case c = seed % 2 == 0 ? small_balls(random) : hard_balls(random);
     SCOPED_TRACE(testing::Message() << "seed " << seed << ": " << c);
     const Length reach = std::get<Disc>(c.body_a).radius + std::get<Disc>(c.body_b).radius;
-    const cpp_rational square = cpp_rational(reach.count()) * reach.count();
+    const cpp_rational square = cpp_rational(reach.value()) * reach.value();
     const cpp_rational least = least_square(c.a, c.b);
     if (least < square) ++meetings;
     if (least == square) ++touches;

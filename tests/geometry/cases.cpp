@@ -43,14 +43,14 @@ Motion draw_motion(Random& random, Length size, Ticks longest) {
 }
 
 Motion draw_motion(Random& random, Length size) {
-  return draw_motion(random, size, Ticks(size.count()));
+  return draw_motion(random, size, Ticks(size.value()));
 }
 
 // A scale from a handful to the largest.
 Length draw_scale(Random& random) { return Length(std::int64_t{1} << random.between(3, 36)); }
 
 std::int64_t draw_factor(Random& random, Length first, Length last) {
-  return draw(random, first, last).count();
+  return draw(random, first, last).value();
 }
 
 // Directions of integer length, so that lines can be exactly so far apart.
@@ -75,7 +75,7 @@ std::pair<Disc, Disc> split(Random& random, Length total) {
 Case parallel(Random& random, Length scale) {
   const Direction direction = draw_direction(random);
   const std::int64_t gap = draw_factor(random, 1, scale);
-  const Ticks longest(scale.count());
+  const Ticks longest(scale.value());
   const Point normal{-direction.along.y, direction.along.x};
   const auto on_line = [&](const Point& base) {
     const Point from = base + draw_factor(random, -scale, scale) * direction.along;
@@ -113,7 +113,7 @@ Case tangent_ends(Random& random, Length scale) {
 Case followers(Random& random, Length scale) {
   const Direction direction = draw_direction(random);
   const auto at = [&] { return draw_factor(random, 0, scale) * direction.along; };
-  const Ticks longest(scale.count());
+  const Ticks longest(scale.value());
   const Ticks duration = draw_ticks(random, 1, longest);
   Motion a{at(), at(), duration};
   Motion b{at(), at(), random.percent(50) ? duration : draw_ticks(random, 1, longest)};
@@ -136,7 +136,7 @@ Case slow(Random& random, Length scale) {
 }
 
 Case anything(Random& random, Length scale) {
-  const Ticks longest = random.percent(25) ? Ticks{3} : Ticks(draw_scale(random).count());
+  const Ticks longest = random.percent(25) ? Ticks{3} : Ticks(draw_scale(random).value());
   Case c{Disc{1}, draw_motion(random, scale, longest), Disc{1},
          draw_motion(random, scale, longest)};
   if (random.percent(15)) c.b = {c.a.from, draw_point(random, scale), longest};  // Same start.
@@ -165,7 +165,7 @@ Case lifted(Case c, std::size_t which, support::Random& random) {
   other = 4 * other;
   Case result = turned(c, which);
   const Point across = kAxes[(which + 2) % 3];
-  const Point shift = (up * 3 * reach.count()) * across;
+  const Point shift = (up * 3 * reach.value()) * across;
   result.b.from = result.b.from + shift;
   result.b.to = result.b.to + shift;
   return result;
@@ -207,11 +207,11 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
 
 Length draw(Random& random, Length first, Length last) {
   return first + Length(static_cast<std::int64_t>(
-                     random.below(static_cast<std::size_t>((last - first).count()) + 1)));
+                     random.below(static_cast<std::size_t>((last - first).value()) + 1)));
 }
 
 Ticks draw_ticks(Random& random, Ticks first, Ticks last) {
-  return Ticks(draw(random, Length(first.count()), Length(last.count())).count());
+  return Ticks(draw(random, Length(first.value()), Length(last.value())).value());
 }
 
 ConvexPolygon random_polygon(Random& random, Length size) {
@@ -223,7 +223,7 @@ ConvexPolygon random_polygon(Random& random, Length size) {
     std::sort(angles.begin(), angles.end());
     std::vector<Point> corners;
     const auto along = [&](double share) {
-      return Length(static_cast<std::int64_t>(share * static_cast<double>(size.count())));
+      return Length(static_cast<std::int64_t>(share * static_cast<double>(size.value())));
     };
     for (const double angle : angles)
       corners.push_back({along(std::cos(angle)), along(std::sin(angle))});
@@ -277,7 +277,7 @@ Case hard_discs(Random& random) {
 Case turned(const Case& c, std::size_t which) {
   const std::size_t first = which % 3, second = (first + 1 + which / 3) % 3;
   const auto turn = [&](const Point& p) {
-    return p.x.count() * kAxes[first] + p.y.count() * kAxes[second];
+    return p.x.value() * kAxes[first] + p.y.value() * kAxes[second];
   };
   const auto larger = [](const Body& body) { return Disc{3 * std::get<Disc>(body).radius}; };
   return {larger(c.body_a),
@@ -303,15 +303,15 @@ Case hard_bodies(Random& random) {
     const auto square = ConvexPolygon::make({{0, 0}, {unit, 0}, {unit, unit}, {0, unit}}).value();
     const auto place = [&] { return draw_point(random, 4); };
     c.body_a = c.body_b = square;
-    const Ticks longest(4 * unit.count());
-    c.a = scaled({place(), place(), draw_ticks(random, 1, longest)}, unit.count());
-    c.b = scaled({place(), place(), draw_ticks(random, 1, longest)}, unit.count());
+    const Ticks longest(4 * unit.value());
+    c.a = scaled({place(), place(), draw_ticks(random, 1, longest)}, unit.value());
+    c.b = scaled({place(), place(), draw_ticks(random, 1, longest)}, unit.value());
   }
   return c;
 }
 
 Point left_of(const Point& step) {
-  std::int64_t s = 1, next_s = 0, t = 0, next_t = 1, a = step.x.count(), b = step.y.count();
+  std::int64_t s = 1, next_s = 0, t = 0, next_t = 1, a = step.x.value(), b = step.y.value();
   while (b != 0) {  // step.x s + step.y t == a
     const std::int64_t quotient = a / b;
     a = std::exchange(b, a - quotient * b);
@@ -320,7 +320,7 @@ Point left_of(const Point& step) {
   }
   const Point w{Length{-t}, Length{s}};
   __extension__ using Wide = __int128;
-  const Wide ahead = Wide{w.x.count()} * step.x.count() + Wide{w.y.count()} * step.y.count();
+  const Wide ahead = Wide{w.x.value()} * step.x.value() + Wide{w.y.value()} * step.y.value();
   return ahead > 0 ? w : Point{w.x + step.x, w.y + step.y};
 }
 

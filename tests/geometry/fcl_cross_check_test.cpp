@@ -19,7 +19,7 @@ constexpr double kTolerance = 1e-6;
 
 double reach_of(const Case& c) {
   return static_cast<double>(
-      (std::get<Disc>(c.body_a).radius + std::get<Disc>(c.body_b).radius).count());
+      (std::get<Disc>(c.body_a).radius + std::get<Disc>(c.body_b).radius).value());
 }
 
 // The disc of radius reach that goes along the relative path is a capsule; the bodies come as near
@@ -65,15 +65,15 @@ TEST(CrossCheck, DiscsAgreeWithFclAndWithSampling) {
       }
 
       double least = std::numeric_limits<double>::infinity();
-      const double span = static_cast<double>((window.end - window.begin).count());
+      const double span = static_cast<double>((window.end - window.begin).value());
       for (int sample = 0; sample <= 500; ++sample) {
-        const double time = static_cast<double>(window.begin.count()) + span * sample / 500;
+        const double time = static_cast<double>(window.begin.value()) + span * sample / 500;
         const auto at = [](const Motion& m, double t) {
-          const double done = m.duration == 0 ? 0 : t / static_cast<double>(m.duration.count());
+          const double done = m.duration == 0 ? 0 : t / static_cast<double>(m.duration.value());
           return to_vec(m.from) + done * to_vec(m.to - m.from);
         };
         least = std::min(least,
-                         norm(at(c.b, time - static_cast<double>(offset.count())) - at(c.a, time)));
+                         norm(at(c.b, time - static_cast<double>(offset.value())) - at(c.a, time)));
       }
       // Samples are upper bounds of the least distance; it can only be less by half a step's way.
       const double way = norm(path.end - path.begin) / 1000;

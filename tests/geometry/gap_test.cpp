@@ -53,13 +53,13 @@ void expect_enclosure(Generator generate) {
     const cpp_rational exact(square.numerator,
                              square.denominator * oracle.scale() * oracle.scale());
     const Length reach = std::get<Disc>(c.body_a).radius + std::get<Disc>(c.body_b).radius;
-    const cpp_rational low = cpp_rational(gap->at_least) + reach.count();
-    const cpp_rational high = cpp_rational(gap->at_most) + reach.count();
+    const cpp_rational low = cpp_rational(gap->at_least) + reach.value();
+    const cpp_rational high = cpp_rational(gap->at_most) + reach.value();
     EXPECT_LE(low * low, exact);
     EXPECT_GE(high * high, exact);
-    const double largest = static_cast<double>((8 * kMaxLength).count());
+    const double largest = static_cast<double>((8 * kMaxLength).value());
     EXPECT_LE(gap->at_most - gap->at_least, 1e-13 * largest);
-    EXPECT_EQ(gap->at_most == 0, exact == cpp_rational(BigInteger(reach.count()) * reach.count()));
+    EXPECT_EQ(gap->at_most == 0, exact == cpp_rational(BigInteger(reach.value()) * reach.value()));
     if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(apart, 500);

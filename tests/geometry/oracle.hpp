@@ -48,7 +48,7 @@ class Oracle {
     const auto* disc_a = std::get_if<Disc>(&body_a_);
     const auto* disc_b = std::get_if<Disc>(&body_b_);
     if (disc_a && disc_b) {
-      const Int reach = scale() * Int((disc_a->radius + disc_b->radius).count());
+      const Int reach = scale() * Int((disc_a->radius + disc_b->radius).value());
       return less(squared_distance({0, 0}, from, to), reach * reach);
     }
     // With a disc, the polygon rests and the disc's centre goes along the path, or its mirror
@@ -65,7 +65,7 @@ class Oracle {
     return squared_distance({0, 0}, position(std::max(Ticks{0}, offset), offset),
                             position(std::min(a_.duration, offset + b_.duration), offset));
   }
-  [[nodiscard]] Int scale() const { return Int(unit(a_).count()) * unit(b_).count(); }
+  [[nodiscard]] Int scale() const { return Int(unit(a_).value()) * unit(b_).value(); }
 
   static bool less(const Fraction& p, const Fraction& q) {
     return p.numerator * q.denominator < q.numerator * p.denominator;
@@ -79,10 +79,10 @@ class Oracle {
   [[nodiscard]] Vector position(Ticks time, Ticks offset) const {
     const auto coordinate = [&](Length a_from, Length a_to, Length b_from, Length b_to) -> Int {
       const Int at_a =
-          Int(unit(a_).count()) * a_from.count() + Int(time.count()) * (a_to - a_from).count();
-      const Int at_b = Int(unit(b_).count()) * b_from.count() +
-                       Int((time - offset).count()) * (b_to - b_from).count();
-      return Int(unit(a_).count()) * at_b - Int(unit(b_).count()) * at_a;
+          Int(unit(a_).value()) * a_from.value() + Int(time.value()) * (a_to - a_from).value();
+      const Int at_b = Int(unit(b_).value()) * b_from.value() +
+                       Int((time - offset).value()) * (b_to - b_from).value();
+      return Int(unit(a_).value()) * at_b - Int(unit(b_).value()) * at_a;
     };
     return {coordinate(a_.from.x, a_.to.x, b_.from.x, b_.to.x),
             coordinate(a_.from.y, a_.to.y, b_.from.y, b_.to.y),
@@ -110,10 +110,10 @@ class Oracle {
 
   [[nodiscard]] bool disc_meets(const Vector& from, const Vector& to, Length radius,
                                 const ConvexPolygon& polygon) const {
-    const Int reach = scale() * radius.count();
+    const Int reach = scale() * radius.value();
     std::vector<Vector> corners;
     for (const Point& corner : polygon.vertices())
-      corners.push_back({scale() * corner.x.count(), scale() * corner.y.count()});
+      corners.push_back({scale() * corner.x.value(), scale() * corner.y.value()});
     bool inside = true;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vector& p = corners[i];
@@ -138,7 +138,7 @@ class Oracle {
       for (std::size_t i = 0; i < polygon->size(); ++i) {
         const Point& p = (*polygon)[i];
         const Point& q = (*polygon)[(i + 1) % polygon->size()];
-        const Vector normal{(q.y - p.y).count(), (p.x - q.x).count()};
+        const Vector normal{(q.y - p.y).value(), (p.x - q.x).value()};
         const auto [low_a, high_a] = range(polygon_a, normal);
         const auto [low_b, high_b] = range(polygon_b, normal);
         const Int at_begin = normal.x * from.x + normal.y * from.y;
@@ -156,7 +156,7 @@ class Oracle {
   static std::pair<Int, Int> range(const std::vector<Point>& polygon, const Vector& normal) {
     std::pair<Int, Int> result;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Int value = normal.x * polygon[i].x.count() + normal.y * polygon[i].y.count();
+      const Int value = normal.x * polygon[i].x.value() + normal.y * polygon[i].y.value();
       if (i == 0 || value < result.first) result.first = value;
       if (i == 0 || value > result.second) result.second = value;
     }

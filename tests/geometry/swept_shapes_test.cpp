@@ -86,7 +86,7 @@ TEST(SweptShapes, RoundingIsOnTheSafeSide) {
     const Length least{std::int64_t{1} << 37};
     const auto long_way = [&] { return draw(random, least, 2 * least); };
     const Point step{long_way(), long_way()}, from{draw(random, -least, least), long_way()};
-    if (std::gcd(step.x.count(), step.y.count()) != 1) continue;
+    if (std::gcd(step.x.value(), step.y.value()) != 1) continue;
     ++num_tried;
     const Motion line{from, from + step, 1};
     const Point left = left_of(step), wide{step.x / 8, step.y / 8}, out{-step.y / 4, step.x / 4};

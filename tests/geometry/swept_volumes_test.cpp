@@ -107,9 +107,9 @@ TEST(SweptVolumes, NearlyParallelLines) {
     const std::size_t turn = random.below(9);  // Where below 6: in space.
     // Discs whose reach is about as large as the lines are apart.
     const double exact =
-        std::abs(static_cast<double>(along.x.count())) /
-        std::hypot(static_cast<double>(along.x.count()), static_cast<double>(along.y.count())) *
-        static_cast<double>(aside.count());
+        std::abs(static_cast<double>(along.x.value())) /
+        std::hypot(static_cast<double>(along.x.value()), static_cast<double>(along.y.value())) *
+        static_cast<double>(aside.value());
     const Length radius =
         std::max(Length{1}, Length(static_cast<std::int64_t>(exact / 2)) + nudge());
     Case c{Disc{radius}, a, Disc{radius}, b};

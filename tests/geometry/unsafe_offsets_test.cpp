@@ -225,11 +225,11 @@ TEST(UnsafeOffsets, RoundingIsOnTheSafeSide) {
     support::Random random(static_cast<std::uint64_t>(seed));
     const Length least{std::int64_t{1} << 37};
     const Point step{draw(random, least, 2 * least), draw(random, least, 2 * least)};
-    if (std::gcd(step.x.count(), step.y.count()) != 1) continue;
+    if (std::gcd(step.x.value(), step.y.value()) != 1) continue;
     ++num_tried;
     const auto at = [&](std::int64_t along, std::int64_t left) {  // in 64ths of the step
-      return Point{Length((along * step.x.count() - left * step.y.count()) / 64),
-                   Length((along * step.y.count() + left * step.x.count()) / 64)};
+      return Point{Length((along * step.x.value() - left * step.y.value()) / 64),
+                   Length((along * step.y.value() + left * step.x.value()) / 64)};
     };
     const Body right = ConvexPolygon::make({{0, 0}, at(-8, -16), at(8, -16)}).value();
     const Point over = left_of(step);

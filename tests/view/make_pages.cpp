@@ -185,7 +185,7 @@ Json place_of(const continuous::Instance& instance, double x, double y, double z
 
 Json position(const continuous::Instance& instance, const continuous::Path& path, double tick) {
   for (std::size_t k = 0; k < path.size(); ++k) {
-    const auto real = [](auto quantity) { return static_cast<double>(quantity.count()); };
+    const auto real = [](auto quantity) { return static_cast<double>(quantity.value()); };
     const continuous::Point from = instance.roadmap().position(path[k].vertex);
     const bool is_last = k + 1 == path.size();
     if (is_last || tick <= real(path[k].depart))
@@ -227,12 +227,12 @@ Json obstacles_of(const continuous::Instance& instance) {
     const auto& [body, path, leaves] = instance.obstacles()[k];
     const auto add = [&](Ticks tick, const continuous::MovingObstacle::Stop* stop) {
       const auto real = [](continuous::Length length) {
-        return static_cast<double>(length.count());
+        return static_cast<double>(length.value());
       };
       const Json place = stop == nullptr ? Json::array({nullptr})
                                          : place_of(instance, real(stop->at.x), real(stop->at.y),
                                                     real(stop->at.z));
-      list.push_back(entry(k, static_cast<double>(tick.count()) * kResolution, place));
+      list.push_back(entry(k, static_cast<double>(tick.value()) * kResolution, place));
     };
     for (const auto& stop : path) {
       add(stop.arrive, &stop);
@@ -248,7 +248,7 @@ Json obstacles_of(const continuous::Instance& instance) {
 Json presence_of(const continuous::Instance& instance, const continuous::Plan& plan) {
   Json list = Json::array();
   for (const AgentId i : instance.agent_ids()) {
-    const auto arrival = static_cast<double>(plan.paths[i].back().arrive.count());
+    const auto arrival = static_cast<double>(plan.paths[i].back().arrive.value());
     list.push_back(
         {i.index(), arrival * kResolution, (arrival + 1) * kResolution, !instance.agent(i).leaves});
   }

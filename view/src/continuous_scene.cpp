@@ -53,8 +53,8 @@ std::string name_of(Violation::Kind kind) {
 }
 
 Position position_of(const continuous::Point& point) {
-  return {static_cast<double>(point.x.count()), static_cast<double>(point.y.count()),
-          static_cast<double>(point.z.count())};
+  return {static_cast<double>(point.x.value()), static_cast<double>(point.y.value()),
+          static_cast<double>(point.z.value())};
 }
 
 /// The path as far as it can be laid out in space and time.
@@ -62,7 +62,7 @@ std::vector<SceneStop> stops_of(const continuous::Roadmap& roadmap, const contin
   std::vector<SceneStop> stops;
   std::int64_t now = 0;
   for (const continuous::Stop& stop : path) {
-    const std::int64_t arrive = stop.arrive.count(), depart = stop.depart.count();
+    const std::int64_t arrive = stop.arrive.value(), depart = stop.depart.value();
     if (stop.vertex.index() >= roadmap.num_vertices() || arrive < now || depart < arrive) break;
     if (!stops.empty() && arrive == now && stops.back().place != stop.vertex.index()) break;
     stops.push_back({stop.vertex.index(), arrive, depart});
@@ -100,7 +100,7 @@ void add_report(const continuous::VerifyReport& report, Scene& scene) {
     scene.nearest.push_back({c.agent.index(), c.other.index(), c.gap, c.tick});
   for (const Violation& violation : report.violations) {
     // A collision is best looked at where the two are nearest.
-    const double time = violation.nearest.value_or(static_cast<double>(violation.tick.count()));
+    const double time = violation.nearest.value_or(static_cast<double>(violation.tick.value()));
     std::optional<std::size_t> other;
     if (violation.other) other = violation.other->index();
     scene.violations.push_back(
@@ -131,7 +131,7 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
         body_of_class.emplace(instance.class_of(i).index(), scene.bodies.size());
     if (is_new) scene.bodies.push_back(task.body);
     SceneAgent agent{task.start.index(), task.goal.index(), body->second, {}, {}, {}, task.leaves};
-    if (const auto alone = continuous::free_cost(instance, i)) agent.free_cost = alone->count();
+    if (const auto alone = continuous::free_cost(instance, i)) agent.free_cost = alone->value();
     if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.roadmap(), plan.paths[i]);
     if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive;
     scene.agents.push_back(std::move(agent));
@@ -140,7 +140,7 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
     SceneObstacle shown{scene.bodies.size(), {}, obstacle.leaves};
     scene.bodies.push_back(obstacle.body);
     for (const auto& stop : obstacle.path)
-      shown.stops.push_back({position_of(stop.at), stop.arrive.count(), stop.depart.count()});
+      shown.stops.push_back({position_of(stop.at), stop.arrive.value(), stop.depart.value()});
     scene.obstacles.push_back(std::move(shown));
   }
   add_report(verify(instance, plan, kMostNearest), scene);

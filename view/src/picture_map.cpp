@@ -66,7 +66,7 @@ class MapPicture {
 
   [[nodiscard]] double reach(const SceneAgent& agent) const {
     if (scene_.bodies.empty()) return kCellRadius;
-    return static_cast<double>(geometry::enclosing_radius(scene_.bodies[agent.body]).count());
+    return static_cast<double>(geometry::enclosing_radius(scene_.bodies[agent.body]).value());
   }
 
   [[nodiscard]] Position on_page(Position p) const {
@@ -163,8 +163,8 @@ class MapPicture {
       if (const auto* shape = std::get_if<continuous::ConvexPolygon>(&scene_.bodies[agent.body])) {
         std::vector<Position> corners;
         for (const continuous::Point& corner : shape->vertices())
-          corners.push_back(on_page({at.x + share * static_cast<double>(corner.x.count()),
-                                     at.y + share * static_cast<double>(corner.y.count())}));
+          corners.push_back(on_page({at.x + share * static_cast<double>(corner.x.value()),
+                                     at.y + share * static_cast<double>(corner.y.value())}));
         svg.polygon(corners, style);
         return;
       }

@@ -60,10 +60,10 @@ void add_precedences_of(const Instance& instance, const Plan& plan, Scene& scene
   if (!found || found->list.size() > kMostPrecedences) return;
   for (const execution::Precedence& precedence : found->list) {
     const auto &leader = found->at(precedence.leader), &follower = found->at(precedence.follower);
-    scene.precedences.push_back({precedence.leader.agent.index(), leader.begin.count(),
-                                 leader.end.count(), precedence.follower.agent.index(),
-                                 follower.begin.count(), follower.end.count(),
-                                 precedence.slack.count()});
+    scene.precedences.push_back({precedence.leader.agent.index(), leader.begin.value(),
+                                 leader.end.value(), precedence.follower.agent.index(),
+                                 follower.begin.value(), follower.end.value(),
+                                 precedence.slack.value()});
   }
 }
 

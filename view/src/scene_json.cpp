@@ -124,11 +124,11 @@ Json cells_json(const Cells& cells) {
 
 Json body_json(const continuous::Body& body) {
   if (const auto* disc = std::get_if<continuous::Disc>(&body))
-    return {{"radius", disc->radius.count()}};
+    return {{"radius", disc->radius.value()}};
   Json corners = Json::array();
   for (const continuous::Point& corner : std::get<continuous::ConvexPolygon>(body).vertices()) {
-    corners.push_back(corner.x.count());
-    corners.push_back(corner.y.count());
+    corners.push_back(corner.x.value());
+    corners.push_back(corner.y.value());
   }
   return {{"corners", std::move(corners)}};
 }

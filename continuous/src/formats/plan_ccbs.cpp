@@ -48,7 +48,7 @@ Ticks move_duration(const Instance& instance, AgentId agent, VertexId from, Vert
 
 /// Whether a duration is the same as a number and back.
 bool is_number(Ticks ticks, const Resolution& resolution) {
-  return std::llround(in_input_units(ticks, resolution) / resolution.time) == ticks.count();
+  return std::llround(in_input_units(ticks, resolution) / resolution.time) == ticks.value();
 }
 
 class LogReader {
@@ -95,13 +95,13 @@ class LogReader {
     if (!attribute) return std::nullopt;
     const auto seconds = parse_number(attribute.value());
     const double units = seconds ? *seconds / instance_.resolution().time : -1;
-    if (!(units >= 0 && units <= static_cast<double>(kMaxTick.count())))
+    if (!(units >= 0 && units <= static_cast<double>(kMaxTick.value())))
       return xml_.error(summary, "the " + std::string(name) + " is " + quoted(attribute.value()) +
                                      ", not a time");
     // Rounded as a whole there and section by section here.
     const Cost actual = quadrille::continuous::cost(file_.plan, objective);
     const double tolerance = last_digit(attribute.value()) / instance_.resolution().time +
-                             static_cast<double>(((kMoveTolerance + 1) * num_sections_).count());
+                             static_cast<double>(((kMoveTolerance + 1) * num_sections_).value());
     const bool agrees = std::abs(units - static_cast<double>(actual)) <= tolerance;
     cost = agrees ? actual : static_cast<Cost>(std::llround(units));
     return std::nullopt;
@@ -142,7 +142,7 @@ class LogReader {
       if (auto error = read_vertex(node, end == 0 ? "start" : "goal", ends[end])) return error;
     const auto seconds = parse_number(node.attribute("duration").value());
     const double units = seconds ? *seconds / instance_.resolution().time : -1;
-    if (!(units >= 0 && units <= static_cast<double>((kMaxTick - path.back().depart).count())))
+    if (!(units >= 0 && units <= static_cast<double>((kMaxTick - path.back().depart).value())))
       return xml_.error(
           node, "the duration is " + quoted(node.attribute("duration").value()) + ", not a time");
     if (is_first) path.back().vertex = ends[0];
@@ -214,7 +214,7 @@ std::string why_not_in_log(const Instance& instance, AgentId agent, const Path& 
       return at + "the next move is by a tick or two not as long as its edge takes";
     for (const Ticks duration : {stop.depart - stop.arrive, move})
       if (!is_number(duration, instance.resolution()))
-        return at + std::to_string(duration.count()) + " ticks are too many for a number";
+        return at + std::to_string(duration.value()) + " ticks are too many for a number";
   }
   return "";
 }

@@ -80,7 +80,7 @@ class JsonPlanReader {
   static std::int64_t count(Cost ticks) { return ticks; }
   template <class Unit>
   static std::int64_t count(Quantity<Unit> units) {
-    return units.count();
+    return units.value();
   }
 
   bool read_paths(Node plan) {
@@ -128,7 +128,7 @@ class JsonPlanReader {
 
   bool read_tick(Node node, Ticks& tick) {
     std::int64_t count = 0;
-    if (!check_.integer(node, 0, kMaxTick.count(), count)) return false;
+    if (!check_.integer(node, 0, kMaxTick.value(), count)) return false;
     tick = Ticks(count);
     return true;
   }
@@ -179,10 +179,10 @@ std::string plan_to_json(const Instance& instance, const Plan& plan) {
       text += "\"vertex\": " + std::to_string(stop.vertex.index()) +
               ", \"at\": " + point_json(at, instance.roadmap().is_flat(), instance.resolution()) +
               ", \"arrive\": " + number(stop.arrive) +
-              ", \"arrive_ticks\": " + std::to_string(stop.arrive.count());
+              ", \"arrive_ticks\": " + std::to_string(stop.arrive.value());
       if (k + 1 < path.size())
         text += ", \"depart\": " + number(stop.depart) +
-                ", \"depart_ticks\": " + std::to_string(stop.depart.count());
+                ", \"depart_ticks\": " + std::to_string(stop.depart.value());
       text += "}";
     }
     text += "]";

@@ -28,19 +28,19 @@ std::optional<Error> check(const RandomInstanceOptions& options) {
     return out_of_range(std::to_string(options.num_agents) + " agents need as many vertices");
   for (const Length side : {options.width, options.height})
     if (side < 1 || side > geometry::kMaxLength)
-      return out_of_range("the area is 1 .. " + std::to_string(geometry::kMaxLength.count()) +
+      return out_of_range("the area is 1 .. " + std::to_string(geometry::kMaxLength.value()) +
                           " length units wide and high");
   if (options.altitude < 0 || options.altitude > geometry::kMaxLength)
-    return out_of_range("the altitude is 0 .. " + std::to_string(geometry::kMaxLength.count()) +
+    return out_of_range("the altitude is 0 .. " + std::to_string(geometry::kMaxLength.value()) +
                         " length units");
   if (options.radius < 1 || options.radius > geometry::kMaxLength / 4)
-    return out_of_range("the radius is 1 .. " + std::to_string((geometry::kMaxLength / 4).count()) +
+    return out_of_range("the radius is 1 .. " + std::to_string((geometry::kMaxLength / 4).value()) +
                         " length units");
   if (options.reach && (*options.reach < 1 || *options.reach > geometry::kMaxLength))
-    return out_of_range("the reach is 1 .. " + std::to_string(geometry::kMaxLength.count()) +
+    return out_of_range("the reach is 1 .. " + std::to_string(geometry::kMaxLength.value()) +
                         " length units");
   if (options.speed < 1 || options.speed > kMaxSpeed)
-    return out_of_range("the speed is 1 .. " + std::to_string(kMaxSpeed.count()) +
+    return out_of_range("the speed is 1 .. " + std::to_string(kMaxSpeed.value()) +
                         " millionths of a length unit per tick");
   return std::nullopt;
 }
@@ -51,9 +51,9 @@ class Squares {
   /// For points of the area, and distances of about `distance`.
   Squares(Length width, Length height, Length distance)
       : side_(std::max(
-            {distance.count(), width.count() / kMaxPerSide + 1, height.count() / kMaxPerSide + 1})),
-        columns_(width.count() / side_ + 1),
-        rows_(height.count() / side_ + 1),
+            {distance.value(), width.value() / kMaxPerSide + 1, height.value() / kMaxPerSide + 1})),
+        columns_(width.value() / side_ + 1),
+        rows_(height.value() / side_ + 1),
         points_(static_cast<std::size_t>(columns_ * rows_)) {}
 
   void add(const Point& point, std::size_t index) {
@@ -62,7 +62,7 @@ class Squares {
   /// Calls `visit` with all that are no further than `distance` from the point, and others.
   template <class Visit>
   void near(const Point& point, Length distance, const Visit& visit) const {
-    const std::int64_t reach = distance.count() / side_ + 1;
+    const std::int64_t reach = distance.value() / side_ + 1;
     const std::int64_t last_column = std::min(column(point) + reach, columns_ - 1);
     const std::int64_t last_row = std::min(row(point) + reach, rows_ - 1);
     for (std::int64_t r = std::max<std::int64_t>(row(point) - reach, 0); r <= last_row; ++r)
@@ -72,8 +72,8 @@ class Squares {
 
  private:
   static constexpr std::int64_t kMaxPerSide = 300;
-  [[nodiscard]] std::int64_t column(const Point& point) const { return point.x.count() / side_; }
-  [[nodiscard]] std::int64_t row(const Point& point) const { return point.y.count() / side_; }
+  [[nodiscard]] std::int64_t column(const Point& point) const { return point.x.value() / side_; }
+  [[nodiscard]] std::int64_t row(const Point& point) const { return point.y.value() / side_; }
   [[nodiscard]] std::size_t place(std::int64_t column, std::int64_t row) const {
     return static_cast<std::size_t>(row * columns_ + column);
   }
@@ -87,7 +87,7 @@ std::vector<Point> draw_vertices(const RandomInstanceOptions& options, Random& r
   const Area spacing2 = 8 * square(options.radius);
   const auto coordinate = [&](Length side) {
     return Length(
-        static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(side.count()) + 1)));
+        static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(side.value()) + 1)));
   };
   std::vector<Point> vertices;
   const Length spacing = 3 * options.radius;  // or less
@@ -166,7 +166,7 @@ Body draw_polygon(Length radius, Random& random) {
   const auto corner = [&](std::int64_t t) {
     const std::int64_t whole = kSteps * kSteps + t * t;
     const auto part = [&](std::int64_t share) {
-      return Length(static_cast<std::int64_t>(Area{radius.count()} * share / whole));
+      return Length(static_cast<std::int64_t>(Area{radius.value()} * share / whole));
     };
     return Point{part(kSteps * kSteps - t * t), part(2 * kSteps * t)};
   };
@@ -201,8 +201,8 @@ std::vector<Agent> draw_agents(const RandomInstanceOptions& options, Random& ran
   for (std::size_t i = 0; i < options.num_agents; ++i) {
     Agent agent{VertexId(starts[i]), VertexId(goals[i]), Disc{options.radius}, options.speed};
     if (options.mixed) {
-      const Length radius(upper_half(options.radius.count()));
-      agent.speed = Speed(upper_half(options.speed.count()));
+      const Length radius(upper_half(options.radius.value()));
+      agent.speed = Speed(upper_half(options.speed.value()));
       const bool is_disc = options.altitude > 0 || random.below(2) == 0;
       agent.body = is_disc ? Body(Disc{radius}) : draw_polygon(radius, random);
     }

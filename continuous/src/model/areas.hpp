@@ -9,14 +9,14 @@ namespace quadrille::continuous {
 __extension__ using Area = __int128;
 
 [[nodiscard]] constexpr Area square(Length length) {
-  return static_cast<Area>(length.count()) * length.count();
+  return static_cast<Area>(length.value()) * length.value();
 }
 
 /// (a - c) . (b - c), which is at most 0 if c is in the disc (ball) over the diameter from a to b.
 [[nodiscard]] constexpr Area dot(const Point& a, const Point& b, const Point& c) {
-  return static_cast<Area>((a.x - c.x).count()) * (b.x - c.x).count() +
-         static_cast<Area>((a.y - c.y).count()) * (b.y - c.y).count() +
-         static_cast<Area>((a.z - c.z).count()) * (b.z - c.z).count();
+  return static_cast<Area>((a.x - c.x).value()) * (b.x - c.x).value() +
+         static_cast<Area>((a.y - c.y).value()) * (b.y - c.y).value() +
+         static_cast<Area>((a.z - c.z).value()) * (b.z - c.z).value();
 }
 
 [[nodiscard]] constexpr Area squared_distance(const Point& a, const Point& b) {

@@ -16,8 +16,8 @@ std::optional<DurationError> largest_duration_error(const Instance& instance) {
     const ClassId c = instance.class_of(i);
     if (seen[c.index()]) continue;
     seen[c.index()] = true;
-    const double speed = static_cast<double>(instance.agent(i).speed.count()) /
-                         static_cast<double>(kUnitSpeed.count());
+    const double speed = static_cast<double>(instance.agent(i).speed.value()) /
+                         static_cast<double>(kUnitSpeed.value());
     for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
       const Edge& edge = roadmap.edge(EdgeId(e));
       if (edge.duration || !instance.may_use(c, EdgeId(e))) continue;
@@ -25,7 +25,7 @@ std::optional<DurationError> largest_duration_error(const Instance& instance) {
       const double exact =
           static_cast<double>(std::sqrt(static_cast<long double>(squared))) / speed;
       const Ticks planned = instance.duration(c, EdgeId(e));
-      const double relative = std::abs(static_cast<double>(planned.count()) - exact) / exact;
+      const double relative = std::abs(static_cast<double>(planned.value()) - exact) / exact;
       if (!worst || relative > worst->relative)
         worst = DurationError{EdgeId(e), i, planned, exact, relative};
     }

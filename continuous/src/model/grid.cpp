@@ -34,7 +34,7 @@ bool is_near_segment(const Integer& px, const Integer& py, const Integer& x, con
 class SweptDisc {
  public:
   SweptDisc(Length side, Length radius)
-      : side_(side.count()), reach_(2 * Integer(radius.count())) {}
+      : side_(side.value()), reach_(2 * Integer(radius.value())) {}
 
   [[nodiscard]] bool meets(Cell to, Cell obstacle) const {
     const Integer x = 2 * side_ * to.x, y = 2 * side_ * to.y;

@@ -51,8 +51,8 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
   const Length reach = geometry::enclosing_radius(agent.body);
   if (reach < 1 || reach > geometry::kMaxLength)
     return Error{ErrorCode::out_of_range,
-                 name(index) + " has a radius of " + std::to_string(reach.count()) +
-                     " length units, not 1 .. " + std::to_string(geometry::kMaxLength.count()),
+                 name(index) + " has a radius of " + std::to_string(reach.value()) +
+                     " length units, not 1 .. " + std::to_string(geometry::kMaxLength.value()),
                  {}};
   if (agent.speed < 1 || agent.speed > kMaxSpeed)
     return Error{
@@ -66,8 +66,8 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
                  {}};
   const auto out_of_range = [&](const std::string& what, Ticks tick) {
     return Error{ErrorCode::out_of_range,
-                 name(index) + what + std::to_string(tick.count()) + ", not 0 .. " +
-                     std::to_string(geometry::kMaxDuration.count()),
+                 name(index) + what + std::to_string(tick.value()) + ", not 0 .. " +
+                     std::to_string(geometry::kMaxDuration.value()),
                  {}};
   };
   const auto is_good = [](Ticks tick) { return 0 <= tick && tick <= geometry::kMaxDuration; };
@@ -210,7 +210,7 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std
     if (!ticks)
       return Error{ErrorCode::out_of_range,
                    "edge " + std::to_string(e) + " takes less than one tick, or more than " +
-                       std::to_string(geometry::kMaxDuration.count()) + ", at the speed of agent " +
+                       std::to_string(geometry::kMaxDuration.value()) + ", at the speed of agent " +
                        std::to_string(agent) + "; choose another resolution",
                    {}};
     durations.push_back(*ticks);

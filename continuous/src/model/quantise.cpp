@@ -43,13 +43,13 @@ bool agree(double value, double exact, double unit) {
 }  // namespace
 
 std::optional<Length> quantise_coordinate(double value, const Resolution& resolution) {
-  const auto units = in_units(value, resolution.length, geometry::kMaxLength.count());
+  const auto units = in_units(value, resolution.length, geometry::kMaxLength.value());
   if (!units) return std::nullopt;
   return Length(static_cast<std::int64_t>(std::round(*units)));
 }
 
 std::optional<Length> quantise_radius(double value, const Resolution& resolution) {
-  const auto units = in_units(value, resolution.length, geometry::kMaxLength.count());
+  const auto units = in_units(value, resolution.length, geometry::kMaxLength.value());
   if (!units || *units < 1) return std::nullopt;
   return Length(static_cast<std::int64_t>(std::floor(*units)));
 }
@@ -64,19 +64,19 @@ std::optional<Length> quantise_radius_up(double value, const Resolution& resolut
 }
 
 std::optional<Length> quantise_corner(double value, const Resolution& resolution) {
-  const auto units = in_units(value, resolution.length, geometry::kMaxLength.count());
+  const auto units = in_units(value, resolution.length, geometry::kMaxLength.value());
   if (!units) return std::nullopt;
   return Length(static_cast<std::int64_t>(std::trunc(*units)));
 }
 
 std::optional<Ticks> quantise_duration(double value, const Resolution& resolution) {
-  const auto units = in_units(value, resolution.time, geometry::kMaxDuration.count());
+  const auto units = in_units(value, resolution.time, geometry::kMaxDuration.value());
   if (!units || std::round(*units) < 1) return std::nullopt;
   return Ticks(static_cast<std::int64_t>(std::round(*units)));
 }
 
 std::optional<Ticks> quantise_time(double value, const Resolution& resolution) {
-  const auto units = in_units(value, resolution.time, geometry::kMaxDuration.count());
+  const auto units = in_units(value, resolution.time, geometry::kMaxDuration.value());
   if (!units || *units < 0) return std::nullopt;
   return Ticks(static_cast<std::int64_t>(std::round(*units)));
 }
@@ -95,16 +95,16 @@ std::optional<Speed> quantise_speed(double value, const Resolution& resolution) 
   const double units = resolution.is_uniform()
                            ? value
                            : multiplied(divided(value, resolution.length), resolution.time);
-  const double speed = std::round(units * static_cast<double>(kUnitSpeed.count()));
-  if (!(speed >= 1 && speed <= static_cast<double>(kMaxSpeed.count()))) return std::nullopt;
+  const double speed = std::round(units * static_cast<double>(kUnitSpeed.value()));
+  if (!(speed >= 1 && speed <= static_cast<double>(kMaxSpeed.value()))) return std::nullopt;
   return Speed(static_cast<std::int64_t>(speed));
 }
 
 std::optional<Ticks> travel_time(const Point& from, const Point& to, Speed speed) {
   const auto length = std::sqrt(static_cast<long double>(squared_distance(from, to)));
-  const long double ticks = std::round(length * static_cast<long double>(kUnitSpeed.count()) /
-                                       static_cast<long double>(speed.count()));
-  if (!(ticks >= 1 && ticks <= static_cast<long double>(geometry::kMaxDuration.count())))
+  const long double ticks = std::round(length * static_cast<long double>(kUnitSpeed.value()) /
+                                       static_cast<long double>(speed.value()));
+  if (!(ticks >= 1 && ticks <= static_cast<long double>(geometry::kMaxDuration.value())))
     return std::nullopt;
   return Ticks(static_cast<std::int64_t>(ticks));
 }
@@ -114,11 +114,11 @@ double in_input_units(Cost cost, const Resolution& resolution) {
 }
 
 double in_input_units(Ticks ticks, const Resolution& resolution) {
-  return multiplied(static_cast<double>(ticks.count()), resolution.time);
+  return multiplied(static_cast<double>(ticks.value()), resolution.time);
 }
 
 double in_input_units(Length length, const Resolution& resolution) {
-  return multiplied(static_cast<double>(length.count()), resolution.length);
+  return multiplied(static_cast<double>(length.value()), resolution.length);
 }
 
 double radius_in_input_units(Length radius, const Resolution& resolution) {
@@ -137,7 +137,7 @@ double corner_in_input_units(Length coordinate, const Resolution& resolution) {
 }
 
 double speed_in_input_units(Speed speed, const Resolution& resolution) {
-  const double units = static_cast<double>(speed.count()) / static_cast<double>(kUnitSpeed.count());
+  const double units = static_cast<double>(speed.value()) / static_cast<double>(kUnitSpeed.value());
   if (resolution.is_uniform()) return units;
   return divided(multiplied(units, resolution.length), resolution.time);
 }

@@ -25,7 +25,7 @@ struct Between {
 
 Between look(double value, Length nearest, const Resolution& resolution) {
   const double back = in_input_units(nearest, resolution);
-  const auto whole = static_cast<long double>(nearest.count());
+  const auto whole = static_cast<long double>(nearest.value());
   if (std::abs(value - back) <= 1e-9 * std::abs(value)) return {nearest, nearest, whole};
   const auto over = (static_cast<long double>(value) - back) / resolution.length;
   return {value < back ? nearest - 1 : nearest, value < back ? nearest : nearest + 1, whole + over};
@@ -33,14 +33,14 @@ Between look(double value, Length nearest, const Resolution& resolution) {
 
 /// Positive where `at` is to the left of the way from a to b.
 long double side(const Point& a, const Point& b, const Exact& at) {
-  const auto x = static_cast<long double>(a.x.count()), y = static_cast<long double>(a.y.count());
-  return static_cast<long double>((b.x - a.x).count()) * (at.y - y) -
-         static_cast<long double>((b.y - a.y).count()) * (at.x - x);
+  const auto x = static_cast<long double>(a.x.value()), y = static_cast<long double>(a.y.value());
+  return static_cast<long double>((b.x - a.x).value()) * (at.y - y) -
+         static_cast<long double>((b.y - a.y).value()) * (at.x - x);
 }
 
 bool is_left(const Point& a, const Point& b, const Point& at) {
-  return Area{(b.x - a.x).count()} * (at.y - a.y).count() >
-         Area{(b.y - a.y).count()} * (at.x - a.x).count();
+  return Area{(b.x - a.x).value()} * (at.y - a.y).value() >
+         Area{(b.y - a.y).value()} * (at.x - a.x).value();
 }
 
 /// Counter-clockwise, without points on its edges.
@@ -102,8 +102,8 @@ Result<ConvexPolygon> quantise_polygon_up(std::span<const std::pair<double, doub
   auto polygon = ConvexPolygon::make(nearest);
   const bool is_whole =
       std::equal(nearest.begin(), nearest.end(), given.begin(), [](const Point& a, const Exact& b) {
-        return static_cast<long double>(a.x.count()) == b.x &&
-               static_cast<long double>(a.y.count()) == b.y;
+        return static_cast<long double>(a.x.value()) == b.x &&
+               static_cast<long double>(a.y.value()) == b.y;
       });
   if (!polygon || is_whole) return polygon;
   std::vector<Point> hull = hull_of(std::move(around));

@@ -27,8 +27,8 @@ std::optional<Error> check(const std::vector<Point>& positions, const Edge& edge
     return Error{ErrorCode::invalid_instance, name + " is open to no group", {}};
   if (edge.duration && (*edge.duration < 1 || *edge.duration > geometry::kMaxDuration))
     return Error{ErrorCode::out_of_range,
-                 name + " takes " + std::to_string(edge.duration->count()) + " ticks, not 1 .. " +
-                     std::to_string(geometry::kMaxDuration.count()),
+                 name + " takes " + std::to_string(edge.duration->value()) + " ticks, not 1 .. " +
+                     std::to_string(geometry::kMaxDuration.value()),
                  {}};
   return std::nullopt;
 }
@@ -40,7 +40,7 @@ Result<Roadmap> Roadmap::make(std::vector<Point> vertices, std::vector<Edge> edg
     if (!geometry::in_range(vertices[v]))
       return Error{ErrorCode::out_of_range,
                    "vertex " + std::to_string(v) + " is farther than " +
-                       std::to_string(geometry::kMaxLength.count()) +
+                       std::to_string(geometry::kMaxLength.value()) +
                        " length units from the origin",
                    {}};
   for (std::size_t e = 0; e < edges.size(); ++e)

@@ -9,19 +9,19 @@ namespace quadrille::continuous {
 namespace {
 
 Ticks ticks_behind(double fraction, Ticks whole) {
-  const double ticks = fraction * static_cast<double>(whole.count());
+  const double ticks = fraction * static_cast<double>(whole.value());
   const double nearest = std::round(ticks);
   const bool is_meant = std::abs(ticks - nearest) <= 1e-9 * nearest;
   const auto behind = static_cast<std::int64_t>(is_meant ? nearest : std::floor(ticks));
-  return Ticks(std::clamp<std::int64_t>(behind, 0, whole.count() - 1));
+  return Ticks(std::clamp<std::int64_t>(behind, 0, whole.value() - 1));
 }
 
 Point place_between(const Point& from, const Point& to, Ticks behind, Ticks whole) {
   const long double share =
-      static_cast<long double>(behind.count()) / static_cast<long double>(whole.count());
+      static_cast<long double>(behind.value()) / static_cast<long double>(whole.value());
   const auto between = [&](Length a, Length b) {
     return a + Length(static_cast<std::int64_t>(
-                   std::round(static_cast<long double>((b - a).count()) * share)));
+                   std::round(static_cast<long double>((b - a).value()) * share)));
   };
   return {between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
 }

@@ -44,7 +44,7 @@ std::string find_fault(const Instance& instance, AgentId i, const Path& path) {
     if (std::none_of(out.begin(), out.end(), takes_it))
       return "makes a move that no edge allows it, from vertex " +
              std::to_string(path[k].vertex.index()) + " at tick " +
-             std::to_string(path[k].depart.count());
+             std::to_string(path[k].depart.value());
     if (path[k].depart < agent.release) return "departs before its release";
   }
   return "";

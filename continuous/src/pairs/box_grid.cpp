@@ -37,7 +37,7 @@ void BoxGrid::choose_cells(Length reach) {
   }
   const auto size = static_cast<std::int64_t>(boxes_.size());
   const Length width = all_.right - all_.left, height = all_.top - all_.bottom;
-  const auto count = [&](Length extent) { return extent.count() / cell_.count() + 1; };
+  const auto count = [&](Length extent) { return extent.value() / cell_.value() + 1; };
   cell_ = std::max({sum / size, 2 * reach, Length(1)});
   while (count(width) > kCellsPerBox * size / count(height)) cell_ = 2 * cell_;
   columns_ = static_cast<std::size_t>(count(width));
@@ -46,7 +46,7 @@ void BoxGrid::choose_cells(Length reach) {
 
 BoxGrid::Cells BoxGrid::cells_of(const Box& box) const {
   const auto cell = [&](Length offset, std::size_t count) {
-    return static_cast<std::size_t>(std::clamp<std::int64_t>(offset.count() / cell_.count(), 0,
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(offset.value() / cell_.value(), 0,
                                                              static_cast<std::int64_t>(count) - 1));
   };
   return {cell(box.left - all_.left, columns_), cell(box.right - all_.left, columns_),

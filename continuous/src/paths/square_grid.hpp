@@ -34,7 +34,7 @@ class SquareGrid {
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     origin_ = low;
-    const std::int64_t width = (high.x - low.x).count(), height = (high.y - low.y).count();
+    const std::int64_t width = (high.x - low.x).value(), height = (high.y - low.y).value();
     const auto per_side =
         static_cast<std::int64_t>(std::sqrt(static_cast<double>(positions.size())));
     side_ = std::max(width, height) / std::max<std::int64_t>(per_side, 1) + 1;
@@ -68,7 +68,7 @@ class SquareGrid {
 
  private:
   [[nodiscard]] std::int64_t square(Length at, Length origin, std::int64_t count) const {
-    return std::clamp<std::int64_t>((at - origin).count() / side_, 0, count - 1);
+    return std::clamp<std::int64_t>((at - origin).value() / side_, 0, count - 1);
   }
 
   const Instance& instance_;

@@ -69,7 +69,7 @@ std::shared_ptr<const Roadmap> Session::Parts::roads(std::vector<Agent>& agents)
     const Edge& edge = roadmap->edge(task.under_way->edge);
     const Ticks whole = duration(edge, task.agent).value();
     const double share =
-        static_cast<double>(task.under_way->behind.count()) / static_cast<double>(whole.count());
+        static_cast<double>(task.under_way->behind.value()) / static_cast<double>(whole.value());
     agents.back().start = add_place_under_way(points, edges, edge.from, edge.to, whole, share);
   }
   const bool has_places = points.size() > roadmap->num_vertices();
@@ -122,9 +122,9 @@ std::optional<Error> Session::put_under_way(MemberId member, EdgeId edge, Ticks 
   const auto whole = parts_->duration(on, agent);
   if (!whole || behind < 0 || behind >= *whole)
     return Error{ErrorCode::out_of_range,
-                 name(member) + " cannot have " + std::to_string(behind.count()) + " ticks of " +
+                 name(member) + " cannot have " + std::to_string(behind.value()) + " ticks of " +
                      name(edge) + " behind it, which takes " +
-                     (whole ? std::to_string(whole->count()) : "too few or too many"),
+                     (whole ? std::to_string(whole->value()) : "too few or too many"),
                  {}};
   agent.start = on.from;
   agent.under_way = true;

@@ -46,8 +46,8 @@ long double nearest_share(AnyPoint p, AnyPoint from, AnyPoint to) {
 std::vector<FlatPoint> real_corners(const Body& body, int sign) {
   std::vector<FlatPoint> corners;
   for (const Point& corner : corners_of(body))
-    corners.push_back({sign * static_cast<long double>(corner.x.count()),
-                       sign * static_cast<long double>(corner.y.count())});
+    corners.push_back({sign * static_cast<long double>(corner.x.value()),
+                       sign * static_cast<long double>(corner.y.value())});
   return corners;
 }
 
@@ -95,7 +95,7 @@ Integer cross(const ExactPoint& p, const ExactPoint& q) { return p.x * q.y - p.y
 std::vector<ExactPoint> scaled_corners(const Body& body, const Integer& scale) {
   std::vector<ExactPoint> corners;
   for (const Point& corner : corners_of(body))
-    corners.push_back({scale * corner.x.count(), scale * corner.y.count()});
+    corners.push_back({scale * corner.x.value(), scale * corner.y.value()});
   return corners;
 }
 
@@ -203,7 +203,7 @@ FootprintPair::FootprintPair(const Body& a, const Body& b) : a_(a), b_(b) {
   std::vector<FlatPoint> core_a{{0, 0}}, core_b{{0, 0}};
   for (const auto& [body, core, sign] : {std::tuple(&a, &core_a, 1), std::tuple(&b, &core_b, -1)}) {
     if (const auto* disc = disc_of(*body))
-      radius_ += static_cast<long double>(disc->radius.count());
+      radius_ += static_cast<long double>(disc->radius.value());
     else
       *core = real_corners(*body, sign);
   }
@@ -313,15 +313,15 @@ long double FootprintPair::least_gap(const RealStep& step) const {
 bool FootprintPair::interiors_meet(const ExactStep& step) const {
   const auto *a = disc_of(a_), *b = disc_of(b_);
   if (a != nullptr && b != nullptr) {
-    const Integer reach = step.scale * (a->radius + b->radius).count();
+    const Integer reach = step.scale * (a->radius + b->radius).value();
     return is_nearer({0, 0}, step.from, step.to, reach * reach);
   }
   // Seen from b, a moves the other way.
   if (a != nullptr)
     return disc_meets({-step.from.x, -step.from.y}, {-step.to.x, -step.to.y},
-                      step.scale * a->radius.count(), scaled_corners(b_, step.scale));
+                      step.scale * a->radius.value(), scaled_corners(b_, step.scale));
   if (b != nullptr)
-    return disc_meets(step.from, step.to, step.scale * b->radius.count(),
+    return disc_meets(step.from, step.to, step.scale * b->radius.value(),
                       scaled_corners(a_, step.scale));
   return polygons_meet(step, scaled_corners(a_, step.scale), scaled_corners(b_, step.scale));
 }

@@ -42,10 +42,10 @@ std::string number(double value, int digits) {
 /// Where b is as seen from a, at `begin` and at `end`, in floating point.
 RealStep real_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) {
-    return static_cast<long double>((p.from.*axis).count()) +
-           static_cast<long double>((p.to.*axis - p.from.*axis).count()) *
-               static_cast<long double>((tick - p.begin).count()) /
-               static_cast<long double>((p.end - p.begin).count());
+    return static_cast<long double>((p.from.*axis).value()) +
+           static_cast<long double>((p.to.*axis - p.from.*axis).value()) *
+               static_cast<long double>((tick - p.begin).value()) /
+               static_cast<long double>((p.end - p.begin).value());
   };
   const auto apart = [&](Ticks tick) {
     return RealPoint{at(b, tick, &Point::x) - at(a, tick, &Point::x),
@@ -57,10 +57,10 @@ RealStep real_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
 
 /// The same, exactly: multiplied by both durations, positions are integers.
 ExactStep exact_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
-  const Integer duration_a = (a.end - a.begin).count(), duration_b = (b.end - b.begin).count();
+  const Integer duration_a = (a.end - a.begin).value(), duration_b = (b.end - b.begin).value();
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) -> Integer {
-    return Integer((p.from.*axis).count()) * (p.end - p.begin).count() +
-           Integer((p.to.*axis - p.from.*axis).count()) * (tick - p.begin).count();
+    return Integer((p.from.*axis).value()) * (p.end - p.begin).value() +
+           Integer((p.to.*axis - p.from.*axis).value()) * (tick - p.begin).value();
   };
   const auto apart = [&](Ticks tick, Length Point::*axis) -> Integer {
     return at(b, tick, axis) * duration_a - at(a, tick, axis) * duration_b;
@@ -90,19 +90,19 @@ using Box = boost::geometry::model::box<Corner>;
 
 /// How far a body reaches beyond its place in any direction, rounded up.
 double reach_of(const Body& body) {
-  if (const auto* disc = std::get_if<Disc>(&body)) return static_cast<double>(disc->radius.count());
+  if (const auto* disc = std::get_if<Disc>(&body)) return static_cast<double>(disc->radius.value());
   double most = 0;
   for (const Point& corner : std::get<ConvexPolygon>(body).vertices())
     for (const Length along : {corner.x, corner.y})
-      most = std::max(most, std::abs(static_cast<double>(along.count())));
+      most = std::max(most, std::abs(static_cast<double>(along.value())));
   return most;
 }
 
 Box box_around(const Point& from, const Point& to, double margin) {
   Corner low, high;
   const auto set = [&]<std::size_t k>(std::integral_constant<std::size_t, k>, Length a, Length b) {
-    low.set<k>(static_cast<double>(std::min(a, b).count()) - margin);
-    high.set<k>(static_cast<double>(std::max(a, b).count()) + margin);
+    low.set<k>(static_cast<double>(std::min(a, b).value()) - margin);
+    high.set<k>(static_cast<double>(std::max(a, b).value()) + margin);
   };
   set(std::integral_constant<std::size_t, 0>(), from.x, to.x);
   set(std::integral_constant<std::size_t, 1>(), from.y, to.y);
@@ -271,8 +271,8 @@ class Replay {
     const FootprintPair::Nearest near = bodies.nearest(step);
     const Nearness here{
         static_cast<double>(near.gap),
-        static_cast<double>(static_cast<long double>(begin.count()) +
-                            near.share * static_cast<long double>((end - begin).count()))};
+        static_cast<double>(static_cast<long double>(begin.value()) +
+                            near.share * static_cast<long double>((end - begin).value()))};
     if (are_agents) least_.add({AgentId(pair.first), AgentId(pair.second), here.gap, here.tick});
     // Coordinates are below 2^42 and the rounding error of `nearest`, even where long double is
     // double, below 2^-5: those that are a whole unit apart need no exact look.

@@ -13,7 +13,7 @@
 namespace quadrille::continuous {
 namespace {
 
-double number(Length length) { return static_cast<double>(length.count()); }
+double number(Length length) { return static_cast<double>(length.value()); }
 
 double distance(const Point& p, const Point& a, const Point& b) {
   const double x = number(b.x - a.x), y = number(b.y - a.y);

@@ -16,7 +16,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> rounded(const Corners& corner
   std::vector<std::pair<std::int64_t, std::int64_t>> points;
   const auto polygon = quantise_polygon_up(corners, 1e-3);
   if (!polygon) return points;
-  for (const Point& at : polygon->vertices()) points.emplace_back(at.x.count(), at.y.count());
+  for (const Point& at : polygon->vertices()) points.emplace_back(at.x.value(), at.y.value());
   std::sort(points.begin(), points.end());
   return points;
 }
@@ -40,10 +40,10 @@ double outside(const ConvexPolygon& polygon, double x, double y) {
   const auto& corners = polygon.vertices();
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Point &a = corners[k], &b = corners[(k + 1) % corners.size()];
-    const auto dx = static_cast<double>((b.x - a.x).count());
-    const auto dy = static_cast<double>((b.y - a.y).count());
+    const auto dx = static_cast<double>((b.x - a.x).value());
+    const auto dy = static_cast<double>((b.y - a.y).value());
     const double cross =
-        dx * (y - static_cast<double>(a.y.count())) - dy * (x - static_cast<double>(a.x.count()));
+        dx * (y - static_cast<double>(a.y.value())) - dy * (x - static_cast<double>(a.x.value()));
     worst = std::max(worst, -cross / std::hypot(dx, dy));
   }
   return worst;
@@ -67,8 +67,8 @@ TEST(QuantisePolygon, ContainsTheGivenOneAndIsHardlyLarger) {
     for (const auto& [x, y] : corners) EXPECT_LT(outside(*polygon, 1000 * x, 1000 * y), 1e-6);
     for (const Point& at : polygon->vertices())
       EXPECT_TRUE(std::any_of(corners.begin(), corners.end(), [&](const auto& corner) {
-        return std::abs(1000 * corner.first - static_cast<double>(at.x.count())) < 1 &&
-               std::abs(1000 * corner.second - static_cast<double>(at.y.count())) < 1;
+        return std::abs(1000 * corner.first - static_cast<double>(at.x.value())) < 1 &&
+               std::abs(1000 * corner.second - static_cast<double>(at.y.value())) < 1;
       }));
     most = std::max(most, polygon->vertices().size() - static_cast<std::size_t>(n));
   }

@@ -17,7 +17,7 @@ std::string text(const Encounter& e) {
   const auto step = [](const Step& s) {
     return std::string(s.is_move ? " e" : " v") +
            std::to_string(s.is_move ? s.edge.value() : s.vertex.value()) + " " +
-           std::to_string(s.begin.count()) + ".." + std::to_string(s.end.count());
+           std::to_string(s.begin.value()) + ".." + std::to_string(s.end.value());
   };
   return std::to_string(e.first.value()) + "," + std::to_string(e.second.value()) + step(e.a) +
          step(e.b) + "; ";

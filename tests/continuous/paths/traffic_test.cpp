@@ -30,7 +30,7 @@ Instance draw_instance(std::uint32_t seed) {
 /// What a table says of all places to which agents of the class can come, of starts from a tick on.
 std::string contents(const Instance& instance, ClassId c, BanTable& table, Ticks from) {
   std::string text;
-  const auto number = [](Ticks tick) { return std::to_string(tick.count()) + " "; };
+  const auto number = [](Ticks tick) { return std::to_string(tick.value()) + " "; };
   for (const EdgeId e : IdRange<EdgeId>(instance.roadmap().num_edges())) {
     if (!instance.may_use(c, e)) continue;
     const std::uint32_t place = table.starts_of(e, from);

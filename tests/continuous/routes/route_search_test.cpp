@@ -40,7 +40,7 @@ TEST_P(RouteSearch, ItsBoundHoldsWhereverItsWorkEnds) {
   for (Ticks detour = kDirect + 1; detour <= kDirect + 24; ++detour) {
     const Instance instance = one_in_the_way(detour);
     // Other ends with each detour, where there are few of them.
-    for (std::int64_t work = step - 20 * detour.count() % step; work <= 1'000; work += step) {
+    for (std::int64_t work = step - 20 * detour.value() % step; work <= 1'000; work += step) {
       SCOPED_TRACE(testing::Message() << "detour " << detour << ", work " << work);
       SolveOptions options;
       options.objective = GetParam();

@@ -120,7 +120,7 @@ TEST(LemmaStore, OfAnotherBodyNothingIsKnown) {
     return passed_after([other](Situation& now) { other(now.tasks.at(kA).agent); });
   };
   EXPECT_EQ(change([](Agent& a) { a.body = Disc{99}; }), kNothing);
-  EXPECT_EQ(change([](Agent& a) { a.speed = Speed(2 * a.speed.count()); }), kNothing);
+  EXPECT_EQ(change([](Agent& a) { a.speed = Speed(2 * a.speed.value()); }), kNothing);
   EXPECT_EQ(change([](Agent& a) { a.group = GroupId(1); }), kNothing);
   EXPECT_EQ(passed_after([](Situation& now) { now.tasks.erase(kB); }), kNothing);
 }

@@ -30,8 +30,8 @@ Body rectangle(Length half_width, Length half_height) {
 /// both promises.
 Body regular(Length radius, std::size_t corners, bool is_around) {
   const double half = std::numbers::pi / static_cast<double>(corners);
-  const double size = is_around ? static_cast<double>(radius.count()) / std::cos(half) + 2
-                                : static_cast<double>(radius.count());
+  const double size = is_around ? static_cast<double>(radius.value()) / std::cos(half) + 2
+                                : static_cast<double>(radius.value());
   std::vector<Point> points;
   for (std::size_t k = 0; k < corners; ++k) {
     const double angle = 2 * half * static_cast<double>(k);

@@ -44,7 +44,7 @@ struct Bench {
   LimitMonitor limits{{}};
   Scene scene{instance, limits};
   Model model{scene};
-  LemmaAuditor auditor{model};
+  LemmaAuditor auditor{model, true, std::nullopt};
   LemmaKeeper keeper{model, &auditor};
   Teller teller{keeper};
 };

@@ -43,21 +43,21 @@ namespace quadrille::continuous::test {
                       [&](const Ban& ban) { return t < ban.when.end; });
   };
   std::vector<std::vector<bool>> is_at(
-      roadmap.num_vertices(), std::vector<bool>(static_cast<std::size_t>(end.count()) + 1));
+      roadmap.num_vertices(), std::vector<bool>(static_cast<std::size_t>(end.value()) + 1));
   const auto arrive = [&](VertexId v, Ticks t) {
-    if (t <= end && may_be(v, t)) is_at[v.index()][static_cast<std::size_t>(t.count())] = true;
+    if (t <= end && may_be(v, t)) is_at[v.index()][static_cast<std::size_t>(t.value())] = true;
   };
   arrive(instance.agent(agent).start, 0);
   for (Ticks t = 0; t <= end; ++t) {
     // Who waits at the goal from t - 1 on has arrived then, and was found already if it may rest.
-    if (is_at[goal.index()][static_cast<std::size_t>(t.count())] && may_rest(t))
+    if (is_at[goal.index()][static_cast<std::size_t>(t.value())] && may_rest(t))
       return t <= instance.agent(agent).deadline.value_or(t) ? std::optional(t) : std::nullopt;
     for (const VertexId v : IdRange<VertexId>(roadmap.num_vertices()))
-      if (is_at[v.index()][static_cast<std::size_t>(t.count())] && may_wait(v, t)) arrive(v, t + 1);
+      if (is_at[v.index()][static_cast<std::size_t>(t.value())] && may_wait(v, t)) arrive(v, t + 1);
     if (t < instance.agent(agent).release) continue;  // no moves yet
     for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
       const Edge& edge = roadmap.edge(EdgeId(e));
-      if (!is_at[edge.from.index()][static_cast<std::size_t>(t.count())] ||
+      if (!is_at[edge.from.index()][static_cast<std::size_t>(t.value())] ||
           !edge.open_to.contains(instance.agent(agent).group))
         continue;
       if (is_banned(Ban::Kind::start, static_cast<std::uint32_t>(e),

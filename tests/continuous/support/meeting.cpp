@@ -31,14 +31,14 @@ Ticks length(const Element& e) { return std::max<Ticks>(e.end - e.begin, 1); }
 Nearest nearest(const Element& a, const Element& b) {
   const Ticks begin = std::max(a.begin, b.begin);
   const Ticks end = std::min(a.end, b.end);
-  const Wide la = length(a).count(), lb = length(b).count();
+  const Wide la = length(a).value(), lb = length(b).value();
   if (begin > end) return {std::nullopt, la * lb};
-  const Wide u = lb * (a.to.x - a.from.x).count() - la * (b.to.x - b.from.x).count();
-  const Wide v = lb * (a.to.y - a.from.y).count() - la * (b.to.y - b.from.y).count();
-  const Wide w = lb * (a.to.z - a.from.z).count() - la * (b.to.z - b.from.z).count();
+  const Wide u = lb * (a.to.x - a.from.x).value() - la * (b.to.x - b.from.x).value();
+  const Wide v = lb * (a.to.y - a.from.y).value() - la * (b.to.y - b.from.y).value();
+  const Wide w = lb * (a.to.z - a.from.z).value() - la * (b.to.z - b.from.z).value();
   const auto at_zero = [&](Length from_a, Length to_a, Length from_b, Length to_b) -> Wide {
-    return lb * (la * from_a.count() - Wide((to_a - from_a).count()) * a.begin.count()) -
-           la * (lb * from_b.count() - Wide((to_b - from_b).count()) * b.begin.count());
+    return lb * (la * from_a.value() - Wide((to_a - from_a).value()) * a.begin.value()) -
+           la * (lb * from_b.value() - Wide((to_b - from_b).value()) * b.begin.value());
   };
   const Wide x = at_zero(a.from.x, a.to.x, b.from.x, b.to.x);
   const Wide y = at_zero(a.from.y, a.to.y, b.from.y, b.to.y);
@@ -46,11 +46,11 @@ Nearest nearest(const Element& a, const Element& b) {
   const Wide speed = u * u + v * v + w * w;
   const Wide approach = -(x * u + y * v + z * w);  // speed * the moment at which they are nearest
   const auto at = [&](Ticks t) {
-    const Wide dx = x + u * t.count(), dy = y + v * t.count(), dz = z + w * t.count();
+    const Wide dx = x + u * t.value(), dy = y + v * t.value(), dz = z + w * t.value();
     return Nearest{Square{dx * dx + dy * dy + dz * dz}, la * lb};
   };
-  if (approach <= speed * begin.count()) return at(begin);
-  if (approach >= speed * end.count()) return at(end);
+  if (approach <= speed * begin.value()) return at(begin);
+  if (approach >= speed * end.value()) return at(end);
   const Wide xy = x * v - y * u, yz = y * w - z * v, zx = z * u - x * w;  // the cross product
   return {Square{xy * xy + yz * yz + zx * zx, speed}, la * lb};
 }
@@ -80,7 +80,7 @@ std::optional<Length> reach_of(const Body& a, const Body& b) {
 
 bool discs_meet(const Element& a, const Element& b, Length reach) {
   const Nearest n = nearest(a, b);
-  const Wide scaled_reach = n.scale * reach.count();
+  const Wide scaled_reach = n.scale * reach.value();
   return n.square && less(*n.square, {scaled_reach * scaled_reach});
 }
 

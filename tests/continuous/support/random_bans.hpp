@@ -22,7 +22,7 @@ using Slots = std::vector<std::vector<Ban>>;
   };
   for (std::vector<Ban>& bans : slots)
     for (std::int64_t n = draw.number(1, 3); n > 0; --n) {
-      const Ticks begin(draw.number(-5, last.count()));
+      const Ticks begin(draw.number(-5, last.value()));
       const Ticks length(draw.chance(60) ? draw.number(1, 9) : draw.number(10, 60));
       const TickInterval when{begin, draw.chance(4) ? kForever : begin + length};
       if (roadmap.num_edges() > 0 && draw.chance(50))

@@ -69,7 +69,7 @@ Body draw_polygon(Draw& draw, Length max_radius) {
           {draw.length(-max_radius, max_radius), draw.length(-max_radius, max_radius)});
     // Around their middle, so that many are convex.
     const auto turn = [](const Point& p) {
-      return std::atan2(static_cast<double>(p.y.count()), static_cast<double>(p.x.count()));
+      return std::atan2(static_cast<double>(p.y.value()), static_cast<double>(p.x.value()));
     };
     std::sort(corners.begin(), corners.end(),
               [&](const Point& p, const Point& q) { return turn(p) < turn(q); });
@@ -128,12 +128,12 @@ std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
     const Point from = roadmap.position(edge.from), to = roadmap.position(edge.to);
     const auto whole = edge.duration ? edge.duration : travel_time(from, to, agent.speed);
     if (!whole) continue;
-    const Ticks left = draw.ticks(1, whole->count());
+    const Ticks left = draw.ticks(1, whole->value());
     const auto between = [&](Length a, Length b) {
       return Length(static_cast<std::int64_t>(
-          std::lround(static_cast<double>(b.count()) + static_cast<double>((a - b).count()) *
-                                                           static_cast<double>(left.count()) /
-                                                           static_cast<double>(whole->count()))));
+          std::lround(static_cast<double>(b.value()) + static_cast<double>((a - b).value()) *
+                                                           static_cast<double>(left.value()) /
+                                                           static_cast<double>(whole->value()))));
     };
     agent.start = VertexId(points.size());
     agent.release = 0;
@@ -146,13 +146,13 @@ std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
 }
 
 std::string describe(const Point& p) {
-  return "(" + std::to_string(p.x.count()) + "," + std::to_string(p.y.count()) +
-         (p.z == 0 ? "" : "," + std::to_string(p.z.count())) + ")";
+  return "(" + std::to_string(p.x.value()) + "," + std::to_string(p.y.value()) +
+         (p.z == 0 ? "" : "," + std::to_string(p.z.value())) + ")";
 }
 
 std::string describe(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body))
-    return "r" + std::to_string(disc->radius.count());
+    return "r" + std::to_string(disc->radius.value());
   std::string text = "p";
   for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) text += describe(corner);
   return text;
@@ -221,7 +221,7 @@ std::string describe(const Instance& instance) {
   text += "; edges";
   for (const Edge& e : instance.roadmap().edges()) {
     text += " " + std::to_string(e.from.index()) + ">" + std::to_string(e.to.index());
-    if (e.duration) text += ":" + std::to_string(e.duration->count());
+    if (e.duration) text += ":" + std::to_string(e.duration->value());
     if (e.open_to == Groups::all()) continue;
     text += "{";
     for (std::size_t g = 0; g < kMaxGroups; ++g)
@@ -231,17 +231,17 @@ std::string describe(const Instance& instance) {
   text += "; agents";
   for (const Agent& a : instance.agents())
     text += " " + std::to_string(a.start.index()) + "->" + std::to_string(a.goal.index()) + " " +
-            describe(a.body) + " v" + std::to_string(a.speed.count()) +
+            describe(a.body) + " v" + std::to_string(a.speed.value()) +
             (a.group == GroupId() ? "" : " g" + std::to_string(a.group.index())) +
-            (a.release == 0 ? "" : " from " + std::to_string(a.release.count())) +
-            (a.deadline ? " by " + std::to_string(a.deadline->count()) : "") +
+            (a.release == 0 ? "" : " from " + std::to_string(a.release.value())) +
+            (a.deadline ? " by " + std::to_string(a.deadline->value()) : "") +
             (a.under_way ? " under way" : "") + (a.leaves ? " leaves" : "");
   if (!instance.obstacles().empty()) text += "; obstacles";
   for (const MovingObstacle& o : instance.obstacles()) {
     text += " " + describe(o.body);
     for (const MovingObstacle::Stop& s : o.path)
-      text += " " + describe(s.at) + "@" + std::to_string(s.arrive.count()) + "-" +
-              std::to_string(s.depart.count());
+      text += " " + describe(s.at) + "@" + std::to_string(s.arrive.value()) + "-" +
+              std::to_string(s.depart.value());
     if (o.leaves) text += " leaves";
   }
   return text;

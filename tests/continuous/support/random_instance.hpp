@@ -17,7 +17,7 @@ class Draw {
   std::int64_t number(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }
-  Length length(Length low, Length high) { return Length(number(low.count(), high.count())); }
+  Length length(Length low, Length high) { return Length(number(low.value(), high.value())); }
   Ticks ticks(std::int64_t low, std::int64_t high) { return Ticks(number(low, high)); }
   bool chance(int percent) { return number(0, 99) < percent; }
 

@@ -43,15 +43,15 @@ Case draw_case(std::uint32_t seed) {
 
 ExactStep exact(const Case& c, std::int64_t scale) {
   const auto at = [&](const Point& p) {
-    return ExactPoint{scale * p.x.count(), scale * p.y.count(), scale * p.z.count()};
+    return ExactPoint{scale * p.x.value(), scale * p.y.value(), scale * p.z.value()};
   };
   return {at(c.from), at(c.to), Integer(scale)};
 }
 
 RealStep real(const Case& c) {
   const auto at = [](const Point& p) {
-    return RealPoint{static_cast<long double>(p.x.count()), static_cast<long double>(p.y.count()),
-                     static_cast<long double>(p.z.count())};
+    return RealPoint{static_cast<long double>(p.x.value()), static_cast<long double>(p.y.value()),
+                     static_cast<long double>(p.z.value())};
   };
   return {at(c.from), at(c.to)};
 }
@@ -122,7 +122,7 @@ TEST(Footprints, ThinBodiesAreNotJumpedOver) {
   for (std::uint32_t seed = 0; seed < support::scaled(2'000); ++seed) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
-    const Length size{std::int64_t{1} << draw.length(4, 39).count()};
+    const Length size{std::int64_t{1} << draw.length(4, 39).value()};
     // The third corner is a length unit or less beside the other side.
     const Point far{size, draw.length(-5, 5)}, middle{far.x / 2, far.y / 2 + 1};
     const auto sliver = ConvexPolygon::make({{0, 0}, far, middle});

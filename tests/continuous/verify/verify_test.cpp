@@ -95,7 +95,7 @@ TEST(ContinuousVerify, PassingInTouchIsAllowedInTheMiddleOfAMoveToo) {
     plan.paths.push_back({{VertexId(2), 0, 0}});
     const auto report = verify(instance, plan);
     EXPECT_EQ(report.valid(), radius == 300);
-    EXPECT_NEAR(report.clearances[0].gap, 300 - static_cast<double>(radius.count()), 1e-9);
+    EXPECT_NEAR(report.clearances[0].gap, 300 - static_cast<double>(radius.value()), 1e-9);
     EXPECT_NEAR(report.clearances[0].tick, 5000, 1e-6);
     if (report.valid()) continue;
     EXPECT_EQ(

@@ -36,7 +36,7 @@ struct Plan {
 };
 
 /// A time as a cost: that of a path that arrives then.
-[[nodiscard]] constexpr Cost as_cost(Ticks ticks) noexcept { return ticks.count(); }
+[[nodiscard]] constexpr Cost as_cost(Ticks ticks) noexcept { return ticks.value(); }
 /// When a path of this cost arrives.
 [[nodiscard]] constexpr Ticks as_ticks(Cost cost) noexcept { return Ticks(cost); }
 

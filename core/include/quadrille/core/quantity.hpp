@@ -24,7 +24,7 @@ namespace quadrille {
 /// A whole number of one unit, such as ticks, that mixes with no other: neither with a quantity of
 /// another unit nor with a plain integer that the program computes. A literal is of any unit, so
 /// that `end - 1` and `Ticks when = 0` need no ceremony; any other integer becomes a quantity by
-/// `Ticks(number)` only, and a quantity a number by `count()` only.
+/// `Ticks(number)` only, and a quantity a number by `value()` only, like ids and metres.
 ///
 /// Arithmetic is that of std::int64_t: nothing is checked, and a result that does not fit is
 /// undefined. What keeps results in range is stated where the unit is defined.
@@ -43,7 +43,7 @@ class Quantity {
   Quantity(Real) = delete;
 
   /// How many units.
-  [[nodiscard]] constexpr Count count() const noexcept { return count_; }
+  [[nodiscard]] constexpr Count value() const noexcept { return count_; }
 
   friend constexpr auto operator<=>(Quantity, Quantity) = default;
 
