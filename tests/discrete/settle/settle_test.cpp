@@ -13,14 +13,21 @@
 #include "primal/shortcuts.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/verify.hpp"
-#include "settle/exchange.hpp"
-#include "settle/shorten.hpp"
+#include "quadrille/pebbles/exchange.hpp"
+#include "quadrille/pebbles/shorten.hpp"
+#include "settle/local_graph.hpp"
 #include "support/environment.hpp"
 #include "support/joint_search.hpp"
 
 namespace quadrille::discrete::primal_test {
 namespace {
 
+using pebbles::Board;
+using pebbles::earliest_times;
+using pebbles::Exchanger;
+using pebbles::LocalGraph;
+using pebbles::Shift;
+using pebbles::without_loops;
 using quadrille::support::nightly;
 using quadrille::support::scaled;
 using support::instance_text;
@@ -177,7 +184,7 @@ TEST(Exchanger, PutsEverybodyElseBack) {
     const Instance instance = support::random_graph(random, 14, 12);
     ComponentNumbering numbering(instance.graph());
     const Component component = numbering.explore(instance.agents()[AgentId(0)].start);
-    const LocalGraph graph(component, numbering);
+    const LocalGraph graph = local_graph(component, numbering);
     if (component.degree(0) < 3) continue;
     std::vector<Local> starts;
     for (const Agent& agent : instance.agents())

@@ -2,18 +2,25 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "model/component.hpp"
+#include "quadrille/core/export.hpp"
 
-namespace quadrille::discrete {
+QUADRILLE_API_BEGIN
 
-/// The neighbours of a component's vertices, by their numbers in it.
+namespace quadrille::pebbles {
+
+/// A vertex of a graph, or an agent on it, by number.
+using Local = std::uint32_t;
+inline constexpr Local kNoLocal = UINT32_MAX;
+
+/// A connected undirected graph without loops and parallel edges.
 class LocalGraph {
  public:
-  /// O(V + E).
-  LocalGraph(const Component& component, const ComponentNumbering& numbering);
+  /// By vertex, its neighbours: each edge is named from both ends. O(V + E).
+  explicit LocalGraph(const std::vector<std::vector<Local>>& neighbours);
 
   [[nodiscard]] Local size() const noexcept { return static_cast<Local>(block_.size()); }
   [[nodiscard]] std::span<const Local> neighbours(Local v) const {
@@ -22,11 +29,13 @@ class LocalGraph {
   [[nodiscard]] std::size_t degree(Local v) const { return offsets_[v + 1] - offsets_[v]; }
   /// Of neighbours: whether no cycle leads along their edge.
   [[nodiscard]] bool is_bridge(Local a, Local b) const { return block_[a] != block_[b]; }
-  /// The smallest vertex of the vertex's 2-edge-connected component.
+  /// The smallest vertex of the vertex's block, which here means its 2-edge-connected component.
   [[nodiscard]] Local block(Local v) const { return block_[v]; }
   [[nodiscard]] bool on_cycle(Local v) const { return on_cycle_[v]; }
 
  private:
+  void find_blocks();
+
   std::vector<std::size_t> offsets_;
   std::vector<Local> neighbours_;
   std::vector<Local> block_;
@@ -76,4 +85,6 @@ class Board {
   std::vector<Shift> shifts_;
 };
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles
+
+QUADRILLE_API_END

@@ -1,22 +1,60 @@
 // SPDX-License-Identifier: MIT
-#include "settle/board.hpp"
+#include "quadrille/pebbles/board.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "quadrille/core/contract.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille::pebbles {
 
-LocalGraph::LocalGraph(const Component& component, const ComponentNumbering& numbering)
-    : block_(component.block), on_cycle_(component.on_cycle) {
-  offsets_.reserve(component.size() + 1);
+LocalGraph::LocalGraph(const std::vector<std::vector<Local>>& neighbours)
+    : block_(neighbours.size(), kNoLocal), on_cycle_(neighbours.size(), false) {
+  offsets_.reserve(neighbours.size() + 1);
   offsets_.push_back(0);
-  for (const VertexId v : component.vertices) {
-    for (const VertexId w : component.graph->neighbours(v))
-      neighbours_.push_back(numbering.number(w));
+  for (const std::vector<Local>& near : neighbours) {
+    neighbours_.insert(neighbours_.end(), near.begin(), near.end());
     offsets_.push_back(neighbours_.size());
   }
+  find_blocks();
+}
+
+/// By depth-first search: no edge leads from below a bridge to a place before it. Not recursive: a
+/// path of a million vertices would overflow the stack.
+void LocalGraph::find_blocks() {
+  std::vector<Local> parent(size(), kNoLocal), place(size(), kNoLocal), order;
+  std::vector<std::size_t> next = offsets_;
+  for (Local v = size() > 0 ? 0 : kNoLocal; v != kNoLocal;) {
+    if (place[v] == kNoLocal) {
+      place[v] = static_cast<Local>(order.size());
+      order.push_back(v);
+    }
+    if (next[v] == offsets_[v + 1]) {
+      v = parent[v];
+      continue;
+    }
+    const Local w = neighbours_[next[v]++];
+    if (place[w] != kNoLocal) continue;
+    parent[w] = v;
+    v = w;
+  }
+  QUADRILLE_REQUIRE(order.size() == size(), "the graph is connected");
+  std::vector<Local> low = place;
+  for (std::size_t k = order.size(); k-- > 1;) {
+    const Local v = order[k];
+    for (const Local w : neighbours(v))
+      if (w != parent[v]) low[v] = std::min(low[v], place[w]);
+    low[parent[v]] = std::min(low[parent[v]], low[v]);
+  }
+  std::vector<Local> top(size()), least(size(), kNoLocal);
+  for (const Local v : order) {
+    const bool is_top = parent[v] == kNoLocal || low[v] == place[v];
+    top[v] = is_top ? v : top[parent[v]];
+    on_cycle_[v] = !is_top;
+    if (!is_top) on_cycle_[top[v]] = true;
+    least[top[v]] = std::min(least[top[v]], v);
+  }
+  for (Local v = 0; v < size(); ++v) block_[v] = least[top[v]];
 }
 
 Board::Board(Local num_vertices, std::vector<Local> vertex_of)
@@ -74,4 +112,4 @@ void Board::retrace(std::size_t first, std::size_t last, Local a, Local b) {
 
 void Board::retrace(const Board& other) { append_backwards(other.shifts_, kNoLocal, kNoLocal); }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles

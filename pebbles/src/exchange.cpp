@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "settle/exchange.hpp"
+#include "quadrille/pebbles/exchange.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "quadrille/core/contract.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille::pebbles {
 
 Exchanger::Exchanger(const LocalGraph& graph, Board& board)
     : graph_(graph),
@@ -304,4 +304,4 @@ bool Exchanger::exchange(Local a, Local b) {
   return exchange_behind(a, b) || exchange_behind(b, a);
 }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "settle/full_block.hpp"
+#include "full_block.hpp"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-namespace quadrille::discrete {
+namespace quadrille::pebbles {
 namespace {
 
 /// States of a search, at most: tables have four bytes for each.
@@ -313,4 +313,4 @@ bool FullBlock::sort(const Board& goal, Board& board, LimitMonitor& limits, std:
   return true;
 }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles

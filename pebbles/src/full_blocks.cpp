@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "settle/full_blocks.hpp"
+#include "full_blocks.hpp"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
 
-#include "settle/full_block.hpp"
+#include "full_block.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille::pebbles {
 namespace {
 
 /// A block that is one cycle: as many rotations as it takes.
@@ -57,4 +57,4 @@ bool rearrange_full_component(const LocalGraph& graph, const Board& goal, Board&
   return true;
 }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles

@@ -5,10 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
-#include "settle/board.hpp"
+#include "quadrille/pebbles/board.hpp"
 
-namespace quadrille::discrete {
+QUADRILLE_API_BEGIN
+
+namespace quadrille::pebbles {
 
 /// Leaves out what an agent does between two visits of a vertex that nobody else visits meanwhile:
 /// it stays there instead. Again and again, at most `rounds` times, until that changes nothing.
@@ -23,4 +26,6 @@ namespace quadrille::discrete {
                                                    std::size_t num_agents,
                                                    std::size_t num_vertices);
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles
+
+QUADRILLE_API_END

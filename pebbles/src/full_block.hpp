@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "quadrille/core/limits.hpp"
-#include "settle/board.hpp"
+#include "quadrille/pebbles/board.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille::pebbles {
 
 /// Its vertices in order.
 using Cycle = std::vector<Local>;
@@ -90,4 +90,4 @@ class FullBlock {
   std::vector<std::uint32_t> reached_by_;  // By state: 2 * cycle + forwards + 1.
 };
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "quadrille/core/limits.hpp"
-#include "settle/board.hpp"
+#include "quadrille/pebbles/board.hpp"
 
-namespace quadrille::discrete {
+namespace quadrille::pebbles {
 
 /// Rearranges the agents of a component without a free vertex by rotations: who is at v is to go
 /// where `goal` has it. Adds to `effort`. False if a limit was met, or if no way was found: the
@@ -16,4 +16,4 @@ namespace quadrille::discrete {
                                             Board& board, LimitMonitor& limits,
                                             std::int64_t& effort);
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles

@@ -6,9 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "settle/board.hpp"
+#include "quadrille/core/export.hpp"
+#include "quadrille/pebbles/board.hpp"
 
-namespace quadrille::discrete {
+QUADRILLE_API_BEGIN
+
+namespace quadrille::pebbles {
 
 /// Frees vertices and exchanges neighbours on a board, everybody else in the end where they were.
 /// docs/complete.md has the proofs that it finds a way where there is one.
@@ -64,4 +67,6 @@ class Exchanger {
   std::int64_t effort_ = 0;
 };
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles
+
+QUADRILLE_API_END

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "settle/shorten.hpp"
+#include "quadrille/pebbles/shorten.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace quadrille::discrete {
+namespace quadrille::pebbles {
 namespace {
 
 /// One round of `without_loops`.
@@ -115,4 +115,4 @@ std::vector<Timestep> earliest_times(std::span<const Shift> shifts, std::size_t 
   return times;
 }
 
-}  // namespace quadrille::discrete
+}  // namespace quadrille::pebbles
