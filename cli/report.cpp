@@ -6,6 +6,9 @@
 #include <cmath>
 
 namespace quadrille::cli {
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
 namespace {
 
 Json statistics_json(const Statistics& statistics) {
@@ -24,6 +27,7 @@ Json statistics_json(const Statistics& statistics) {
   json["checks"] = statistics.checks;
   json["models_checked"] = statistics.models_checked;
   json["cores"] = statistics.cores;
+  json["first_plan"] = text_or_null(statistics.first_plan);
   return json;
 }
 
@@ -64,8 +68,6 @@ std::string describe(const OutcomeText& outcome) {
          fmt::format("search     {:.2f} s, {} SAT calls, {} conflicts, {} collision clauses\n",
                      s.wall_s, s.sat_calls, s.conflicts, s.collision_clauses);
 }
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 void add_limits(Json& options, const Limits& limits) {
   options["time_limit"] = or_null(limits.wall_s);

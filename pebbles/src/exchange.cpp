@@ -9,9 +9,10 @@
 
 namespace quadrille::pebbles {
 
-Exchanger::Exchanger(const LocalGraph& graph, Board& board)
+Exchanger::Exchanger(const LocalGraph& graph, Board& board, Rotations rotations)
     : graph_(graph),
       board_(board),
+      rotations_(rotations),
       kept_(graph.size()),
       seen_(graph.size()),
       on_cycle_(graph.size()),
@@ -82,6 +83,16 @@ std::vector<Local> Exchanger::cycle_through(Local a, Local b) {
   std::vector<Local> cycle;
   for (Local v = a; v != kNoLocal; v = parent_[v]) cycle.push_back(v);
   return cycle;
+}
+
+/// Where nothing rotates: makes room on the cycle, so that it can be turned. Nobody enters or
+/// leaves a vertex of `blocked`.
+bool Exchanger::free_on_cycle(const std::vector<Local>& cycle, std::span<const Local> blocked) {
+  if (rotations_ == Rotations::allowed) return true;
+  if (std::any_of(cycle.begin(), cycle.end(), [&](Local v) { return board_.is_free(v); }))
+    return true;
+  return std::any_of(cycle.begin(), cycle.end(),
+                     [&](Local v) { return free(v, blocked, nullptr); });
 }
 
 /// What is on each vertex of the cycle, nobody included, goes on to the next one, or back.
@@ -169,7 +180,11 @@ bool Exchanger::exchange_on_cycle(Local a, Local b) {
   on_cycle_.clear();
   for (const Local v : cycle) on_cycle_.add(v);
   Local exit = kNoLocal, outside = kNoLocal;
-  if (!free_beside_cycle(cycle, exit, outside)) return false;
+  if (!free_beside_cycle(cycle, exit, outside) ||
+      !free_on_cycle(cycle, std::array{outside, board_.vertex_of(a), board_.vertex_of(b)})) {
+    board_.undo_to(first);
+    return false;
+  }
   const auto place = [&](Local v) {
     return static_cast<std::size_t>(std::find(cycle.begin(), cycle.end(), v) - cycle.begin());
   };
@@ -196,14 +211,22 @@ void Exchanger::swap_at_fork(Local lead, Local rear, Local side, Local other_sid
   board_.move(rear, fork);
 }
 
+/// Brings the lead from the door to the next vertex of a cycle.
+bool Exchanger::turn_into_cycle(Local next, Local door, Local rear) {
+  const std::vector<Local> cycle = cycle_through(next, door);
+  if (!free_on_cycle(cycle, std::array{door, board_.vertex_of(rear)})) return false;
+  turn(cycle, true);
+  return true;
+}
+
 /// The lead turns into a cycle through its place, the rear takes that place.
 bool Exchanger::exchange_at_block(Local lead, Local rear, std::size_t first) {
   const std::size_t before = board_.shifts().size();
   const Local door = board_.vertex_of(lead);
   for (const Local next : graph_.neighbours(door)) {
     if (graph_.is_bridge(door, next)) continue;
-    turn(cycle_through(next, door), true);
-    if (free(door, std::array{next, board_.vertex_of(rear)}, nullptr)) {
+    if (turn_into_cycle(next, door, rear) &&
+        free(door, std::array{next, board_.vertex_of(rear)}, nullptr)) {
       board_.move(rear, door);
       const std::size_t last = board_.shifts().size();
       if (exchange_on_cycle(lead, rear)) {

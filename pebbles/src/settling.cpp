@@ -49,12 +49,14 @@ std::vector<Local> best_order(const LocalGraph& graph) {
 
 }  // namespace
 
-Settling::Settling(LocalGraph graph, std::vector<Local> starts, std::vector<Local> goals)
+Settling::Settling(LocalGraph graph, std::vector<Local> starts, std::vector<Local> goals,
+                   Rotations rotations)
     : graph_(std::move(graph)),
       starts_(starts),
+      rotations_(rotations),
       board_(graph_.size(), std::move(starts)),
       goal_(graph_.size(), std::move(goals)),
-      exchanger_(graph_, board_),
+      exchanger_(graph_, board_, rotations),
       num_free_(graph_.size() - static_cast<Local>(starts_.size())),
       order_(best_order(graph_)),
       rank_(graph_.size()),
@@ -64,6 +66,8 @@ Settling::Settling(LocalGraph graph, std::vector<Local> starts, std::vector<Loca
 }
 
 Settling::State Settling::step(LimitMonitor& limits) {
+  if (num_free_ == 0 && rotations_ == Rotations::forbidden)
+    return starts_ == goal_.vertices() ? State::found : State::given_up;
   if (num_free_ == 0) {
     if (!rearrange_full_component(graph_, goal_, board_, limits, effort_))
       return limits.exhausted() ? State::working : State::given_up;

@@ -14,7 +14,7 @@ from .fleet import Fleet, P
 
 
 class Statistics(NamedTuple):
-    """Counters of one search."""
+    """What one search did."""
 
     cpu_s: float
     wall_s: float
@@ -33,6 +33,8 @@ class Statistics(NamedTuple):
     rejected_models: int
     cores: int
     """Unsatisfiable cores that raised the lower bound."""
+    first_plan: str
+    """Where the first plan came from; docs/cli.md. Empty: there is none."""
 
 
 def _gap(cost: Optional[float], lower_bound: Optional[float]) -> Optional[float]:

@@ -109,6 +109,7 @@ inline py::dict statistics_of(const Statistics& statistics) {
   dict["models_checked"] = statistics.models_checked;
   dict["rejected_models"] = statistics.rejected_models;
   dict["cores"] = statistics.cores;
+  dict["first_plan"] = statistics.first_plan;
   return dict;
 }
 

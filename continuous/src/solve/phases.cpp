@@ -8,6 +8,7 @@
 #include "feasibility/bottleneck.hpp"
 #include "feasibility/feasibility.hpp"
 #include "primal/first_plan.hpp"
+#include "primal/serial_plan.hpp"
 #include "quadrille/core/free_bound.hpp"
 #include "quadrille/solve/frame.hpp"
 #include "routes/route_search.hpp"
@@ -16,6 +17,10 @@
 
 namespace quadrille::continuous {
 namespace {
+
+/// For the search among arrangements of agents, before agents that block each other are looked for
+/// and after that: some hundredths of a second, about half a second.
+constexpr std::int64_t kShortSearch = 5'000'000, kLongSearch = 50'000'000;
 
 /// That the agents were searched together up to the bound.
 void charge_search(Attribution& attribution, Cost bound) {
@@ -68,7 +73,7 @@ void Phases::run() {
   const auto agents = instance_.agent_ids();
   if (options_.explain)
     known_.attribution = solve::free_charges(agents, options_.objective, free_cost);
-  if (learn(free_bound(agents, options_.objective, free_cost), std::nullopt)) return;
+  if (learn(free_bound(agents, options_.objective, free_cost), std::nullopt, "")) return;
   if (take_warm_start(scene)) return;
   const auto groups = options_.joint_work > 0 ? small_groups(scene) : std::vector<JointGroup>();
   const bool is_joint_first = !groups.empty();
@@ -102,10 +107,10 @@ Cost Phases::bound_of_all(const Scene& scene, const GroupBound& group) const {
 
 bool Phases::take_warm_start(Scene& scene) {
   for (const GroupBound& group : warm_.bounds)
-    if (learn(bound_of_all(scene, group), std::nullopt)) return true;
+    if (learn(bound_of_all(scene, group), std::nullopt, "")) return true;
   for (const auto& draft : warm_.drafts) {
     desk_.pulse.enter(Phase::first_plan);
-    if (learn(known_.floor, complete_plan(scene, draft))) return true;
+    if (learn(known_.floor, complete_plan(scene, draft), "mended")) return true;
   }
   return false;
 }
@@ -113,27 +118,36 @@ bool Phases::take_warm_start(Scene& scene) {
 bool Phases::search_jointly(Scene& scene, const std::vector<JointGroup>& groups) {
   desk_.pulse.enter(Phase::joint_search);
   SmallReport report = search_small_groups(scene, groups, options_.objective, options_.joint_work);
-  return is_blocked(report.blocked) || learn(report.lower_bound, std::move(report.plan));
+  return is_blocked(report.blocked) || learn(report.lower_bound, std::move(report.plan), "joint");
 }
 
 bool Phases::look_at_routes(Scene& scene) {
   desk_.pulse.enter(Phase::routes);
   auto routes = search_routes(scene, options_.objective, options_.route_work);
-  return learn(routes.lower_bound, std::move(routes.plan));
+  return learn(routes.lower_bound, std::move(routes.plan), "routes");
 }
 
 bool Phases::find_some_plan(Scene& scene, bool was_joint) {
   if (!known_.plan || was_joint) {
     desk_.pulse.enter(Phase::first_plan);
-    keep_cheaper(find_first_plan(scene));
+    keep_cheaper(find_first_plan(scene), "prioritised");
   }
+  if (!known_.plan) move_one_by_one(scene);
   if (!known_.plan && !was_joint) {
     desk_.pulse.enter(Phase::feasibility);
     Feasibility feasibility = check_feasibility(scene);
     if (is_blocked(feasibility.blocked)) return true;
-    keep_cheaper(std::move(feasibility.plan));
+    keep_cheaper(std::move(feasibility.plan), "joint");
+    if (!known_.plan) keep_cheaper(search_serial_plan(scene, kLongSearch), "serial-search");
   }
   return false;
+}
+
+/// The settled one is dear where it can be had, and the search finds a cheaper one soon or not at
+/// all.
+void Phases::move_one_by_one(Scene& scene) {
+  keep_cheaper(search_serial_plan(scene, kShortSearch), "serial-search");
+  if (!known_.plan) keep_cheaper(settle_agents(scene), "settling");
 }
 
 bool Phases::is_blocked(const std::vector<AgentId>& blocked) {
@@ -141,10 +155,10 @@ bool Phases::is_blocked(const std::vector<AgentId>& blocked) {
   return !blocked.empty();
 }
 
-bool Phases::learn(Cost bound, std::optional<Plan> plan) {
+bool Phases::learn(Cost bound, std::optional<Plan> plan, const char* source) {
   known_.prove(bound);
   if (known_.attribution) charge_search(*known_.attribution, known_.floor);
-  keep_cheaper(std::move(plan));
+  keep_cheaper(std::move(plan), source);
   if (known_.floor > most_cost(instance_, options_.objective)) {
     known_.infeasible = solve::Infeasibility{"no plan keeps all deadlines"};
     return true;
@@ -152,10 +166,11 @@ bool Phases::learn(Cost bound, std::optional<Plan> plan) {
   return known_.cost && *known_.cost <= known_.lower();
 }
 
-void Phases::keep_cheaper(std::optional<Plan> plan) {
+void Phases::keep_cheaper(std::optional<Plan> plan, const char* source) {
   if (!plan) return;
   const Cost its_cost = cost(*plan, options_.objective);
   known_.offer(std::make_shared<const Plan>(*std::move(plan)), its_cost);
+  known_.credit(source);
 }
 
 }  // namespace quadrille::continuous

@@ -42,12 +42,14 @@ class Phases {
   [[nodiscard]] bool search_jointly(Scene& scene, const std::vector<JointGroup>& groups);
   [[nodiscard]] bool look_at_routes(Scene& scene);
   [[nodiscard]] bool find_some_plan(Scene& scene, bool was_joint);
+  void move_one_by_one(Scene& scene);
   [[nodiscard]] bool is_blocked(const std::vector<AgentId>& blocked);
-  [[nodiscard]] bool learn(Cost bound, std::optional<Plan> plan);
+  /// `source`: where the plan came from.
+  [[nodiscard]] bool learn(Cost bound, std::optional<Plan> plan, const char* source);
 
   /// What a group costs, and the others when each is alone.
   [[nodiscard]] Cost bound_of_all(const Scene& scene, const GroupBound& group) const;
-  void keep_cheaper(std::optional<Plan> plan);
+  void keep_cheaper(std::optional<Plan> plan, const char* source);
 
   const Instance& instance_;
   const SolveOptions& options_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "quadrille/core/export.hpp"
 
@@ -9,7 +10,7 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille {
 
-/// Counters of one search. All start at zero and only grow.
+/// What one search did. All numbers start at zero and only grow.
 struct Statistics {
   double cpu_s = 0;         ///< CPU time of the search.
   double wall_s = 0;        ///< Wall-clock time of the search.
@@ -26,6 +27,9 @@ struct Statistics {
   /// Complete assignments with collisions that the SAT solver had called satisfying.
   std::int64_t rejected_models = 0;
   std::int64_t cores = 0;  ///< Unsatisfiable cores that raised the lower bound.
+  /// Where the first plan came from: "given" by the user, "search" for the least cost, or a name of
+  /// the domain's (docs/cli.md). Empty: there is none.
+  std::string first_plan;
 };
 
 }  // namespace quadrille

@@ -58,6 +58,9 @@ class Board {
   [[nodiscard]] Local agent_at(Local v) const { return agent_at_[v]; }  ///< kNoLocal: nobody.
   [[nodiscard]] bool is_free(Local v) const { return agent_at_[v] == kNoLocal; }
   [[nodiscard]] Local vertex_of(Local agent) const { return vertex_of_[agent]; }
+  [[nodiscard]] const std::vector<Local>& vertices() const noexcept {
+    return vertex_of_;
+  }  ///< By agent.
 
   /// Requires that `to` is free and next to the agent.
   void move(Local agent, Local to);

@@ -13,12 +13,15 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::pebbles {
 
+/// Whether all agents of a full cycle may go on by one vertex at the same time.
+enum class Rotations { allowed, forbidden };
+
 /// Frees vertices and exchanges neighbours on a board, everybody else in the end where they were.
-/// docs/complete.md has the proofs that it finds a way where there is one.
+/// docs/complete.md has the proofs that with rotations it finds a way where there is one.
 class Exchanger {
  public:
   /// Both outlive the object.
-  Exchanger(const LocalGraph& graph, Board& board);
+  Exchanger(const LocalGraph& graph, Board& board, Rotations rotations = Rotations::allowed);
 
   /// A set of vertices, by a mark for each: to be emptied often.
   class Marks {
@@ -55,6 +58,8 @@ class Exchanger {
   bool exchange_on_cycle(Local a, Local b);
   bool free_beside_cycle(const std::vector<Local>& cycle, Local& exit, Local& outside);
   [[nodiscard]] std::optional<Local> nearest_free_outside(const std::vector<Local>& cycle);
+  bool free_on_cycle(const std::vector<Local>& cycle, std::span<const Local> blocked);
+  bool turn_into_cycle(Local next, Local door, Local rear);
   void turn(const std::vector<Local>& cycle, bool forwards);
   void turn_until(const std::vector<Local>& cycle, std::size_t from, std::size_t to);
   [[nodiscard]] std::vector<Local> cycle_through(Local a, Local b);
@@ -62,6 +67,7 @@ class Exchanger {
 
   const LocalGraph& graph_;
   Board& board_;
+  const Rotations rotations_;
   Marks kept_, seen_, on_cycle_;
   std::vector<Local> parent_, queue_;
   std::int64_t effort_ = 0;

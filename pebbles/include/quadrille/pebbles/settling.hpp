@@ -17,8 +17,8 @@ namespace quadrille::pebbles {
 /// Leads the agents on a graph to their goals, in polynomial time: one after the other to a vertex
 /// of its own, farthest from a root first; who is in its way makes room, or is exchanged with it.
 /// The technique of Push and Swap (Luna and Bekris, "Push and swap: fast cooperative path-finding
-/// with completeness guarantees", IJCAI 2011), with rotations, and complete for the rules with
-/// rotations: docs/complete.md.
+/// with completeness guarantees", IJCAI 2011), complete for the rules with rotations:
+/// docs/complete.md. Without them, a way is not always found where there is one.
 class Settling {
  public:
   enum class State {
@@ -28,7 +28,8 @@ class Settling {
   };
 
   /// `starts`, `goals`: by agent, all different.
-  Settling(LocalGraph graph, std::vector<Local> starts, std::vector<Local> goals);
+  Settling(LocalGraph graph, std::vector<Local> starts, std::vector<Local> goals,
+           Rotations rotations = Rotations::allowed);
   Settling(const Settling&) = delete;
   Settling& operator=(const Settling&) = delete;
 
@@ -51,6 +52,7 @@ class Settling {
 
   const LocalGraph graph_;
   const std::vector<Local> starts_;
+  const Rotations rotations_;
   Board board_, goal_;
   Exchanger exchanger_;
   const Local num_free_;

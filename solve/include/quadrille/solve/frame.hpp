@@ -94,6 +94,7 @@ void take_given_plans(const Domain& domain, const Request<typename Domain::Plan>
   domain.tidy(plan);
   const Cost cost = domain.cost(plan, request.objective);
   known.take(std::make_shared<const Plan>(std::move(plan)), cost);
+  known.credit("given");
 }
 
 /// One solve from the request to the outcome, in both domains. `Domain` supplies what differs:
@@ -140,6 +141,8 @@ class Frame {
       });
     run_guarded(known, limits, [&] { replay(known, outcome); });
     if (!outcome.plan) known.drop_plan();
+    known.credit("search");
+    if (!known.plan) known.statistics.first_plan.clear();
     fill(known, outcome);
     if (outcome.internal_error && outcome.internal_error->code == ErrorCode::out_of_range)
       return *std::move(outcome.internal_error);

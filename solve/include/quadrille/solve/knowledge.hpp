@@ -45,6 +45,10 @@ struct Knowledge : Facts {
     take(std::move(other), its_cost);
     return true;
   }
+  /// Says where the plan came from if it is the first one.
+  void credit(const char* source) {
+    if (plan && statistics.first_plan.empty()) statistics.first_plan = source;
+  }
   void drop_plan() noexcept {
     plan.reset();
     cost.reset();
@@ -95,6 +99,7 @@ template <class Plan>
   }
   Knowledge<Plan> answer = std::move(all[winner.value_or(best)]);
   if (!winner || answer.statistics.sat_calls == 0) answer.statistics = first;
+  if (!first.first_plan.empty()) answer.statistics.first_plan = first.first_plan;
   if (winner) return answer;
   if (floor > 0) answer.prove(floor);
   answer.raised = raised;
