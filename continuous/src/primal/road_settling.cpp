@@ -238,6 +238,8 @@ class RoadGraph {
       if (start == numbers.end()) continue;
       const auto end = numbers.find(number_of_[goal]);
       if (end == numbers.end() || !is_kept_[goal]) return false;
+      // Bodies that do not cover their places may have the same one as a goal.
+      if (std::find(goals.begin(), goals.end(), end->second) != goals.end()) return false;
       agents.push_back(i);
       starts.push_back(start->second);
       goals.push_back(end->second);

@@ -20,7 +20,7 @@ enum class GivingWay {
 /// stands at a vertex of the graph. A serial plan; nullopt if starts and goals are not all in one
 /// graph of this kind, or no way is found. Polynomial: at worst as many looks at contacts as there
 /// are edges, times classes squared, and vertices near an edge. Throws LimitReached. Adds to
-/// `effort`, and ends after about `most` of it.
+/// `effort`, and ends after about `most` of it. Requires that all agents are apart.
 [[nodiscard]] std::optional<std::vector<SerialMove>> settle_on_roads(StandingBodies& bodies,
                                                                      GivingWay giving_way,
                                                                      std::int64_t most,

@@ -2,6 +2,7 @@
 #include "primal/serial_moves.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 namespace quadrille::continuous {
@@ -19,9 +20,8 @@ StandingBodies::StandingBodies(Scene& scene) : scene_(scene) {
           begin_, instance.duration(instance.class_of(i), roadmap.out_edges(agent.start).front()));
   }
   is_closed_.assign(instance.num_classes(), std::vector<bool>(roadmap.num_edges(), false));
-  near_.resize(instance.num_classes());
+  near_at_.resize(instance.num_classes());
   for (const ClassId c : IdRange<ClassId>(instance.num_classes())) {
-    near_[c.index()].resize(roadmap.num_edges());
     for (const Ban& ban : scene.standing_bans(c)) {
       if (ban.when.end < kForever)
         begin_ = std::max(begin_, ban.when.end);
@@ -35,15 +35,18 @@ StandingBodies::StandingBodies(Scene& scene) : scene_(scene) {
 }
 
 const std::vector<VertexId>& StandingBodies::near(ClassId a, EdgeId e) {
-  std::vector<VertexId>& near = near_[a.index()][e.index()];
-  if (!near.empty()) return near;
+  std::vector<std::uint32_t>& near_at = near_at_[a.index()];
+  if (near_at.empty()) near_at.assign(scene_.instance().roadmap().num_edges(), kUnknown);
+  if (near_at[e.index()] != kUnknown) return near_[near_at[e.index()]];
+  std::vector<VertexId> near;
   for (const ClassId b : IdRange<ClassId>(scene_.instance().num_classes())) {
     const auto& vertices = scene_.contacts().near_edge(a, e, b).vertices;
     near.insert(near.end(), vertices.begin(), vertices.end());
   }
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-  return near;
+  near_at[e.index()] = static_cast<std::uint32_t>(near_.size());
+  return near_.emplace_back(std::move(near));
 }
 
 // ---- agents that stand --------------------------------------------------------------------------
@@ -71,7 +74,15 @@ bool Standing::are_all_home() const {
   return true;
 }
 
+bool Standing::are_apart() const {
+  for (const AgentId i : instance_.agent_ids())
+    if (!is_gone_[i] && agent_at_[vertex_of_[i]] != i.index()) return false;
+  return true;
+}
+
 bool Standing::can_move(const SerialMove& move, std::int64_t& effort) {
+  // Bodies that do not cover their places might stand at the same one.
+  if (agent_at_[instance_.roadmap().edge(move.edge).to] != kNobody) return false;
   const ClassId c = instance_.class_of(move.agent);
   const auto& near = bodies_.near(c, move.edge);
   effort += static_cast<std::int64_t>(near.size()) + 1;
@@ -135,6 +146,7 @@ class LoopCutter {
  private:
   /// From each visit on, the agent stays for as long as nobody minds, up to its last return.
   bool cut(AgentId i) {
+    bodies_.scene().limits().check();
     std::vector<std::size_t> own;  // its moves
     for (std::size_t k = 0; k < moves_.size(); ++k)
       if (moves_[k].agent == i) own.push_back(k);
@@ -166,7 +178,8 @@ class LoopCutter {
 
   [[nodiscard]] bool leaves_alone(const SerialMove& move, AgentId i, VertexId at) {
     effort_ += 3;
-    return !bodies_.block(instance_.class_of(move.agent), move.edge, instance_.class_of(i), at);
+    return instance_.roadmap().edge(move.edge).to != at &&
+           !bodies_.block(instance_.class_of(move.agent), move.edge, instance_.class_of(i), at);
   }
 
   StandingBodies& bodies_;
@@ -192,8 +205,7 @@ class Timetable {
   explicit Timetable(StandingBodies& bodies)
       : instance_(bodies.scene().instance()),
         contacts_(bodies.scene().contacts()),
-        begin_(bodies.begin()),
-        latest_(instance_.num_classes() * instance_.roadmap().num_edges()) {
+        begin_(bodies.begin()) {
     paths_.resize(instance_.num_agents());
     for (const AgentId i : instance_.agent_ids()) {
       const Agent& agent = instance_.agent(i);
@@ -207,7 +219,9 @@ class Timetable {
     Ticks start = std::max(begin_, paths_[move.agent].back().arrive);
     for (const ClassId b : IdRange<ClassId>(instance_.num_classes()))
       for (const EdgeId f : contacts_.near_edge(c, move.edge, b).edges) {
-        const auto before = latest_of(b, f).without(move.agent);
+        const auto known = latest_.find(key(b, f));
+        if (known == latest_.end()) continue;
+        const auto before = known->second.without(move.agent);
         if (!before ||
             *before + instance_.duration(b, f) + instance_.duration(c, move.edge) < start)
           continue;
@@ -244,8 +258,8 @@ class Timetable {
       return tick < 0 ? std::nullopt : std::optional(tick);
     }
   };
-  [[nodiscard]] Latest& latest_of(ClassId c, EdgeId e) {
-    return latest_[c.index() * instance_.roadmap().num_edges() + e.index()];
+  [[nodiscard]] std::uint64_t key(ClassId c, EdgeId e) const {
+    return c.index() * instance_.roadmap().num_edges() + e.index();
   }
 
   void depart(AgentId i, EdgeId e, Ticks start) {
@@ -253,13 +267,13 @@ class Timetable {
     paths_[i].back().depart = start;
     const Ticks end = start + instance_.duration(c, e);
     paths_[i].push_back({instance_.roadmap().edge(e).to, end, end});
-    latest_of(c, e).add(i, start);
+    latest_[key(c, e)].add(i, start);
   }
 
   const Instance& instance_;
   Contacts& contacts_;
   const Ticks begin_;
-  std::vector<Latest> latest_;  // by class and edge
+  std::unordered_map<std::uint64_t, Latest> latest_;  // by class and edge, once it is used
   IdVector<AgentId, Path> paths_;
 };
 
@@ -267,7 +281,10 @@ class Timetable {
 
 Plan earliest_plan(StandingBodies& bodies, std::span<const SerialMove> moves) {
   Timetable timetable(bodies);
-  for (const SerialMove& move : moves) timetable.add(move);
+  for (const SerialMove& move : moves) {
+    bodies.scene().limits().check();
+    timetable.add(move);
+  }
   return std::move(timetable).plan();
 }
 

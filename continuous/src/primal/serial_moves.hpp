@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -45,11 +46,13 @@ class StandingBodies {
  private:
   Scene& scene_;
   Ticks begin_ = 0;
-  std::vector<std::vector<bool>> is_closed_;              // by class, by edge
-  std::vector<std::vector<std::vector<VertexId>>> near_;  // by class, by edge; empty: not yet known
+  std::vector<std::vector<bool>> is_closed_;         // by class, by edge
+  std::vector<std::vector<std::uint32_t>> near_at_;  // by class, by edge: in near_, or kUnknown
+  std::deque<std::vector<VertexId>> near_;
+  static constexpr std::uint32_t kUnknown = 0xffffffffu;
 };
 
-/// Where the agents are, each at rest.
+/// Where the agents are, each at rest at a vertex of its own.
 class Standing {
  public:
   /// At their starts; who is under way at tick 0 at the end of that move.
@@ -61,6 +64,9 @@ class Standing {
   /// It is where it has to be in the end.
   [[nodiscard]] bool is_home(AgentId i) const;
   [[nodiscard]] bool are_all_home() const;
+  /// Whether each is at a vertex of its own. Not so if one who is under way ends where another one
+  /// stands.
+  [[nodiscard]] bool are_apart() const;
   /// Whether nobody is in the way. Requires an edge from where the agent is. Adds to `effort`.
   [[nodiscard]] bool can_move(const SerialMove& move, std::int64_t& effort);
   /// Without a look at who is in the way.
@@ -92,7 +98,7 @@ class Standing {
 /// The plan in which each move begins as early as its agent, and the moves before it that collide
 /// with it at some offset, allow: in the order of any two such moves nothing changes. Requires a
 /// serial plan. O(moves * edges that are near to one). The plan is valid but for deadlines, moving
-/// obstacles and what those do who are under way at tick 0: `verify` says.
+/// obstacles and what those do who are under way at tick 0: `verify` says. Throws LimitReached.
 [[nodiscard]] Plan earliest_plan(StandingBodies& bodies, std::span<const SerialMove> moves);
 
 }  // namespace quadrille::continuous

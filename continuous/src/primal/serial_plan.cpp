@@ -33,6 +33,7 @@ std::optional<Plan> parallel(StandingBodies& bodies, std::vector<SerialMove> mov
 std::optional<Plan> settle_agents(Scene& scene) {
   try {
     StandingBodies bodies(scene);
+    if (!Standing(bodies).are_apart()) return std::nullopt;
     for (const GivingWay giving_way : {GivingWay::vertices, GivingWay::lanes}) {
       std::int64_t effort = 0;
       auto moves = settle_on_roads(bodies, giving_way, kSettling, effort);
@@ -50,6 +51,7 @@ std::optional<Plan> search_serial_plan(Scene& scene, std::int64_t effort) {
     return std::nullopt;
   try {
     StandingBodies bodies(scene);
+    if (!Standing(bodies).are_apart()) return std::nullopt;
     SerialSearch search(bodies);
     if (search.advance(effort) == SerialSearch::State::found)
       return parallel(bodies, search.moves());

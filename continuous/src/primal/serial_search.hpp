@@ -25,7 +25,7 @@ class SerialSearch {
     exhausted  ///< There is no serial plan, or the arrangements are too many.
   };
 
-  /// `bodies` outlives it.
+  /// `bodies` outlives it. Requires that all agents are apart.
   explicit SerialSearch(StandingBodies& bodies);
 
   /// Goes on for about so much effort. Throws LimitReached.
