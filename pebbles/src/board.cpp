@@ -84,6 +84,29 @@ void Board::rotate(std::span<const Local> cycle) {
   apply(std::span(shifts_).subspan(before));
 }
 
+void Board::step(std::span<const Local> to) {
+  std::vector<bool> is_done(to.size(), false);
+  std::vector<Local> row;  // Each goes where the next one is.
+  for (Local first = 0; first < to.size(); ++first) {
+    row.clear();
+    bool is_cycle = false;
+    for (Local agent = first; !is_done[agent] && to[agent] != vertex_of_[agent];) {
+      is_done[agent] = true;
+      row.push_back(agent);
+      const Local ahead = agent_at_[to[agent]];
+      is_cycle = ahead == first;
+      if (ahead == kNoLocal || is_cycle) break;
+      agent = ahead;
+    }
+    if (is_cycle) {
+      for (Local& agent : row) agent = vertex_of_[agent];
+      rotate(row);
+    } else {
+      for (; !row.empty(); row.pop_back()) move(row.back(), to[row.back()]);
+    }
+  }
+}
+
 void Board::append_backwards(std::span<const Shift> shifts, Local a, Local b) {
   const auto renamed = [&](Local agent) { return agent == a ? b : agent == b ? a : agent; };
   for (std::size_t end = shifts.size(); end > 0;) {

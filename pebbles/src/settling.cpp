@@ -2,6 +2,7 @@
 #include "quadrille/pebbles/settling.hpp"
 
 #include <algorithm>
+#include <climits>
 #include <span>
 #include <utility>
 
@@ -17,6 +18,12 @@ constexpr Local kRoots = 16;
 /// Shifts from which on loops are left out on the way.
 constexpr std::size_t kManyShifts = 1'000'000;
 constexpr int kRounds = 5;
+/// Timesteps of a crowd in which the agent to be settled next gets no nearer, and how often it is
+/// helped by one step before it is led all the way. Tried with 1, 2, 3, 5 and 0, 5, 10, 30 on a
+/// maze and rooms of 32 x 32, two seeds each: makespans of 2,284 to 4,977 and 2,335 to 4,287, seeds
+/// differ by as much as settings, and these two are among the better ones, no more.
+constexpr int kPatience = 2, kMostHelps = 5;
+constexpr int kAll = INT_MAX;
 
 /// The vertices of a component, nearest to a root first.
 std::vector<Local> order_from(const LocalGraph& graph, Local root, Local& depth) {
@@ -50,7 +57,7 @@ std::vector<Local> best_order(const LocalGraph& graph) {
 }  // namespace
 
 Settling::Settling(LocalGraph graph, std::vector<Local> starts, std::vector<Local> goals,
-                   Rotations rotations)
+                   Rotations rotations, MakeCrowd make_crowd)
     : graph_(std::move(graph)),
       starts_(starts),
       rotations_(rotations),
@@ -61,6 +68,7 @@ Settling::Settling(LocalGraph graph, std::vector<Local> starts, std::vector<Loca
       order_(best_order(graph_)),
       rank_(graph_.size()),
       next_(graph_.size()),
+      make_crowd_(std::move(make_crowd)),
       long_(kManyShifts) {
   for (Local k = 0; k < order_.size(); ++k) rank_[order_[k]] = k;
 }
@@ -75,8 +83,15 @@ Settling::State Settling::step(LimitMonitor& limits) {
   }
   if (next_ == graph_.size() && !has_begun_) gather_goals();
   if (next_ > num_free_) {
-    if (!settle(order_[next_ - 1], limits)) return State::given_up;
-    if (board_.agent_at(order_[next_ - 1]) == goal_.agent_at(order_[next_ - 1])) --next_;
+    if (make_crowd_) begin_crowd(limits);
+    if (crowd_ != nullptr && is_crowd_of_use()) {
+      crowd_->advance(board_, graph_.size() - next_);
+      ++num_idle_;
+    } else if (!settle(order_[next_ - 1], crowd_ != nullptr && num_helps_ < kMostHelps ? 1 : kAll,
+                       limits)) {
+      return State::given_up;
+    }
+    pass_settled();
     shorten_if_long();
     return State::working;
   }
@@ -117,13 +132,58 @@ std::vector<Local> Settling::way_to(Local from, Local to) {
   return way;
 }
 
-/// Leads the right agent to a vertex. False: somebody is in its way who cannot be exchanged. May
-/// stop on the way when a limit is met.
-bool Settling::settle(Local v, LimitMonitor& limits) {
+/// Where there are hardly any cycles nobody can go round somebody else, and what all do at once is
+/// in each other's way. Measured on a maze of corridors of one cell with 1,000 agents: 178,709
+/// timesteps instead of 152,328.
+void Settling::begin_crowd(LimitMonitor& limits) {
+  Local num_on_cycles = 0;
+  for (Local v = 0; v < graph_.size(); ++v) num_on_cycles += graph_.on_cycle(v) ? 1 : 0;
+  if (2 * num_on_cycles >= graph_.size()) {
+    std::vector<Local> places, order;
+    for (Local agent = 0; agent < starts_.size(); ++agent) places.push_back(goal_.vertex_of(agent));
+    for (Local k = graph_.size(); k-- > num_free_;) order.push_back(goal_.agent_at(order_[k]));
+    crowd_ = make_crowd_(places, order, limits);
+  }
+  if (crowd_ != nullptr || !limits.exhausted()) make_crowd_ = nullptr;
+  watch();
+}
+
+/// The agent that is to be settled next gets nearer to its vertex; if not, it is led on by one
+/// step, and after some of these all the way.
+bool Settling::is_crowd_of_use() {
+  const Local agent = goal_.agent_at(order_[next_ - 1]);
+  const Local distance = crowd_->distance(agent, board_.vertex_of(agent));
+  if (distance < least_distance_) {
+    least_distance_ = distance;
+    num_idle_ = 0;
+  }
+  if (num_idle_ < kPatience) return true;
+  num_idle_ = 0;
+  ++num_helps_;
+  least_distance_ = kNoLocal;
+  return false;
+}
+
+void Settling::watch() {
+  num_idle_ = num_helps_ = 0;
+  least_distance_ = kNoLocal;
+}
+
+void Settling::pass_settled() {
+  const Local before = next_;
+  while (next_ > num_free_ &&
+         board_.agent_at(order_[next_ - 1]) == goal_.agent_at(order_[next_ - 1]))
+    --next_;
+  if (next_ < before) watch();
+}
+
+/// Leads the right agent to a vertex, by so many steps at most. False: somebody is in its way who
+/// cannot be exchanged. May stop on the way when a limit is met.
+bool Settling::settle(Local v, int most_steps, LimitMonitor& limits) {
   const Local agent = goal_.agent_at(v);
   if (board_.vertex_of(agent) == v) return true;
   for (const Local to : way_to(board_.vertex_of(agent), v)) {
-    if (limits.exhausted()) return true;
+    if (most_steps-- == 0 || limits.exhausted()) return true;
     const Local from = board_.vertex_of(agent);
     if (exchanger_.free(to, std::span(&from, 1), nullptr, rank_, next_))
       board_.move(agent, to);
@@ -135,6 +195,8 @@ bool Settling::settle(Local v, LimitMonitor& limits) {
 }
 
 Settling::State Settling::finish() {
+  if (crowd_ != nullptr) effort_ += crowd_->effort();
+  crowd_.reset();
   board_.replace_shifts(without_loops(board_.shifts(), starts_, graph_.size(), kRounds));
   return State::found;
 }

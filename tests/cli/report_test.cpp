@@ -50,7 +50,8 @@ TEST_F(ReportTest, JsonHasAllThatIsDocumented) {
        {"cpu_s", "wall_s", "peak_rss_mib", "sat_calls", "conflicts", "decisions", "variables",
         "clauses", "collision_clauses", "checks", "models_checked", "cores"})
     EXPECT_TRUE(result["statistics"][key].is_number()) << key;
-  EXPECT_TRUE(result["statistics"]["first_plan"].is_string());
+  EXPECT_EQ(result["statistics"]["first_plan"], "lacam");
+  EXPECT_EQ(result["statistics"].size(), 13u);
   EXPECT_EQ(result["version"], QUADRILLE_VERSION);
   EXPECT_EQ(result["seed"], 9);
   EXPECT_EQ(result["agents"], 3);

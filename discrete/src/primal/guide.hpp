@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "pibt/guidance.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
@@ -15,7 +16,7 @@ namespace quadrille::discrete {
 /// fewer jams than by shortest paths, which crowd in the same lanes (space utilisation
 /// optimisation; Han and Yu, "Optimizing space utilization for more effective multi-robot path
 /// planning", ICRA 2022; as a guide of LaCAM: Okumura, "Engineering LaCAM*", AAMAS 2024).
-class Guide {
+class Guide final : public Guidance {
  public:
   /// Elementary steps, a few seconds. Agents that are left then keep the path they have, at first a
   /// shortest one.
@@ -32,7 +33,7 @@ class Guide {
 
   /// Where the agent's path leads on from a vertex. nullopt if it ends there or does not pass it.
   /// O(log(length of the path)).
-  [[nodiscard]] std::optional<VertexId> next(AgentId agent, VertexId from) const;
+  [[nodiscard]] std::optional<VertexId> next(AgentId agent, VertexId from) const override;
   /// Elementary steps that it took.
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "primal/configuration.hpp"
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
@@ -127,15 +128,6 @@ Lacam::NodeIndex Lacam::find(std::uint64_t key, const Configuration& configurati
     return nodes_[entry.second].configuration == configuration;
   });
   return same == end ? kNone : same->second;
-}
-
-std::uint64_t Lacam::key_of(const Configuration& configuration) {
-  std::uint64_t key = 0;
-  for (const VertexId v : configuration) {
-    key = (key ^ v.value()) * 0x9e3779b97f4a7c15ULL;
-    key ^= key >> 29;
-  }
-  return key;
 }
 
 Plan Lacam::plan() const {

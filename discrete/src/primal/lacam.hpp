@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "pibt/pibt.hpp"
 #include "primal/guide.hpp"
-#include "primal/pibt.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/primal.hpp"
 
@@ -69,7 +69,6 @@ class Lacam {
   void visit(Configuration configuration, NodeIndex parent);
   void set_priority(Node& node, const Node* parent);
   [[nodiscard]] NodeIndex find(std::uint64_t key, const Configuration& configuration) const;
-  [[nodiscard]] static std::uint64_t key_of(const Configuration& configuration);
 
   const Instance& instance_;
   const std::shared_ptr<const GoalDistances> distances_;

@@ -19,9 +19,15 @@ constexpr Cost kGoodPlan = 1;
 /// Where a guide may not take that much, the search begins without. Measured: 10,000 agents in a
 /// warehouse, a plan with a guide is 4 % cheaper and takes three times as long.
 constexpr std::int64_t kGuideEffortPerTimestep = 5;
-/// Longer plans of settled agents stay as they are: each jump would take seconds.
-constexpr Cost kMostCostToShorten = 20'000'000;
-constexpr std::int64_t kMostEffortToShorten = 16'000'000;
+/// Longer plans stay as they are: a pass over their windows would take more than half a minute.
+constexpr Cost kMostCostOfWindows = 20'000'000;
+constexpr std::string_view kBeamSearch = "beam search", kLacam = "lacam", kSettling = "settling";
+
+/// At least three in four vertices are taken.
+bool is_crowded(const Instance& instance) {
+  const std::size_t agents = instance.num_agents();
+  return agents > 0 && 4 * agents >= 3 * instance.graph().num_vertices();
+}
 
 std::int64_t unit_of(const Instance& instance, const GoalDistances& distances) {
   std::int64_t farthest = 0;
@@ -47,7 +53,8 @@ PrimalSearch::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
       distances_(std::move(distances)),
       seed_(seed),
       part_(part),
-      unit_(unit_of(instance, *distances_)) {
+      unit_(unit_of(instance, *distances_)),
+      is_crowded_(is_crowded(instance)) {
   for (const AgentId i : instance_.agent_ids()) {
     const Timestep way = (*distances_)(i, instance_.agents()[i].start);
     if (way == kUnreachable) state_ = State::exhausted;
@@ -55,16 +62,25 @@ PrimalSearch::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
   }
   if (part_ == Part::rest) turn_ = 1;
   if (kGuideEffortPerTimestep * ideal_ > Guide::kMostEffort) turn_ = kNumGuides;
+  // Whoever has only a part of the work and a second one beside it leaves this to that one.
+  is_opening_ = state_ == State::searching && is_crowded_ && part_ != Part::first_guide;
+  if (is_opening_ && BeamSearch::is_worth_trying(instance_, *distances_))
+    beam_.emplace(instance_, distances_, seed_);
 }
 
 PrimalSearch::State PrimalSearch::Impl::advance(std::int64_t effort, LimitMonitor& limits) {
   const std::int64_t enough = effort_ > INT64_MAX - effort ? INT64_MAX : effort_ + effort;
   while (!is_over() && effort_ < enough && !limits.exhausted()) {
-    if (is_turn_of_settling()) {
-      if (shortcuts_)
-        shorten(enough - effort_, limits);
-      else
-        advance_settling(enough - effort_, limits);
+    if (windows_) {
+      advance_windows(enough - effort_, limits);
+      continue;
+    }
+    if (beam_) {
+      advance_beam(enough - effort_, limits);
+      continue;
+    }
+    if (is_opening_ || is_turn_of_settling()) {
+      advance_settling(enough - effort_, limits);
       continue;
     }
     if (!turn_end_ && !begin_turn(limits)) continue;
@@ -87,30 +103,53 @@ void PrimalSearch::Impl::advance_settling(std::int64_t effort, LimitMonitor& lim
   std::optional<Plan> plan;
   if (state == Settling::State::found) plan = settling_->plan(limits);
   settling_.reset();
-  if (plan) {
-    offer(*plan);
-    state_ = State::found;
-    if (plan->cost(Objective::sum_of_costs) <= kMostCostToShorten)
-      shortcuts_.emplace(instance_, std::move(*plan), seed_);
-  }
-  if (!shortcuts_) end_turn();
+  if (plan) offer(*std::move(plan), kSettling);
+  if (is_opening_)
+    end_opening();
+  else
+    end_turn();
 }
 
-void PrimalSearch::Impl::shorten(std::int64_t effort, LimitMonitor& limits) {
-  const std::int64_t before = shortcuts_->effort();
-  shortcuts_->advance(std::min(effort, kMostEffortToShorten - before), limits);
-  effort_ += shortcuts_->effort() - before;
-  offer(shortcuts_->plan());
-  if (!shortcuts_->is_over() && shortcuts_->effort() < kMostEffortToShorten) return;
-  shortcuts_.reset();
-  end_turn();
+void PrimalSearch::Impl::advance_beam(std::int64_t effort, LimitMonitor& limits) {
+  const std::int64_t before = beam_->effort();
+  beam_->advance(effort, limits);
+  effort_ += beam_->effort() - before;
+  if (beam_->plan()) offer(*beam_->plan(), kBeamSearch);
+  if (!beam_->is_over()) return;
+  beam_.reset();
+  if (plan_) end_opening();
 }
 
-void PrimalSearch::Impl::offer(const Plan& plan) {
+void PrimalSearch::Impl::end_opening() {
+  is_opening_ = false;
+  finish_if_over();
+}
+
+/// The first plan of a crowded map is a dear one, and one of settled agents is.
+void PrimalSearch::Impl::begin_windows() {
+  if (!are_windows_due_ || !plan_ || cost_ > kMostCostOfWindows || cost_ <= 2 * ideal_) return;
+  if (!is_crowded_ && origin_ != kSettling) return;
+  are_windows_due_ = false;
+  windows_.emplace(instance_, *plan_, seed_);
+  if (windows_->is_over()) windows_.reset();
+}
+
+void PrimalSearch::Impl::advance_windows(std::int64_t effort, LimitMonitor& limits) {
+  const std::int64_t before = windows_->effort();
+  windows_->advance(effort, limits);
+  effort_ += windows_->effort() - before;
+  if (windows_->cost() < cost_) offer(windows_->plan(), "");
+  // Then it is for others to make it cheaper.
+  if (windows_->is_over() || cost_ <= 2 * ideal_) windows_.reset();
+}
+
+void PrimalSearch::Impl::offer(Plan plan, std::string_view origin) {
   const Cost cost = plan.cost(Objective::sum_of_costs);
   if (plan_ && cost >= cost_) return;
-  plan_ = plan;
+  if (!plan_) origin_ = origin;
+  plan_ = std::move(plan);
   cost_ = cost;
+  state_ = State::found;
 }
 
 /// False if a limit was met.
@@ -142,7 +181,7 @@ bool PrimalSearch::Impl::make_guide(std::uint32_t kind, LimitMonitor& limits) {
 
 void PrimalSearch::Impl::end_turn_of(const Lacam& search) {
   if (search.state() == State::found) {
-    offer(search.plan());
+    offer(search.plan(), kLacam);
   } else if (search.state() == State::exhausted) {
     state_ = State::exhausted;
     num_configurations_ = search.num_configurations();
@@ -154,22 +193,31 @@ void PrimalSearch::Impl::end_turn() {
   turn_end_.reset();
   other_.reset();
   ++turn_;
-  if (plan_) state_ = State::found;
-  if (is_over()) {
-    main_.reset();
-    for (auto& guide : guides_) guide.reset();
-  }
+  finish_if_over();
+}
+
+void PrimalSearch::Impl::finish_if_over() {
+  if (!is_over()) return;
+  main_.reset();
+  for (auto& guide : guides_) guide.reset();
+  begin_windows();
 }
 
 bool PrimalSearch::Impl::is_over() const noexcept {
+  if (windows_) return false;
   if (part_ == Part::first_guide && turn_ >= 1) return true;
-  if (state_ == State::searching || shortcuts_) return false;
+  if (state_ == State::searching || is_opening_) return false;
   return !plan_ || turn_ >= kNumGuides || 100 * (cost_ - ideal_) <= kGoodPlan * ideal_;
 }
 
 const Plan& PrimalSearch::Impl::plan() const {
   QUADRILLE_REQUIRE(state_ == State::found, "the search has found a plan");
   return *plan_;
+}
+
+Cost PrimalSearch::Impl::cost() const {
+  QUADRILLE_REQUIRE(state_ == State::found, "the search has found a plan");
+  return cost_;
 }
 
 PrimalSearch::PrimalSearch(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
@@ -189,7 +237,10 @@ std::int64_t PrimalSearch::effort() const noexcept { return impl_->effort(); }
 std::size_t PrimalSearch::num_configurations() const noexcept {
   return impl_->num_configurations();
 }
+bool PrimalSearch::is_worth_waiting_for() const noexcept { return impl_->is_worth_waiting_for(); }
 Plan PrimalSearch::plan() const { return impl_->plan(); }
+Cost PrimalSearch::cost() const { return impl_->cost(); }
+std::string_view PrimalSearch::origin() const noexcept { return impl_->origin(); }
 
 std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits, std::uint32_t seed) {
   const auto distances = GoalDistances::make(instance, limits);

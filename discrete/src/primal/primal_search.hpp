@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 
+#include "primal/beam_search.hpp"
 #include "primal/guide.hpp"
 #include "primal/lacam.hpp"
-#include "primal/shortcuts.hpp"
+#include "primal/time_windows.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "settle/settle.hpp"
 
@@ -27,6 +29,11 @@ namespace quadrille::discrete {
 /// in memory. After a turn of each kind agents are settled one after the other, which finds a plan,
 /// if a dear one, wherever there is one; the search that goes on for ever keeps all complete where
 /// that has exceptions.
+///
+/// On crowded maps, where guided searches seldom find plans, all begins with a beam search if the
+/// board is small enough, then with settling if that has found nothing. The guided searches have
+/// their turns after that. A dear plan of a crowded map, or of settled agents, is made cheaper in
+/// windows of time at last.
 class PrimalSearch::Impl {
  public:
   Impl(const Instance& instance, std::shared_ptr<const GoalDistances> distances, std::uint32_t seed,
@@ -40,7 +47,12 @@ class PrimalSearch::Impl {
   [[nodiscard]] bool is_at_guides() const noexcept { return !is_over() && turn_ < kNumGuides; }
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
   [[nodiscard]] std::size_t num_configurations() const noexcept { return num_configurations_; }
+  [[nodiscard]] bool is_worth_waiting_for() const noexcept {
+    return windows_.has_value() || settling_.has_value();
+  }
   [[nodiscard]] const Plan& plan() const;
+  [[nodiscard]] Cost cost() const;
+  [[nodiscard]] std::string_view origin() const noexcept { return origin_; }
 
  private:
   static constexpr std::uint32_t kNumGuides = 2;
@@ -48,8 +60,12 @@ class PrimalSearch::Impl {
 
   bool begin_turn(LimitMonitor& limits);
   void advance_settling(std::int64_t effort, LimitMonitor& limits);
-  void shorten(std::int64_t effort, LimitMonitor& limits);
-  void offer(const Plan& plan);
+  void advance_beam(std::int64_t effort, LimitMonitor& limits);
+  void advance_windows(std::int64_t effort, LimitMonitor& limits);
+  void end_opening();
+  void finish_if_over();
+  void begin_windows();
+  void offer(Plan plan, std::string_view origin);
   void end_turn_of(const Lacam& search);
   void end_turn();
   bool make_guide(std::uint32_t kind, LimitMonitor& limits);
@@ -69,11 +85,16 @@ class PrimalSearch::Impl {
   std::optional<Lacam> main_;  // Goes on for ever.
   std::optional<Lacam> other_;
   std::optional<Settling> settling_;
-  std::optional<Shortcuts> shortcuts_;  // Of the plan that settling has found.
+  std::optional<BeamSearch> beam_;
+  std::optional<TimeWindows> windows_;
+  const bool is_crowded_;
+  bool is_opening_ = false;      // Of a crowded map: settling comes before all that has turns.
+  bool are_windows_due_ = true;  // Unless there were any.
   std::uint32_t turn_ = 0, num_restarts_ = 0;
   std::optional<std::int64_t> turn_end_;  // In efforts of the search whose turn it is.
   std::optional<Plan> plan_;              // The cheapest.
   Cost cost_ = 0;
+  std::string_view origin_;  // Of the first plan.
   std::size_t num_configurations_ = 0;
   std::int64_t effort_ = 0;
 };

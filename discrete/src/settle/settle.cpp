@@ -2,28 +2,37 @@
 #include "settle/settle.hpp"
 
 #include <deque>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "quadrille/core/contract.hpp"
 #include "quadrille/pebbles/settling.hpp"
-#include "quadrille/pebbles/shorten.hpp"
 #include "settle/local_graph.hpp"
+#include "settle/rush.hpp"
+#include "settle/shift_paths.hpp"
 
 namespace quadrille::discrete {
 namespace {
 
-using pebbles::earliest_times;
 using State = Settling::State;
 
 /// The agents of one component.
 class ComponentSettling {
  public:
-  ComponentSettling(const Component& component, const ComponentNumbering& numbering,
-                    std::vector<Local> starts, std::vector<Local> goals)
-      : agents_(component.agents),
-        vertices_(component.vertices),
-        settling_(local_graph(component, numbering), std::move(starts), std::move(goals)) {}
+  /// The first two outlive the object.
+  ComponentSettling(const Instance& instance, const ComponentNumbering& numbering,
+                    Component component, std::vector<Local> starts, std::vector<Local> goals)
+      : component_(std::move(component)),
+        settling_(
+            local_graph(component_, numbering), std::move(starts), std::move(goals),
+            pebbles::Rotations::allowed,
+            [&instance, &numbering, this](std::span<const Local> places,
+                                          std::span<const Local> order, LimitMonitor& limits) {
+              return Rush::make(instance, numbering, component_, places, order, limits);
+            }) {}
+  ComponentSettling(const ComponentSettling&) = delete;
+  ComponentSettling& operator=(const ComponentSettling&) = delete;
 
   State step(LimitMonitor& limits) {
     switch (settling_.step(limits)) {
@@ -40,31 +49,12 @@ class ComponentSettling {
 
   /// Writes the paths of its agents.
   [[nodiscard]] bool write(Plan& plan, LimitMonitor& limits) const {
-    const auto& shifts = settling_.shifts();
-    const auto& starts = settling_.starts();
-    const std::vector<Timestep> times =
-        earliest_times(shifts, starts.size(), settling_.graph().size());
-    std::vector<Timestep> arrivals(starts.size(), 0);
-    for (std::size_t k = 0; k < shifts.size(); ++k) arrivals[shifts[k].agent] = times[k];
-    std::size_t size = 0;
-    for (const Timestep arrival : arrivals) size += static_cast<std::size_t>(arrival) + 1;
-    if (!limits.has_room_for(size * sizeof(VertexId))) return false;
-    for (Local agent = 0; agent < starts.size(); ++agent) {
-      Path& path = plan.paths[agents_[agent]];
-      path.reserve(static_cast<std::size_t>(arrivals[agent]) + 1);
-      path.assign(1, vertices_[starts[agent]]);
-    }
-    for (std::size_t k = 0; k < shifts.size(); ++k) {
-      Path& path = plan.paths[agents_[shifts[k].agent]];
-      path.resize(static_cast<std::size_t>(times[k]), path.back());
-      path.push_back(vertices_[shifts[k].to]);
-    }
-    return true;
+    return write_paths(settling_.shifts(), settling_.starts(), component_.agents,
+                       component_.vertices, plan, limits);
   }
 
  private:
-  const std::vector<AgentId> agents_;
-  const std::vector<VertexId> vertices_;
+  const Component component_;
   pebbles::Settling settling_;
 };
 
@@ -72,25 +62,27 @@ class ComponentSettling {
 
 class Settling::Impl {
  public:
-  explicit Impl(const Instance& instance) : num_agents_(instance.num_agents()) {
-    ComponentNumbering numbering(instance.graph());
+  explicit Impl(const Instance& instance)
+      : num_agents_(instance.num_agents()), numbering_(instance.graph()) {
     std::vector<Component> components;
     for (const AgentId agent : instance.agent_ids()) {
       const auto [start, goal] = instance.agents()[agent];
-      if (numbering.component_of(start) == kNoLocal) components.push_back(numbering.explore(start));
-      if (numbering.component_of(goal) != numbering.component_of(start)) {
+      if (numbering_.component_of(start) == kNoLocal)
+        components.push_back(numbering_.explore(start));
+      if (numbering_.component_of(goal) != numbering_.component_of(start)) {
         state_ = State::given_up;
         return;
       }
-      components[numbering.component_of(start)].agents.push_back(agent);
+      components[numbering_.component_of(start)].agents.push_back(agent);
     }
-    for (const Component& component : components) {
+    for (Component& component : components) {
       std::vector<Local> starts, goals;
       for (const AgentId agent : component.agents) {
-        starts.push_back(numbering.number(instance.agents()[agent].start));
-        goals.push_back(numbering.number(instance.agents()[agent].goal));
+        starts.push_back(numbering_.number(instance.agents()[agent].start));
+        goals.push_back(numbering_.number(instance.agents()[agent].goal));
       }
-      parts_.emplace_back(component, numbering, std::move(starts), std::move(goals));
+      parts_.emplace_back(instance, numbering_, std::move(component), std::move(starts),
+                          std::move(goals));
     }
     if (parts_.empty()) state_ = State::found;
   }
@@ -121,6 +113,7 @@ class Settling::Impl {
 
  private:
   const std::size_t num_agents_;
+  ComponentNumbering numbering_;
   std::deque<ComponentSettling> parts_;
   std::size_t next_part_ = 0;
   State state_ = State::working;

@@ -13,9 +13,10 @@ namespace quadrille::discrete {
 
 /// A plan of any cost in polynomial time, for whatever check_feasibility calls feasible: one agent
 /// after the other is led to a vertex of its own, farthest from the root of its component first;
-/// who is in its way makes room, or is exchanged with it. The technique of Push and Swap (Luna and
-/// Bekris, "Push and swap: fast cooperative path-finding with completeness guarantees", IJCAI
-/// 2011), with rotations, and complete for the rules with rotations: docs/complete.md. One thread.
+/// who is in its way makes room, or is exchanged with it. All the others move towards their
+/// vertices at the same time, see Rush. The technique of Push and Swap (Luna and Bekris, "Push and
+/// swap: fast cooperative path-finding with completeness guarantees", IJCAI 2011), with rotations,
+/// and complete for the rules with rotations: docs/complete.md. One thread.
 class Settling {
  public:
   enum class State {
@@ -24,6 +25,7 @@ class Settling {
     given_up  ///< The instance is infeasible, or one of the exceptions of docs/complete.md.
   };
 
+  /// `instance` outlives the object.
   explicit Settling(const Instance& instance);
   ~Settling();
   Settling(const Settling&) = delete;

@@ -6,9 +6,10 @@
 
 namespace quadrille::discrete {
 
-bool Incumbent::offer(const Plan& plan) {
+bool Incumbent::offer(const Plan& plan, std::string_view origin) {
   const Cost cost = plan.cost(objective_), sum = plan.cost(Objective::sum_of_costs);
   if (known_.cost && std::tie(cost, sum) >= std::tie(*known_.cost, sum_)) return false;
+  if (known_.statistics.first_plan.empty()) known_.statistics.first_plan = origin;
   known_.take(std::make_shared<const Plan>(plan), cost);
   sum_ = sum;
   return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "quadrille/discrete/plan.hpp"
 #include "quadrille/sat/bounds.hpp"
@@ -25,13 +26,14 @@ class Incumbent final : public sat::Bounds {
 
   void share() noexcept { known_.raise(lower()); }
   /// Keeps `plan`, which has to be valid, if it is the cheapest; true if so. O(agents), and a copy.
-  bool offer(const Plan& plan);
+  /// `origin`: what the statistics tell of it if it is the first one; empty: what others told.
+  bool offer(const Plan& plan, std::string_view origin);
   /// Requires one.
   [[nodiscard]] const Plan& plan() const { return *known_.plan; }
 
   /// Whose accepted models become plans from now on; null: nobody's.
   void set_run(const Run* run) noexcept { run_ = run; }
-  void offer_accepted() override { offer(run_->plan()); }
+  void offer_accepted() override { offer(run_->plan(), "search"); }
   [[nodiscard]] std::optional<Cost> upper() const override { return known_.cost; }
   [[nodiscard]] Cost incumbent_cost_of(AgentId agent) const override {
     return arrival(plan().paths[agent]);

@@ -31,6 +31,9 @@ constexpr double kDeadEndGap = 3;
 /// time without it, six 1.04 with this one.
 constexpr double kHelpedGap = 0.5;
 
+/// Whatever it was made of came first.
+constexpr std::string_view kImproved = "improvement";
+
 /// Per cent; none where a plan has refuted the bound, which is one of the user's then. Requires an
 /// incumbent.
 double gap_of(const Incumbent& incumbent) {
@@ -54,8 +57,12 @@ PlanSearchContext for_improvement(PlanSearchContext context) {
 
 sat::Outcome FirstPlan::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
-  if (search_.advance(*slice.effort, context_.limits) == PrimalSearch::State::found)
-    context_.incumbent.offer(search_.plan());
+  // Long plans are not copied for nothing.
+  if (search_.advance(*slice.effort, context_.limits) == PrimalSearch::State::found &&
+      (!told_ || search_.cost() < *told_)) {
+    context_.incumbent.offer(search_.plan(), search_.origin());
+    told_ = search_.cost();
+  }
   return sat::Outcome::working;
 }
 
@@ -87,7 +94,7 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   if (has_second_chance())
     take_second_chance(effort);
   else if (improve(*improver_, effort))
-    incumbent.offer(improver_->plan());
+    incumbent.offer(improver_->plan(), kImproved);
   if (!is_at_first_draft() && gap_of(incumbent) >= kDeadEndGap)
     second_chance_->watch(improver_->effort(), *incumbent.upper(),
                           *incumbent.upper() - incumbent.lower());
@@ -110,7 +117,7 @@ void PlanImprovement::take_second_chance(std::int64_t effort) {
   Incumbent& incumbent = context_.incumbent;
   const std::int64_t before = second_chance_->effort();
   if (const auto plan = second_chance_->advance(effort, context_.limits, *incumbent.upper()))
-    incumbent.offer(*plan);
+    incumbent.offer(*plan, kImproved);
   effort_ += second_chance_->effort() - before;
 }
 
@@ -127,7 +134,7 @@ void PlanImprovement::improve_draft(std::int64_t effort) {
   static_cast<void>(improve(*rival_, effort));
   const bool is_cheaper = rival_->cost() < *context_.incumbent.upper();
   repair_.report(is_cheaper);
-  if (is_cheaper) context_.incumbent.offer(rival_->plan());
+  if (is_cheaper) context_.incumbent.offer(rival_->plan(), kImproved);
 }
 
 PlanSearch::PlanSearch(const PlanSearchContext& context)
@@ -140,7 +147,8 @@ PlanSearch::PlanSearch(const PlanSearchContext& context)
 
 bool PlanSearch::start() {
   static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
-  return !first_plan_.is_over() && first_plan_.effort() < kFirstEffort &&
+  const bool is_due = first_plan_.effort() < kFirstEffort || first_plan_.is_worth_waiting_for();
+  return !first_plan_.is_over() && is_due && !context_.incumbent.are_closed() &&
          !context_.limits.exhausted_now();
 }
 
@@ -196,7 +204,9 @@ void PlanSearch::begin() {
 
 std::int64_t PlanSearch::work(const std::function<Plan()>& draft) {
   const std::int64_t before = first_plan_.effort();
-  if (!first_plan_.is_over() && (!context_.incumbent.upper() || before < kFirstEffort)) {
+  const bool is_due =
+      !context_.incumbent.upper() || before < kFirstEffort || first_plan_.is_worth_waiting_for();
+  if (!first_plan_.is_over() && is_due) {
     static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
     return std::max(kFirstSlice, first_plan_.effort() - before) / kFirstStepsOfSearch;
   }

@@ -40,12 +40,17 @@ class FirstPlan final : public sat::Strategy {
   [[nodiscard]] bool is_over() const noexcept { return search_.is_over(); }
   /// The searches that all begins with are not done.
   [[nodiscard]] bool is_at_guides() const noexcept { return search_.is_at_guides(); }
+  /// See PrimalSearch.
+  [[nodiscard]] bool is_worth_waiting_for() const noexcept {
+    return search_.is_worth_waiting_for();
+  }
   /// Of all slices; a slice may take more than it is given, because guides are not cut.
   [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
 
  private:
   const PlanSearchContext context_;
   PrimalSearch search_;
+  std::optional<Cost> told_;  // What the plan costs that the incumbent was told of.
 };
 
 /// Makes the incumbent cheaper by large-neighbourhood search; and a rival of it, which is made of

@@ -95,7 +95,7 @@ class Search final : private sat::YieldPoint {
     if (!heard) return;
     heard_lower_ = std::max(heard_lower_, heard->lower);
     known_.raise(heard->lower);
-    if (heard->plan && heard->plan != heard_plan_) hear(heard->plan);
+    if (heard->plan && heard->plan != heard_plan_) hear(heard->plan, heard->extra.origin);
     draft_ = heard->extra.paths;
     others_ended_ = heard->others_ended;
   }
@@ -103,17 +103,18 @@ class Search final : private sat::YieldPoint {
   /// Both may have been made from one plan, and differ in what was done since. Where one is as good
   /// as the other, all take that of the one whose role plans are, so that they do not drift apart:
   /// the closer two plans are, the more of their parts can be merged.
-  void hear(const std::shared_ptr<const Plan>& plan) {
+  void hear(const std::shared_ptr<const Plan>& plan, std::string_view origin) {
     heard_plan_ = plan;
     const std::optional<Cost> before = incumbent_.upper();
     if (!before) {
-      incumbent_.offer(*plan);
+      incumbent_.offer(*plan, origin);
       return;
     }
     if (!merger_) merger_.emplace(instance_);
     const Plan& own = incumbent_.plan();
     incumbent_.offer(role_ == Role::plans ? merger_->merge(own, *plan, options_.objective)
-                                          : merger_->merge(*plan, own, options_.objective));
+                                          : merger_->merge(*plan, own, options_.objective),
+                     origin);
     if (plans_) plans_->hear(*before - *incumbent_.upper());
   }
 
@@ -125,6 +126,7 @@ class Search final : private sat::YieldPoint {
       if (!told_plan_ || known_.cost != told_cost_) told_plan_ = known_.plan;
       message.plan = told_plan_;
       message.cost = told_cost_ = *known_.cost;
+      message.extra.origin = known_.statistics.first_plan;
     }
     if (role_ == Role::bound && run_ != nullptr)
       message.extra.paths = std::make_shared<const Plan>(run_->draft());

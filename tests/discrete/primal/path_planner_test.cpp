@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "pibt/pibt.hpp"
 #include "primal/neighbourhoods.hpp"
-#include "primal/pibt.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "support/case_text.hpp"
 #include "support/generators.hpp"

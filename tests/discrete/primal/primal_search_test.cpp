@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "discrete/primal/primal_support.hpp"
+#include "primal/beam_search.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "settle/settle.hpp"
 #include "support/environment.hpp"
 #include "support/joint_search.hpp"
 
@@ -18,6 +21,12 @@ namespace {
 using State = PrimalSearch::State;
 using quadrille::support::scaled;
 using support::instance_text;
+
+/// 2 x 3, with one cell free or none.
+Instance random_full_board(support::Random& random) {
+  return support::random_tasks(random, Graph::grid(3, 2, std::vector<bool>(6, true)),
+                               5 + random.below(2));
+}
 
 TEST(PrimalSearch, FollowsTheSequenceOfLuby) {
   const std::vector<std::int64_t> expected{1, 1, 2, 1, 1, 2, 4, 1, 1, 2, 1, 1, 2, 4, 8, 1};
@@ -130,6 +139,75 @@ TEST(PrimalSearch, OneOfTwoFindsAPlanIfAndOnlyIfThereIsOne) {
       ASSERT_EQ(first.state(), whole) << instance_text(instance);
     }
   }
+}
+
+TEST(PrimalSearch, TellsWhatFoundTheFirstPlan) {
+  LimitMonitor limits{Limits{}};
+  PrimalSearch search(crowd(4, 4, 1), distances_of(crowd(4, 4, 1)), 0);
+  EXPECT_EQ(search.origin(), "");
+  EXPECT_EQ(searched(crowd(6, 9, 1)).origin(), "lacam");
+  EXPECT_EQ(searched(crowd(4, 14, 1)).origin(), "beam search");
+  EXPECT_EQ(searched(crowd(16, 240, 1)).origin(), "settling");
+}
+
+TEST(PrimalSearch, CrowdedBoardsGetPlansThatAreNoDearerThanSettledOnes) {
+  for (std::uint64_t seed = 0; seed < scaled(6); ++seed) {
+    const auto side = static_cast<std::int32_t>(4 + seed % 8);
+    const auto cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    const Instance instance = crowd(side, cells - seed % 4, seed);
+    LimitMonitor limits{Limits{}};
+    Settling settling(instance);
+    ASSERT_EQ(settling.advance(kNoEnd, limits), Settling::State::found);
+    PrimalSearch search(instance, distances_of(instance), 0);
+    std::optional<Cost> before;
+    while (!search.is_over()) {
+      if (search.advance(500'000, limits) != State::found) continue;
+      ASSERT_TRUE(verify(instance, search.plan()).valid()) << instance_text(instance);
+      ASSERT_EQ(search.plan().cost(Objective::sum_of_costs), search.cost());
+      ASSERT_LE(search.cost(), before.value_or(search.cost()));
+      before = search.cost();
+    }
+    ASSERT_LE(search.cost(), settling.plan(limits)->cost(Objective::sum_of_costs));
+  }
+}
+
+// The optimum comes from search over the joint positions.
+TEST(BeamSearch, IsCloseToTheOptimumOnFullBoards) {
+  support::Random random(17);
+  Cost optimal = 0, found = 0;
+  std::size_t num_found = 0;
+  for (std::size_t round = 0; round < scaled(40); ++round) {
+    const Instance instance = random_full_board(random);
+    const auto answer = support::joint_search(instance, Objective::sum_of_costs);
+    if (answer.status != Status::optimal) continue;
+    LimitMonitor limits{Limits{}};
+    BeamSearch search(instance, distances_of(instance), static_cast<std::uint32_t>(round));
+    while (!search.is_over())
+      search.advance(1 + static_cast<std::int64_t>(random.below(100'000)), limits);
+    if (!search.plan()) continue;
+    ++num_found;
+    ASSERT_TRUE(verify(instance, *search.plan()).valid()) << instance_text(instance);
+    const Cost cost = search.plan()->cost(Objective::sum_of_costs);
+    ASSERT_GE(cost, answer.cost);
+    optimal += answer.cost;
+    found += cost;
+  }
+  EXPECT_GE(num_found, scaled(20));
+  EXPECT_LE(10 * found, 13 * optimal);
+}
+
+TEST(BeamSearch, TheSamePlanInSlicesOfAnySize) {
+  const Instance instance = crowd(5, 24, 2);
+  const auto found = [&](std::int64_t slice) {
+    LimitMonitor limits{Limits{}};
+    BeamSearch search(instance, distances_of(instance), 0);
+    while (!search.is_over()) search.advance(slice, limits);
+    return search.plan();
+  };
+  const auto whole = found(kNoEnd);
+  ASSERT_TRUE(whole.has_value());
+  EXPECT_EQ(found(1), whole);
+  EXPECT_EQ(found(10'000), whole);
 }
 
 }  // namespace

@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "discrete/primal/primal_support.hpp"
-#include "primal/shortcuts.hpp"
+#include "primal/time_windows.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "quadrille/pebbles/exchange.hpp"
 #include "quadrille/pebbles/shorten.hpp"
 #include "settle/local_graph.hpp"
+#include "settle/shift_paths.hpp"
 #include "support/environment.hpp"
 #include "support/joint_search.hpp"
 
@@ -227,31 +228,100 @@ TEST(Shorten, AsEarlyAsTheOrderAtEachVertexAllows) {
   EXPECT_EQ(earliest_times(turned, 3, 6), (std::vector<Timestep>{1, 2, 3, 3, 3}));
 }
 
-TEST(Shortcuts, MakeALongPlanShorterAndKeepItValid) {
-  const Instance instance = crowd(12, 141, 1);
-  const Plan plan = settled(instance).value();
-  const auto shortened = [&](std::int64_t slice) {
-    LimitMonitor limits{Limits{}};
-    Shortcuts shortcuts(instance, plan, 0);
-    while (!shortcuts.is_over() && shortcuts.effort() < 4'000'000) {
-      shortcuts.advance(slice, limits);
-      EXPECT_EQ(replay(instance, shortcuts.plan()), "");
+TEST(Shorten, TightenedPlansAreNeverDearer) {
+  support::Random random(9);
+  std::size_t num_cheaper = 0;
+  for (std::size_t round = 0; round < scaled(300); ++round) {
+    const Instance instance = support::random_grid(random, {2, 6, 30, 2, 30});
+    const auto plan = settled(instance);
+    if (!plan) continue;
+    // Slower: everybody stays for a timestep after each move, now and then.
+    Plan slow;
+    slow.paths.resize(plan->paths.size());
+    const Cost makespan = plan->cost(Objective::makespan);
+    for (Timestep t = 0; t <= makespan; ++t) {
+      const std::uint64_t times = 1 + random.below(2);
+      for (std::uint64_t k = 0; k < times; ++k)
+        for (const AgentId i : instance.agent_ids())
+          slow.paths[i].push_back(position(plan->paths[i], t));
     }
-    return shortcuts.plan();
-  };
-  const Plan shorter = shortened(200'000);
-  EXPECT_LT(shorter.cost(Objective::sum_of_costs), plan.cost(Objective::sum_of_costs));
-  EXPECT_LE(shorter.cost(Objective::makespan), plan.cost(Objective::makespan));
-  EXPECT_EQ(shorter, shortened(200'000));
+    trim(slow);
+    LimitMonitor limits{Limits{}};
+    const Plan tight = tightened(instance, slow, limits).value();
+    ASSERT_EQ(replay(instance, tight), "") << instance_text(instance);
+    ASSERT_LE(tight.cost(Objective::sum_of_costs), plan->cost(Objective::sum_of_costs));
+    ASSERT_LE(tight.cost(Objective::makespan), plan->cost(Objective::makespan));
+    num_cheaper += tight.cost(Objective::sum_of_costs) < slow.cost(Objective::sum_of_costs) ? 1 : 0;
+  }
+  EXPECT_GE(num_cheaper, scaled(50));
+  Limits none;
+  none.memory_mib = 0;
+  LimitMonitor limits(none);
+  const Instance instance = crowd(12, 130, 1);
+  EXPECT_EQ(tightened(instance, settled(instance).value(), limits), std::nullopt);
 }
 
-TEST(Shortcuts, LeaveAShortPlanAlone) {
-  const Instance instance = crowd(4, 8, 1);
+TEST(Board, ATimestepIsMadeByShifts) {
+  // A row of three into a free vertex, a rotation of four, and one who stays.
+  const std::vector<Local> starts{0, 1, 2, 4, 5, 6, 7, 8}, to{1, 2, 3, 5, 6, 7, 4, 8};
+  Board board(9, starts);
+  board.step(to);
+  for (Local agent = 0; agent < to.size(); ++agent) EXPECT_EQ(board.vertex_of(agent), to[agent]);
+  EXPECT_EQ(board.shifts().size(), 7U);
+  EXPECT_EQ(earliest_times(board.shifts(), 8, 9), (std::vector<Timestep>(7, 1)));
+  EXPECT_TRUE(board.is_free(0));
+}
+
+TEST(TimeWindows, MakeALongPlanShorterAndKeepItValid) {
+  std::size_t num_cheaper = 0;
+  for (std::uint64_t seed = 0; seed < scaled(8); ++seed) {
+    const Instance instance = crowd(10, 80 + seed % 20, seed);
+    const Plan plan = settled(instance).value();
+    const auto shortened = [&](std::int64_t slice) {
+      LimitMonitor limits{Limits{}};
+      TimeWindows windows(instance, plan, 0);
+      Cost before = plan.cost(Objective::sum_of_costs);
+      while (!windows.is_over()) {
+        windows.advance(slice, limits);
+        EXPECT_EQ(replay(instance, windows.plan()), "");
+        EXPECT_EQ(windows.plan().cost(Objective::sum_of_costs), windows.cost());
+        EXPECT_LE(windows.cost(), before);
+        before = windows.cost();
+      }
+      return windows.plan();
+    };
+    const Plan shorter = shortened(20'000);
+    num_cheaper +=
+        shorter.cost(Objective::sum_of_costs) < plan.cost(Objective::sum_of_costs) ? 1U : 0U;
+    EXPECT_EQ(shorter, shortened(20'000));
+  }
+  // Open boards leave little to gain.
+  EXPECT_GE(num_cheaper, 1U);
+}
+
+TEST(TimeWindows, LeaveAPlanWithoutMovesAlone) {
+  const Instance instance = crowd(3, 0, 1);
   const Plan plan = settled(instance).value();
-  LimitMonitor limits{Limits{}};
-  Shortcuts shortcuts(instance, plan, 0);
-  EXPECT_TRUE(shortcuts.is_over());
-  EXPECT_EQ(shortcuts.plan(), plan);
+  TimeWindows windows(instance, plan, 0);
+  EXPECT_TRUE(windows.is_over());
+  EXPECT_EQ(windows.plan(), plan);
+}
+
+TEST(TimeWindows, StopAtEachLookAtTheLimits) {
+  const Instance instance = crowd(7, 45, 3);
+  const Plan plan = settled(instance).value();
+  for (std::int64_t looks = 1; looks < 40; ++looks) {
+    Limits few;
+    few.looks = looks;
+    LimitMonitor limits(few);
+    TimeWindows windows(instance, plan, 0);
+    windows.advance(kNoEnd, limits);
+    ASSERT_EQ(replay(instance, windows.plan()), "") << looks;
+    ASSERT_LE(windows.cost(), plan.cost(Objective::sum_of_costs)) << looks;
+    LimitMonitor none{Limits{}};
+    windows.advance(kNoEnd, none);
+    ASSERT_TRUE(windows.is_over()) << looks;
+  }
 }
 
 }  // namespace

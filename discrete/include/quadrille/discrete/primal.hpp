@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
@@ -27,7 +28,10 @@ namespace quadrille::discrete {
 /// 2023; Okumura et al., "Priority inheritance with backtracking", AIJ 2022), guided by paths that
 /// avoid each other (Han and Yu, ICRA 2022), with restarts. Where that does not end soon, agents
 /// are settled one after the other, which finds a plan in polynomial time if there is one
-/// (docs/complete.md). Memory grows by about 12 bytes per agent and configuration visited.
+/// (docs/complete.md). Where at least three in four vertices are taken all begins with that, or on
+/// small boards with a beam search; and a plan that costs more than twice what the agents cost
+/// alone is made cheaper in windows of time before the search is over. Memory grows by about 12
+/// bytes per agent and configuration visited.
 class PrimalSearch {
  public:
   enum class State {
@@ -50,14 +54,20 @@ class PrimalSearch {
   /// Searches on until `effort` more is spent, a limit is met or the search is over.
   State advance(std::int64_t effort, LimitMonitor& limits);
   [[nodiscard]] State state() const noexcept;
-  [[nodiscard]] bool is_over() const noexcept;         ///< `advance` does nothing any more.
-  [[nodiscard]] bool is_at_guides() const noexcept;    ///< The guided searches are not done.
+  [[nodiscard]] bool is_over() const noexcept;       ///< `advance` does nothing any more.
+  [[nodiscard]] bool is_at_guides() const noexcept;  ///< The guided searches are not done.
+  /// Agents are being settled, which ends with a plan, or a plan is made cheaper that costs more
+  /// than twice what the agents cost alone: no bound is worth as much.
+  [[nodiscard]] bool is_worth_waiting_for() const noexcept;
   [[nodiscard]] std::int64_t effort() const noexcept;  ///< Spent so far.
   /// In the end, without a plan: the configurations that can be reached, all of which were visited;
   /// 0 before, and where some goal cannot be reached.
   [[nodiscard]] std::size_t num_configurations() const noexcept;
   /// The cheapest so far, trimmed. Requires State::found. O(size of the plan).
   [[nodiscard]] Plan plan() const;
+  [[nodiscard]] Cost cost() const;  ///< Its sum of costs. Requires State::found.
+  /// What found the first plan: "beam search", "lacam" or "settling"; empty before.
+  [[nodiscard]] std::string_view origin() const noexcept;
 
  private:
   class Impl;

@@ -68,6 +68,10 @@ class Board {
   void move_from(Local from, Local to) { move(agent_at_[from], to); }
   /// All at once go on to the next vertex of a cycle. Requires that none of its vertices is free.
   void rotate(std::span<const Local> cycle);
+  /// A timestep of a plan, as shifts one after the other: all agents go to `to` (by agent) at once,
+  /// or stay. Requires that these are neighbours, all different, and that no two change places.
+  /// O(agents).
+  void step(std::span<const Local> to);
 
   [[nodiscard]] const std::vector<Shift>& shifts() const noexcept { return shifts_; }
   /// Takes back what came after the first `count` shifts.

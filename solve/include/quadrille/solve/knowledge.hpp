@@ -7,6 +7,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,7 +47,7 @@ struct Knowledge : Facts {
     return true;
   }
   /// Says where the plan came from if it is the first one.
-  void credit(const char* source) {
+  void credit(std::string_view source) {
     if (plan && statistics.first_plan.empty()) statistics.first_plan = source;
   }
   void drop_plan() noexcept {
@@ -98,8 +99,9 @@ template <class Plan>
     if (all[w].cost && (!all[best].cost || *all[w].cost < *all[best].cost)) best = w;
   }
   Knowledge<Plan> answer = std::move(all[winner.value_or(best)]);
+  const std::string own = answer.statistics.first_plan;
   if (!winner || answer.statistics.sat_calls == 0) answer.statistics = first;
-  if (!first.first_plan.empty()) answer.statistics.first_plan = first.first_plan;
+  answer.statistics.first_plan = first.first_plan.empty() ? own : first.first_plan;
   if (winner) return answer;
   if (floor > 0) answer.prove(floor);
   answer.raised = raised;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/pibt.hpp"
+#include "pibt/pibt.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -7,7 +7,7 @@
 namespace quadrille::discrete {
 
 Pibt::Pibt(const Instance& instance, const GoalDistances& distances, Random& random,
-           const Guide* guide)
+           const Guidance* guide)
     : instance_(instance),
       graph_(instance.graph()),
       distances_(distances),
@@ -18,13 +18,15 @@ Pibt::Pibt(const Instance& instance, const GoalDistances& distances, Random& ran
       claimer_(graph_.num_vertices(), kNobody) {}
 
 bool Pibt::advance(std::span<const VertexId> from, std::span<const AgentId> priority,
-                   std::span<const Order> orders, std::vector<VertexId>& to) {
+                   std::span<const Order> orders, std::vector<VertexId>& to,
+                   std::size_t num_choosing) {
   from_ = from;
   to_ = &to;
   to.assign(from.begin(), from.end());
   for (const AgentId agent : priority) occupant_[from[agent.index()]] = agent.value();
   bool complete = obey(orders);
-  for (std::size_t k = 0; complete && k < priority.size(); ++k)
+  num_choosing = std::min(num_choosing, priority.size());
+  for (std::size_t k = 0; complete && k < num_choosing; ++k)
     complete = decided_[priority[k].index()] != 0 || place(priority[k]);
   reset();
   return complete;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "primal/guide.hpp"
+#include "pibt/guidance.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
@@ -26,13 +26,15 @@ class Pibt {
   /// All outlive this object. `guide` may be null. An agent on its guide's path would like to
   /// follow it most of all; one off it is drawn to the goal by the distances.
   Pibt(const Instance& instance, const GoalDistances& distances, Random& random,
-       const Guide* guide = nullptr);
+       const Guidance* guide = nullptr);
 
   /// Makes `to` a configuration that can follow `from` and obeys the orders; earlier agents in
   /// `priority` choose first. False if it found none, which with orders for all agents means that
-  /// they contradict each other. O(agents * degree) as a rule.
+  /// they contradict each other. `num_choosing`: all in `priority` after the first so many stay
+  /// unless they are pushed. O(agents * degree) as a rule.
   bool advance(std::span<const VertexId> from, std::span<const AgentId> priority,
-               std::span<const Order> orders, std::vector<VertexId>& to);
+               std::span<const Order> orders, std::vector<VertexId>& to,
+               std::size_t num_choosing = SIZE_MAX);
 
  private:
   static constexpr std::uint32_t kNobody = UINT32_MAX;
@@ -69,7 +71,7 @@ class Pibt {
   const Graph& graph_;
   const GoalDistances& distances_;
   Random& random_;
-  const Guide* const guide_;
+  const Guidance* const guide_;
   std::span<const VertexId> from_;
   std::vector<VertexId>* to_ = nullptr;
   std::vector<char> decided_;                             // By agent.
