@@ -83,8 +83,9 @@ TEST_F(KnownPlanAudit, TheFirstWrongClauseIsNamed) {
   auditor.on_learned(std::vector<Lit>{wrong, other});
   const auto first = auditor.complaint();
   ASSERT_TRUE(first);
-  EXPECT_THAT(*first, HasSubstr("(learned): " + std::to_string(wrong.dimacs()) + " " +
-                                std::to_string(other.dimacs())));
+  EXPECT_THAT(*first,
+              HasSubstr("a learned clause excludes the known plan: " +
+                        std::to_string(wrong.dimacs()) + " " + std::to_string(other.dimacs())));
   auditor.on_learned(std::vector<Lit>{other});
   EXPECT_EQ(auditor.complaint(), first);
 }
