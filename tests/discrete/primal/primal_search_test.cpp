@@ -59,7 +59,7 @@ TEST(PrimalSearch, FindsAPlanIfAndOnlyIfThereIsOne) {
 // Boards of up to 97 % agents, thousands of them, each within a few megasteps.
 TEST(PrimalSearch, FindsPlansForCrowds) {
   std::size_t num_without = 0;
-  const std::size_t rounds = scaled(1500);
+  const std::size_t rounds = scaled(400);
   for (std::size_t round = 0; round < rounds; ++round) {
     const auto side = static_cast<std::int32_t>(4 + round % 13);
     const auto cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
