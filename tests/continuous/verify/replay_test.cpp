@@ -155,8 +155,8 @@ TEST(Replay, FindsWhatPairsFind) {
       if (testing::Test::HasFailure()) return;
     }
   }
-  EXPECT_GT(seen.collisions, 300U);
-  EXPECT_GT(seen.obstacles, 30U);
+  EXPECT_GT(seen.collisions, support::scaled(300));
+  EXPECT_GT(seen.obstacles, support::scaled(20));
   EXPECT_LT(seen.split, seen.collisions / 4);
 }
 
