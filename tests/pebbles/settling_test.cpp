@@ -144,12 +144,12 @@ TEST(LocalGraph, FindsItsBlocks) {
   // A triangle, a bridge, and a square.
   const Neighbours graph{{1, 2}, {0, 2}, {0, 1, 3}, {2, 4, 6}, {3, 5}, {4, 6}, {5, 3}};
   const LocalGraph local(graph);
-  for (const Local v : {0, 1, 2}) EXPECT_EQ(local.block(v), 0u);
-  for (const Local v : {3, 4, 5, 6}) EXPECT_EQ(local.block(v), 3u);
+  for (const Local v : {0U, 1U, 2U}) EXPECT_EQ(local.block(v), 0u);
+  for (const Local v : {3U, 4U, 5U, 6U}) EXPECT_EQ(local.block(v), 3u);
   EXPECT_TRUE(local.is_bridge(2, 3));
   EXPECT_FALSE(local.is_bridge(3, 6));
   const LocalGraph tree(Neighbours{{1}, {0, 2}, {1}});
-  for (const Local v : {0, 1, 2}) EXPECT_FALSE(tree.on_cycle(v));
+  for (const Local v : {0U, 1U, 2U}) EXPECT_FALSE(tree.on_cycle(v));
 }
 
 }  // namespace
