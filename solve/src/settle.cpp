@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/solve/settle.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace quadrille::solve {
@@ -9,10 +8,11 @@ namespace {
 
 /// Whether not all can be true together.
 bool contradict(const Facts& facts) noexcept {
-  const Cost least = std::max(facts.claimed, facts.lower());
-  return facts.infeasible
-             ? facts.given || facts.cost
-             : (facts.cost && *facts.cost < least) || (facts.given && *facts.given < least);
+  if (facts.infeasible) return facts.given || facts.cost;
+  const auto is_too_cheap = [&](const std::optional<Cost>& cost) {
+    return cost && *cost < facts.lower();  // which is no less than what is claimed
+  };
+  return is_too_cheap(facts.cost) || is_too_cheap(facts.given);
 }
 
 /// What it is that cannot.
@@ -49,7 +49,7 @@ std::optional<Error> refuse_bound(Cost claimed, Cost cost) {
 
 Settlement settle(Facts facts, std::optional<double> wanted_gap) {
   Settlement settled;
-  if (!facts.error && contradict(facts)) facts.error = find_contradiction(facts);
+  if (!facts.error) facts.error = find_contradiction(facts);
   if (facts.error) {
     settled.stop = facts.stop;
     settled.explanation = facts.error->message;

@@ -279,7 +279,8 @@ class Replay {
     if (near.gap >= 1 || !bodies.interiors_meet(exact_step(p, q, begin, end))) return;
     const bool goes_on = bodies.interiors_meet(exact_step(p, q, end, end));
     std::vector<Collision>& all = collisions_[pair];
-    if (all.empty() || !all.back().goes_on || all.back().end != begin) {
+    // What goes on at its end goes on in the next stretches of the two.
+    if (all.empty() || !all.back().goes_on) {
       all.push_back({p, q, begin, end, here, goes_on});
       return;
     }
