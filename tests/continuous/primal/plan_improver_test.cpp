@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "continuous/routes/order_search.hpp"
+#include "continuous/support/few_looks.hpp"
 #include "continuous/support/random_instance.hpp"
 #include "quadrille/continuous/verify.hpp"
 
@@ -113,23 +114,13 @@ TEST(PlanImprover, KeepsAValidPlanWhereverItIsCut) {
   const Instance instance = instances_with_plans(1).front();
   const Plan plan = search_orders(instance, Objective::sum_of_costs, 3).some_plans.back();
   int num_cut = 0;
-  for (std::int64_t looks = 1; looks < 200; looks += 3) {
-    Limits limit;
-    limit.looks = looks;
-    LimitMonitor limits(limit);
-    std::optional<Scene> scene;
-    try {
-      scene.emplace(instance, limits);
-    } catch (const LimitReached&) {
-      continue;
-    }
-    if (!scene->is_complete()) continue;
-    PlanImprover improver(*scene, plan);
+  at_each_look(instance, 200, 3, [&](Scene& scene, LimitMonitor& limits) {
+    PlanImprover improver(scene, plan);
     while (improver.pays() && !limits.exhausted()) static_cast<void>(improver.improve(100'000));
     ASSERT_TRUE(verify(instance, improver.plan()).valid());
     ASSERT_LE(improver.cost(), cost(plan, Objective::sum_of_costs));
     ++num_cut;
-  }
+  });
   EXPECT_GE(num_cut, 40);
 }
 

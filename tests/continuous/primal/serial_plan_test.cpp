@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "continuous/support/few_looks.hpp"
 #include "continuous/support/meeting.hpp"
 #include "continuous/support/random_instance.hpp"
 #include "primal/first_plan.hpp"
@@ -441,24 +442,14 @@ TEST(SerialPlan, IsTheFirstPlanOfACrowdedTree) {
 TEST(SerialPlan, StopsAtEachLookAtTheLimits) {
   const Instance instance = caterpillar(5, 3);
   std::size_t cut = 0;
-  for (std::int64_t looks = 1; looks < 400; looks += 7) {
-    Limits few;
-    few.looks = looks;
-    LimitMonitor limits(few);
-    std::optional<Scene> scene;
-    try {
-      scene.emplace(instance, limits);
-    } catch (const LimitReached&) {
-      continue;
-    }
-    if (!scene->is_complete()) continue;
-    for (const auto& plan : {settle_agents(*scene), search_serial_plan(*scene, kEffort)}) {
+  at_each_look(instance, 400, 7, [&](Scene& scene, LimitMonitor&) {
+    for (const auto& plan : {settle_agents(scene), search_serial_plan(scene, kEffort)}) {
       if (plan) {
         ASSERT_TRUE(verify(instance, *plan).valid());
       }
       cut += plan ? 0 : 1;
     }
-  }
+  });
   EXPECT_GE(cut, std::size_t{10});
 }
 
