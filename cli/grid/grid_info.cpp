@@ -105,7 +105,7 @@ std::string describe_distances(const Instance& instance) {
   Cost sum = 0, largest = 0;
   std::size_t unreachable = 0;
   for (const discrete::Agent& task : instance.agents()) {
-    const Timestep distance = distances_from(instance.graph(), task.goal)[task.start];
+    const Timestep distance = distances_to_nearest(instance.graph(), task.goals)[task.start];
     if (distance == kUnreachable) {
       ++unreachable;
       continue;
@@ -157,8 +157,9 @@ ExitCode print_grid_info(const InputOptions& options) {
   console.print(describe_shape(shape_of(instance.graph())));
   console.print(describe_distances(instance));
   const discrete::Feasibility verdict = check_feasibility(instance);
-  console.print(verdict.feasible ? "feasible   yes, some plan exists\n"
-                                 : fmt::format("feasible   no: {}\n", verdict.reason));
+  console.print(!verdict.is_decided ? "feasible   not known: too many choices of goals\n"
+                : verdict.feasible  ? "feasible   yes, some plan exists\n"
+                                    : fmt::format("feasible   no: {}\n", verdict.reason));
   return finish(console);
 }
 

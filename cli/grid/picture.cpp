@@ -29,7 +29,7 @@ constexpr std::size_t kMaxFrameAgents = 26;
 constexpr std::size_t kMaxFrameLines = 40;
 
 /// The grid at one timestep, row by row: # blocked, . free, agent i the i-th letter, a capital at
-/// its goal.
+/// one of its goals.
 std::vector<std::string> frame(const Instance& instance, const GridLayout& layout, const Plan& plan,
                                Timestep t) {
   const auto columns = static_cast<std::size_t>(layout.width());
@@ -42,7 +42,7 @@ std::vector<std::string> frame(const Instance& instance, const GridLayout& layou
   for (const VertexId v : IdRange<VertexId>(layout.num_vertices())) at(v) = '.';
   for (const AgentId i : instance.agent_ids()) {
     const VertexId v = position(plan.paths[i], t);
-    const char first = v == instance.agents()[i].goal ? 'A' : 'a';
+    const char first = instance.agents()[i].goals.contains(v) ? 'A' : 'a';
     at(v) = static_cast<char>(first + static_cast<char>(i.index()));
   }
   return rows;
@@ -116,7 +116,7 @@ std::string draw_plan(const Instance& instance, const Plan& plan) {
                        : fmt::format("{} {}", static_cast<char>('a' + static_cast<char>(i.index())),
                                      i.value());
     text += fmt::format("{:>5}  {:<10}{:<10}{:>4}  {}\n", name, vertex_name(graph, task.start),
-                        vertex_name(graph, task.goal), arrival(plan.paths[i]),
+                        vertex_name(graph, plan.paths[i].back()), arrival(plan.paths[i]),
                         moves(graph, plan.paths[i]));
   }
   if (graph.layout()) text += "(U up, D down, L left, R right, . wait)\n";

@@ -115,7 +115,8 @@ std::string draw_obstruction(const Instance& instance, const discrete::Feasibili
   for (std::size_t k = 0; k < std::min<std::size_t>(26, feasibility.agents.size()); ++k) {
     const auto& agent = instance.agents()[feasibility.agents[k]];
     sheet.at(agent.start) = static_cast<char>('a' + k);
-    sheet.mark_free(agent.goal, static_cast<char>('A' + k));
+    for (const VertexId goal : agent.goals.vertices())
+      sheet.mark_free(goal, static_cast<char>('A' + k));
   }
   for (const VertexId v : feasibility.vertices) sheet.mark_free(v, '*');
   std::string names;

@@ -189,6 +189,9 @@ ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments, InputWatch& 
     report_error(input.error());
     return ExitCode::bad_input;
   }
+  // Not bad input: another system takes it.
+  if (input->instance.has_goal_sets() && arguments.options.system != System::dpll)
+    return usage_error(app, "some agents have several goals, which needs --system dpll");
   return solve_and_deliver(GridSolve(arguments, *input, used), arguments);
 }
 

@@ -42,7 +42,7 @@ Vocabulary::Rung& Vocabulary::rung(AgentId agent, Cost cost, FormulaWriter& writ
   QUADRILLE_REQUIRE(cost > free_cost(agent), "nobody costs less than its free cost");
   const Lit fresh = writer.new_lit();
   const Lit made = costs_are_ == Costs::positive ? fresh : ~fresh;
-  remember(made, {VariableKind::cost, agent, cost, ObstacleId(), 0});
+  remember(made, {VariableKind::cost, agent, cost, ObstacleId(), 0, {}});
   const auto index = static_cast<std::size_t>(at - ladder.begin());
   ladder.insert(at, {cost, made, false});
   const auto order = [&](Lit stronger, Lit weaker) {
@@ -58,15 +58,27 @@ Vocabulary::Rung& Vocabulary::rung(AgentId agent, Cost cost, FormulaWriter& writ
   return ladder[index];
 }
 
+Lit Vocabulary::rests(const Rest& rest, FormulaWriter& writer) {
+  const auto key = std::make_tuple(rest.resident, rest.goal, rest.cost);
+  if (const auto known = rests_.find(key); known != rests_.end()) return known->second;
+  const Lit costs_more = at_least(rest.resident, rest.cost, writer);
+  const Lit made = writer.new_lit();
+  remember(made, {VariableKind::rest, rest.resident, rest.cost, ObstacleId(), 0, rest.goal});
+  rests_.emplace(key, made);
+  const Lit clause[] = {~rest.may_end, costs_more, made};
+  writer.add({sat::why::Rest{rest.resident}, clause, {}, false});
+  return made;
+}
+
 Lit Vocabulary::new_usage(AgentId agent, ObstacleId obstacle, FormulaWriter& writer) {
   const Lit allowed = ~writer.new_lit();
-  remember(allowed, {VariableKind::usage, agent, 0, obstacle, 0});
+  remember(allowed, {VariableKind::usage, agent, 0, obstacle, 0, {}});
   return allowed;
 }
 
 Lit Vocabulary::new_own(AgentId agent, std::uint32_t own, FormulaWriter& writer) {
   const Lit made = writer.new_lit();
-  remember(made, {VariableKind::own, agent, 0, ObstacleId(), own});
+  remember(made, {VariableKind::own, agent, 0, ObstacleId(), own, {}});
   return made;
 }
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import doubles, ints, listed, per_agent
+from ._arrays import Shape, doubles, ints, listed, per_agent
 from ._errors import InputError
 from .graphs import Graph, Grid, Roadmap
 from .naming import file_names
@@ -28,12 +28,15 @@ P = TypeVar("P", bound=Plan)
 
 
 class Fleet(Generic[P]):
-    """Agents on a grid, a graph or a roadmap, each with a start and a goal where it stays at the end.
+    """Agents on a grid, a graph or a roadmap, each with a start and a goal where it stays at the end, or
+    several goals, of which it may choose any one.
 
     Args:
         graph: ``Grid``, ``Graph`` or ``Roadmap``.
         starts, goals: On a grid int[n, 2], cells (x, y). Otherwise int[n], vertices, or their names
-            if the roadmap has names. On roadmaps a start may also be an ``Underway``.
+            if the roadmap has names. On roadmaps a start may also be an ``Underway``. On grids and
+            graphs an agent may have several goals: then ``goals`` has n entries, each a place or a
+            list of places, int[k, 2] or int[k]. No two agents end at the same one.
         radius: On roadmaps: radius of the agents' discs in your unit of length, a number or
             float[n]; rounded up to a length unit, so that no body is smaller than given. Every
             agent on a roadmap needs a radius or a polygon: there is no default.
@@ -72,7 +75,7 @@ class Fleet(Generic[P]):
         self: Fleet[StepPlan],
         graph: Union[Grid, Graph],
         starts: npt.ArrayLike,
-        goals: npt.ArrayLike,
+        goals: Any,
         *,
         names: Optional[Sequence[str]] = None,
     ) -> None: ...
@@ -146,9 +149,10 @@ class Fleet(Generic[P]):
                 if value is not None:
                     raise ValueError(f"{name} is for roadmaps")
             shape = (None, 2) if isinstance(graph, Grid) else (None,)
-            begin, end = ints(starts, "starts", shape), ints(goals, "goals", shape)
-            _check_lengths(len(begin), len(end))
-            instance = _core.StepInstance(graph._graph, begin, end, called)
+            begin = ints(starts, "starts", shape)
+            end, num_goals = _goal_sets(goals, shape)
+            _check_lengths(len(begin), len(num_goals))
+            instance = _core.StepInstance(graph._graph, begin, end, num_goals, called)
         self._setup(graph, instance, names)
 
     def _setup(
@@ -206,8 +210,21 @@ class Fleet(Generic[P]):
 
     @property
     def goals(self) -> npt.NDArray[np.int32]:
-        """As ``starts``."""
+        """As ``starts``.
+
+        Raises:
+            ValueError: where some agent has several: see ``goal_sets``.
+        """
+        if isinstance(self._instance, _core.StepInstance) and self._instance.has_goal_sets():
+            raise ValueError("some agents have several goals: goal_sets has them")
         return self._instance.goals()
+
+    @property
+    def goal_sets(self) -> list[npt.NDArray[np.int32]]:
+        """Per agent, all its goals, as ``starts``."""
+        if isinstance(self._instance, _core.StepInstance):
+            return self._instance.goal_sets()
+        return [goal.reshape(1) for goal in self._instance.goals()]
 
     @property
     def bodies(self) -> list[Union[float, npt.NDArray[np.float64]]]:
@@ -368,6 +385,20 @@ def _starts(
         under_way.append((agent, source, target, float(place.fraction)))
         places[agent] = place.source
     return graph._vertices(places, "starts"), under_way
+
+
+def _goal_sets(goals: Any, shape: Shape) -> tuple[npt.NDArray[np.int64], list[int]]:
+    """All goals in a row, and how many each agent has. ``shape``: of an array of places."""
+    dimensions = len(shape)
+    entries: Any = goals if isinstance(goals, (np.ndarray, list, tuple)) else ()
+    if not any(np.ndim(entry) == dimensions for entry in entries):
+        plain = ints(goals, "goals", shape)
+        return plain, [1] * len(plain)
+    sets = [
+        ints(entry if np.ndim(entry) == dimensions else [entry], f"goals[{agent}]", shape)
+        for agent, entry in enumerate(entries)
+    ]
+    return np.ascontiguousarray(np.concatenate(sets)), [len(one) for one in sets]
 
 
 def _check_lengths(starts: int, goals: int) -> None:

@@ -120,33 +120,46 @@ py::array places(const Graph& graph, std::size_t n, const VertexOf& vertex) {
   return frozen(array);
 }
 
-/// As Instance::make says it, with names.
-void refuse_shared(const Graph& graph, const std::vector<discrete::Agent>& agents,
-                   VertexId discrete::Agent::*end, const std::string& what,
+/// As Instance::make says it, with names. `ends`: where each agent begins, or the sets of goals.
+void refuse_shared(const Graph& graph, const std::vector<Goals>& ends, const std::string& what,
                    const std::vector<std::string>& names) {
   std::map<VertexId, std::size_t> owner;
-  for (std::size_t i = 0; i < agents.size(); ++i)
-    if (const auto [at, is_new] = owner.try_emplace(agents[i].*end, i); !is_new)
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (!ends[i].is_single()) continue;
+    if (const auto [at, is_new] = owner.try_emplace(ends[i].only(), i); !is_new)
       raise({ErrorCode::invalid_instance,
              names[at->second] + " and " + names[i] + " have the same " + what + " " +
-                 vertex_name(graph, agents[i].*end),
+                 vertex_name(graph, ends[i].only()),
              {}});
+  }
 }
 
+/// `goals`: those of the first agent, then those of the next one; `num_goals`: how many each has.
 /// `names`: what agents are called in messages, or none.
 Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, const Ints& goals,
+                     const std::vector<std::size_t>& num_goals,
                      const std::vector<std::string>& names) {
   std::vector<discrete::Agent> agents;
   const std::size_t size = place_size(*graph);
+  const std::int64_t* goal = goals.data();
   for (std::size_t i = 0; i < static_cast<std::size_t>(starts.shape(0)); ++i) {
     const std::string agent = i < names.size() ? names[i] : "agent " + std::to_string(i);
-    agents.push_back({vertex_of(*graph, starts.data() + size * i, agent + ": start"),
-                      vertex_of(*graph, goals.data() + size * i, agent + ": goal")});
+    const VertexId start = vertex_of(*graph, starts.data() + size * i, agent + ": start");
+    std::vector<VertexId> set;
+    for (std::size_t k = 0; k < num_goals[i]; ++k, goal += size)
+      set.push_back(vertex_of(*graph, goal, agent + ": goal"));
+    if (set.empty()) refuse(agent + " has no goal");
+    agents.push_back({start, Goals(std::move(set))});
   }
   auto instance = Instance::make(graph, agents);
   if (!instance && names.size() == agents.size()) {
-    refuse_shared(*graph, agents, &discrete::Agent::start, "start", names);
-    refuse_shared(*graph, agents, &discrete::Agent::goal, "goal", names);
+    std::vector<Goals> begins, ends;
+    for (const discrete::Agent& agent : agents) {
+      begins.emplace_back(agent.start);
+      ends.push_back(agent.goals);
+    }
+    refuse_shared(*graph, begins, "start", names);
+    refuse_shared(*graph, ends, "goal", names);
   }
   return take(std::move(instance));
 }
@@ -304,8 +317,19 @@ void bind_steps(py::module_& module) {
       .def("goals",
            [](const Instance& instance) {
              return places(instance.graph(), instance.num_agents(),
-                           [&](std::size_t i) { return instance.agents()[AgentId(i)].goal; });
+                           [&](std::size_t i) { return instance.agents()[AgentId(i)].goal(); });
            })
+      .def("goal_sets",
+           [](const Instance& instance) {
+             py::list sets;
+             for (const discrete::Agent& agent : instance.agents()) {
+               const auto goals = agent.goals.vertices();
+               sets.append(
+                   places(instance.graph(), goals.size(), [&](std::size_t k) { return goals[k]; }));
+             }
+             return sets;
+           })
+      .def("has_goal_sets", &Instance::has_goal_sets)
       .def("plan", [](const Instance& instance,
                       const Ints& paths) { return plan_of(instance.graph(), paths); })
       .def("solve", &solve_steps)

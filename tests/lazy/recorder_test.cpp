@@ -21,8 +21,8 @@ class Words final : public Vocabulary {
   Words() : Vocabulary(kNumAgents, Costs::positive) {}
   [[nodiscard]] Cost free_cost(AgentId /*agent*/) const override { return 0; }
   void keep_off(AgentId agent, AgentId resident, FormulaWriter& writer) {
-    static_cast<void>(
-        goal_obstacle(agent, resident, 5, writer, [](Lit) { return ObstacleId(std::size_t{9}); }));
+    static_cast<void>(goal_obstacle(agent, {resident, VertexId(3), 5}, writer,
+                                    [](Lit) { return ObstacleId(std::size_t{9}); }));
   }
 };
 

@@ -43,6 +43,26 @@ def test_graphs_have_vertices_instead_of_cells():
         result.plan.sample(2)
 
 
+def test_goals_to_choose_from():
+    # Agent 0 takes the one that agent 1, who has no other one, leaves.
+    grid = q.Grid([[True, True, True, True]])
+    fleet = q.Fleet(grid, [(1, 0), (3, 0)], [[(0, 0), (2, 0)], (2, 0)])
+    result = q.solve(fleet)
+    assert (result.status, result.cost) == ("optimal", 2)
+    assert result.plan.paths[:, -1].tolist() == [[0, 0], [2, 0]]
+    assert [goals.tolist() for goals in fleet.goal_sets] == [[[0, 0], [2, 0]], [[2, 0]]]
+    with pytest.raises(ValueError, match="goal_sets"):
+        fleet.goals
+    again = q.Fleet(grid, fleet.starts, fleet.goal_sets)
+    assert q.solve(again).cost == 2
+    line = q.Graph(3, [(0, 1), (1, 2)])
+    assert q.solve(q.Fleet(line, [0, 1], [[1, 2], [1, 2]])).cost == 2
+    assert q.solve(q.Fleet(line, [0, 1, 2], [[0, 1], [0, 1], [0, 1]])).status == "infeasible"
+    for goals, error in [([[], [1]], q.InputError), ([[1, 2]], ValueError), ([[1, 7], [0]], q.InputError)]:
+        with pytest.raises(error):
+            q.Fleet(line, [0, 1], goals)
+
+
 def test_no_agents():
     empty = q.Fleet(q.Grid(np.ones((2, 2))), [], [])
     result = q.solve(empty)

@@ -31,7 +31,7 @@ struct Grids {
   }
   static Cost free_cost(const Instance& instance, AgentId i) {
     const discrete::Agent& task = instance.agents()[i];
-    return discrete::distances_from(instance.graph(), task.goal)[task.start];
+    return discrete::distances_from(instance.graph(), task.goal())[task.start];
   }
 };
 

@@ -24,12 +24,14 @@ std::string picture(const Instance& instance) {
   auto starts = map_rows(layout), goals = starts;
   for (const AgentId i : instance.agent_ids()) {
     const Cell from = layout.cell_of(instance.agents()[i].start);
-    const Cell to = layout.cell_of(instance.agents()[i].goal);
     const auto letter = static_cast<char>(i.index() % 26);
     starts[static_cast<std::size_t>(from.y)][static_cast<std::size_t>(from.x)] =
         static_cast<char>('a' + letter);
-    goals[static_cast<std::size_t>(to.y)][static_cast<std::size_t>(to.x)] =
-        static_cast<char>('A' + letter);
+    for (const VertexId goal : instance.agents()[i].goals.vertices()) {
+      const Cell to = layout.cell_of(goal);
+      goals[static_cast<std::size_t>(to.y)][static_cast<std::size_t>(to.x)] =
+          static_cast<char>('A' + letter);
+    }
   }
   std::string text;
   for (std::size_t y = 0; y < starts.size(); ++y)
@@ -97,14 +99,23 @@ class CaseReader {
   }
 
   void read_task(std::istringstream& words) {
-    std::array<std::int32_t, 4> n{};
+    const auto read_cell = [&] {
+      Cell cell{0, 0};
+      words >> cell.x;
+      if (grid_) words >> cell.y;
+      return cell;
+    };
     std::string arrow;
-    if (grid_)
-      words >> n[0] >> n[1] >> arrow >> n[2] >> n[3];
-    else
-      words >> n[0] >> arrow >> n[2];
+    const Cell start = read_cell();
+    words >> arrow;
     if (arrow != "->") return fail("expected 'task start -> goal'");
-    places_.push_back({Cell{n[0], n[1]}, Cell{n[2], n[3]}});
+    places_.push_back({start, {read_cell()}});
+    for (std::string word; words >> word;) {
+      if (word != "or") return fail("unexpected '" + word + "'");
+      places_.back().second.push_back(read_cell());
+      if (words.fail()) return;
+    }
+    if (words.eof()) words.clear(std::ios::eofbit);  // all that there is was read
   }
 
   void read_expectation(std::istringstream& words) {
@@ -175,10 +186,14 @@ class CaseReader {
     const std::optional<Graph> graph = grid_ ? make_grid() : make_graph();
     if (!graph) return;
     std::vector<Agent> tasks;
-    for (const auto& [start, goal] : places_) {
-      const auto from = vertex(*graph, start), to = vertex(*graph, goal);
-      if (!from || !to) return fail("a task names a place that is no vertex");
-      tasks.push_back({*from, *to});
+    for (const auto& [start, ends] : places_) {
+      const auto from = vertex(*graph, start);
+      std::vector<VertexId> goals;
+      for (const Cell end : ends)
+        if (const auto to = vertex(*graph, end)) goals.push_back(*to);
+      if (!from || goals.size() != ends.size())
+        return fail("a task names a place that is no vertex");
+      tasks.push_back({*from, Goals(std::move(goals))});
     }
     auto instance = Instance::make(*graph, std::move(tasks));
     if (!instance) return fail(instance.error().message, instance.error().code);
@@ -226,7 +241,7 @@ class CaseReader {
   std::vector<std::string> rows_;
   std::size_t num_vertices_ = 0;
   std::vector<Graph::Edge> edges_;
-  std::vector<std::pair<Cell, Cell>> places_;
+  std::vector<std::pair<Cell, std::vector<Cell>>> places_;  // starts and goals
   std::optional<Cost> sum_of_costs_, makespan_;
   bool infeasible_ = false, known_plan_ = false, initial_plan_ = false;
   std::optional<TunedOptions> options_;
@@ -247,8 +262,13 @@ std::string instance_text(const Instance& instance) {
       for (const VertexId w : graph.neighbours(v))
         if (v < w) text += "edge " + place(graph, v) + " " + place(graph, w) + "\n";
   }
-  for (const Agent& task : instance.agents())
-    text += "task " + place(graph, task.start) + " -> " + place(graph, task.goal) + "\n";
+  for (const Agent& task : instance.agents()) {
+    text += "task " + place(graph, task.start);
+    const char* join = " -> ";
+    for (const VertexId goal : task.goals.vertices())
+      text += std::exchange(join, " or ") + place(graph, goal);
+    text += "\n";
+  }
   return text;
 }
 

@@ -19,6 +19,7 @@ namespace quadrille::discrete::support {
 ///     .@.                                  edge 0 1
 ///     ...                                  edge 1 2
 ///     task 0 0 -> 2 0                      task 0 -> 2
+///     task 2 0 -> 0 0 or 1 1               task 1 -> 0 or 1
 ///     expect sum-of-costs 4                expect infeasible
 ///     options objective=makespan system=dpll-mdd check=1/3,2/3 seed=7 audit known-plan
 ///

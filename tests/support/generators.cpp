@@ -102,6 +102,31 @@ Instance random_tasks(Random& random, Graph graph, std::size_t num_agents) {
   return Instance::make(std::move(graph), std::move(tasks)).value();
 }
 
+Instance with_more_goals(Random& random, const Instance& instance) {
+  const std::size_t n = instance.graph().num_vertices();
+  std::vector<std::vector<VertexId>> sets;
+  for (const Agent& task : instance.agents()) {
+    sets.push_back({task.goals.vertices().begin(), task.goals.vertices().end()});
+    if (random.percent(75))
+      for (std::size_t k = random.between(1, 3); k > 0; --k)
+        sets.back().emplace_back(random.below(n));
+  }
+  const std::size_t kind = random.below(4);
+  if (kind == 0) {  // all agents share all goals
+    std::vector<VertexId> all;
+    for (const auto& set : sets) all.insert(all.end(), set.begin(), set.end());
+    std::fill(sets.begin(), sets.end(), all);
+  } else if (kind == 1) {  // some share
+    for (auto& set : sets)
+      if (random.percent(50)) set = random.pick(sets);
+  }
+  std::vector<Agent> tasks;
+  for (const AgentId i : instance.agent_ids())
+    tasks.push_back({instance.agents()[i].start, Goals(sets[i.index()])});
+  auto made = Instance::make(instance.shared_graph(), std::move(tasks));
+  return made ? std::move(made).value() : instance;  // two may have the same only goal
+}
+
 Instance random_grid(Random& random, const GridShape& shape) {
   const std::size_t width = random.between(shape.min_side, shape.max_side);
   const std::size_t height = random.between(shape.min_side, shape.max_side);

@@ -23,6 +23,10 @@ using quadrille::support::Random;
 /// be infeasible. Requires num_agents <= number of vertices.
 [[nodiscard]] Instance random_tasks(Random& random, Graph graph, std::size_t num_agents);
 
+/// The same with goals added: for most agents a few more, or for all the same set, or so that two
+/// sets are alike. May be infeasible, also because agents have too few goals among them.
+[[nodiscard]] Instance with_more_goals(Random& random, const Instance& instance);
+
 /// What random grids may look like. Sizes, shares and numbers are drawn uniformly.
 struct GridShape {
   std::size_t min_side = 1, max_side = 6;

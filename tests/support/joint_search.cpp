@@ -18,7 +18,7 @@ constexpr StateId kNoState = std::numeric_limits<StateId>::max();
 
 struct State {
   std::vector<Place> at;
-  std::uint32_t committed = 0;  // bit i: agent i stays at its goal for ever
+  std::uint32_t committed = 0;  // bit i: agent i stays where it is for ever, at a goal
 
   [[nodiscard]] bool is_committed(std::size_t agent) const { return (committed >> agent & 1) != 0; }
 };
@@ -36,8 +36,9 @@ class JointSearch {
     }
     for (const Agent& task : instance.agents()) {
       start_.at.push_back(task.start.value());
-      goals_.push_back(task.goal.value());
-      far_.push_back(distances_to(task.goal.value()));
+      goals_.emplace_back(moves_.size());
+      for (const VertexId goal : task.goals.vertices()) goals_.back()[goal.index()] = true;
+      far_.push_back(distances_to(task.goals));
     }
   }
 
@@ -69,10 +70,14 @@ class JointSearch {
   }
 
  private:
-  [[nodiscard]] std::vector<Cost> distances_to(Place goal) const {
+  /// To the nearest.
+  [[nodiscard]] std::vector<Cost> distances_to(const Goals& goals) const {
     std::vector<Cost> distance(moves_.size(), kInfinite);
-    std::vector<Place> queue{goal};
-    distance[goal] = 0;
+    std::vector<Place> queue;
+    for (const VertexId goal : goals.vertices()) {
+      queue.push_back(goal.value());
+      distance[goal.index()] = 0;
+    }
     for (std::size_t head = 0; head < queue.size(); ++head)
       for (const Place next : moves_[queue[head]])
         if (distance[next] == kInfinite) {
@@ -101,8 +106,14 @@ class JointSearch {
     return state;
   }
 
+  [[nodiscard]] bool is_at_goal(const State& state, std::size_t agent) const {
+    return goals_[agent][state.at[agent]];
+  }
   [[nodiscard]] bool is_final(const State& state) const {
-    return sum_ ? state.committed == (1U << agents_) - 1U : state.at == goals_;
+    if (sum_) return state.committed == (1U << agents_) - 1U;
+    for (std::size_t i = 0; i < agents_; ++i)
+      if (!is_at_goal(state, i)) return false;
+    return true;
   }
 
   /// A lower bound on the cost from here; kInfinite if some goal is out of reach.
@@ -134,7 +145,7 @@ class JointSearch {
       for (std::size_t i = 0; i < agents_; ++i) {
         if (state.is_committed(i)) continue;
         ++price;
-        if (state.at[i] != goals_[i]) continue;
+        if (!is_at_goal(state, i)) continue;
         State commits = state;
         commits.committed |= 1U << i;
         reach(commits, best_[id], id);
@@ -176,8 +187,8 @@ class JointSearch {
   bool sum_;
   std::size_t agents_;
   std::vector<std::vector<Place>> moves_;  // neighbours and the vertex itself
-  std::vector<Place> goals_;
-  std::vector<std::vector<Cost>> far_;  // per agent: distance to its goal
+  std::vector<std::vector<bool>> goals_;   // per agent, by vertex
+  std::vector<std::vector<Cost>> far_;     // per agent: distance to its nearest goal
   State start_;
   std::vector<Cost> best_;
   std::vector<StateId> parent_;
@@ -224,7 +235,8 @@ std::string replay(const Instance& instance, const Plan& plan) {
     const Path& path = plan.paths[i];
     if (path.empty()) return "an empty path";
     if (path.front() != instance.agents()[i].start) return at_step(i.index(), 0) + ": wrong start";
-    if (path.back() != instance.agents()[i].goal) return at_step(i.index(), 0) + ": wrong goal";
+    if (!instance.agents()[i].goals.contains(path.back()))
+      return at_step(i.index(), 0) + ": wrong goal";
     for (const VertexId v : path)
       if (v.index() >= instance.graph().num_vertices()) return "no such vertex";
     length = std::max(length, path.size());

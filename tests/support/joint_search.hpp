@@ -21,9 +21,9 @@ struct JointAnswer {
 /// shares nothing with the library but the types of instances and plans.
 ///
 /// Sum of costs: a state is the positions and the set of agents that have decided never to leave
-/// their goal again; only the others pay for a timestep. Makespan: a state is the positions, and
-/// every timestep costs one until all agents are at their goals.
-/// Gives up without searching if there are more than `max_states` states.
+/// the goal where they are again; only the others pay for a timestep. Makespan: a state is the
+/// positions, and every timestep costs one until all agents are at their goals. Gives up without
+/// searching if there are more than `max_states` states.
 [[nodiscard]] JointAnswer joint_search(const Instance& instance, Objective objective,
                                        std::size_t max_states = 4'000'000);
 

@@ -39,6 +39,28 @@ CheckSchedule random_fractions(Random& random) {
   return schedule;
 }
 
+void randomise(Random& random, std::vector<TunedOptions>& systems) {
+  for (TunedOptions& options : systems) {
+    options.seed = random.percent(50) ? 0 : static_cast<std::uint32_t>(random.below(2'000'000'001));
+    options.mdd.growth = random.percent(50) ? MddGrowth::on_demand : MddGrowth::full;
+    if (random.percent(50))
+      options.cost_search = random.percent(50) ? CostSearch::iterative : CostSearch::core_guided;
+    options.debug.audit = random.percent(30);
+    options.first_plan = random.percent(30);
+    options.lazy.forbid_first = random.percent(30);
+    if (random.percent(60)) options.lazy.chronological = random.percent(50);
+    if (random.percent(50)) options.first_turn = 1 + static_cast<std::int64_t>(random.below(20));
+    if (random.percent(50)) options.open = random.percent(80);
+    if (random.percent(15)) {
+      options.threads = 2 + random.below(3);
+      options.race = random.percent(50);
+      if (random.percent(80)) options.round = 1 + static_cast<std::int64_t>(random.below(3000));
+    }
+    if (random.percent(30)) options.debug.known_plan = Plan();  // replaced by the oracle's
+    if (random.percent(15)) options.initial_plan = Plan();      // by the same, or one that waits
+  }
+}
+
 std::string describe(const SolveOutcome& outcome) {
   std::string text(to_string(outcome.status));
   if (outcome.cost) text += ", cost " + std::to_string(*outcome.cost);
@@ -70,15 +92,25 @@ std::string find_fault_of_plan(const Instance& instance, Objective objective,
   return "";
 }
 
-/// The instance without a vertex that is nobody's start or goal; nullopt if it is.
+/// The instance without a vertex that is nobody's start or only goal; nullopt if it is.
 std::optional<Instance> without_vertex(const Instance& instance, VertexId vertex) {
   const Graph& graph = instance.graph();
   for (const Agent& task : instance.agents())
-    if (task.start == vertex || task.goal == vertex) return std::nullopt;
+    if (task.start == vertex || task.goals == Goals(vertex)) return std::nullopt;
   const auto renumber = [vertex](VertexId v) { return v < vertex ? v : VertexId(v.index() - 1); };
   std::vector<Agent> tasks;
-  for (const Agent& task : instance.agents())
-    tasks.push_back({renumber(task.start), renumber(task.goal)});
+  for (const Agent& task : instance.agents()) {
+    std::vector<VertexId> goals;
+    for (const VertexId goal : task.goals.vertices())
+      if (goal != vertex) goals.push_back(renumber(goal));
+    tasks.push_back({renumber(task.start), Goals(std::move(goals))});
+  }
+  // Two agents may be left with the same goal and no other one.
+  const auto make = [&](Graph smaller) -> std::optional<Instance> {
+    auto made = Instance::make(std::move(smaller), tasks);
+    if (!made) return std::nullopt;
+    return std::move(made).value();
+  };
   if (graph.layout()) {
     const GridLayout& layout = *graph.layout();
     std::vector<bool> passable;
@@ -87,13 +119,13 @@ std::optional<Instance> without_vertex(const Instance& instance, VertexId vertex
         const auto v = layout.vertex_at({x, y});
         passable.push_back(v && *v != vertex);
       }
-    return Instance::make(Graph::grid(layout.width(), layout.height(), passable), tasks).value();
+    return make(Graph::grid(layout.width(), layout.height(), passable));
   }
   std::vector<Graph::Edge> edges;
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
     for (const VertexId w : graph.neighbours(v))
       if (v < w && v != vertex && w != vertex) edges.emplace_back(renumber(v), renumber(w));
-  return Instance::make(Graph::make(graph.num_vertices() - 1, edges).value(), tasks).value();
+  return make(Graph::make(graph.num_vertices() - 1, edges).value());
 }
 
 SolveOutcome solve_noted(const Instance& instance, const TunedOptions& options,
@@ -128,25 +160,13 @@ std::vector<TunedOptions> random_systems(Random& random, Objective objective) {
       make_options(objective, System::dpll_mdd, random_fractions(random)),
       make_options(objective, System::smt_cbs),
       make_options(objective, System::mdd_sat)};
-  for (TunedOptions& options : systems) {
-    options.seed = random.percent(50) ? 0 : static_cast<std::uint32_t>(random.below(2'000'000'001));
-    options.mdd.growth = random.percent(50) ? MddGrowth::on_demand : MddGrowth::full;
-    if (random.percent(50))
-      options.cost_search = random.percent(50) ? CostSearch::iterative : CostSearch::core_guided;
-    options.debug.audit = random.percent(30);
-    options.first_plan = random.percent(30);
-    options.lazy.forbid_first = random.percent(30);
-    if (random.percent(60)) options.lazy.chronological = random.percent(50);
-    if (random.percent(50)) options.first_turn = 1 + static_cast<std::int64_t>(random.below(20));
-    if (random.percent(50)) options.open = random.percent(80);
-    if (random.percent(15)) {
-      options.threads = 2 + random.below(3);
-      options.race = random.percent(50);
-      if (random.percent(80)) options.round = 1 + static_cast<std::int64_t>(random.below(3000));
-    }
-    if (random.percent(30)) options.debug.known_plan = Plan();  // replaced by the oracle's
-    if (random.percent(15)) options.initial_plan = Plan();      // by the same, or one that waits
-  }
+  randomise(random, systems);
+  return systems;
+}
+
+std::vector<TunedOptions> random_lazy_systems(Random& random, Objective objective) {
+  std::vector<TunedOptions> systems(2, make_options(objective, System::dpll));
+  randomise(random, systems);
   return systems;
 }
 

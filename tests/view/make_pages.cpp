@@ -94,7 +94,7 @@ discrete::Plan random_plan(Draw& draw, const discrete::Instance& instance) {
       return std::vector<VertexId>(span.begin(), span.end());
     };
     discrete::Path path;
-    for (const VertexId v : walk(draw, graph.num_vertices(), task.start, task.goal, neighbours))
+    for (const VertexId v : walk(draw, graph.num_vertices(), task.start, task.goal(), neighbours))
       path.insert(path.end(), draw.chance(20) ? 3 : 1, v);
     plan.paths.push_back(path);
   }

@@ -81,8 +81,10 @@ Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan)
   add_map(instance.graph(), scene);
   for (const AgentId i : instance.agent_ids()) {
     const discrete::Agent& task = instance.agents()[i];
-    SceneAgent agent{task.start.index(), task.goal.index(), 0, {}, {}, {}};
-    const Timestep alone = distances_from(instance.graph(), task.start)[task.goal];
+    const bool has_path = i.index() < plan.paths.size() && !plan.paths[i].empty();
+    const auto goal = goal_shown(task.goals, has_path ? plan.paths[i].back() : VertexId());
+    SceneAgent agent{task.start.index(), goal.index(), 0, {}, {}, {}};
+    const Timestep alone = distances_to_nearest(instance.graph(), task.goals)[task.start];
     if (alone != discrete::kUnreachable) agent.free_cost = alone;
     if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.graph(), plan.paths[i]);
     if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive;

@@ -11,6 +11,7 @@
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/attribution.hpp"
+#include "quadrille/core/goals.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
@@ -42,8 +43,13 @@ struct SceneStop {
   std::int64_t arrive, depart;
 };
 
+/// Of an agent's goals the one at which its path ends, or the first one.
+[[nodiscard]] inline VertexId goal_shown(const Goals& goals, VertexId end) {
+  return goals.contains(end) ? end : goals.vertices().front();
+}
+
 struct SceneAgent {
-  std::size_t start, goal;                ///< Places.
+  std::size_t start, goal;                ///< Places. Of several goals the one where it ends.
   std::size_t body = 0;                   ///< Into Scene::bodies, where there are any.
   std::optional<std::int64_t> free_cost;  ///< Alone in the world; nullopt: no way.
   std::optional<std::int64_t> cost;       ///< Nullopt without a path.

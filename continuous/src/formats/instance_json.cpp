@@ -190,12 +190,13 @@ class InstanceReader {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> nodes;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, goal, radius, polygon, speed, group, release, deadline, at_start,
-          at_goal, name;
+      std::optional<Node> start, goal, goals, radius, polygon, speed, group, release, deadline,
+          at_start, at_goal, name;
       Agent agent;
       std::optional<std::string> own_name;
       if (!check_.members(a, {{"start", &start},
-                              {"goal", &goal},
+                              {"goal", &goal, false},
+                              {"goals", &goals, false},
                               {"radius", &radius, false},
                               {"polygon", &polygon, false},
                               {"speed", &speed, false},
@@ -205,9 +206,9 @@ class InstanceReader {
                               {"at_start", &at_start, false},
                               {"at_goal", &at_goal, false},
                               {"name", &name, false}}) ||
-          !read_vertex_number(*start, agent.start) || !read_vertex_number(*goal, agent.goal) ||
-          !read_body(a, radius, polygon, agent.body) || !read_speed(a, speed, agent.speed) ||
-          (group && !read_group(*group, agent.group)) ||
+          !has_one_goal(a, goal, goals) || !read_vertex_number(*start, agent.start) ||
+          !read_vertex_number(*goal, agent.goal) || !read_body(a, radius, polygon, agent.body) ||
+          !read_speed(a, speed, agent.speed) || (group && !read_group(*group, agent.group)) ||
           (release && !read_time(*release, agent.release)) ||
           (deadline && !read_time(*deadline, agent.deadline.emplace())) ||
           (at_start && !read_choice(*at_start, "stay", "under_way", agent.under_way)) ||
@@ -220,6 +221,11 @@ class InstanceReader {
       places_.push_back({document_.file(), document_.line(a)});
     }
     return are_distinct(check_, names_.agents, nodes);
+  }
+
+  bool has_one_goal(Node agent, const std::optional<Node>& goal, const std::optional<Node>& goals) {
+    if (goals) return check_.fail(*goals, "sets of several goals are not supported on roadmaps");
+    return goal || check_.fail(agent, "the key 'goal' is missing");
   }
 
   bool read_obstacles(Node obstacles) {

@@ -91,6 +91,7 @@ std::optional<bool> LemmaAuditor::find_in_plan(sat::Lit lit) const {
       return uses_[meaning.agent].breaks(model_.obstacles()[meaning.obstacle].bans) !=
              lit.positive();
     case Kind::auxiliary:
+    case Kind::rest:
     case Kind::own:
       break;
   }

@@ -37,7 +37,8 @@ ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, For
     obstacles_.push_back({agent, later, goal_bans(agent, resident, tick), {resident}, {}});
     return made;
   };
-  const auto [id, inserted] = goal_obstacle(agent, resident, as_cost(tick), writer, make);
+  const auto [id, inserted] = goal_obstacle(
+      agent, {resident, instance().agent(resident).goal, as_cost(tick)}, writer, make);
   is_new = inserted;
   return id;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "feasibility/feasibility_parts.hpp"
+#include "feasibility/goal_choice.hpp"
 
 namespace quadrille::discrete {
 namespace feasibility {
@@ -40,11 +41,12 @@ Arrangement::Arrangement(std::size_t num_vertices, std::vector<Local> vertices)
 namespace {
 
 Arrangement arrange(const Instance& instance, const ComponentNumbering& numbering,
-                    const Component& component, VertexId Agent::*end) {
+                    const Component& component, bool is_goal) {
   std::vector<Local> vertices;
   vertices.reserve(component.agents.size());
   for (const AgentId agent : component.agents)
-    vertices.push_back(numbering.number(instance.agents()[agent].*end));
+    vertices.push_back(numbering.number(is_goal ? instance.agents()[agent].goal()
+                                                : instance.agents()[agent].start));
   return {component.vertices.size(), std::move(vertices)};
 }
 
@@ -60,12 +62,13 @@ Feasibility as_answer(const Component& component, Obstruction obstruction) {
 }  // namespace feasibility
 
 Feasibility check_feasibility(const Instance& instance) {
+  if (instance.has_goal_sets()) return choose_goals(instance, nullptr).feasibility;
   using namespace feasibility;
   const Graph& graph = instance.graph();
   ComponentNumbering numbering(graph);
   std::vector<Component> components;
   for (const AgentId agent : instance.agent_ids()) {
-    const auto [start, goal] = instance.agents()[agent];
+    const VertexId start = instance.agents()[agent].start, goal = instance.agents()[agent].goal();
     if (numbering.component_of(start) == kNone) components.push_back(numbering.explore(start));
     const Local index = numbering.component_of(start);
     if (numbering.component_of(goal) != index)
@@ -79,8 +82,8 @@ Feasibility check_feasibility(const Instance& instance) {
   }
   for (const Component& component : components) {
     if (component.agents.size() < 2) continue;  // An agent alone goes where it likes.
-    const Arrangement start = arrange(instance, numbering, component, &Agent::start);
-    const Arrangement goal = arrange(instance, numbering, component, &Agent::goal);
+    const Arrangement start = arrange(instance, numbering, component, false);
+    const Arrangement goal = arrange(instance, numbering, component, true);
     if (auto obstruction = check_component(component, start, goal))
       return as_answer(component, std::move(*obstruction));
   }

@@ -6,17 +6,20 @@
 namespace quadrille::discrete {
 namespace {
 
+/// `end_of(agent)`: null if it has none that counts.
+template <class EndOf>
 bool all_distinct(Checker& checker, const Graph& graph, const std::vector<PlacedTask>& tasks,
-                  VertexId Agent::*end, Document::Node PlacedTask::*place, const char* name) {
+                  const EndOf& end_of, Document::Node PlacedTask::*place, const char* name) {
   constexpr std::size_t kNone = SIZE_MAX;
   IdVector<VertexId, std::size_t> owner(graph.num_vertices(), kNone);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    const VertexId v = tasks[i].task.*end;
-    if (owner[v] != kNone)
+    const VertexId* const v = end_of(tasks[i].task);
+    if (v == nullptr) continue;
+    if (owner[*v] != kNone)
       return checker.fail(tasks[i].*place, ErrorCode::invalid_instance,
-                          "agents " + std::to_string(owner[v]) + " and " + std::to_string(i) +
-                              " have the same " + name + " " + vertex_name(graph, v));
-    owner[v] = i;
+                          "agents " + std::to_string(owner[*v]) + " and " + std::to_string(i) +
+                              " have the same " + name + " " + vertex_name(graph, *v));
+    owner[*v] = i;
   }
   return true;
 }
@@ -67,8 +70,12 @@ bool read_place(Checker& checker, const Document& document, const Graph& graph, 
 
 Result<Instance> make_instance(Checker& checker, Graph graph,
                                const std::vector<PlacedTask>& tasks) {
-  if (!all_distinct(checker, graph, tasks, &Agent::start, &PlacedTask::start, "start") ||
-      !all_distinct(checker, graph, tasks, &Agent::goal, &PlacedTask::goal, "goal"))
+  const auto start = [](const Agent& agent) { return &agent.start; };
+  const auto only_goal = [](const Agent& agent) {
+    return agent.goals.is_single() ? agent.goals.vertices().data() : nullptr;
+  };
+  if (!all_distinct(checker, graph, tasks, start, &PlacedTask::start, "start") ||
+      !all_distinct(checker, graph, tasks, only_goal, &PlacedTask::goal, "goal"))
     return checker.error();
   std::vector<Agent> plain;
   plain.reserve(tasks.size());

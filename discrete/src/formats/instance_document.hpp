@@ -35,11 +35,11 @@ bool read_place(Checker& checker, const Document& document, const Graph& graph, 
 struct PlacedTask {
   Agent task;
   Document::Node start;
-  Document::Node goal;
+  Document::Node goal;  ///< Or all of them.
 };
 
-/// The instance of these tasks. Errors (invalid_instance): two equal starts or goals, at the later
-/// of the two places.
+/// The instance of these tasks. Errors (invalid_instance): two equal starts, or two equal goals of
+/// agents that have no other one, at the later of the two places.
 [[nodiscard]] Result<Instance> make_instance(Checker& checker, Graph graph,
                                              const std::vector<PlacedTask>& tasks);
 

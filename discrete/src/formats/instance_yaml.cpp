@@ -88,13 +88,11 @@ class YamlInstanceReader {
       auto& own = names_.agents.emplace_back();
       if (name && !text::read_name(check_, document_, *name, own)) return false;
       places.push_back(a);
-      PlacedTask placed{{}, *start, *goal};
-      if (!read_place(check_, document_, *graph_, *start, ErrorCode::invalid_instance,
-                      placed.task.start) ||
-          !read_place(check_, document_, *graph_, *goal, ErrorCode::invalid_instance,
-                      placed.task.goal))
+      VertexId from, to;
+      if (!read_place(check_, document_, *graph_, *start, ErrorCode::invalid_instance, from) ||
+          !read_place(check_, document_, *graph_, *goal, ErrorCode::invalid_instance, to))
         return false;
-      tasks.push_back(placed);
+      tasks.push_back({{from, to}, *start, *goal});
     }
     return are_distinct(check_, names_.agents, places);
   }
@@ -127,6 +125,10 @@ std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& f
                                          const Instance& instance, const text::Names& names) {
   if (!instance.graph().layout())
     return Error{ErrorCode::invalid_instance, "this YAML format needs a grid", {file, 0}};
+  if (instance.has_goal_sets())
+    return Error{ErrorCode::invalid_instance,
+                 "this YAML format has one goal for each agent, not a set of several",
+                 {file, 0}};
   const GridLayout& grid = *instance.graph().layout();
   const auto pair = [](Cell c) {
     return "[" + std::to_string(c.x) + ", " + std::to_string(c.y) + "]";
@@ -148,7 +150,7 @@ std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& f
     else
       out << "agent" << i.value();
     out << "\n    start: " << pair(grid.cell_of(task.start))
-        << "\n    goal: " << pair(grid.cell_of(task.goal)) << '\n';
+        << "\n    goal: " << pair(grid.cell_of(task.goal())) << '\n';
   }
   return finish_output(out, file);
 }

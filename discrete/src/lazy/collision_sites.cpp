@@ -40,6 +40,7 @@ Place place_of(const sat::Why& why, const ObstacleTable& table, Usages usages,
   if (std::holds_alternative<sat::why::Rectangle>(why))
     return {Place::Kind::rectangle, extent.earliest.vertex, extent.latest.vertex};
   const Obstacle& one = table[obstacle_of(usages.front())];
+  if (one.kind == Obstacle::Kind::end) return {Place::Kind::goal, one.vertex, one.vertex};
   if (std::holds_alternative<sat::why::Edge>(why)) return {Place::Kind::edge, one.vertex, one.to};
   const VertexId other = table[obstacle_of(usages.back())].vertex;
   if (std::holds_alternative<sat::why::Corridor>(why))
@@ -60,7 +61,9 @@ CollisionSite site_of(const sat::Why& why, const ObstacleTable& table, Usages us
   // A move takes from one timestep to the next.
   const Timestep last =
       extent.latest.timestep + (std::holds_alternative<sat::why::Edge>(why) ? 1 : 0);
-  site.end = extent.latest.timestep == kForever ? CollisionSite::kForever : Cost{last} + 1;
+  const bool is_end = site.place.kind == Place::Kind::goal;
+  site.end =
+      is_end || extent.latest.timestep == kForever ? CollisionSite::kForever : Cost{last} + 1;
   return site;
 }
 

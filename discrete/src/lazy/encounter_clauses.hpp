@@ -12,7 +12,8 @@
 namespace quadrille::discrete {
 
 /// Turns collisions of current paths into clauses over usage literals, the widest that are known to
-/// hold. A collision with an agent at rest excludes its goal for ever; one where two paths cross,
+/// hold. A collision with an agent at rest excludes its goal for ever, or that two
+/// agents end there; one where two paths cross,
 /// the crossing of a whole rectangle; one in a corridor, that both pass it in these times.
 class EncounterClauses {
  public:

@@ -48,6 +48,8 @@ std::int64_t ExplicitPaths::size(AgentId agent, Timestep max_delay) const {
 
 void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer) {
   Agent& a = agents_[agent];
+  // The clauses of MddPaths lead to one goal.
+  if (!model_.instance().agents()[agent].goals.is_single()) return;
   if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
   const Timestep delay = cap - model_.distances(agent).free_cost();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;
@@ -107,6 +109,8 @@ void ExplicitPaths::link(AgentId agent, ObstacleId id, Timestep old_cap, Formula
     }
     case Obstacle::Kind::barrier:
       for (const Visit& v : model_.obstacles().visits(o)) visit(v.vertex, v.timestep);
+      break;
+    case Obstacle::Kind::end:  // path lemmas say what follows
       break;
   }
 }

@@ -26,6 +26,7 @@ bool LazyAuditor::forbids_visit(const Obstacle& o, VertexId v, Timestep t) const
       return std::find(visits.begin(), visits.end(), Visit{v, t}) != visits.end();
     }
     case Kind::edge:
+    case Kind::end:
       return false;
   }
   return false;
@@ -44,10 +45,13 @@ std::string LazyAuditor::audit_usages(const sat::Lemma& lemma) const {
     const Obstacle& o = model_.obstacles()[id];
     if (o.agent != usage.agent) return "a lemma mistakes the agent of a usage";
     const auto var = model_.variable(o.allowed);
-    if (var.kind == VariableKind::cost) {
+    if (var.kind == VariableKind::cost || var.kind == VariableKind::rest) {
+      const Goals& goals = model_.instance().agents()[var.agent].goals;
+      const VertexId goal = var.kind == VariableKind::rest ? var.goal : goals.vertices().front();
+      const bool says_where = var.kind == VariableKind::rest || goals.is_single();
       const bool holds = o.kind == Kind::range && o.last == kForever && var.agent != o.agent &&
-                         model_.instance().agents()[var.agent].goal == o.vertex &&
-                         LazyModel::cap(var) <= o.first && !o.allowed.positive();
+                         says_where && goal == o.vertex && LazyModel::cap(var) <= o.first &&
+                         !o.allowed.positive();
       if (!holds) return "nobody rests where a target usage says so";
     } else if (var.kind != VariableKind::usage || var.obstacle != id) {
       return "a usage has a foreign literal";
@@ -62,6 +66,7 @@ std::string LazyAuditor::audit(const sat::Lemma& lemma) {
   if (const auto* path = std::get_if<sat::why::ExplicitPath>(&lemma.why))
     return audit_explicit(lemma.clause, path->agent);
   if (lemma.is<sat::why::Order>()) return audit_order(lemma.clause);
+  if (lemma.is<sat::why::Rest>()) return audit_rest(lemma.clause);
   if (sat::is_collision(lemma.why)) return audit_collision(lemma);
   return "the lazy model has no such lemmas";
 }
@@ -105,10 +110,13 @@ std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
     } else if (var.kind == VariableKind::usage) {
       if (var.agent != agent) return "explicit paths are bound to the usages of another agent";
       demand.avoided.push_back(model_.obstacles()[var.obstacle]);
+    } else if (var.kind == VariableKind::rest) {  // of another agent
+      if (var.agent == agent) return "explicit paths are bound to the agent's own rest";
+      avoid_range(var.goal, LazyModel::cap(var), kForever);
     } else if (var.agent == agent) {
       demand.bound = std::min(demand.bound.value_or(kForever), LazyModel::cap(var));
     } else {  // the other agent rests at its goal
-      avoid_range(model_.instance().agents()[var.agent].goal, LazyModel::cap(var), kForever);
+      avoid_range(model_.instance().agents()[var.agent].goal(), LazyModel::cap(var), kForever);
     }
   }
   return has_path(agent, demand) ? "some path does not satisfy a clause about explicit paths" : "";
@@ -142,14 +150,17 @@ bool LazyAuditor::has_path(AgentId agent, const Demand& demand) const {
     here = std::move(next);
   }
   if (!demand.bound) return std::find(here.begin(), here.end(), true) != here.end();
-  const bool can_rest =
-      std::none_of(
-          demand.avoided.begin(), demand.avoided.end(),
-          [&](const Obstacle& o) { return model_.obstacles().last_block(o, task.goal) >= end; }) &&
-      std::all_of(demand.visits.begin(), demand.visits.end(), [&](const Visit& visit) {
-        return visit.timestep < end || visit.vertex == task.goal;
-      });
-  return here[task.goal] && can_rest;
+  const auto can_rest = [&](VertexId goal) {
+    return std::none_of(
+               demand.avoided.begin(), demand.avoided.end(),
+               [&](const Obstacle& o) { return model_.obstacles().last_block(o, goal) >= end; }) &&
+           std::all_of(demand.visits.begin(), demand.visits.end(), [&](const Visit& visit) {
+             return visit.timestep < end || visit.vertex == goal;
+           });
+  };
+  const auto goals = task.goals.vertices();
+  return std::any_of(goals.begin(), goals.end(),
+                     [&](VertexId goal) { return here[goal] && can_rest(goal); });
 }
 
 std::string LazyAuditor::audit_collision(const sat::Lemma& lemma) const {
@@ -233,6 +244,20 @@ std::string LazyAuditor::audit_order(Clause clause) const {
   return holds ? "" : "an order lemma does not hold";
 }
 
+// "It does not end there, or it costs that much, or it rests there and costs less."
+std::string LazyAuditor::audit_rest(Clause clause) const {
+  if (clause.size() != 3) return "a lemma about a rest has three literals";
+  const auto end = model_.variable(clause[0]), cost = model_.variable(clause[1]);
+  const auto rest = model_.variable(clause[2]);
+  const bool holds = end.kind == VariableKind::usage && clause[0].positive() &&
+                     model_.obstacles()[end.obstacle].kind == Kind::end &&
+                     cost.kind == VariableKind::cost && !clause[1].positive() &&
+                     rest.kind == VariableKind::rest && clause[2].positive() &&
+                     end.agent == rest.agent && cost.agent == rest.agent &&
+                     cost.cost == rest.cost && model_.obstacles()[end.obstacle].vertex == rest.goal;
+  return holds ? "" : "a lemma about a rest does not hold";
+}
+
 std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
   const auto var = model_.variable(lit);
   const Path& path = known_plan_->paths[var.agent];
@@ -241,6 +266,8 @@ std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
       return model_.obstacles().hits(var.obstacle, path) != lit.positive();
     case VariableKind::cost:  // the negated variable: the agent costs more
       return (arrival(path) >= var.cost) != lit.positive();
+    case VariableKind::rest:
+      return (path.back() == var.goal && arrival(path) < var.cost) == lit.positive();
     case VariableKind::own:
       return (position(path, model_.visit(var).timestep) == model_.visit(var).vertex) ==
              lit.positive();
@@ -263,6 +290,9 @@ std::string LazyAuditor::describe(Clause clause) const {
               std::to_string(visit.timestep) + ")";
     } else if (var.kind == VariableKind::auxiliary) {
       text += "v" + std::to_string(lit.variable());
+    } else if (var.kind == VariableKind::rest) {
+      text += "rest(" + agent + "," + vertex_name(model_.instance().graph(), var.goal) + ",<" +
+              std::to_string(var.cost) + ")";
     } else if (var.kind == VariableKind::cost) {
       text += "cost(" + agent + ")>=" + std::to_string(var.cost);
     } else {

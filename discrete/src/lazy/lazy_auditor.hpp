@@ -26,6 +26,8 @@ class LazyAuditor final : public sat::ClauseAuditor {
   [[nodiscard]] std::string audit_collision(const sat::Lemma& lemma) const;
   [[nodiscard]] std::string audit_order(Clause clause) const;
   [[nodiscard]] std::string audit_explicit(Clause clause, AgentId agent) const;
+  /// Of the order lemmas that define rests.
+  [[nodiscard]] std::string audit_rest(Clause clause) const;
   [[nodiscard]] std::string audit_usages(const sat::Lemma& lemma) const;
 
   [[nodiscard]] bool forbids_visit(const Obstacle& obstacle, VertexId v, Timestep t) const;

@@ -74,11 +74,22 @@ ObstacleId LazyModel::barrier(AgentId agent, std::span<const Visit> visits, Form
   return barriers_[key] = obstacles_.add_barrier(agent, allowed, visits);
 }
 
-ObstacleId LazyModel::keep_off_goal(AgentId agent, AgentId resident, Timestep t,
+ObstacleId LazyModel::end(AgentId agent, VertexId goal, FormulaWriter& writer) {
+  Users& users = ends_[goal];
+  if (const auto known = find_user(users, agent)) return *known;
+  const ObstacleId made = obstacles_.add_end(agent, make_usage(agent, writer), goal);
+  join(users, made, sat::why::Goal{agent}, writer);
+  return made;
+}
+
+ObstacleId LazyModel::keep_off_goal(AgentId agent, AgentId resident, Visit goal,
                                     FormulaWriter& writer) {
-  return goal_obstacle(agent, resident, Cost{t} + 1, writer,
-                       [&](Lit above) {
-                         return obstacles_.add_range(agent, above, distances(resident).goal(), t,
+  Rest rest{resident, goal.vertex, Cost{goal.timestep} + 1};
+  if (!instance_.agents()[resident].goals.is_single())
+    rest.may_end = obstacles_[end(resident, goal.vertex, writer)].allowed;
+  return goal_obstacle(agent, rest, writer,
+                       [&](Lit allowed) {
+                         return obstacles_.add_range(agent, allowed, goal.vertex, goal.timestep,
                                                      kForever);
                        })
       .first;

@@ -39,8 +39,8 @@ class LazyModel final : public lazy::Vocabulary {
     return at_least(agent, Cost{cost} + 1, writer);
   }
 
-  // The obstacle of a usage, made at the first call. Different agents' points (edges) of the same
-  // place and time exclude each other by clauses that come with them.
+  // The obstacle of a usage, made at the first call. Different agents' points (edges, ends) of the
+  // same place and time exclude each other by clauses that come with them.
   [[nodiscard]] ObstacleId point(AgentId agent, Visit visit, FormulaWriter& writer);
   [[nodiscard]] ObstacleId edge(AgentId agent, VertexId u, VertexId v, Timestep t,
                                 FormulaWriter& writer);
@@ -50,8 +50,11 @@ class LazyModel final : public lazy::Vocabulary {
   /// the others.
   [[nodiscard]] ObstacleId barrier(AgentId agent, std::span<const Visit> visits,
                                    FormulaWriter& writer);
-  /// Keeps `agent` away from the goal of `resident` from `t` on while that costs at most `t`.
-  ObstacleId keep_off_goal(AgentId agent, AgentId resident, Timestep t, FormulaWriter& writer);
+  /// End in that goal, for an agent that shares it with others: of these only one may.
+  [[nodiscard]] ObstacleId end(AgentId agent, VertexId goal, FormulaWriter& writer);
+  /// Keeps `agent` away from a goal of `resident` from `t` on while that rests there and costs at
+  /// most `t`.
+  ObstacleId keep_off_goal(AgentId agent, AgentId resident, Visit goal, FormulaWriter& writer);
 
   /// The literal "the agent is in that vertex at that timestep", or at rest there if it is its
   /// goal: of an explicit path. Made anew at each call.
@@ -79,6 +82,7 @@ class LazyModel final : public lazy::Vocabulary {
   ObstacleTable obstacles_;
   std::unordered_map<std::uint64_t, Users> points_;
   std::map<std::tuple<VertexId, VertexId, Timestep>, Users> edges_;
+  std::map<VertexId, Users> ends_;
   std::map<std::tuple<AgentId, VertexId, Timestep, Timestep>, ObstacleId> ranges_;
   std::map<std::tuple<AgentId, Visit, Visit>, ObstacleId> barriers_;
   std::vector<Visit> visits_;  // of the literals of explicit paths

@@ -110,7 +110,7 @@ void CollisionTheory::enter_early_rest(Lit not_late, sat::TheoryContext& context
   if (var.kind != VariableKind::delay) return;
   const Mdd& mdd = model_.mdd(var.agent);
   const Timestep t = mdd.distance() + var.number - 1;
-  const Lit visitor = occupant_(mdd.task().goal, t);
+  const Lit visitor = occupant_(mdd.task().goal(), t);
   if (!visitor.valid() || model_.variable(visitor).agent == var.agent) return;
   if (model_.arrival_after(var.agent, t) != ~not_late) return;
   clauses_.rest(visitor, var.agent, ~not_late,

@@ -48,11 +48,11 @@ bool can_escape(const Graph& graph, const Agent& task, const Escape& escape) {
     }
     if (bounded && t >= escape.latest_arrival)  // at rest by now
       for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
-        next[v] = next[v] && v == task.goal;
+        next[v] = next[v] && v == task.goal();
     here = std::move(next);
   }
-  if (bounded) return here[task.goal] && escape.latest_arrival >= 0;
-  const auto to_goal = distances_from(graph, task.goal);
+  if (bounded) return here[task.goal()] && escape.latest_arrival >= 0;
+  const auto to_goal = distances_from(graph, task.goal());
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
     if (here[v] && to_goal[v] != kUnreachable) return true;
   return false;
@@ -118,7 +118,7 @@ std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
       expected.push_back(~model_.at(agent, u.vertex, u.timestep));
     if (u.kind == UsageKind::move) expected.push_back(~model_.at(agent, u.to, u.timestep + 1));
     if (u.kind == UsageKind::rest) {
-      if (model_.instance().agents()[agent].goal != u.vertex) return "agents rest at their goals";
+      if (model_.instance().agents()[agent].goal() != u.vertex) return "agents rest at their goals";
       expected.push_back(model_.arrival_after(agent, u.timestep));
     }
   }

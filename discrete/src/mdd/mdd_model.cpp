@@ -12,7 +12,8 @@ using sat::Lit;
 
 MddModel::MddModel(const Instance& instance, Objective objective)
     : instance_(instance), objective_(objective), resident_(instance.graph().num_vertices(), 0) {
-  for (const AgentId i : instance.agent_ids()) resident_[instance.agents()[i].goal] = i.value() + 1;
+  for (const AgentId i : instance.agent_ids())
+    resident_[instance.agents()[i].goal()] = i.value() + 1;
 }
 
 bool MddModel::attach(sat::Engine& engine, LimitMonitor& limits) {

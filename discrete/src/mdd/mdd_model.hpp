@@ -82,7 +82,7 @@ class MddModel {
   template <class IsTrue>
   [[nodiscard]] Path extract_path(AgentId agent, const IsTrue& is_true) const {
     const Mdd& mdd = agents_[agent].paths.mdd();
-    const VertexId goal = mdd.task().goal;
+    const VertexId goal = mdd.task().goal();
     const Timestep end = mdd.distance() + cap(agent);
     Path path{mdd.task().start};
     for (Timestep t = 1; t <= end; ++t) {

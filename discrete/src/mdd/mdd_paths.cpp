@@ -34,7 +34,7 @@ void MddPaths::add_delay_clauses(Timestep slack, Formula& formula) {
   const Lit late = formula.delay_at_least(slack);
   const auto& layer = layers_[static_cast<std::size_t>(slack)];
   for (std::size_t rank = 0; rank < layer.size(); ++rank) {
-    if (mdd_.vertex(rank) == mdd_.task().goal) continue;
+    if (mdd_.vertex(rank) == mdd_.task().goal()) continue;
     scratch_ = {~layer[rank], late};
     formula.add(scratch_);
   }
@@ -67,7 +67,7 @@ void MddPaths::add_successor_clauses(const Graph& graph, Timestep slack, Timeste
   const auto& layer = layers_[static_cast<std::size_t>(slack)];
   for (std::size_t rank = 0; rank < layer.size(); ++rank) {
     const VertexId v = mdd_.vertex(rank);
-    const bool is_goal = v == mdd_.task().goal;
+    const bool is_goal = v == mdd_.task().goal();
     if (is_goal && slack + 2 > new_cap) continue;
     const Timestep t = mdd_.timestep(v, slack);
     scratch_ = {~layer[rank]};
@@ -101,7 +101,7 @@ bool MddPaths::extend(const Graph& graph, Timestep new_cap, Formula& formula,
     scratch_ = {at(mdd_.task().start, 0)};
     formula.add(scratch_);
   }
-  scratch_ = {at(mdd_.task().goal, mdd_.distance() + new_cap), guard};
+  scratch_ = {at(mdd_.task().goal(), mdd_.distance() + new_cap), guard};
   formula.add(scratch_);
   for (Timestep slack = std::max(0, old_cap - 1); slack <= new_cap; ++slack) {
     if (stopped()) return false;

@@ -28,8 +28,8 @@ BreadthFirst::BreadthFirst(const Graph& graph)
   }
 }
 
-bool BreadthFirst::run(VertexId source, LimitMonitor* limits) {
-  begin(source);
+bool BreadthFirst::run(std::span<const VertexId> sources, LimitMonitor* limits) {
+  begin(sources);
   if (!near_.empty())
     return spread(kUnreachable, limits, [&](std::uint32_t v) { return std::span(near_[v]); });
   return spread(kUnreachable, limits,
@@ -37,24 +37,26 @@ bool BreadthFirst::run(VertexId source, LimitMonitor* limits) {
 }
 
 void BreadthFirst::run_within(VertexId source, Timestep moves) {
-  begin(source);
+  begin(std::span<const VertexId>(&source, 1));
   static_cast<void>(
       spread(moves, nullptr, [&](std::uint32_t v) { return graph_.neighbours(VertexId(v)); }));
 }
 
-void BreadthFirst::begin(VertexId source) {
+void BreadthFirst::begin(std::span<const VertexId> sources) {
   if (num_reached_ > distances_.size() / 8)
     std::fill(distances_.begin(), distances_.end() - 1, kUnreachable);
   else
     for (const std::uint32_t v : order()) distances_[v] = kUnreachable;
-  queue_[0] = source.value();
-  num_reached_ = 1;
-  distances_[source.index()] = 0;
+  num_reached_ = 0;
+  for (const VertexId source : sources) {
+    queue_[num_reached_++] = source.value();
+    distances_[source.index()] = 0;
+  }
 }
 
 template <class Neighbours>
 bool BreadthFirst::spread(Timestep most, LimitMonitor* limits, const Neighbours& neighbours) {
-  std::size_t tail = 1;
+  std::size_t tail = num_reached_;
   for (std::size_t head = 0; head < tail; ++head) {
     if (head % 4096 == 4095 && limits != nullptr && limits->exhausted_now()) {
       num_reached_ = tail;

@@ -18,8 +18,12 @@ class BreadthFirst {
   /// `graph` outlives the object. O(V + E).
   explicit BreadthFirst(const Graph& graph);
 
-  /// From a vertex to all others. False if a limit was met. O(V + E).
-  bool run(VertexId source, LimitMonitor* limits = nullptr);
+  /// To all vertices from the nearest of some, which are different. False if a limit was met. O(V +
+  /// E).
+  bool run(std::span<const VertexId> sources, LimitMonitor* limits = nullptr);
+  bool run(VertexId source, LimitMonitor* limits = nullptr) {
+    return run(std::span<const VertexId>(&source, 1), limits);
+  }
   /// Only to those that are at most `moves` away. O(number of these), from the second call on.
   void run_within(VertexId source, Timestep moves);
 
@@ -32,7 +36,7 @@ class BreadthFirst {
   }
 
  private:
-  void begin(VertexId source);
+  void begin(std::span<const VertexId> sources);
   template <class Neighbours>
   bool spread(Timestep most, LimitMonitor* limits, const Neighbours& neighbours);
 

@@ -34,7 +34,7 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
   if (!table->prepare(instance, limits, most_plain)) return nullptr;
   BreadthFirst search(instance.graph());
   for (const AgentId agent : instance.agent_ids())
-    if (!table->fill(agent, instance.agents()[agent].goal, search, limits)) return nullptr;
+    if (!table->fill(agent, instance.agents()[agent].goals, search, limits)) return nullptr;
   return table;
 }
 
@@ -55,8 +55,9 @@ bool GoalDistances::prepare(const Instance& instance, LimitMonitor& limits,
   return true;
 }
 
-bool GoalDistances::fill(AgentId agent, VertexId goal, BreadthFirst& search, LimitMonitor& limits) {
-  if (limits.exhausted_now() || !search.run(goal, &limits)) return false;
+bool GoalDistances::fill(AgentId agent, const Goals& goals, BreadthFirst& search,
+                         LimitMonitor& limits) {
+  if (limits.exhausted_now() || !search.run(goals.vertices(), &limits)) return false;
   const std::vector<Timestep>& distances = search.distances();
   if (plain_.empty()) {
     pack(distances, bits_.data() + agent.index() * num_bytes(),
@@ -94,7 +95,7 @@ std::shared_ptr<const GoalDistances> GoalDistancesInTheMaking::join(LimitMonitor
     bool is_done = false;
     std::exception_ptr failure;
     try {
-      is_done = table_->fill(agent, instance_.agents()[agent].goal, search, limits);
+      is_done = table_->fill(agent, instance_.agents()[agent].goals, search, limits);
     } catch (...) {
       failure = std::current_exception();
     }

@@ -86,11 +86,17 @@ bool Graph::adjacent(VertexId a, VertexId b) const {
 }
 
 IdVector<VertexId, Timestep> distances_from(const Graph& graph, VertexId source) {
+  return distances_to_nearest(graph, source);
+}
+
+IdVector<VertexId, Timestep> distances_to_nearest(const Graph& graph, const Goals& goals) {
   IdVector<VertexId, Timestep> distance(graph.num_vertices(), kUnreachable);
   std::vector<VertexId> queue;
   queue.reserve(graph.num_vertices());
-  queue.push_back(source);
-  distance[source] = 0;
+  for (const VertexId goal : goals.vertices()) {
+    queue.push_back(goal);
+    distance[goal] = 0;
+  }
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const VertexId v = queue[head];
     for (const VertexId w : graph.neighbours(v))

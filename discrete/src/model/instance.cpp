@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/discrete/instance.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,17 +11,35 @@ namespace {
 
 Error invalid(std::string message) { return {ErrorCode::invalid_instance, std::move(message), {}}; }
 
-/// The first agent whose start or goal is taken already, as an error.
+/// The first agent whose start is taken already, or its only goal, as an error. `end_of(agent)`:
+/// null if it has none that counts.
+template <class EndOf>
 std::optional<Error> find_shared(const Graph& graph, const std::vector<Agent>& agents,
-                                 VertexId Agent::*end, const char* name) {
+                                 const EndOf& end_of, const char* name) {
   constexpr std::size_t kNobody = SIZE_MAX;
   std::vector<std::size_t> owner(graph.num_vertices(), kNobody);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    const VertexId v = agents[i].*end;
-    if (owner[v.index()] != kNobody)
-      return invalid("agents " + std::to_string(owner[v.index()]) + " and " + std::to_string(i) +
-                     " have the same " + name + " " + vertex_name(graph, v));
-    owner[v.index()] = i;
+    const VertexId* const v = end_of(agents[i]);
+    if (v == nullptr) continue;
+    if (owner[v->index()] != kNobody)
+      return invalid("agents " + std::to_string(owner[v->index()]) + " and " + std::to_string(i) +
+                     " have the same " + name + " " + vertex_name(graph, *v));
+    owner[v->index()] = i;
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> find_foreign(const Graph& graph, const std::vector<Agent>& agents) {
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const auto check = [&](VertexId v) -> std::optional<Error> {
+      if (v.index() < graph.num_vertices()) return std::nullopt;
+      return invalid("agent " + std::to_string(i) + " names vertex " + std::to_string(v.value()) +
+                     ", but there are only " + std::to_string(graph.num_vertices()) + " vertices");
+    };
+    if (auto error = check(agents[i].start)) return error;
+    if (agents[i].goals.size() == 0) return invalid("agent " + std::to_string(i) + " has no goal");
+    for (const VertexId v : agents[i].goals.vertices())
+      if (auto error = check(v)) return error;
   }
   return std::nullopt;
 }
@@ -28,18 +47,20 @@ std::optional<Error> find_shared(const Graph& graph, const std::vector<Agent>& a
 }  // namespace
 
 Instance::Instance(std::shared_ptr<const Graph> graph, IdVector<AgentId, Agent> agents)
-    : graph_(std::move(graph)), agents_(std::move(agents)) {}
+    : graph_(std::move(graph)),
+      agents_(std::move(agents)),
+      has_goal_sets_(std::any_of(agents_.begin(), agents_.end(),
+                                 [](const Agent& agent) { return !agent.goals.is_single(); })) {}
 
 Result<Instance> Instance::make(std::shared_ptr<const Graph> graph, std::vector<Agent> agents) {
   QUADRILLE_REQUIRE(graph != nullptr, "an instance has a graph");
-  for (std::size_t i = 0; i < agents.size(); ++i)
-    for (const VertexId v : {agents[i].start, agents[i].goal})
-      if (v.index() >= graph->num_vertices())
-        return invalid("agent " + std::to_string(i) + " names vertex " + std::to_string(v.value()) +
-                       ", but there are only " + std::to_string(graph->num_vertices()) +
-                       " vertices");
-  if (auto error = find_shared(*graph, agents, &Agent::start, "start")) return *error;
-  if (auto error = find_shared(*graph, agents, &Agent::goal, "goal")) return *error;
+  if (auto error = find_foreign(*graph, agents)) return *error;
+  const auto start = [](const Agent& agent) { return &agent.start; };
+  const auto only_goal = [](const Agent& agent) {
+    return agent.goals.is_single() ? agent.goals.vertices().data() : nullptr;
+  };
+  if (auto error = find_shared(*graph, agents, start, "start")) return *error;
+  if (auto error = find_shared(*graph, agents, only_goal, "goal")) return *error;
   return Instance(std::move(graph), IdVector<AgentId, Agent>(std::move(agents)));
 }
 

@@ -8,7 +8,7 @@ AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& ta
       table_(&table),
       task_(instance.agents()[agent]),
       to_goal_(table.row(agent)) {
-  QUADRILLE_REQUIRE(free_cost() != kUnreachable, "the goal is reachable");
+  QUADRILLE_REQUIRE(free_cost() != kUnreachable, "a goal is reachable");
 }
 
 void AgentDistances::find_from_start() const {

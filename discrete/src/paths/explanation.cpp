@@ -5,21 +5,19 @@
 
 namespace quadrille::discrete {
 
-// A walk of cost at most K is one that is at the goal at K and meets nothing there from then on.
-// Let H be the slots that blocked a step out of a state that the start can reach within the slack.
-// On any walk to (goal, K) the part after the last step that H blocks is found by searching back
-// from (goal, K) around H, so that step's slot is collected. This search cannot come to a state
-// that the start reaches: from there, the walk to the goal would have met a slot of H.
+// A walk of cost at most K is one that is at a goal at K and meets nothing there from then on. So
+// goals that a slot forbids at K or later need no more. Let H be the slots that blocked a step out
+// of a state that the start can reach within the slack. On any walk to another (goal, K) the part
+// after the last step that H blocks is found by searching back from (goal, K) around H, so that
+// step's slot is collected. This search cannot come to a state that the start reaches: from there,
+// the walk to the goal would have met a slot of H.
 void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
                         std::span<const Timestep> first_hits, Timestep bound,
                         std::vector<std::size_t>& slots) {
-  for (std::size_t slot = 0; slot < obstacles.num_slots(); ++slot)
-    if (obstacles.last_at_goal(slot) >= bound) {
-      slots.push_back(slot);
-      return;
-    }
-  const Timestep max_slack = bound - d.free_cost();
   taken_.assign(obstacles.num_slots(), 0);
+  cut_off_blocked_goals(d, obstacles, bound, slots);
+  if (frontier_.empty()) return;
+  const Timestep max_slack = bound - d.free_cost();
   // Collects a slot of H from those that `for_each` tells, unless one of them is collected already.
   // False if it tells none.
   const auto collect = [&](const auto& for_each) {
@@ -37,7 +35,6 @@ void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
     }
     return true;
   };
-  frontier_.assign(1, d.goal());
   for (Timestep t = bound - 1; t >= 0 && !frontier_.empty(); --t) {
     ++stamp_;
     next_.clear();
@@ -56,6 +53,23 @@ void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
     frontier_.swap(next_);
   }
   QUADRILLE_REQUIRE(frontier_.empty(), "an explanation cuts the start off");
+}
+
+void Explainer::cut_off_blocked_goals(const AgentDistances& d, const ObstacleMap& obstacles,
+                                      Timestep bound, std::vector<std::size_t>& slots) {
+  const auto goals = d.goals().vertices();
+  is_cut_.assign(goals.size(), 0);
+  for (const ObstacleMap::GoalBlock& block : obstacles.goal_blocks()) {
+    if (block.last < bound || is_cut_[block.goal] != 0) continue;
+    is_cut_[block.goal] = 1;
+    // Others that a collected slot cuts off come right after it.
+    if (taken_[block.slot] != 0) continue;
+    taken_[block.slot] = 1;
+    slots.push_back(block.slot);
+  }
+  frontier_.clear();
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    if (is_cut_[k] == 0 && d.from_start(goals[k]) <= bound) frontier_.push_back(goals[k]);
 }
 
 }  // namespace quadrille::discrete

@@ -10,7 +10,7 @@
 namespace quadrille::discrete {
 
 /// Says why an agent has no cheap path: a cut of the time-expanded graph between its start and a
-/// rest at its goal from the bound on.
+/// rest at any of its goals from the bound on.
 class Explainer {
  public:
   explicit Explainer(std::size_t num_vertices) : seen_(num_vertices, 0) {}
@@ -24,10 +24,16 @@ class Explainer {
                std::vector<std::size_t>& slots);
 
  private:
+  /// Collects a slot for each goal that some slot forbids at `bound` or later. The others that can
+  /// be reached by then become the frontier.
+  void cut_off_blocked_goals(const AgentDistances& distances, const ObstacleMap& obstacles,
+                             Timestep bound, std::vector<std::size_t>& slots);
+
   std::vector<VertexId> frontier_, next_;
   IdVector<VertexId, std::uint64_t> seen_;
   std::uint64_t stamp_ = 0;
-  std::vector<char> taken_;
+  std::vector<char> taken_;   // by slot
+  std::vector<char> is_cut_;  // by goal
 };
 
 }  // namespace quadrille::discrete

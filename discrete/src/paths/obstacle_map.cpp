@@ -6,30 +6,40 @@
 namespace quadrille::discrete {
 
 void ObstacleMap::load(const ObstacleTable& table, std::span<const ObstacleId> active,
-                       VertexId goal) {
+                       const Goals& goals) {
   if (++stamp_ == 0) {  // after 2^32 loads: all stamps are stale
     heads_.assign(heads_.size(), {});
     stamp_ = 1;
   }
   entries_.clear();
-  last_at_goal_.clear();
-  earliest_rest_ = 0;
-  for (const ObstacleId id : active) {
-    const auto slot = static_cast<std::uint32_t>(last_at_goal_.size());
+  num_slots_ = active.size();
+  goals_ = goals;
+  goal_blocks_.clear();
+  earliest_rests_.assign(goals_.size(), 0);
+  for (std::uint32_t slot = 0; slot < active.size(); ++slot) {
+    const ObstacleId id = active[slot];
     const Obstacle& o = table[id];
     if (o.kind == Obstacle::Kind::edge) {
       add_move(o.vertex, o.to, o.first, slot);
       add_move(o.to, o.vertex, o.first, slot);
     } else if (o.kind == Obstacle::Kind::barrier) {
-      for (const Visit& visit : table.visits(o))
+      for (const Visit& visit : table.visits(o)) {
         add_visit(visit.vertex, visit.timestep, visit.timestep, slot);
+        block_goal(visit.vertex, visit.timestep, slot);
+      }
     } else {
-      add_visit(o.vertex, o.first, o.last, slot);
+      if (o.kind != Obstacle::Kind::end) add_visit(o.vertex, o.first, o.last, slot);
+      block_goal(o.vertex, o.last, slot);
     }
-    const Timestep last = table.last_block(o, goal);
-    last_at_goal_.push_back(last);
-    earliest_rest_ = std::max(earliest_rest_, last == kForever ? kForever : last + 1);
   }
+  earliest_rest_ = *std::min_element(earliest_rests_.begin(), earliest_rests_.end());
+}
+
+void ObstacleMap::block_goal(VertexId v, Timestep last, std::uint32_t slot) {
+  if (!goals_.contains(v)) return;
+  const std::size_t goal = index_of(v);
+  goal_blocks_.push_back({slot, static_cast<std::uint32_t>(goal), last});
+  earliest_rests_[goal] = std::max(earliest_rests_[goal], last == kForever ? kForever : last + 1);
 }
 
 ObstacleMap::Head& ObstacleMap::head(VertexId v) {

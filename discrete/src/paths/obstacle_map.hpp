@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "paths/obstacles.hpp"
+#include "quadrille/core/goals.hpp"
 
 namespace quadrille::discrete {
 
@@ -15,14 +18,24 @@ class ObstacleMap {
  public:
   explicit ObstacleMap(std::size_t num_vertices) : heads_(num_vertices) {}
 
-  /// Forgets what was loaded. `goal` is where the agent has to rest.
-  void load(const ObstacleTable& table, std::span<const ObstacleId> active, VertexId goal);
+  /// Forgets what was loaded. `goals`: at one of them the agent has to rest.
+  void load(const ObstacleTable& table, std::span<const ObstacleId> active, const Goals& goals);
 
-  [[nodiscard]] std::size_t num_slots() const noexcept { return last_at_goal_.size(); }
-  /// The last timestep at which a slot forbids the goal; -1: it never does.
-  [[nodiscard]] Timestep last_at_goal(std::size_t slot) const { return last_at_goal_[slot]; }
-  /// From when on the goal stays allowed; kForever: never.
+  [[nodiscard]] std::size_t num_slots() const noexcept { return num_slots_; }
+  /// From when on some goal stays allowed; kForever: never.
   [[nodiscard]] Timestep earliest_rest() const noexcept { return earliest_rest_; }
+  /// From when on this goal does.
+  [[nodiscard]] Timestep earliest_rest(VertexId goal) const {
+    return goals_.is_single() ? earliest_rest_ : earliest_rests_[index_of(goal)];
+  }
+  /// That a slot forbids to rest in a goal, from any timestep up to `last` on.
+  struct GoalBlock {
+    std::uint32_t slot;
+    std::uint32_t goal;  ///< Its index in the set.
+    Timestep last;
+  };
+  /// By increasing slot.
+  [[nodiscard]] std::span<const GoalBlock> goal_blocks() const noexcept { return goal_blocks_; }
 
   /// Calls `tell(slot)` for each slot that forbids being in `v` at `t`.
   template <class Tell>
@@ -74,12 +87,21 @@ class ObstacleMap {
   Head& head(VertexId v);
   void add_visit(VertexId v, Timestep first, Timestep last, std::uint32_t slot);
   void add_move(VertexId v, VertexId w, Timestep t, std::uint32_t slot);
+  void block_goal(VertexId v, Timestep last, std::uint32_t slot);
+  /// Of a goal in the set.
+  [[nodiscard]] std::size_t index_of(VertexId goal) const {
+    const auto all = goals_.vertices();
+    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), goal) - all.begin());
+  }
 
   std::uint32_t stamp_ = 0;
   IdVector<VertexId, Head> heads_;
   std::vector<Entry> entries_;
-  std::vector<Timestep> last_at_goal_;
-  Timestep earliest_rest_ = 0;
+  std::size_t num_slots_ = 0;
+  Goals goals_;
+  std::vector<GoalBlock> goal_blocks_;
+  std::vector<Timestep> earliest_rests_;  // by goal
+  Timestep earliest_rest_ = 0;            // the least of them
 };
 
 }  // namespace quadrille::discrete

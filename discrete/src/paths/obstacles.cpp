@@ -29,6 +29,10 @@ ObstacleId ObstacleTable::add_range(AgentId agent, sat::Lit allowed, VertexId ve
   return add({Kind::range, agent, allowed, vertex, {}, first, last, 0, 0});
 }
 
+ObstacleId ObstacleTable::add_end(AgentId agent, sat::Lit allowed, VertexId vertex) {
+  return add({Kind::end, agent, allowed, vertex, {}, 0, kForever, 0, 0});
+}
+
 ObstacleId ObstacleTable::add_barrier(AgentId agent, sat::Lit allowed,
                                       std::span<const Visit> visits) {
   QUADRILLE_REQUIRE(!visits.empty(), "a barrier is not empty");
@@ -67,6 +71,8 @@ bool ObstacleTable::hits(ObstacleId id, const Path& path) const {
       for (const Visit& visit : visits(o))
         if (position(path, visit.timestep) == visit.vertex) return true;
       return false;
+    case Kind::end:
+      return path.back() == o.vertex;
   }
   return false;
 }

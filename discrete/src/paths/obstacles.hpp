@@ -27,6 +27,7 @@ struct Obstacle {
     edge,     ///< Move between `vertex` and `to`, in either direction, from `first` to `first` + 1.
     range,    ///< Be in `vertex` at any timestep from `first` to `last`, which can be kForever.
     barrier,  ///< Make any of a list of visits.
+    end,      ///< Rest in `vertex` in the end, whenever. Being there before is nothing.
   };
   Kind kind = Kind::point;
   AgentId agent;
@@ -44,6 +45,7 @@ class ObstacleTable {
   /// Requires first <= last.
   ObstacleId add_range(AgentId agent, sat::Lit allowed, VertexId vertex, Timestep first,
                        Timestep last);
+  ObstacleId add_end(AgentId agent, sat::Lit allowed, VertexId vertex);
   /// Requires at least one visit.
   ObstacleId add_barrier(AgentId agent, sat::Lit allowed, std::span<const Visit> visits);
 
@@ -56,7 +58,8 @@ class ObstacleTable {
   }
   /// True if the path, which ends with a rest for ever, does what the obstacle forbids.
   [[nodiscard]] bool hits(ObstacleId id, const Path& path) const;
-  /// The last timestep at which the obstacle forbids to be in `vertex`; -1: it never does.
+  /// The last timestep from which on the obstacle forbids to rest in `vertex` for ever; -1: it
+  /// never does.
   [[nodiscard]] Timestep last_block(const Obstacle& obstacle, VertexId vertex) const;
 
  private:

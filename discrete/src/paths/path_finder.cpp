@@ -117,9 +117,9 @@ PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, P
         if (is_closed(state.vertex, slack)) continue;
         if (effort_ >= last_effort) return End::gave_up;
         const ClosedIndex index = close(state, slack);
-        if (state.vertex == d.goal()) {
+        if (d.is_goal(state.vertex)) {
           const Timestep arrival = d.free_cost() + slack;
-          if (arrival >= query.obstacles.earliest_rest()) {
+          if (arrival >= query.obstacles.earliest_rest(state.vertex)) {
             trace(query, index, path);
             return End::found;
           }
@@ -159,7 +159,8 @@ bool PathFinder::dive(const Query& query, Path& path) {
       const Timestep slack = state.parent == kNone ? 0 : slack_after(d, state);
       if (is_closed(state.vertex, slack)) continue;
       const ClosedIndex index = close(state, slack);
-      if (state.vertex == d.goal() && d.free_cost() + slack == arrival) {
+      if (d.free_cost() + slack == arrival && d.is_goal(state.vertex) &&
+          query.obstacles.earliest_rest(state.vertex) <= arrival) {
         trace(query, index, path);
         return true;
       }
@@ -209,8 +210,8 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
         if (is_closed(state.vertex, slack)) continue;
         const ClosedIndex index = close(state, slack);
         const Timestep arrival = d.free_cost() + slack;
-        if (state.vertex == d.goal() && arrival >= query.obstacles.earliest_rest() &&
-            c + query.others->collisions_of_rest(query.agent, arrival) < below) {
+        if (d.is_goal(state.vertex) && arrival >= query.obstacles.earliest_rest(state.vertex) &&
+            c + query.others->collisions_of_rest(query.agent, state.vertex, arrival) < below) {
           trace(query, index, path);
           return true;
         }

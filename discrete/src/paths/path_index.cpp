@@ -2,6 +2,7 @@
 #include "paths/path_index.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "quadrille/core/contract.hpp"
 
@@ -14,15 +15,26 @@ PathIndex::PathIndex(const Instance& instance)
       paths_(instance.num_agents()),
       stays_(instance.graph().num_vertices()),
       resident_(instance.graph().num_vertices(), -1),
-      is_changed_(instance.num_agents(), 0) {
-  for (const AgentId i : instance.agent_ids())
-    resident_[instance.agents()[i].goal] = static_cast<std::int32_t>(i.value());
+      next_resident_(instance.num_agents(), -1),
+      is_changed_(instance.num_agents(), 0) {}
+
+void PathIndex::remove_resident(AgentId agent) {
+  std::int32_t* at = &resident_[paths_[agent].back()];
+  while (*at != static_cast<std::int32_t>(agent.value()))
+    at = &next_resident_[AgentId(static_cast<std::size_t>(*at))];
+  *at = next_resident_[agent];
+}
+
+void PathIndex::add_resident(AgentId agent) {
+  std::int32_t& first = resident_[paths_[agent].back()];
+  next_resident_[agent] = std::exchange(first, static_cast<std::int32_t>(agent.value()));
 }
 
 void PathIndex::replace(AgentId agent, const Path& path) {
-  QUADRILLE_REQUIRE(!path.empty() && path.back() == instance_.agents()[agent].goal,
-                    "a path ends at the agent's goal");
+  QUADRILLE_REQUIRE(!path.empty() && instance_.agents()[agent].goals.contains(path.back()),
+                    "a path ends at a goal of the agent");
   Path& own = paths_[agent];
+  if (!own.empty()) remove_resident(agent);
   for (std::size_t t = 0; t < own.size();) {
     const Stay old = stay_at(agent, own, t);
     auto& crowd = stays_[own[t]];
@@ -34,6 +46,7 @@ void PathIndex::replace(AgentId agent, const Path& path) {
     t = static_cast<std::size_t>(old.end) + 1;
   }
   own = path;
+  add_resident(agent);
   for (std::size_t t = 0; t < own.size();) {
     const Stay stay = stay_at(agent, own, t);
     stays_[own[t]].push_back(stay);
@@ -51,9 +64,9 @@ PathIndex::Stay PathIndex::stay_at(AgentId agent, const Path& path, std::size_t 
   return {static_cast<Timestep>(t), static_cast<Timestep>(end), agent};
 }
 
-int PathIndex::collisions_of_rest(AgentId agent, Timestep arrival) const {
+int PathIndex::collisions_of_rest(AgentId agent, VertexId goal, Timestep arrival) const {
   int count = 0;
-  for (const Stay& stay : stays_[instance_.agents()[agent].goal])
+  for (const Stay& stay : stays_[goal])
     if (stay.agent != agent && stay.end > arrival)
       count += stay.end - std::max(stay.begin - 1, arrival);
   return count;
@@ -69,7 +82,7 @@ int PathIndex::num_collisions(AgentId agent, const Path& path) const {
   int count = 0;
   for (std::size_t t = 1; t < path.size(); ++t)
     count += collisions_of_step(agent, path[t - 1], path[t], static_cast<Timestep>(t));
-  return count + collisions_of_rest(agent, static_cast<Timestep>(path.size()) - 1);
+  return count + collisions_of_rest(agent, path.back(), static_cast<Timestep>(path.size()) - 1);
 }
 
 void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
@@ -77,14 +90,16 @@ void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
   const auto end = static_cast<Timestep>(path.size()) - 1;
   for (Timestep t = 0; t <= end; ++t) {
     const VertexId v = path[static_cast<std::size_t>(t)];
-    std::optional<AgentId> host;  // who rests there now
-    if (resident_[v] >= 0) {
-      const AgentId resident(static_cast<std::size_t>(resident_[v]));
-      if (resident != agent && rests_since(resident) <= t) host = resident;
+    const auto is_host = [&](AgentId i) {  // rests there now
+      return i != agent && paths_[i].back() == v && cost(i) <= t;
+    };
+    for (std::int32_t at = resident_[v]; at >= 0;) {
+      const AgentId resident(static_cast<std::size_t>(at));
+      if (is_host(resident)) out.push_back({Kind::rest, resident, agent, v, v, t});
+      at = next_resident_[resident];
     }
-    if (host) out.push_back({Kind::rest, *host, agent, v, v, t});
     for (const Stay& stay : stays_[v])
-      if (stay.contains(t) && stay.agent != agent && stay.agent != host)
+      if (stay.contains(t) && stay.agent != agent && !is_host(stay.agent))
         out.push_back({t == end ? Kind::rest : Kind::vertex, agent, stay.agent, v, v, t});
     if (t == end) break;
     const VertexId w = path[static_cast<std::size_t>(t) + 1];
@@ -98,7 +113,7 @@ void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
 }
 
 void PathIndex::collect_rest(AgentId agent, std::vector<Encounter>& out) const {
-  const VertexId goal = instance_.agents()[agent].goal;
+  const VertexId goal = paths_[agent].back();
   for (const Stay& stay : stays_[goal])
     if (stay.agent != agent)
       for (Timestep t = std::max(stay.begin, cost(agent) + 1); t <= stay.end; ++t)

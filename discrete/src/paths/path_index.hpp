@@ -14,7 +14,9 @@ struct Encounter {
   enum class Kind {
     vertex,  ///< Both are in `vertex` at `timestep`.
     swap,    ///< `first` moves from `vertex` to `to` at `timestep`, `second` moves back.
-    rest,  ///< `first` rests in `vertex`, its goal, since `timestep` or before; `second` is there.
+    /// `first` rests in `vertex`, one of its goals, since `timestep` or before; `second` is there,
+    /// and perhaps rests there as well from then on.
+    rest,
   };
   Kind kind = Kind::vertex;
   AgentId first, second;
@@ -31,7 +33,7 @@ class PathIndex {
   /// nowhere.
   explicit PathIndex(const Instance& instance);
 
-  /// `path` begins at the agent's start and ends with its arrival at its goal.
+  /// `path` begins at the agent's start and ends with its arrival at one of its goals.
   void replace(AgentId agent, const Path& path);
   [[nodiscard]] const Path& path(AgentId agent) const { return paths_[agent]; }
   /// Requires a path.
@@ -44,10 +46,11 @@ class PathIndex {
   [[nodiscard]] int collisions_of_step(AgentId agent, VertexId from, VertexId to,
                                        Timestep t) const {
     int count = 0;
-    const std::int32_t resident = resident_[to];
-    if (resident >= 0 && AgentId(static_cast<std::size_t>(resident)) != agent &&
-        rests_since(AgentId(static_cast<std::size_t>(resident))) < t)
-      ++count;
+    for (std::int32_t at = resident_[to]; at >= 0;) {
+      const AgentId resident(static_cast<std::size_t>(at));
+      if (resident != agent && cost(resident) < t) ++count;
+      at = next_resident_[resident];
+    }
     for (const Stay& stay : stays_[to]) {
       if (!stay.is_near(t) || stay.agent == agent) continue;
       if (stay.end >= t) {
@@ -60,12 +63,12 @@ class PathIndex {
     }
     return count;
   }
-  /// How many times others pass the agent's goal after `arrival`.
-  [[nodiscard]] int collisions_of_rest(AgentId agent, Timestep arrival) const;
+  /// How many times others pass that goal after the agent's `arrival` there.
+  [[nodiscard]] int collisions_of_rest(AgentId agent, VertexId goal, Timestep arrival) const;
   /// How many collisions the agent's path has.
   [[nodiscard]] int num_collisions(AgentId agent) const;
   /// How many collisions another path of the agent would have, which begins at its start and ends
-  /// with its arrival at its goal.
+  /// with its arrival at one of its goals.
   [[nodiscard]] int num_collisions(AgentId agent, const Path& path) const;
   /// All collisions among current paths; each pair's are in the order of time.
   [[nodiscard]] const std::vector<Encounter>& collisions();
@@ -85,18 +88,20 @@ class PathIndex {
       return static_cast<std::uint32_t>(t - begin) <= static_cast<std::uint32_t>(end - begin) + 1;
     }
   };
-  [[nodiscard]] Timestep rests_since(AgentId agent) const {
-    return paths_[agent].empty() ? kForever : cost(agent);
-  }
   /// The stay of `path` that begins at `t`.
   static Stay stay_at(AgentId agent, const Path& path, std::size_t t);
+  void remove_resident(AgentId agent);
+  void add_resident(AgentId agent);
   void collect(AgentId agent, std::vector<Encounter>& out) const;
   void collect_rest(AgentId agent, std::vector<Encounter>& out) const;
 
   const Instance& instance_;
   IdVector<AgentId, Path> paths_;
   IdVector<VertexId, std::vector<Stay>> stays_;
-  IdVector<VertexId, std::int32_t> resident_;  // whose goal it is, -1: nobody's
+  // Those whose paths end there, as a list: an agent, -1 at the end. Of goals that no two agents
+  // have in common there is one at most.
+  IdVector<VertexId, std::int32_t> resident_;
+  IdVector<AgentId, std::int32_t> next_resident_;
   std::vector<Encounter> collisions_;
   std::vector<AgentId> changed_;  // paths replaced since collisions_ was right
   IdVector<AgentId, char> is_changed_;

@@ -17,7 +17,8 @@ bool SafeIntervalSearch::find(const AgentDistances& distances, const ObstacleMap
       open_[slack].pop_back();
       const auto [vertex, interval, time, parent] = labels_[label];
       if (intervals_[interval].arrival < time) continue;
-      if (vertex == distances.goal() && intervals_[interval].end == kForever) {
+      if (intervals_[interval].end == kForever && distances.is_goal(vertex) &&
+          obstacles.earliest_rest(vertex) != kForever) {
         path = path_to(labels_, label);
         return true;
       }

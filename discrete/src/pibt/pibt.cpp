@@ -135,7 +135,7 @@ Pibt::Continuation Pibt::continuation(VertexId at, VertexId behind) const {
     if (v == behind) continue;
     const std::uint32_t other = occupant_[v];
     if (other != kNobody && graph_.neighbours(v).size() == 1 &&
-        instance_.agents()[AgentId(other)].goal == v)
+        instance_.agents()[AgentId(other)].goal() == v)
       continue;
     ++result.ways;
     result.vertex = v;

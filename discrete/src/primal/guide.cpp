@@ -123,7 +123,7 @@ class Lanes {
   /// was left.
   std::int64_t search(AgentId agent) {
     const auto row = distances_.row(agent);
-    const auto [start, goal] = instance_.agents()[agent];
+    const VertexId start = instance_.agents()[agent].start, goal = instance_.agents()[agent].goal();
     const Timestep free = row[start];
     const auto bucket_of = [&](const Label& label) {
       return static_cast<std::size_t>(label.meetings * (margin_ + 1) + label.time +
@@ -165,7 +165,7 @@ class Lanes {
   }
 
   void trace(AgentId agent) {
-    const auto [start, goal] = instance_.agents()[agent];
+    const VertexId start = instance_.agents()[agent].start, goal = instance_.agents()[agent].goal();
     Path& path = paths_[agent];
     path.clear();
     for (VertexId v = goal; v != start; v = reached_[v].parent) path.push_back(v);

@@ -26,7 +26,7 @@ Lacam::Lacam(const Instance& instance, std::shared_ptr<const GoalDistances> dist
   for (const AgentId agent : instance_.agent_ids()) {
     if (far(agent) == kUnreachable) state_ = State::exhausted;
     starts.push_back(instance_.agents()[agent].start);
-    goals_.push_back(instance_.agents()[agent].goal);
+    goals_.push_back(instance_.agents()[agent].goal());
     by_distance.push_back(agent);
   }
   if (state_ == State::exhausted) return;

@@ -38,16 +38,23 @@ bool PathPlanner::begin(AgentId agent, const Reservations& reservations, Timeste
   row_ = distances_.row(agent);
   reservations_ = &reservations;
   latest_ = latest;
-  const auto [start, goal] = instance_.agents()[agent];
-  goal_ = goal;
+  const VertexId start = instance_.agents()[agent].start;
+  goals_ = &instance_.agents()[agent].goals;
   ++search_;
   labels_.clear();
   for (std::size_t k = 0; k < num_buckets_; ++k) buckets_[k].clear();
   num_buckets_ = 0;
-  // The agent can only stay in its goal once all others have passed it for the last time.
-  const auto passing = reservations.stays(goal);
-  if (!passing.empty() && passing.back().end == kForever) return false;
-  earliest_ = std::max(row_[start], passing.empty() ? 0 : passing.back().end + 1);
+  // The agent can only stay in a goal once all others have passed it for the last time.
+  Timestep earliest_rest = kForever;
+  for (const VertexId goal : goals_->vertices()) {
+    const auto passing = reservations.stays(goal);
+    if (passing.empty())
+      earliest_rest = 0;
+    else if (passing.back().end != kForever)
+      earliest_rest = std::min(earliest_rest, passing.back().end + 1);
+  }
+  if (earliest_rest == kForever) return false;
+  earliest_ = std::max(row_[start], earliest_rest);
   if (earliest_ > latest_) return false;
   const auto stays = reservations.stays(start);
   add(start, 0, 0, stays.empty() ? kForever : stays.front().begin - 1, kNoLabel, row_[start]);

@@ -63,7 +63,7 @@ class PathPlanner {
   void add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end, LabelIndex parent,
            Timestep distance);
   [[nodiscard]] bool is_goal(const Label& label) const {
-    return label.vertex == goal_ && label.gap_end == kForever;
+    return label.gap_end == kForever && goals_->contains(label.vertex);
   }
 
   const Instance& instance_;
@@ -74,7 +74,7 @@ class PathPlanner {
   // Of the current search.
   std::uint32_t search_ = 0;
   GoalDistances::Row row_;
-  VertexId goal_;
+  const Goals* goals_ = nullptr;
   const Reservations* reservations_ = nullptr;
   Timestep earliest_ = 0, latest_ = 0;  // No arrival before, none after.
   IdVector<VertexId, Head> heads_;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <utility>
 
+#include "feasibility/goal_choice.hpp"
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
@@ -243,6 +244,10 @@ Cost PrimalSearch::cost() const { return impl_->cost(); }
 std::string_view PrimalSearch::origin() const noexcept { return impl_->origin(); }
 
 std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits, std::uint32_t seed) {
+  if (instance.has_goal_sets()) {
+    const GoalChoice choice = choose_goals(instance, &limits);
+    return choice.chosen ? find_plan(*choice.chosen, limits, seed) : std::nullopt;
+  }
   const auto distances = GoalDistances::make(instance, limits);
   if (distances == nullptr) return std::nullopt;
   PrimalSearch search(instance, distances, seed);

@@ -37,8 +37,8 @@ void SoftPathPlanner::begin(AgentId agent, const SoftReservations& reservations,
   reservations_ = &reservations;
   latest_ = latest;
   most_ = most;
-  const auto [start, goal] = instance_.agents()[agent];
-  goal_ = goal;
+  const VertexId start = instance_.agents()[agent].start;
+  goals_ = &instance_.agents()[agent].goals;
   ++search_;
   labels_.clear();
   for (std::size_t k = 0; k < num_levels_; ++k) {
@@ -73,7 +73,7 @@ std::optional<SoftPathPlanner::LabelIndex> SoftPathPlanner::next() {
 
 void SoftPathPlanner::expand(LabelIndex from) {
   const VertexId v = labels_[from].vertex;
-  if (v == goal_) rest(from);
+  if (goals_->contains(v)) rest(from);
   wait(from);
   const auto near = instance_.graph().neighbours(v);
   // A random first neighbour makes a random path among many that are as good.
@@ -118,10 +118,10 @@ void SoftPathPlanner::reach(LabelIndex from, VertexId to) {
   }
 }
 
-/// Stays in the goal for ever, and meets all who are still to come.
+/// Stays in a goal for ever, and meets all who are still to come.
 void SoftPathPlanner::rest(LabelIndex from) {
   Label label = labels_[from];
-  const auto stays = reservations_->stays(goal_);
+  const auto stays = reservations_->stays(label.vertex);
   const auto later = std::partition_point(
       stays.begin(), stays.end(), [&](const Stay& stay) { return stay.begin <= label.piece_end; });
   label.num_meetings += static_cast<std::uint32_t>(stays.end() - later);

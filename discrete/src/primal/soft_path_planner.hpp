@@ -78,7 +78,7 @@ class SoftPathPlanner {
   // Of the current search.
   std::uint32_t search_ = 0;
   GoalDistances::Row row_;
-  VertexId goal_;
+  const Goals* goals_ = nullptr;
   const SoftReservations* reservations_ = nullptr;
   Timestep earliest_ = 0, latest_ = 0;  // No arrival before, none after.
   std::int64_t most_ = 0;

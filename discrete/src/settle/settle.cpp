@@ -66,7 +66,7 @@ class Settling::Impl {
       : num_agents_(instance.num_agents()), numbering_(instance.graph()) {
     std::vector<Component> components;
     for (const AgentId agent : instance.agent_ids()) {
-      const auto [start, goal] = instance.agents()[agent];
+      const VertexId start = instance.agents()[agent].start, goal = instance.agents()[agent].goal();
       if (numbering_.component_of(start) == kNoLocal)
         components.push_back(numbering_.explore(start));
       if (numbering_.component_of(goal) != numbering_.component_of(start)) {
@@ -79,7 +79,7 @@ class Settling::Impl {
       std::vector<Local> starts, goals;
       for (const AgentId agent : component.agents) {
         starts.push_back(numbering_.number(instance.agents()[agent].start));
-        goals.push_back(numbering_.number(instance.agents()[agent].goal));
+        goals.push_back(numbering_.number(instance.agents()[agent].goal()));
       }
       parts_.emplace_back(instance, numbering_, std::move(component), std::move(starts),
                           std::move(goals));

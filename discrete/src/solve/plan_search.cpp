@@ -58,10 +58,10 @@ PlanSearchContext for_improvement(PlanSearchContext context) {
 sat::Outcome FirstPlan::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
   // Long plans are not copied for nothing.
-  if (search_.advance(*slice.effort, context_.limits) == PrimalSearch::State::found &&
-      (!told_ || search_.cost() < *told_)) {
-    context_.incumbent.offer(search_.plan(), search_.origin());
-    told_ = search_.cost();
+  if (search_ && search_->advance(*slice.effort, context_.limits) == PrimalSearch::State::found &&
+      (!told_ || search_->cost() < *told_)) {
+    context_.incumbent.offer(search_->plan(), search_->origin());
+    told_ = search_->cost();
   }
   return sat::Outcome::working;
 }
@@ -210,6 +210,7 @@ std::int64_t PlanSearch::work(const std::function<Plan()>& draft) {
     static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
     return std::max(kFirstSlice, first_plan_.effort() - before) / kFirstStepsOfSearch;
   }
+  if (!context_.incumbent.upper()) return kFirstSlice;  // until another search finds a plan
   improvement_.offer_draft(draft);
   static_cast<void>(improvement_.advance({.effort = long_slice_}));
   return std::max(long_slice_, improvement_.effort());

@@ -20,6 +20,10 @@ namespace quadrille::discrete {
 struct PlanSearchContext {
   const Instance& instance;
   std::shared_ptr<const GoalDistances> distances;
+  /// In which a first plan is looked for: the same where each agent has one goal, else with goals
+  /// that were chosen. Null distances: there are none, and no first plan is looked for.
+  const Instance& first_instance;
+  std::shared_ptr<const GoalDistances> first_distances;
   Objective objective = Objective::sum_of_costs;
   std::uint32_t seed = 0;
   PrimalSearch::Part part = PrimalSearch::Part::all;  ///< Of the search for a first plan.
@@ -30,26 +34,27 @@ struct PlanSearchContext {
 /// Looks for a plan of any cost.
 class FirstPlan final : public sat::Strategy {
  public:
-  explicit FirstPlan(const PlanSearchContext& context)
-      : context_(context),
-        search_(context.instance, context.distances, context.seed, context.part) {}
+  explicit FirstPlan(const PlanSearchContext& context) : context_(context) {
+    if (context.first_distances)
+      search_.emplace(context.first_instance, context.first_distances, context.seed, context.part);
+  }
 
   /// Requires a slice with effort.
   [[nodiscard]] sat::Outcome advance(sat::Slice slice) override;
   /// No plan comes any more, or no cheaper one.
-  [[nodiscard]] bool is_over() const noexcept { return search_.is_over(); }
+  [[nodiscard]] bool is_over() const noexcept { return !search_ || search_->is_over(); }
   /// The searches that all begins with are not done.
-  [[nodiscard]] bool is_at_guides() const noexcept { return search_.is_at_guides(); }
+  [[nodiscard]] bool is_at_guides() const noexcept { return search_ && search_->is_at_guides(); }
   /// See PrimalSearch.
   [[nodiscard]] bool is_worth_waiting_for() const noexcept {
-    return search_.is_worth_waiting_for();
+    return search_ && search_->is_worth_waiting_for();
   }
   /// Of all slices; a slice may take more than it is given, because guides are not cut.
-  [[nodiscard]] std::int64_t effort() const noexcept { return search_.effort(); }
+  [[nodiscard]] std::int64_t effort() const noexcept { return search_ ? search_->effort() : 0; }
 
  private:
   const PlanSearchContext context_;
-  PrimalSearch search_;
+  std::optional<PrimalSearch> search_;
   std::optional<Cost> told_;  // What the plan costs that the incumbent was told of.
 };
 

@@ -17,7 +17,9 @@ namespace {
 constexpr std::int64_t kLag = 1;
 
 /// What another worker does: plans, the lazy model with the other way to backtrack, the MDD model.
-SolveOptions options_of(const SolveOptions& options, const Tuner& tuner, std::size_t worker) {
+/// The MDD model knows no goal sets: there the lazy model takes its place, set otherwise.
+SolveOptions options_of(const Instance& instance, const SolveOptions& options, const Tuner& tuner,
+                        std::size_t worker) {
   if (worker == 0 || (worker == 1 && options.first_plan)) return options;
   using Kind = CheckSchedule::Kind;
   SolveOptions other = options;
@@ -25,9 +27,13 @@ SolveOptions options_of(const SolveOptions& options, const Tuner& tuner, std::si
   other.cost_search = CostSearch::core_guided;
   other.mdd.growth = MddGrowth::on_demand;
   const std::size_t variant = (worker - (options.first_plan ? 2 : 1)) % 4;
-  if (variant == 0) {
+  if (variant == 0 || instance.has_goal_sets()) {
     other.lazy.chronological = options.system == System::dpll && !tuner(options).chronological;
     other.system = System::dpll;
+    other.lazy.forbid_first = variant == 1 ? !options.lazy.forbid_first : options.lazy.forbid_first;
+    if (variant > 1)
+      other.seed =
+          static_cast<std::uint32_t>((options.seed + variant) % (SolveOptions::kMaxSeed + 1));
   } else {
     other.system = System::dpll_mdd;
     other.mdd.check = {variant == 2 ? Kind::watch : Kind::propagate, {}};
@@ -51,7 +57,7 @@ void search_side_by_side(const Instance& instance, const SolveOptions& options, 
     return worker == 0 ? Role::bound : Role::plans;
   };
   const auto search_as = [&](std::size_t worker, const Desk& own) {
-    const SolveOptions own_options = options_of(options, tuner, worker);
+    const SolveOptions own_options = options_of(instance, options, tuner, worker);
     search(instance, own_options, tuner(own_options), own, get_distances);
   };
   const solve::Pace pace{tuner(options).round, kLag};

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "feasibility/goal_choice.hpp"
 #include "primal/plan_merger.hpp"
 #include "quadrille/core/free_bound.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
@@ -62,8 +63,14 @@ class Search final : private sat::YieldPoint {
     const Part part = role_ == Role::all     ? Part::all
                       : role_ == Role::bound ? Part::first_guide
                                              : Part::rest;
-    plans_.emplace(PlanSearchContext{instance_, distances, options_.objective, options_.seed, part,
-                                     incumbent_, limits_});
+    std::shared_ptr<const GoalDistances> first_distances = distances;
+    if (instance_.has_goal_sets()) {
+      chosen_ = choose_goals(instance_, &limits_).chosen;
+      first_distances = chosen_ ? GoalDistances::make(*chosen_, limits_) : nullptr;
+    }
+    plans_.emplace(PlanSearchContext{instance_, distances, chosen_ ? *chosen_ : instance_,
+                                     std::move(first_distances), options_.objective, options_.seed,
+                                     part, incumbent_, limits_});
     if (!options_.initial_plan) {
       enter(Phase::first_plan);
       if (role_ == Role::all)
@@ -202,6 +209,8 @@ class Search final : private sat::YieldPoint {
     known_.statistics.rejected_models = run->num_rejected();
     if (const auto complaint = run->complaint())
       known_.fail(*complaint);
+    else if (end == sat::SearchEnd::exhausted && instance_.has_goal_sets())
+      known_.infeasible = solve::Infeasibility{"no choice of goals has a plan"};
     else if (end == sat::SearchEnd::exhausted)
       known_.fail("the clauses of a feasible instance are unsatisfiable");
     else if (end == sat::SearchEnd::found && !incumbent_.are_closed() && !known_.is_claim_refuted())
@@ -220,6 +229,7 @@ class Search final : private sat::YieldPoint {
   solve::Exchange<Message>& exchange_;
   const Role role_;
   Incumbent incumbent_;
+  std::optional<Instance> chosen_;  // with one goal for each agent, if some have several
   std::optional<PlanSearch> plans_;
   std::optional<PlanMerger> merger_;
   const Run* run_ = nullptr;  // when it is prepared

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "feasibility/goal_choice.hpp"
 #include "mdd/usages.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
@@ -36,6 +37,10 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   }
   if (options.explain && options.system != System::dpll)
     return refuse(ErrorCode::out_of_range, "an explanation needs the system dpll");
+  if (instance.has_goal_sets() && options.system != System::dpll)
+    return refuse(ErrorCode::out_of_range,
+                  "the system " + std::string(to_string(options.system)) +
+                      " knows one goal for each agent; sets of several need the system dpll");
   return std::nullopt;
 }
 
@@ -61,13 +66,15 @@ class Domain {
   [[nodiscard]] IdRange<AgentId> agents() const { return instance_.agent_ids(); }
   [[nodiscard]] Cost free_cost(AgentId agent) const {
     const Agent& task = instance_.agents()[agent];
-    return distances_from(instance_.graph(), task.goal)[task.start];
+    return distances_to_nearest(instance_.graph(), task.goals)[task.start];
   }
 
   void search(LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
               Knowledge& known, solve::Pulse<Plan>& pulse) {
     pulse.enter(Phase::feasibility);
-    Feasibility feasibility = check_feasibility(instance_);
+    Feasibility feasibility = instance_.has_goal_sets()
+                                  ? choose_goals(instance_, &limits).feasibility
+                                  : check_feasibility(instance_);
     if (!feasibility.feasible) {
       known.infeasible =
           solve::Infeasibility{std::move(feasibility.reason), std::move(feasibility.agents),

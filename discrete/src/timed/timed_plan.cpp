@@ -65,7 +65,7 @@ Result<TimedPlan> TimedPlan::make(const Instance& instance, const Plan& plan) {
       made.stops_.back().depart = step;
     }
     const Agent& agent = instance.agents()[i];
-    made.free_cost_ = distances_from(instance.graph(), agent.start)[agent.goal];
+    made.free_cost_ = distances_to_nearest(instance.graph(), agent.goals)[agent.start];
     timed.delay_ += made.delay();
     paths->push_back(std::move(made));
   }

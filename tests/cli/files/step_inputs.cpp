@@ -48,7 +48,7 @@ std::string scenario_text(const Instance& instance) {
   std::string text = "version 1\n";
   for (const discrete::Agent& agent : instance.agents()) {
     text += "0\tany.map\t" + std::to_string(grid.width()) + "\t" + std::to_string(grid.height());
-    for (const VertexId v : {agent.start, agent.goal}) {
+    for (const VertexId v : {agent.start, agent.goal()}) {
       const discrete::Cell cell = grid.cell_of(v);
       text += "\t" + std::to_string(cell.x) + "\t" + std::to_string(cell.y);
     }

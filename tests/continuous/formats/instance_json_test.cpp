@@ -90,6 +90,8 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithTheRulesOfFleets) {
       {"1.5, \"deadline", "true, \"deadline", "f:15: /agents/1/release: expected a number"},
       {"12", "-12", "f:15: /agents/1/deadline: the time is negative, or too late"},
       {"12", "null", "f:15: /agents/1/deadline: expected a number"},
+      {"\"deadline", "\"goals\": [0, 2], \"deadline",
+       "f:15: /agents/1/goals: sets of several goals are not supported on roadmaps"},
       {"12", "3.49", "f:15: agent 1 cannot arrive before 3.5, and its deadline is 3.49"},
       {"\"radius\": 0.2, ", "",
        "f:18: /obstacles/0: one of the keys 'radius' and 'polygon' is missing"},

@@ -24,6 +24,14 @@ TEST(InstanceJson, ReadsGraphs) {
             (std::vector<Agent>{{VertexId(0), VertexId(2)}, {VertexId(2), VertexId(0)}}));
 }
 
+TEST(InstanceJson, ReadsGoalSets) {
+  const Instance instance = read_instance_json(testing::data("valid/goal-sets.json")).value();
+  const auto at = [&](int x, int y) { return *instance.graph().layout()->vertex_at({x, y}); };
+  EXPECT_TRUE(instance.has_goal_sets());
+  EXPECT_EQ(instance.agents()[AgentId(0)].goals, Goals({at(3, 0), at(0, 2)}));
+  EXPECT_EQ(instance.agents()[AgentId(1)].goal(), at(0, 2));
+}
+
 TEST(InstanceJson, NumbersAtTheEndOfALineBelongToIt) {
   // The parser has read the line end when it reports the number.
   std::istringstream in("{\"quadrille\": \"instance\",\n\"version\": 7\n, \"agents\": []}\n");

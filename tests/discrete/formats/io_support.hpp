@@ -101,7 +101,8 @@ inline Instance random_graph_instance(std::uint64_t seed) {
       if (random() % 3 == 0) edges.emplace_back(VertexId(a), VertexId(b));
   std::vector<Agent> tasks;
   for (std::size_t i = 0; i < count; i += 1 + random() % 2)
-    tasks.push_back({VertexId(i), VertexId(count - 1 - i)});
+    tasks.push_back({VertexId(i), random() % 3 == 0 ? Goals({VertexId(count - 1 - i), VertexId(0)})
+                                                    : Goals(VertexId(count - 1 - i))});
   return Instance::make(Graph::make(count, edges).value(), std::move(tasks)).value();
 }
 

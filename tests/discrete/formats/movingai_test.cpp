@@ -129,7 +129,7 @@ TEST(MovingAiScenario, SeparatorsVersionAndLineEndsMakeNoDifference) {
   };
   const Instance instance = instance_of("valid/small.scen", 3);
   EXPECT_EQ(instance.num_agents(), 3u);
-  EXPECT_EQ(instance.agents()[AgentId(2)].goal, *graph->layout()->vertex_at({3, 2}));
+  EXPECT_EQ(instance.agents()[AgentId(2)].goal(), *graph->layout()->vertex_at({3, 2}));
   EXPECT_TRUE(testing::equal(instance_of("valid/small-crlf.scen", 3), instance));
   EXPECT_TRUE(testing::equal(instance_of("valid/blanks.scen", 3), instance));
   EXPECT_EQ(instance_of("valid/small.scen", 0).num_agents(), 0u);

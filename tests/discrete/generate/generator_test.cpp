@@ -130,7 +130,7 @@ TEST(Generator, ScenariosAreInstancesThatCanBeWalked) {
     const Instance instance =
         make_instance(std::make_shared<const Graph>(map.graph()), scenario, agents).value();
     for (const Agent& task : instance.agents())
-      EXPECT_NE(distances_from(instance.graph(), task.start)[task.goal], kUnreachable);
+      EXPECT_NE(distances_from(instance.graph(), task.start)[task.goal()], kUnreachable);
   }
 }
 

@@ -50,7 +50,7 @@ std::optional<Instance> random_instance(unsigned seed) {
   std::shuffle(component.begin(), component.end(), random);
   for (std::size_t i = 0; i < num_agents; ++i) tasks[i].start = component[i];
   std::shuffle(component.begin(), component.end(), random);
-  for (std::size_t i = 0; i < num_agents; ++i) tasks[i].goal = component[i];
+  for (std::size_t i = 0; i < num_agents; ++i) tasks[i].goals = component[i];
   return Instance::make(*graph, tasks).value();
 }
 

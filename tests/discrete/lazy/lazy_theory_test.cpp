@@ -33,11 +33,12 @@ using VariableKind = LazyModel::VariableKind;
 /// An instance all of whose goals can be reached. Small: the audit of one lemma is a joint search.
 Instance random_instance(Random& random) {
   while (true) {
-    const Instance instance = random.percent(65) ? support::random_grid(random, {2, 4, 25, 2, 5})
-                                                 : support::random_graph(random, 9, 4);
+    Instance instance = random.percent(65) ? support::random_grid(random, {2, 4, 25, 2, 5})
+                                           : support::random_graph(random, 9, 4);
+    if (random.percent(40)) instance = support::with_more_goals(random, instance);
     const bool all_reach =
         std::all_of(instance.agents().begin(), instance.agents().end(), [&](const Agent& task) {
-          return distances_from(instance.graph(), task.start)[task.goal] != kUnreachable;
+          return distances_to_nearest(instance.graph(), task.goals)[task.start] != kUnreachable;
         });
     if (all_reach && instance.num_agents() > 1) return instance;
   }

@@ -40,7 +40,9 @@ Instance random_instance(Random& random) {
   random.shuffle(starts);
   random.shuffle(goals);
   std::vector<Agent> tasks;
-  for (std::size_t i = 0; i < 4; ++i) tasks.push_back({starts[i], goals[i]});
+  for (std::size_t i = 0; i < 4; ++i)
+    tasks.push_back(
+        {starts[i], random.percent(30) ? Goals({goals[0], goals[1], goals[i]}) : Goals(goals[i])});
   return Instance::make(Graph::grid(width, 3, std::vector<bool>(size, true)), tasks).value();
 }
 
@@ -102,6 +104,9 @@ class Scenery {
     const Graph& graph = instance_.graph();
     const VertexId v(random_.below(graph.num_vertices()));
     const auto t = static_cast<Timestep>(1 + random_.below(7));
+    const Goals& goals = instance_.agents()[i].goals;
+    if (!goals.is_single() && random_.percent(20))
+      return model_.end(i, goals.vertices().front(), writer_);
     switch (random_.below(4)) {
       case 0:
         return model_.point(i, {v, t}, writer_);
@@ -110,7 +115,7 @@ class Scenery {
                            t - 1, writer_);
       case 2: {
         // For ever now and then, but not where the agent must come to rest.
-        const bool is_endless = v != instance_.agents()[i].goal && random_.percent(30);
+        const bool is_endless = !instance_.agents()[i].goals.contains(v) && random_.percent(30);
         const auto length = static_cast<Timestep>(random_.below(5));
         return model_.range(i, v, t, is_endless ? kForever : t + length, writer_);
       }

@@ -12,7 +12,7 @@
 namespace quadrille::discrete::support {
 
 inline bool forbids_visit(const ObstacleTable& table, const Obstacle& o, VertexId v, Timestep t) {
-  if (o.kind == Obstacle::Kind::edge) return false;
+  if (o.kind == Obstacle::Kind::edge || o.kind == Obstacle::Kind::end) return false;
   if (o.kind != Obstacle::Kind::barrier) return o.vertex == v && o.first <= t && t <= o.last;
   const auto visits = table.visits(o);
   return std::find(visits.begin(), visits.end(), Visit{v, t}) != visits.end();
@@ -39,7 +39,7 @@ struct Situation {
     for (const ObstacleId id : IdRange<ObstacleId>(model.obstacles().size())) {
       const Obstacle& o = model.obstacles()[id];
       if (is_false(o.allowed)) active[o.agent].push_back(o);
-      if (o.kind != Obstacle::Kind::range || o.last != kForever) end = std::max(end, o.last);
+      if (o.last != kForever) end = std::max(end, o.last);
       end = std::max(end, o.first + 1);
     }
     for (const AgentId i : model.instance().agent_ids())
@@ -62,9 +62,15 @@ struct Situation {
     return std::find(cap.begin(), cap.end(), kForever) == cap.end();
   }
   [[nodiscard]] bool may_visit(AgentId i, VertexId v, Timestep t) const {
-    return (t < cap[i] || v == model.instance().agents()[i].goal) &&
+    return (t < cap[i] || may_end(i, v)) &&
            std::none_of(active[i].begin(), active[i].end(), [&](const Obstacle& o) {
              return forbids_visit(model.obstacles(), o, v, t);
+           });
+  }
+  [[nodiscard]] bool may_end(AgentId i, VertexId v) const {
+    return model.instance().agents()[i].goals.contains(v) &&
+           std::none_of(active[i].begin(), active[i].end(), [&](const Obstacle& o) {
+             return o.kind == Obstacle::Kind::end && o.vertex == v;
            });
   }
   [[nodiscard]] bool may_move(AgentId i, VertexId v, VertexId w, Timestep t) const {
@@ -83,19 +89,22 @@ struct Situation {
       for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
         if (!here[v.index()]) continue;
         if (may_visit(i, v, t + 1)) next[v.index()] = true;
+        if (t >= cap[i]) continue;  // it rests
         for (const VertexId w : graph.neighbours(v))
           if (may_visit(i, w, t + 1) && may_move(i, v, w, t)) next[w.index()] = true;
       }
       here = std::move(next);
     }
-    return here[task.goal.index()];
+    const auto goals = task.goals.vertices();
+    return std::any_of(goals.begin(), goals.end(),
+                       [&](VertexId v) { return here[v.index()] && may_end(i, v); });
   }
   /// Why `path` is not one of these; empty if it is.
   [[nodiscard]] std::string find_fault(AgentId i, const Path& path) const {
     const Graph& graph = model.instance().graph();
     const Agent& task = model.instance().agents()[i];
-    if (path.empty() || path.front() != task.start || path.back() != task.goal)
-      return "does not lead from the start to the goal";
+    if (path.empty() || path.front() != task.start || !may_end(i, path.back()))
+      return "does not lead from the start to a goal where it may end";
     if (static_cast<Timestep>(path.size()) - 1 > cap[i]) return "is costlier than the cap";
     const auto last = std::max(end + 1, static_cast<Timestep>(path.size()));
     for (Timestep t = 0; t <= last; ++t) {

@@ -75,7 +75,7 @@ bool is_collision_clause(const MddModel& model, const std::vector<Lit>& clause) 
     const auto& use = clause[0].positive() ? uses[1] : uses[0];
     const auto& late = clause[0].positive() ? uses[0] : uses[1];
     return use.kind == VariableKind::vertex && late.kind == VariableKind::delay &&
-           use.agent != late.agent && model.mdd(late.agent).task().goal == use.vertex &&
+           use.agent != late.agent && model.mdd(late.agent).task().goal() == use.vertex &&
            model.mdd(late.agent).distance() + late.number == use.number + 1;
   }
   if (clause.size() != 4) return false;  // swap: u@t, v@t+1 of one, v@t, u@t+1 of the other

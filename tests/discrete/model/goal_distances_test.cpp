@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -24,7 +25,13 @@ std::shared_ptr<const GoalDistances> packed_distances_of(const Instance& instanc
 void expect_right(const Instance& instance, const GoalDistances& table, std::size_t stride = 1) {
   for (const AgentId agent : instance.agent_ids()) {
     const Agent& task = instance.agents()[agent];
-    const auto expected = distances_from(instance.graph(), task.goal);
+    IdVector<VertexId, Timestep> expected(instance.graph().num_vertices(), kUnreachable);
+    for (const VertexId goal : task.goals.vertices()) {
+      const auto to_goal = distances_from(instance.graph(), goal);
+      for (std::size_t v = 0; v < expected.size(); ++v)
+        expected[VertexId(v)] = std::min(expected[VertexId(v)], to_goal[VertexId(v)]);
+    }
+    ASSERT_EQ(expected, distances_to_nearest(instance.graph(), task.goals));
     const auto from_start = distances_from(instance.graph(), task.start);
     const GoalDistances::Row row = table.row(agent);
     const auto own = table.pack(from_start);

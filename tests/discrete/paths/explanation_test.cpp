@@ -54,7 +54,7 @@ TEST(Explanation, CutsOffEveryCheapPathAndPathsAreCheapest) {
     const auto table = support::distances_of(instance);
     const AgentDistances distances(instance, *table, AgentId(0));
     ObstacleMap map(trial.graph->num_vertices());
-    map.load(trial.table, trial.active, trial.task.goal);
+    map.load(trial.table, trial.active, trial.task.goals);
     const auto cap = static_cast<Timestep>(distances.free_cost() + static_cast<int>(seed % 19));
     PathFinder finder(trial.graph->num_vertices());
     Answer answer;
@@ -86,7 +86,7 @@ TEST(Explanation, LeavesOutWhatIsNotInTheWay) {
   ObstacleMap map(4);
   PathFinder finder(4);
   Explainer explainer(4);
-  map.load(trial.table, trial.active, trial.task.goal);
+  map.load(trial.table, trial.active, trial.task.goals);
   Path path;
   EXPECT_FALSE(finder.find_cheapest({AgentId(0), distances, map, 2, nullptr}, path));
   std::vector<std::size_t> slots;

@@ -28,7 +28,7 @@ class PathFinderEffort : public testing::Test {
 
   void block(VertexId v, Timestep first, Timestep last) {
     active_.push_back(obstacles_.add_range(agent_, {}, v, first, last));
-    map_.load(obstacles_, active_, distances_.goal());
+    map_.load(obstacles_, active_, distances_.goals());
   }
   void block_around(VertexId v, Timestep first, Timestep last) {
     for (const VertexId w : instance_.graph().neighbours(v)) block(w, first, last);
@@ -39,7 +39,7 @@ class PathFinderEffort : public testing::Test {
   void expect_path(Timestep cost) {
     ASSERT_EQ(static_cast<Timestep>(path_.size()) - 1, cost);
     EXPECT_EQ(path_.front(), distances_.start());
-    EXPECT_EQ(path_.back(), distances_.goal());
+    EXPECT_EQ(path_.back(), distances_.goals().only());
     for (const ObstacleId id : active_) EXPECT_FALSE(obstacles_.hits(id, path_));
     for (std::size_t t = 1; t < path_.size(); ++t)
       EXPECT_TRUE(path_[t] == path_[t - 1] || instance_.graph().adjacent(path_[t], path_[t - 1]));
@@ -64,7 +64,7 @@ TEST_F(PathFinderEffort, LateGoalsTakeThatOfAPathAndNobodyIsMet) {
   }
   for (int y = 0; y < kSide; ++y) other.push_back(at(19, y));
   others_.replace(AgentId(1), other);
-  block(distances_.goal(), kLast, kLast);
+  block(distances_.goals().only(), kLast, kLast);
   PathFinder finder(instance_.graph().num_vertices());
   ASSERT_TRUE(find(finder, kForever - 1));
   expect_path(kLast + 1);
@@ -73,9 +73,9 @@ TEST_F(PathFinderEffort, LateGoalsTakeThatOfAPathAndNobodyIsMet) {
 }
 
 TEST_F(PathFinderEffort, LateGoalsThatCannotBeKeptAtOnceTakeThatOfTheVertices) {
-  block(distances_.goal(), kLast, kLast);
-  block_around(distances_.goal(), kLast - 10, kLast + 10);
-  block(distances_.goal(), kLast - 20, kLast - 15);
+  block(distances_.goals().only(), kLast, kLast);
+  block_around(distances_.goals().only(), kLast - 10, kLast + 10);
+  block(distances_.goals().only(), kLast - 20, kLast - 15);
   PathFinder finder(instance_.graph().num_vertices());
   ASSERT_TRUE(find(finder, kForever - 1));
   expect_path(kLast + 12);
@@ -83,7 +83,7 @@ TEST_F(PathFinderEffort, LateGoalsThatCannotBeKeptAtOnceTakeThatOfTheVertices) {
 }
 
 TEST_F(PathFinderEffort, AgentsThatAreShutInTakeThatOfTheVertices) {
-  block_around(distances_.goal(), 1, kForever);
+  block_around(distances_.goals().only(), 1, kForever);
   PathFinder finder(instance_.graph().num_vertices());
   EXPECT_FALSE(find(finder, 4000));
   EXPECT_LE(finder.effort(), 6 * kVertices);
@@ -94,7 +94,7 @@ TEST_F(PathFinderEffort, SafeIntervalsStopAtLimits) {
   few.looks = 3;
   LimitMonitor limits(few);
   SafeIntervalSearch search(instance_.graph().num_vertices(), &limits);
-  block_around(distances_.goal(), 1, kForever);
+  block_around(distances_.goals().only(), 1, kForever);
   std::vector<Timestep> first_hits(map_.num_slots(), PathFinder::kNoHit);
   EXPECT_THROW(static_cast<void>(search.find(distances_, map_, 4000, first_hits, path_)),
                LimitReached);

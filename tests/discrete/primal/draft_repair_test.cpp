@@ -16,7 +16,7 @@ struct Meeting {
   explicit Meeting(const std::string& text) : Meeting(instance_of(text)) {}
   explicit Meeting(Instance crowd) : instance(std::move(crowd)) {
     for (const AgentId agent : instance.agent_ids()) {
-      const auto [start, goal] = instance.agents()[agent];
+      const VertexId start = instance.agents()[agent].start, goal = instance.agents()[agent].goal();
       Path path{start};
       while (path.back() != goal) {
         const auto near = instance.graph().neighbours(path.back());

@@ -67,7 +67,7 @@ TEST(Guide, LeadsEachAgentToItsGoalWithinTheMargin) {
     const Guide guide(instance, *distances, margin, static_cast<std::uint32_t>(round), limits);
     for (const AgentId agent : instance.agent_ids()) {
       const Path path = followed(guide, instance, agent);
-      const auto [start, goal] = instance.agents()[agent];
+      const VertexId start = instance.agents()[agent].start, goal = instance.agents()[agent].goal();
       ASSERT_EQ(path.back(), goal) << instance_text(instance);
       EXPECT_LE(static_cast<Timestep>(path.size()) - 1, (*distances)(agent, start) + margin);
       for (std::size_t t = 1; t < path.size(); ++t) {

@@ -48,7 +48,7 @@ bool collide(const Path& a, const Path& b) {
 std::optional<Timestep> earliest(const Instance& instance, AgentId agent,
                                  const std::vector<Path>& others, Timestep latest) {
   const Graph& graph = instance.graph();
-  const auto [start, goal] = instance.agents()[agent];
+  const VertexId start = instance.agents()[agent].start, goal = instance.agents()[agent].goal();
   const auto is_free = [&](VertexId v, Timestep t) {
     return std::none_of(others.begin(), others.end(),
                         [&](const Path& path) { return position(path, t) == v; });
@@ -107,7 +107,7 @@ TEST(PathPlanner, FindsTheEarliestPathAmongOthers) {
     ASSERT_EQ(arrival(*path), *expected) << support::instance_text(instance);
     ASSERT_EQ(path->size(), static_cast<std::size_t>(*expected) + 1);
     ASSERT_EQ(path->front(), instance.agents()[agent].start);
-    ASSERT_EQ(path->back(), instance.agents()[agent].goal);
+    ASSERT_EQ(path->back(), instance.agents()[agent].goal());
     for (std::size_t t = 1; t < path->size(); ++t)
       ASSERT_TRUE((*path)[t - 1] == (*path)[t] ||
                   instance.graph().adjacent((*path)[t - 1], (*path)[t]));

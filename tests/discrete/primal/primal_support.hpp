@@ -35,7 +35,7 @@ inline constexpr std::int64_t kNoEnd = INT64_MAX;
   Cost sum = 0;
   for (const AgentId agent : instance.agent_ids())
     sum += distances_from(instance.graph(),
-                          instance.agents()[agent].start)[instance.agents()[agent].goal];
+                          instance.agents()[agent].start)[instance.agents()[agent].goal()];
   return sum;
 }
 

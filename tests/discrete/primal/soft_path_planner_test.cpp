@@ -55,7 +55,7 @@ std::optional<std::pair<std::int64_t, Timestep>> best(const Instance& instance, 
                                                       Timestep latest, Timestep end) {
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max() / 2;
   const Graph& graph = instance.graph();
-  const auto [start, goal] = instance.agents()[agent];
+  const VertexId start = instance.agents()[agent].start, goal = instance.agents()[agent].goal();
   std::vector<std::int64_t> least(graph.num_vertices(), kNever);
   least[start.index()] = meetings_of({start}, others, 0);
   std::optional<std::pair<std::int64_t, Timestep>> result;
@@ -116,7 +116,7 @@ TEST(SoftPathPlanner, MeetsAsFewAsPossibleAndThenArrivesAsSoonAsPossible) {
     ASSERT_EQ(arrival(path), expected->second);
     ASSERT_EQ(meetings_of(path, others, end), num_meetings);
     ASSERT_EQ(path.front(), instance.agents()[agent].start);
-    ASSERT_EQ(path.back(), instance.agents()[agent].goal);
+    ASSERT_EQ(path.back(), instance.agents()[agent].goal());
     for (std::size_t t = 1; t < path.size(); ++t)
       ASSERT_TRUE(path[t - 1] == path[t] || instance.graph().adjacent(path[t - 1], path[t]));
     std::int64_t num_reserved = 0;

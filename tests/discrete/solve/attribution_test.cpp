@@ -73,7 +73,8 @@ TEST_P(AttributionRandom, EachClaimHoldsForItsAgentsAlone) {
     Random random(seed);
     GridShape shape{2, 4, 30, 2, 4};
     if (seed % 4 == 0) shape = {1, 3, 20, 4, 4};
-    const Instance instance = random_grid(random, shape);
+    Instance instance = random_grid(random, shape);
+    if (random.percent(30)) instance = with_more_goals(random, instance);
     const std::string fault = check(instance, random_options(random, GetParam()), count);
     ASSERT_EQ(fault, "") << "seed " << seed;
   }

@@ -54,7 +54,7 @@ Plan detour(Random& random, const Instance& instance, const Plan& straight) {
   std::vector<VertexId> starts, goals;
   for (const Agent& task : instance.agents()) {
     starts.push_back(task.start);
-    goals.push_back(task.goal);
+    goals.push_back(task.goal());
   }
   const std::vector<VertexId> between = stopovers(random, instance);
   Plan plan, rest;

@@ -21,7 +21,7 @@ using quadrille::support::scaled;
 Cost alone(const Instance& instance, Objective objective) {
   Cost sum = 0, most = 0;
   for (const Agent& agent : instance.agents()) {
-    const Cost cost = distances_from(instance.graph(), agent.goal)[agent.start];
+    const Cost cost = distances_from(instance.graph(), agent.goal())[agent.start];
     sum += cost;
     most = std::max(most, cost);
   }
@@ -142,7 +142,7 @@ TEST(SolverCut, ThousandAgentsAtRandomMoments) {
   Cost free_costs = 0;
   for (const AgentId i : instance.agent_ids())
     free_costs +=
-        distances_from(instance.graph(), instance.agents()[i].goal)[instance.agents()[i].start];
+        distances_from(instance.graph(), instance.agents()[i].goal())[instance.agents()[i].start];
   int num_with_plan = 0;
   // Later and later if the machine is too busy for a plan.
   const auto is_enough = [&](std::size_t round) {

@@ -80,7 +80,7 @@ Instance moved(const Instance& instance, std::int32_t width, std::int32_t height
   std::vector<Agent> tasks;
   for (const Agent& task : instance.agents())
     tasks.push_back({*graph.layout()->vertex_at(place(layout.cell_of(task.start))),
-                     *graph.layout()->vertex_at(place(layout.cell_of(task.goal)))});
+                     *graph.layout()->vertex_at(place(layout.cell_of(task.goal())))});
   return Instance::make(std::move(graph), std::move(tasks)).value();
 }
 
@@ -116,7 +116,7 @@ TEST(SolverMetamorphic, TheNumbersOfVerticesDoNotMatter) {
         if (v < w) edges.emplace_back(name[v.index()], name[w.index()]);
     std::vector<Agent> tasks;
     for (const Agent& task : base.instance.agents())
-      tasks.push_back({name[task.start.index()], name[task.goal.index()]});
+      tasks.push_back({name[task.start.index()], name[task.goal().index()]});
     const Graph renamed = Graph::make(graph.num_vertices(), edges).value();
     EXPECT_EQ(base.solve_variant(Instance::make(renamed, tasks).value()), base.cost);
   });
@@ -138,7 +138,7 @@ TEST(SolverMetamorphic, AnUnreachableCellChangesNothing) {
     const Graph graph = Graph::grid(w, h + 2, passable);
     std::vector<Agent> tasks;
     for (const Agent& task : shifted.agents())
-      tasks.push_back({VertexId(task.start.index() + 1), VertexId(task.goal.index() + 1)});
+      tasks.push_back({VertexId(task.start.index() + 1), VertexId(task.goal().index() + 1)});
     EXPECT_EQ(base.solve_variant(Instance::make(graph, tasks).value()), base.cost);
   });
 }
@@ -150,7 +150,7 @@ TEST(SolverMetamorphic, RemovingAnAgentNeverRaisesTheCost) {
     if (base.cost < 0) return;  // infeasible may become anything
     ASSERT_GE(cost, 0);
     const Agent& task = base.instance.agents()[gone];
-    const Cost alone = distances_from(base.instance.graph(), task.goal)[task.start];
+    const Cost alone = distances_from(base.instance.graph(), task.goal())[task.start];
     const bool sum = base.objective == Objective::sum_of_costs;
     EXPECT_GE(base.cost, sum ? cost + alone : std::max(cost, alone));
   });
@@ -172,7 +172,7 @@ TEST(SolverMetamorphic, OpeningACellNeverRaisesTheCost) {
     std::vector<Agent> tasks;
     for (const Agent& task : base.instance.agents())
       tasks.push_back({*graph.layout()->vertex_at(layout.cell_of(task.start)),
-                       *graph.layout()->vertex_at(layout.cell_of(task.goal))});
+                       *graph.layout()->vertex_at(layout.cell_of(task.goal()))});
     const Cost cost = base.solve_variant(Instance::make(graph, tasks).value());
     if (base.cost >= 0) {
       ASSERT_GE(cost, 0);
@@ -187,7 +187,7 @@ TEST(SolverMetamorphic, TheWayBackHasTheSameMakespan) {
   for (std::uint64_t seed = 70'000; seed < 70'000 + scaled(30); ++seed) {
     Base base = make_base(seed, Objective::makespan);
     std::vector<Agent> tasks;
-    for (const Agent& task : base.instance.agents()) tasks.push_back({task.goal, task.start});
+    for (const Agent& task : base.instance.agents()) tasks.push_back({task.goal(), task.start});
     const Instance variant = Instance::make(base.instance.shared_graph(), tasks).value();
     ASSERT_EQ(base.solve_variant(variant), base.cost) << seed << "\n" << instance_text(variant);
   }
@@ -215,7 +215,7 @@ TEST(SolverMetamorphic, SeparateMapsAddUp) {
           return *graph.layout()->vertex_at({cell.x + shift, cell.y});
         };
         for (const Agent& task : part.agents())
-          tasks.push_back({vertex(task.start), vertex(task.goal)});
+          tasks.push_back({vertex(task.start), vertex(task.goal())});
       };
       add(left.instance, 0);
       add(right.instance, a.width() + 1);

@@ -170,7 +170,7 @@ TEST(Threads, WhoMakesPlansEndsAtTheGap) {
   Message message;
   for (const AgentId i : instance.agent_ids())
     message.lower +=
-        distances_from(instance.graph(), instance.agents()[i].goal)[instance.agents()[i].start];
+        distances_from(instance.graph(), instance.agents()[i].goal())[instance.agents()[i].start];
   Prompter prompter(Role::plans, 0, message);
   SolveOptions options;
   options.gap_percent = 20;

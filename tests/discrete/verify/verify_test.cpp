@@ -146,7 +146,7 @@ Found by_definition(const Instance& instance, const Plan& plan) {
     const Path& path = plan.paths[i];
     const Agent& task = instance.agents()[i];
     horizon = std::max(horizon, static_cast<Timestep>(path.size()) - 1);
-    found.single |= path.front() != task.start || path.back() != task.goal;
+    found.single |= path.front() != task.start || !task.goals.contains(path.back());
     for (std::size_t t = 0; t + 1 < path.size(); ++t)
       found.single |= path[t] != path[t + 1] && !instance.graph().adjacent(path[t], path[t + 1]);
   }
@@ -189,7 +189,12 @@ TEST(Verify, AgreesWithTheDefinitionOnRandomPlans) {
       Agent task{path.front(), path.back()};
       while (!starts.insert(task.start).second)
         task.start = VertexId(random() % graph.num_vertices());
-      while (!goals.insert(task.goal).second) task.goal = VertexId(random() % graph.num_vertices());
+      while (!goals.insert(task.goal()).second)
+        task.goals = VertexId(random() % graph.num_vertices());
+      // Other agents' goals may be among several.
+      if (random() % 4 == 0)
+        task.goals = Goals({task.goal(), VertexId(random() % graph.num_vertices()),
+                            VertexId(random() % graph.num_vertices())});
       tasks.push_back(task);
       plan.paths.push_back(path);
     }

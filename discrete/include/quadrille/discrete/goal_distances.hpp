@@ -17,7 +17,8 @@ namespace quadrille::discrete {
 
 class BreadthFirst;
 
-/// The number of moves from every vertex to every agent's goal. Immutable, to be shared by all who
+/// The number of moves from every vertex to every agent's goal, or to the nearest one of several.
+/// Immutable, to be shared by all who
 /// search the same instance, from any thread.
 ///
 /// A *plain* table takes 2 bytes per agent and vertex. Where it would be very large, or distances
@@ -34,7 +35,7 @@ class GoalDistances {
   [[nodiscard]] static std::shared_ptr<const GoalDistances> make(
       const Instance& instance, LimitMonitor& limits, std::size_t most_plain = kMostPlain);
 
-  /// The distances to one goal. Valid as long as the table.
+  /// The distances to one agent's goals. Valid as long as the table.
   class Row {
    public:
     /// kUnreachable where there is no way.
@@ -98,7 +99,8 @@ class GoalDistances {
   [[nodiscard]] bool prepare(const Instance& instance, LimitMonitor& limits,
                              std::size_t most_plain);
   /// Fills in the distances of one agent. False: a limit was met.
-  [[nodiscard]] bool fill(AgentId agent, VertexId goal, BreadthFirst& search, LimitMonitor& limits);
+  [[nodiscard]] bool fill(AgentId agent, const Goals& goals, BreadthFirst& search,
+                          LimitMonitor& limits);
   void group(const Graph& graph);
   [[nodiscard]] std::size_t num_bytes() const noexcept { return (groups_.size() + 1) / 2; }
   /// Packs the distances by vertex.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "quadrille/core/export.hpp"
+#include "quadrille/core/goals.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
 
@@ -81,6 +82,9 @@ inline constexpr Timestep kUnreachable = INT32_MAX;
 
 /// Number of moves from `source` to every vertex, kUnreachable where there is no way. O(V + E).
 [[nodiscard]] IdVector<VertexId, Timestep> distances_from(const Graph& graph, VertexId source);
+/// The same between every vertex and the nearest of these. O(V + E).
+[[nodiscard]] IdVector<VertexId, Timestep> distances_to_nearest(const Graph& graph,
+                                                                const Goals& goals);
 
 /// "(x, y)" on grids, the vertex number on other graphs. For messages.
 [[nodiscard]] std::string vertex_name(const Graph& graph, VertexId vertex);

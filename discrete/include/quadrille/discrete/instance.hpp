@@ -5,16 +5,20 @@
 #include <vector>
 
 #include "quadrille/core/export.hpp"
+#include "quadrille/core/goals.hpp"
 #include "quadrille/discrete/graph.hpp"
 
 QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
 
-/// Where an agent begins and where it has to stay at the end.
+/// Where an agent begins, and where it may end: it stays for ever at any one of its goals.
 struct Agent {
   VertexId start;
-  VertexId goal;
+  Goals goals;  ///< At least one.
+
+  /// Requires that there is one goal only.
+  [[nodiscard]] VertexId goal() const { return goals.only(); }
   friend bool operator==(const Agent&, const Agent&) = default;
 };
 
@@ -22,8 +26,9 @@ struct Agent {
 /// shared).
 class Instance {
  public:
-  /// Errors (invalid_instance): a vertex out of range, two agents with the same start, two agents
-  /// with the same goal. Agents are named by their index in the message. No agents are allowed.
+  /// Errors (invalid_instance): a vertex out of range, an agent without a goal, two agents with the
+  /// same start, two agents with the same goal and no other one. Sets of several goals may overlap.
+  /// Agents are named by their index in the message. No agents are allowed. O(V + all goals).
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Graph> graph,
                                              std::vector<Agent> agents);
   [[nodiscard]] static Result<Instance> make(Graph graph, std::vector<Agent> agents);
@@ -35,11 +40,14 @@ class Instance {
   [[nodiscard]] IdRange<AgentId> agent_ids() const noexcept {
     return IdRange<AgentId>(num_agents());
   }
+  /// Some agent has more than one goal.
+  [[nodiscard]] bool has_goal_sets() const noexcept { return has_goal_sets_; }
 
  private:
   Instance(std::shared_ptr<const Graph> graph, IdVector<AgentId, Agent> agents);
   std::shared_ptr<const Graph> graph_;
   IdVector<AgentId, Agent> agents_;
+  bool has_goal_sets_;
 };
 
 }  // namespace quadrille::discrete

@@ -44,7 +44,7 @@ class PrimalSearch {
   /// begins with, the other one all the rest.
   enum class Part { all, first_guide, rest };
 
-  /// `distances` are those of `instance`.
+  /// `distances` are those of `instance`. Requires that each agent has one goal only.
   PrimalSearch(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
                std::uint32_t seed, Part part = Part::all);
   ~PrimalSearch();
@@ -74,7 +74,9 @@ class PrimalSearch {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Some plan; nullopt when a limit was met or when there is none.
+/// Some plan; nullopt when a limit was met or when there is none. Where agents have several goals,
+/// one that ends with a choice of them for which check_feasibility knows a plan; nullopt also when
+/// it knows none.
 [[nodiscard]] std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits,
                                             std::uint32_t seed);
 

@@ -21,7 +21,7 @@ struct Violation {
     empty_path,    ///< A path without vertices.
     bad_vertex,    ///< A vertex that the graph does not have.
     wrong_start,   ///< The path begins elsewhere.
-    wrong_goal,    ///< The path ends elsewhere.
+    wrong_goal,    ///< The path ends elsewhere than at a goal of the agent.
     not_adjacent,  ///< A move between `timestep` and the next one that is no edge.
     vertex,        ///< Two agents in one vertex at `timestep`, goal stays included.
     swap,          ///< Two agents cross an edge in opposite directions from `timestep` on.

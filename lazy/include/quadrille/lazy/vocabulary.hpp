@@ -27,8 +27,11 @@ inline constexpr Cost kNoCap = std::numeric_limits<std::int64_t>::max() / 4;
 ///   true says nothing. Variables are false by default in the solver, so a usage literal is a
 ///   negated variable: allowed unless a conflict says otherwise.
 /// - A ladder of ordered literals "the agent costs `cost` or more" for each agent.
-/// - An obstacle at a goal has no literal of its own: that others keep away from the goal of an
-///   agent that costs less than `cost` is active while "it costs `cost` or more" is false.
+/// - An obstacle at a goal has no usage literal of its own. Where an agent can only end there, that
+///   others keep away while it costs less than `cost` is active while "it costs `cost` or more" is
+///   false. Where it can end elsewhere, its cost does not say where it rests: then a literal does,
+///   "it rests there, and costs less than `cost`", which follows from "it ends there" and "it costs
+///   less than `cost`".
 ///
 /// In lemmas, the resource number of a usage is the index of its obstacle.
 class Vocabulary {
@@ -60,14 +63,16 @@ class Vocabulary {
     auxiliary,  ///< Not of this vocabulary.
     usage,
     cost,
-    own  ///< Of the domain: it knows what.
+    rest,  ///< The positive literal says that the agent rests at `goal` and costs less than `cost`.
+    own    ///< Of the domain: it knows what.
   };
   struct Variable {
     VariableKind kind = VariableKind::auxiliary;
     AgentId agent;
-    Cost cost = 0;        // cost: see is_at_least
+    Cost cost = 0;        // cost: see is_at_least; rest
     ObstacleId obstacle;  // usage: true says that it is forbidden
     std::uint32_t own = 0;
+    VertexId goal;  // rest
   };
   [[nodiscard]] Variable variable(sat::Lit lit) const {
     const auto index = static_cast<std::size_t>(lit.variable());
@@ -80,6 +85,7 @@ class Vocabulary {
   /// An obstacle that keeps an agent off the goal of another one that costs less than `cost`.
   struct GoalObstacle {
     AgentId agent, resident;
+    VertexId goal;
     Cost cost;
     ObstacleId obstacle;
   };
@@ -99,26 +105,38 @@ class Vocabulary {
   [[nodiscard]] sat::Lit new_usage(AgentId agent, ObstacleId obstacle, FormulaWriter& writer);
   /// A new variable of the domain, positive.
   [[nodiscard]] sat::Lit new_own(AgentId agent, std::uint32_t own, FormulaWriter& writer);
-  /// The obstacle that keeps `agent` away from the goal of `resident` while that costs less than
-  /// `cost`, and whether it is new: then `make` has made it, which is told its literal.
+  /// That an agent rests at a goal and costs less than `cost`.
+  struct Rest {
+    AgentId resident;
+    VertexId goal;
+    Cost cost = 0;
+    /// The usage literal "it may end at the goal". Invalid: it cannot end elsewhere.
+    sat::Lit may_end = {};
+  };
+  /// The obstacle that keeps `agent` away from the goal during that rest, and whether it is new:
+  /// then `make` has made it, which is told its literal.
   template <class Make>
-  std::pair<ObstacleId, bool> goal_obstacle(AgentId agent, AgentId resident, Cost cost,
-                                            FormulaWriter& writer, const Make& make) {
-    const auto key = std::make_tuple(agent, resident, cost);
+  std::pair<ObstacleId, bool> goal_obstacle(AgentId agent, const Rest& rest, FormulaWriter& writer,
+                                            const Make& make) {
+    const auto key = std::make_tuple(agent, rest.resident, rest.goal, rest.cost);
     if (const auto known = goals_.find(key); known != goals_.end()) return {known->second, false};
-    const ObstacleId made = make(at_least(resident, cost, writer));
+    const ObstacleId made = make(rest.may_end.valid() ? ~rests(rest, writer)
+                                                      : at_least(rest.resident, rest.cost, writer));
     goals_.emplace(key, made);
-    goal_obstacles_.push_back({agent, resident, cost, made});
+    goal_obstacles_.push_back({agent, rest.resident, rest.goal, rest.cost, made});
     return {made, true};
   }
 
  private:
   [[nodiscard]] Rung& rung(AgentId agent, Cost cost, FormulaWriter& writer);
+  /// The literal of kind rest.
+  [[nodiscard]] sat::Lit rests(const Rest& rest, FormulaWriter& writer);
   void remember(sat::Lit lit, const Variable& variable);
 
   const Costs costs_are_;
   IdVector<AgentId, std::vector<Rung>> ladders_;
-  std::map<std::tuple<AgentId, AgentId, Cost>, ObstacleId> goals_;
+  std::map<std::tuple<AgentId, AgentId, VertexId, Cost>, ObstacleId> goals_;
+  std::map<std::tuple<AgentId, VertexId, Cost>, sat::Lit> rests_;
   std::vector<GoalObstacle> goal_obstacles_;
   std::vector<Variable> variables_;  // by variable
 };

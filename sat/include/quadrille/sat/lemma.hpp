@@ -70,6 +70,10 @@ struct Order {
 struct Ceiling {
   AgentId agent;
 };
+/// An agent that ends at a goal and costs less than some cost rests there and costs less. 6.8.
+struct Rest {
+  AgentId agent;
+};
 /// Defines a counter over other literals (see Totalizer). 4.
 struct Counter {};
 /// Follows from all clauses so far: a core of assumptions, negated. 5.
@@ -79,7 +83,7 @@ struct Core {};
 
 using Why = std::variant<why::Path, why::ExplicitPath, why::Vertex, why::Edge, why::Goal,
                          why::Rectangle, why::Corridor, why::Moves, why::Stay, why::Pair,
-                         why::Order, why::Ceiling, why::Counter, why::Core>;
+                         why::Order, why::Ceiling, why::Rest, why::Counter, why::Core>;
 
 /// "path", "explicit path", "vertex", ...
 [[nodiscard]] std::string_view to_string(const Why& why) noexcept;

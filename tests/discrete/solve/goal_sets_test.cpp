@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Agents that may end at any one of several goals: answers against the joint search, claims about
+// parts of bounds against the joint search of their agents, and what is refused.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "quadrille/discrete/feasibility.hpp"
+#include "quadrille/discrete/primal.hpp"
+#include "quadrille/discrete/verify.hpp"
+#include "support/environment.hpp"
+#include "support/solver_cases.hpp"
+
+namespace quadrille::discrete::support {
+namespace {
+
+using quadrille::support::only_system;
+using quadrille::support::scaled;
+
+struct Count {
+  int solved = 0, infeasible = 0, cheaper = 0;
+};
+
+void compare(const Instance& instance, Random& random, const std::string& origin, Count& count) {
+  const Objective objective = random.percent(60) ? Objective::sum_of_costs : Objective::makespan;
+  const JointAnswer expected = joint_search(instance, objective);
+  ASSERT_NE(expected.status, Status::unknown) << origin;
+  count.infeasible += expected.status == Status::infeasible ? 1 : 0;
+  for (const TunedOptions& options : random_lazy_systems(random, objective)) {
+    const std::string fault = solve_and_compare(instance, options, expected, origin);
+    ASSERT_EQ(fault, "") << fault;
+    ++count.solved;
+  }
+}
+
+template <class Draw>
+void run_shard(const char* name, int shard, std::size_t cases, const Draw& draw) {
+  if (!only_system().empty() && only_system() != "dpll") GTEST_SKIP() << "only dpll knows sets";
+  Count count;
+  for (std::size_t number = 0; number < scaled(cases); ++number) {
+    const std::uint64_t seed = static_cast<std::uint64_t>(shard) * 1'000'000 + number;
+    Random random(seed);
+    const Instance instance = with_more_goals(random, draw(random));
+    compare(instance, random, name + (" with goal sets, seed " + std::to_string(seed)), count);
+    if (testing::Test::HasFailure()) return;
+  }
+  testing::Test::RecordProperty("solved", count.solved);
+  testing::Test::RecordProperty("infeasible", count.infeasible);
+}
+
+class GoalSets : public testing::TestWithParam<int> {};
+
+TEST_P(GoalSets, SmallGrids) {
+  run_shard("small grid", 400 + GetParam(), 400, [](Random& random) {
+    GridShape shape;
+    shape.max_agents = random.percent(50) ? 2 : 3;
+    if (random.percent(25)) shape = {1, 3, 30, 4, 4};
+    return random_grid(random, shape);
+  });
+}
+
+TEST_P(GoalSets, CrowdedBoards) {
+  run_shard("crowded board", 500 + GetParam(), 40, [](Random& random) {
+    return random_grid(random, {2, 3, 15, 4, 5});
+  });
+}
+
+TEST_P(GoalSets, SmallGraphs) {
+  run_shard("small graph", 600 + GetParam(), 200,
+            [](Random& random) { return random_graph(random, 9, 4); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Shard, GoalSets, testing::Range(0, 6));
+
+Instance corridor(std::vector<Agent> agents) {
+  return Instance::make(Graph::grid(5, 1, std::vector<bool>(5, true)), std::move(agents)).value();
+}
+
+TEST(GoalSet, EachAgentTakesTheGoalThatIsCheapestForAll) {
+  const auto v = [](std::size_t x) { return VertexId(x); };
+  // Both are nearest to 2, and cannot pass each other.
+  const Instance instance = corridor({{v(0), Goals({v(1), v(2)})}, {v(4), Goals({v(2), v(1)})}});
+  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan}) {
+    SolveOptions options;
+    options.objective = objective;
+    options.debug.audit = true;
+    const SolveOutcome outcome = solve(instance, options).value();
+    ASSERT_EQ(outcome.status, Status::optimal);
+    EXPECT_EQ(*outcome.cost, objective == Objective::sum_of_costs ? 3 : 2);
+    EXPECT_EQ(outcome.plan->paths[AgentId(0)].back(), v(1));
+    EXPECT_EQ(outcome.plan->paths[AgentId(1)].back(), v(2));
+  }
+}
+
+TEST(GoalSet, TheOnlyGoalOfAnotherIsTaken) {
+  const auto v = [](std::size_t x) { return VertexId(x); };
+  const Instance instance = corridor({{v(0), v(1)}, {v(2), Goals({v(1), v(4)})}});
+  const SolveOutcome outcome = solve(instance, SolveOptions()).value();
+  ASSERT_EQ(outcome.status, Status::optimal);
+  EXPECT_EQ(*outcome.cost, 3);
+  EXPECT_EQ(outcome.plan->paths[AgentId(1)].back(), v(4));
+}
+
+TEST(GoalSet, MoreAgentsThanGoalsAreInfeasible) {
+  const auto v = [](std::size_t x) { return VertexId(x); };
+  const Goals two({v(1), v(2)});
+  const Instance instance = corridor({{v(0), two}, {v(2), two}, {v(4), two}});
+  const Feasibility verdict = check_feasibility(instance);
+  EXPECT_FALSE(verdict.feasible);
+  EXPECT_TRUE(verdict.is_decided);
+  EXPECT_EQ(verdict.reason, "agents 0, 1 and 2 can only end at 2 different goals");
+  EXPECT_EQ(solve(instance, SolveOptions()).value().status, Status::infeasible);
+}
+
+TEST(GoalSet, MddSystemsRefuseThem) {
+  const auto v = [](std::size_t x) { return VertexId(x); };
+  const Instance instance = corridor({{v(0), Goals({v(1), v(2)})}});
+  for (const System system : {System::dpll_mdd, System::smt_cbs, System::mdd_sat}) {
+    SolveOptions options;
+    options.system = system;
+    EXPECT_EQ(solve(instance, options).error().code, ErrorCode::out_of_range);
+  }
+}
+
+TEST(GoalSet, InstancesRefuseWhatCannotBe) {
+  const Graph graph = Graph::grid(2, 1, {1, 1});
+  EXPECT_EQ(Instance::make(graph, {{VertexId(0), Goals(std::vector<VertexId>{})}}).error().message,
+            "agent 0 has no goal");
+  EXPECT_EQ(Instance::make(graph, {{VertexId(0), Goals({VertexId(0), VertexId(2)})}}).error().code,
+            ErrorCode::invalid_instance);
+}
+
+TEST(GoalSet, FirstPlansAndTheirImprovementEndAtGoals) {
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < scaled(100); ++seed) {
+    Random random(seed);
+    const Instance instance = with_more_goals(random, random_grid(random, {4, 6, 20, 3, 9}));
+    LimitMonitor limits{Limits{}};
+    const auto plan = find_plan(instance, limits, 0);
+    const Feasibility verdict = check_feasibility(instance);
+    ASSERT_TRUE(!verdict.is_decided || verdict.feasible == plan.has_value()) << seed;
+    if (!plan) continue;
+    ++found;
+    ASSERT_TRUE(verify(instance, *plan).valid()) << seed;
+    const auto distances = GoalDistances::make(instance, limits);
+    PlanImprover improver(instance, distances, Objective::sum_of_costs, *plan, 0);
+    static_cast<void>(improver.improve(100'000, limits));
+    ASSERT_TRUE(verify(instance, improver.plan()).valid()) << seed;
+    ASSERT_LE(improver.cost(), plan->cost(Objective::sum_of_costs)) << seed;
+  }
+  EXPECT_GT(found, static_cast<int>(scaled(50)) - 1);
+}
+
+}  // namespace
+}  // namespace quadrille::discrete::support
