@@ -46,7 +46,7 @@ class Bench {
     }
     if (kind == 1) return closed_ && !session_.open(*closed_);
     if (kind == 2) {
-      agent.goal = VertexId(draw(instance_.roadmap().num_vertices()));
+      agent.goals = VertexId(draw(instance_.roadmap().num_vertices()));
       return !session_.change(some, agent);
     }
     if (kind == 3) {

@@ -42,9 +42,11 @@ Result<continuous::Body> to_units(const Polygon& polygon,
 
 }  // namespace
 
-Robot Robot::to(VertexId goal) const {
-  QUADRILLE_REQUIRE(goal.index() < fleet_->roadmap_.num_vertices(), "a vertex of the roadmap");
-  fleet_->robots_[id_].goal = goal;
+Robot Robot::to_any(std::vector<VertexId> goals) const {
+  QUADRILLE_REQUIRE(!goals.empty(), "a robot ends somewhere");
+  for (const VertexId goal : goals)
+    QUADRILLE_REQUIRE(goal.index() < fleet_->roadmap_.num_vertices(), "a vertex of the roadmap");
+  fleet_->robots_[id_].goals = Goals(std::move(goals));
   return *this;
 }
 
@@ -101,8 +103,8 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
   const continuous::Resolution resolution = roadmap_.unit_sizes();
   const Entry& entry = robots_[id];
   const std::string name = "'" + this->name(id) + "' ";
-  if (!entry.goal || (!entry.start && !entry.under_way))
-    return invalid(name + "has no " + (entry.goal ? "start" : "goal"));
+  if (!entry.goals || (!entry.start && !entry.under_way))
+    return invalid(name + "has no " + (entry.goals ? "start" : "goal"));
   const auto body =
       std::visit([&](const auto& shape) { return to_units(shape, resolution); }, entry.spec.body);
   if (!body) return Error{body.error().code, name + body.error().message, {}};
@@ -110,7 +112,7 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
   if (!speed)
     return out_of_range(name + "has a speed of " + to_string(entry.spec.speed) +
                         ", which is not supported");
-  continuous::Agent agent{entry.start.value_or(VertexId(0)), *entry.goal, *body, *speed};
+  continuous::Agent agent{entry.start.value_or(VertexId(0)), *entry.goals, *body, *speed};
   agent.under_way = entry.under_way.has_value();  // and its start is to come
   if (entry.spec.group) {
     if (entry.spec.group->index() < 1 || entry.spec.group->index() > roadmap_.num_groups())

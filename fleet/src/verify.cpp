@@ -31,6 +31,8 @@ std::string message(const Fleet& fleet, const continuous::Violation& violation,
              (fleet.start(violation.agent) ? place(fleet.start(violation.agent))
                                            : std::string("its place in the middle of a move"));
     case Kind::wrong_goal:
+      if (const auto& goals = fleet.goals(violation.agent); goals && !goals->is_single())
+        return robot + "does not end at any of its goals";
       return robot + "does not end at " + place(fleet.goal(violation.agent));
     case Kind::not_adjacent:
       return robot + "moves along no lane at " + when;

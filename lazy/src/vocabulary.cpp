@@ -19,7 +19,7 @@ std::vector<Lit> Vocabulary::literals() const {
   std::vector<Lit> literals;
   for (std::size_t v = 1; v < variables_.size(); ++v)
     if (const auto kind = variables_[v].kind;
-        kind == VariableKind::usage || kind == VariableKind::cost)
+        kind == VariableKind::usage || kind == VariableKind::cost || kind == VariableKind::rest)
       literals.push_back(Lit::from_dimacs(static_cast<int>(v)));
   return literals;
 }

@@ -34,9 +34,9 @@ class Fleet(Generic[P]):
     Args:
         graph: ``Grid``, ``Graph`` or ``Roadmap``.
         starts, goals: On a grid int[n, 2], cells (x, y). Otherwise int[n], vertices, or their names
-            if the roadmap has names. On roadmaps a start may also be an ``Underway``. On grids and
-            graphs an agent may have several goals: then ``goals`` has n entries, each a place or a
-            list of places, int[k, 2] or int[k]. No two agents end at the same one.
+            if the roadmap has names. On roadmaps a start may also be an ``Underway``. An agent may
+            have several goals: then ``goals`` has n entries, each a place or a list of places,
+            int[k, 2] or int[k]. No two agents end where they would be in each other's way.
         radius: On roadmaps: radius of the agents' discs in your unit of length, a number or
             float[n]; rounded up to a length unit, so that no body is smaller than given. Every
             agent on a roadmap needs a radius or a polygon: there is no default.
@@ -119,14 +119,15 @@ class Fleet(Generic[P]):
         if isinstance(graph, Roadmap):
             begin, under_way = _starts(graph, starts)
             self._moves = {agent: Underway(*move) for agent, *move in under_way}
-            end = graph._vertices(goals, "goals")
+            end, num_goals = _goal_vertices(graph, goals)
             n = len(begin)
-            _check_lengths(n, len(end))
+            _check_lengths(n, len(num_goals))
             instance = _core.TimedInstance(
                 graph._graph,
                 graph.resolution,
                 begin,
                 end,
+                num_goals,
                 _bodies(radius, polygon, n, called),
                 per_agent(1.0 if speed is None else speed, "speed", n),
                 dict(
@@ -215,16 +216,14 @@ class Fleet(Generic[P]):
         Raises:
             ValueError: where some agent has several: see ``goal_sets``.
         """
-        if isinstance(self._instance, _core.StepInstance) and self._instance.has_goal_sets():
+        if self._instance.has_goal_sets():
             raise ValueError("some agents have several goals: goal_sets has them")
         return self._instance.goals()
 
     @property
     def goal_sets(self) -> list[npt.NDArray[np.int32]]:
         """Per agent, all its goals, as ``starts``."""
-        if isinstance(self._instance, _core.StepInstance):
-            return self._instance.goal_sets()
-        return [goal.reshape(1) for goal in self._instance.goals()]
+        return self._instance.goal_sets()
 
     @property
     def bodies(self) -> list[Union[float, npt.NDArray[np.float64]]]:
@@ -397,6 +396,24 @@ def _goal_sets(goals: Any, shape: Shape) -> tuple[npt.NDArray[np.int64], list[in
     sets = [
         ints(entry if np.ndim(entry) == dimensions else [entry], f"goals[{agent}]", shape)
         for agent, entry in enumerate(entries)
+    ]
+    return np.ascontiguousarray(np.concatenate(sets)), [len(one) for one in sets]
+
+
+def _goal_vertices(graph: Roadmap, goals: Any) -> tuple[npt.NDArray[np.int64], list[int]]:
+    """The same on a roadmap, whose vertices may have names. A name may be a tuple, but not a list."""
+
+    def is_set(entry: Any) -> bool:
+        if isinstance(entry, tuple):
+            return entry not in graph._number
+        return isinstance(entry, list) or (isinstance(entry, np.ndarray) and entry.ndim == 1)
+
+    if not isinstance(goals, (list, tuple, np.ndarray)) or not any(is_set(entry) for entry in goals):
+        plain = graph._vertices(goals, "goals")
+        return plain, [1] * len(plain)
+    sets = [
+        graph._vertices(entry if is_set(entry) else [entry], f"goals[{agent}]")
+        for agent, entry in enumerate(goals)
     ]
     return np.ascontiguousarray(np.concatenate(sets)), [len(one) for one in sets]
 

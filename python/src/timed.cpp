@@ -210,6 +210,8 @@ void bind_timed(py::module_& module) {
                              })
       .def("starts", &starts_of)
       .def("goals", &goals_of)
+      .def("goal_sets", &goal_sets_of)
+      .def("has_goal_sets", &has_goal_sets)
       .def("bodies", &bodies_of)
       .def("speeds", &speeds_of)
       .def("rules", &rules_of)

@@ -83,15 +83,19 @@ class TimedInstance {
   std::optional<TimedParts> parts_;  // of one that cannot have a plan
 };
 
-/// Starts and goals are vertices; a body is a radius, or float64[k, 2], the corners of a polygon.
+/// Starts and goals are vertices, the goals of the first agent, then those of the next one;
+/// `num_goals`: how many each has; a body is a radius, or float64[k, 2], the corners of a polygon.
 /// `rules`: what rules_of gives, and `under_way`: [(agent, from, to, fraction)], instead of starts.
 /// `called`: "agent" and "vertex", functions from a number to what it is called in messages.
 TimedInstance instance_of(const std::shared_ptr<continuous::Roadmap>& roadmap, const Sizes& sizes,
-                          const Ints& starts, const Ints& goals, const py::list& bodies,
+                          const Ints& starts, const Ints& goals,
+                          const std::vector<std::size_t>& num_goals, const py::list& bodies,
                           const Doubles& speeds, const py::dict& rules, const py::dict& called);
 // And back: int32[n], a list as above, float64[n].
 py::array starts_of(const TimedInstance& self);
-py::array goals_of(const TimedInstance& self);
+py::array goals_of(const TimedInstance& self);  ///< Requires that each agent has one only.
+py::list goal_sets_of(const TimedInstance& self);
+bool has_goal_sets(const TimedInstance& self);
 py::list bodies_of(const TimedInstance& self);
 py::array speeds_of(const TimedInstance& self);
 /// (relative error, agent, from, to, planned and exact duration) of the largest error; or None.

@@ -202,16 +202,22 @@ py::array vertices(const TimedInstance& self, const VertexOf& vertex) {
 }  // namespace
 
 TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& sizes,
-                          const Ints& starts, const Ints& goals, const py::list& bodies,
+                          const Ints& starts, const Ints& goals,
+                          const std::vector<std::size_t>& num_goals, const py::list& bodies,
                           const Doubles& speeds, const py::dict& rules, const py::dict& called) {
   const Resolution resolution = resolution_of(sizes);
   const Words words = words_of(called, resolution);
   std::vector<continuous::Agent> agents;
+  const std::int64_t* goal = goals.data();
   for (py::ssize_t i = 0; i < starts.shape(0); ++i) {
     const std::string who = words.agent(AgentId(static_cast<std::size_t>(i)));
     continuous::Agent made;
     made.start = vertex_of(starts.at(i), roadmap->num_vertices(), who + ": start");
-    made.goal = vertex_of(goals.at(i), roadmap->num_vertices(), who + ": goal");
+    std::vector<VertexId> set;
+    for (std::size_t k = 0; k < num_goals[static_cast<std::size_t>(i)]; ++k)
+      set.push_back(vertex_of(*goal++, roadmap->num_vertices(), who + ": goal"));
+    if (set.empty()) refuse(who + " has no goal");
+    made.goals = Goals(std::move(set));
     made.body = body_of(bodies[static_cast<std::size_t>(i)], resolution, who);
     const auto speed = continuous::quantise_speed(speeds.at(i), resolution);
     if (!speed) refuse(who + " has a speed of " + text(speeds.at(i)) + ", which is not supported");
@@ -235,7 +241,25 @@ py::array starts_of(const TimedInstance& self) {
 }
 
 py::array goals_of(const TimedInstance& self) {
-  return vertices(self, [](const continuous::Agent& agent) { return agent.goal; });
+  return vertices(self, [](const continuous::Agent& agent) { return agent.goal(); });
+}
+
+py::list goal_sets_of(const TimedInstance& self) {
+  py::list sets;
+  for (const continuous::Agent& agent : self.agents()) {
+    auto array = new_array<std::int32_t>({agent.goals.size()});
+    std::int32_t* to = array.mutable_data();
+    for (const VertexId goal : agent.goals.vertices())
+      *to++ = static_cast<std::int32_t>(goal.index());
+    sets.append(frozen(array));
+  }
+  return sets;
+}
+
+bool has_goal_sets(const TimedInstance& self) {
+  const auto& agents = self.agents();
+  return std::any_of(agents.begin(), agents.end(),
+                     [](const continuous::Agent& agent) { return !agent.goals.is_single(); });
 }
 
 py::list bodies_of(const TimedInstance& self) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fleet/support.hpp"
+#include "quadrille/fleet/solver.hpp"
 
 namespace quadrille::fleet {
 namespace {
@@ -93,6 +94,23 @@ TEST(Fleet, TasksMayChange) {
   Fleet copy = fleet;
   copy[robot].to(kC);
   EXPECT_EQ(fleet.goal(robot), kD);
+}
+
+TEST(Fleet, RobotsMayChooseWhereTheyEnd) {
+  Fleet fleet(test::line(4));
+  const RobotSpec spec{.name = "r", .body = Disc(0.1_m), .speed = 1_mps};
+  const AgentId r = fleet.robot(spec).from(kA).to_any({kD, kC, kD});
+  RobotSpec other = spec;
+  other.name = "s";
+  const AgentId s = fleet.robot(other).from(kB).to_any({kC, kD});
+  EXPECT_EQ(fleet.goals(r), Goals({kC, kD}));
+  EXPECT_TRUE(fleet.instance().value().has_goal_sets());
+  const SolveOutcome outcome = solve(fleet).value();
+  ASSERT_TRUE(outcome.plan);
+  EXPECT_EQ((*outcome.plan)[r].stops().back().vertex, kC);
+  EXPECT_EQ((*outcome.plan)[s].stops().back().vertex, kD);
+  fleet[r].to(kD);
+  EXPECT_EQ(fleet.goal(r), kD);
 }
 
 /// A fleet of "p" from a to b, with one more robot; the error, "made" for none.

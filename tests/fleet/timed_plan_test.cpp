@@ -106,7 +106,7 @@ continuous::Plan random_walk(Random& random, const continuous::Instance& instanc
   const AgentId robot(0);
   continuous::Path path{{instance.agent(robot).start, 0, 0}};
   const auto done = [&](std::size_t moves) {
-    return moves >= 4 && path.back().vertex == instance.agent(robot).goal;
+    return moves >= 4 && path.back().vertex == instance.agent(robot).goal();
   };
   for (std::size_t moves = 0; !done(moves); ++moves) {
     if (random.percent(40))

@@ -66,6 +66,15 @@ TEST(FleetVerify, ViolationsHaveNamesAndSeconds) {
   EXPECT_EQ(first({}), "the plan has not one path for each of the 2 robots");
 }
 
+TEST(FleetVerify, NamesNoGoalWhereThereAreSeveral) {
+  Fleet fleet(test::line(4));
+  fleet.robot({.name = "r", .body = Disc(0.1_m), .speed = 1_mps}).from(kA).to_any({kB, kC});
+  continuous::Plan plan;
+  plan.paths.push_back({{kA, 0, 0}});
+  EXPECT_EQ(verify(fleet, plan).value().violations.front().message,
+            "'r' does not end at any of its goals");
+}
+
 TEST(FleetVerify, KindsAndTimesAreThoseOfTheLayerBelow) {
   for (std::uint32_t seed = 0; seed < 50; ++seed) {
     const Fleet fleet = test::random_fleet(seed, 3);

@@ -58,6 +58,17 @@ def test_goals_to_choose_from():
     line = q.Graph(3, [(0, 1), (1, 2)])
     assert q.solve(q.Fleet(line, [0, 1], [[1, 2], [1, 2]])).cost == 2
     assert q.solve(q.Fleet(line, [0, 1, 2], [[0, 1], [0, 1], [0, 1]])).status == "infeasible"
+    # The same with bodies; names may be tuples.
+    nodes = ["a", "b", "c", ("d", 1)]
+    docks = q.Roadmap([(v, 0) for v in range(4)], [(0, 1), (1, 2), (2, 3)], both_ways=True, nodes=nodes)
+    fleet = q.Fleet(docks, ["a", "b"], [["c", ("d", 1)], [("d", 1), "c"]], radius=0.3)
+    result = q.solve(fleet)
+    assert (result.status, result.cost) == ("optimal", 4)
+    assert [goals.tolist() for goals in fleet.goal_sets] == [[2, 3], [2, 3]]
+    with pytest.raises(ValueError, match="goal_sets"):
+        fleet.goals
+    with pytest.raises(q.InputError, match="no goal"):
+        q.Fleet(docks, ["a"], [[]], radius=0.3)
     for goals, error in [([[], [1]], q.InputError), ([[1, 2]], ValueError), ([[1, 7], [0]], q.InputError)]:
         with pytest.raises(error):
             q.Fleet(line, [0, 1], goals)

@@ -159,7 +159,7 @@ continuous::Plan random_plan(Draw& draw, const continuous::Instance& instance) {
     continuous::Path path;
     Ticks now = 0;
     for (const VertexId v :
-         walk(draw, roadmap.num_vertices(), agent.start, agent.goal, neighbours)) {
+         walk(draw, roadmap.num_vertices(), agent.start, agent.goal(), neighbours)) {
       if (!path.empty())
         for (const auto e : roadmap.out_edges(path.back().vertex))
           if (roadmap.edge(e).to == v) {

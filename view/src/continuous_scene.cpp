@@ -130,7 +130,9 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
     const auto [body, is_new] =
         body_of_class.emplace(instance.class_of(i).index(), scene.bodies.size());
     if (is_new) scene.bodies.push_back(task.body);
-    SceneAgent agent{task.start.index(), task.goal.index(), body->second, {}, {}, {}, task.leaves};
+    const bool has_path = i.index() < plan.paths.size() && !plan.paths[i].empty();
+    const auto goal = goal_shown(task.goals, has_path ? plan.paths[i].back().vertex : VertexId());
+    SceneAgent agent{task.start.index(), goal.index(), body->second, {}, {}, {}, task.leaves};
     if (const auto alone = continuous::free_cost(instance, i)) agent.free_cost = alone->value();
     if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.roadmap(), plan.paths[i]);
     if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive;

@@ -10,23 +10,25 @@ namespace {
 
 constexpr std::size_t kNamed = 12;
 
-/// A way of few moves that leaves out one vertex; empty if there is none.
+/// A way of few moves to some goal that leaves out one vertex; empty if there is none.
 std::vector<VertexId> find_way(const Instance& instance, AgentId agent,
                                std::optional<VertexId> left_out) {
   const Roadmap& roadmap = instance.roadmap();
-  const VertexId start = instance.agent(agent).start, goal = instance.agent(agent).goal;
+  const VertexId start = instance.agent(agent).start;
+  const Goals& goals = instance.agent(agent).goals;
   IdVector<VertexId, std::optional<VertexId>> before(roadmap.num_vertices());
   std::vector<VertexId> queue{start};
   before[start] = start;
-  for (std::size_t at = 0; at < queue.size() && !before[goal]; ++at)
+  std::size_t at = 0;
+  for (; at < queue.size() && !goals.contains(queue[at]); ++at)
     for (const EdgeId e : roadmap.out_edges(queue[at])) {
       const VertexId w = roadmap.edge(e).to;
       if (before[w] || w == left_out) continue;
       before[w] = queue[at];
       queue.push_back(w);
     }
-  if (!before[goal]) return {};
-  std::vector<VertexId> way{goal};
+  if (at == queue.size()) return {};
+  std::vector<VertexId> way{queue[at]};
   while (way.back() != start) way.push_back(*before[way.back()]);
   std::reverse(way.begin(), way.end());
   return way;
@@ -38,8 +40,7 @@ std::vector<VertexId> inevitable_vertices(const Instance& instance, AgentId agen
   const std::vector<VertexId> way = find_way(instance, agent, std::nullopt);
   std::vector<VertexId> inevitable;
   for (const VertexId v : way)
-    if (v == way.front() || v == way.back() || find_way(instance, agent, v).empty())
-      inevitable.push_back(v);
+    if (v == way.front() || find_way(instance, agent, v).empty()) inevitable.push_back(v);
   return inevitable;
 }
 

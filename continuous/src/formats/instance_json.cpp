@@ -12,6 +12,7 @@
 #include "model/decimal.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/text/document.hpp"
+#include "quadrille/text/goals.hpp"
 #include "quadrille/text/names.hpp"
 #include "quadrille/text/text_input.hpp"
 
@@ -190,13 +191,14 @@ class InstanceReader {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> nodes;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, goal, goals, radius, polygon, speed, group, release, deadline,
-          at_start, at_goal, name;
+      std::optional<Node> start, radius, polygon, speed, group, release, deadline, at_start,
+          at_goal, name;
+      text::GoalNodes goals;
       Agent agent;
       std::optional<std::string> own_name;
       if (!check_.members(a, {{"start", &start},
-                              {"goal", &goal, false},
-                              {"goals", &goals, false},
+                              {"goal", &goals.goal, false},
+                              {"goals", &goals.goals, false},
                               {"radius", &radius, false},
                               {"polygon", &polygon, false},
                               {"speed", &speed, false},
@@ -206,9 +208,9 @@ class InstanceReader {
                               {"at_start", &at_start, false},
                               {"at_goal", &at_goal, false},
                               {"name", &name, false}}) ||
-          !has_one_goal(a, goal, goals) || !read_vertex_number(*start, agent.start) ||
-          !read_vertex_number(*goal, agent.goal) || !read_body(a, radius, polygon, agent.body) ||
-          !read_speed(a, speed, agent.speed) || (group && !read_group(*group, agent.group)) ||
+          !read_vertex_number(*start, agent.start) || !read_goals(a, goals, agent.goals) ||
+          !read_body(a, radius, polygon, agent.body) || !read_speed(a, speed, agent.speed) ||
+          (group && !read_group(*group, agent.group)) ||
           (release && !read_time(*release, agent.release)) ||
           (deadline && !read_time(*deadline, agent.deadline.emplace())) ||
           (at_start && !read_choice(*at_start, "stay", "under_way", agent.under_way)) ||
@@ -223,9 +225,11 @@ class InstanceReader {
     return are_distinct(check_, names_.agents, nodes);
   }
 
-  bool has_one_goal(Node agent, const std::optional<Node>& goal, const std::optional<Node>& goals) {
-    if (goals) return check_.fail(*goals, "sets of several goals are not supported on roadmaps");
-    return goal || check_.fail(agent, "the key 'goal' is missing");
+  bool read_goals(Node agent, const text::GoalNodes& nodes, Goals& goals) {
+    return text::read_goals(
+        check_, document_, agent, nodes,
+        [&](Node node, VertexId& v) { return read_vertex_number(node, v); },
+        [](VertexId v) { return "vertex " + std::to_string(v.index()); }, goals);
   }
 
   bool read_obstacles(Node obstacles) {

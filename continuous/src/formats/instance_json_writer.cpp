@@ -6,6 +6,7 @@
 #include "formats/json_numbers.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/text/goals.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
@@ -115,8 +116,9 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   separator = "\n";
   for (const AgentId i : instance.agent_ids()) {
     const Agent& agent = instance.agent(i);
-    out << separator << "    {\"start\": " << agent.start.index()
-        << ", \"goal\": " << agent.goal.index() << ", " << body_json(agent.body, resolution)
+    out << separator << "    {\"start\": " << agent.start.index() << ", ";
+    text::write_goals(out, agent.goals, [](VertexId v) { return v.index(); });
+    out << ", " << body_json(agent.body, resolution)
         << ", \"speed\": " << json_number(speed_in_input_units(agent.speed, resolution));
     if (agent.group != GroupId()) out << ", \"group\": " << agent.group.index();
     if (agent.release > 0) out << ", \"release\": " << number(agent.release);

@@ -19,16 +19,17 @@ JointSpace::JointSpace(Scene& scene, std::vector<AgentId> agents, JointRules rul
 
 bool JointSpace::is_at_goal(const JointPlaces& places, std::size_t k) const {
   if (has_left(places, k)) return true;
-  const VertexId goal = instance_.agent(agents_[k]).goal;
-  return places.place[k] == num_edges_ + goal.index() &&
-         clock_.stays(k, goal)[places.stay[k]].until >= kForever;
+  if (!stands(places, k)) return false;
+  const VertexId v = vertex(places, k);
+  return instance_.agent(agents_[k]).goals.contains(v) &&
+         clock_.stays(k, v)[places.stay[k]].until >= kForever;
 }
 
 std::optional<JointPlaces> JointSpace::starts() const {
   JointPlaces places;
   for (std::size_t k = 0; k < size(); ++k) {
     const Agent& agent = instance_.agent(agents_[k]);
-    const bool is_gone = agent.leaves && agent.start == agent.goal;
+    const bool is_gone = agent.leaves && agent.goals.contains(agent.start);
     places.place[k] =
         static_cast<std::uint32_t>(is_gone ? left_ : num_edges_ + agent.start.index());
     if (is_gone) continue;
@@ -47,7 +48,7 @@ bool JointSpace::are_goals(const JointPlaces& places) const {
 bool JointSpace::leaves_after(const JointStep& step) const {
   const Agent& agent = instance_.agent(agents_[step.agent]);
   return !step.begins && agent.leaves &&
-         instance_.roadmap().edge(EdgeId(step.edge)).to == agent.goal;
+         agent.goals.contains(instance_.roadmap().edge(EdgeId(step.edge)).to);
 }
 
 ClockSpan JointSpace::when(const JointStep& step) const {

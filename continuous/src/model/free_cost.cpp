@@ -12,7 +12,7 @@ namespace quadrille::continuous {
 std::optional<Ticks> free_cost(const Instance& instance, AgentId agent) {
   const Roadmap& roadmap = instance.roadmap();
   const ClassId kind = instance.class_of(agent);
-  const VertexId goal = instance.agent(agent).goal;
+  const Goals& goals = instance.agent(agent).goals;
   constexpr Ticks kFar{std::numeric_limits<Ticks::Count>::max()};
   std::vector<Ticks> arrival(roadmap.num_vertices(), kFar);
   using Entry = std::pair<Ticks, VertexId>;
@@ -23,12 +23,12 @@ std::optional<Ticks> free_cost(const Instance& instance, AgentId agent) {
     open.emplace(then, v);
   };
   const VertexId start = instance.agent(agent).start;
-  if (start == goal) return Ticks{0};
+  if (goals.contains(start)) return Ticks{0};
   reach(start, instance.agent(agent).release);
   while (!open.empty()) {
     const auto [tick, v] = open.top();
     open.pop();
-    if (v == goal) return tick;
+    if (goals.contains(v)) return tick;
     if (tick > arrival[v.index()]) continue;
     for (const EdgeId e : instance.out_edges(kind, v))
       reach(roadmap.edge(e).to, tick + instance.duration(kind, e));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <variant>
 
+#include "model/place_of_rest.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/geometry/body_index.hpp"
@@ -32,8 +33,9 @@ class Finder {
   [[nodiscard]] std::optional<Error> find() const {
     if (auto found = find_polygon_in_space()) return found;
     if (auto found = find_unsupported()) return found;
-    if (auto found = find_overlap(&Agent::start, "starts")) return found;
-    if (auto found = find_overlap(&Agent::goal, "goals")) return found;
+    const auto start = [](const Agent& agent) { return &agent.start; };
+    if (auto found = find_overlap(start, "starts")) return found;
+    if (auto found = find_overlap(place_of_rest, "goals")) return found;
     if (auto found = find_obstacle()) return found;
     for (std::size_t i = 0; i < agents_.size(); ++i)
       if (auto found = find_alone(i)) return found;
@@ -44,7 +46,9 @@ class Finder {
   [[nodiscard]] std::string name(std::size_t i) const { return words_.agent(AgentId(i)); }
   [[nodiscard]] std::optional<Error> find_polygon_in_space() const;
   [[nodiscard]] std::optional<Error> find_unsupported() const;
-  [[nodiscard]] std::optional<Error> find_overlap(VertexId Agent::*end,
+  /// `place_of(agent)`: null if it need not be anywhere.
+  template <class PlaceOf>
+  [[nodiscard]] std::optional<Error> find_overlap(const PlaceOf& place_of,
                                                   const std::string& what) const;
   [[nodiscard]] std::optional<Error> find_obstacle() const;
   [[nodiscard]] std::optional<Error> find_alone(std::size_t i) const;
@@ -88,15 +92,17 @@ std::optional<Error> Finder::find_unsupported() const {
   return std::nullopt;
 }
 
-std::optional<Error> Finder::find_overlap(VertexId Agent::*end, const std::string& what) const {
+template <class PlaceOf>
+std::optional<Error> Finder::find_overlap(const PlaceOf& place_of, const std::string& what) const {
   geometry::BodyIndex placed;
   for (std::size_t j = 0; j < agents_.size(); ++j) {
-    if (end == &Agent::goal && agents_[j].leaves) continue;
-    const VertexId w = agents_[j].*end;
-    if (const auto i = placed.first_overlap(agents_[j].body, roads_->position(w)))
-      return no_plan("the " + what + " of " + name(*i) + " at " + words_.vertex(agents_[*i].*end) +
-                     " and " + name(j) + " at " + words_.vertex(w) + " overlap");
-    placed.add(j, agents_[j].body, roads_->position(w));
+    const VertexId* const w = place_of(agents_[j]);
+    if (w == nullptr) continue;
+    if (const auto i = placed.first_overlap(agents_[j].body, roads_->position(*w)))
+      return no_plan("the " + what + " of " + name(*i) + " at " +
+                     words_.vertex(*place_of(agents_[*i])) + " and " + name(j) + " at " +
+                     words_.vertex(*w) + " overlap");
+    placed.add(j, agents_[j].body, roads_->position(*w));
   }
   return std::nullopt;
 }
@@ -125,8 +131,9 @@ std::optional<Error> Finder::find_alone(std::size_t i) const {
   patient.deadline.reset();
   const auto late = make(patient);
   if (!late)
-    return no_plan(name(i) + " cannot get from " + words_.vertex(agents_[i].start) + " to " +
-                   words_.vertex(agents_[i].goal));
+    return no_plan(
+        name(i) + " cannot get from " + words_.vertex(agents_[i].start) + " to " +
+        (agents_[i].goals.is_single() ? words_.vertex(agents_[i].goal()) : "any of its goals"));
   return no_plan(name(i) + " cannot arrive before " +
                  words_.time(free_cost(*late, AgentId(0)).value()) + ", and its deadline is " +
                  words_.time(*agents_[i].deadline));

@@ -13,6 +13,7 @@
 
 #include "model/body_numbers.hpp"
 #include "model/decimal.hpp"
+#include "model/place_of_rest.hpp"
 #include "model/reachability.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -44,10 +45,15 @@ std::optional<Error> check_flat(const Body& body, const std::string& who) {
 std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& agents,
                            std::size_t index) {
   const Agent& agent = agents[index];
-  for (const VertexId v : {agent.start, agent.goal})
-    if (v.index() >= roadmap.num_vertices())
-      return invalid(name(index) + " names vertex " + std::to_string(v.index()) +
-                     ", but there are " + std::to_string(roadmap.num_vertices()) + " vertices");
+  const auto check_vertex = [&](VertexId v) -> std::optional<Error> {
+    if (v.index() < roadmap.num_vertices()) return std::nullopt;
+    return invalid(name(index) + " names vertex " + std::to_string(v.index()) + ", but there are " +
+                   std::to_string(roadmap.num_vertices()) + " vertices");
+  };
+  if (auto error = check_vertex(agent.start)) return error;
+  if (agent.goals.size() == 0) return invalid(name(index) + " has no goal");
+  for (const VertexId v : agent.goals.vertices())
+    if (auto error = check_vertex(v)) return error;
   const Length reach = geometry::enclosing_radius(agent.body);
   if (reach < 1 || reach > geometry::kMaxLength)
     return Error{ErrorCode::out_of_range,
@@ -83,7 +89,7 @@ std::optional<Error> check_under_way(const Roadmap& roadmap, const Agent& agent,
   if (!agent.under_way) return std::nullopt;
   const auto out = roadmap.out_edges(agent.start);
   if (!roadmap.in_edges(agent.start).empty() || out.size() != 1 ||
-      !roadmap.edge(out.front()).open_to.contains(agent.group) || agent.goal == agent.start)
+      !roadmap.edge(out.front()).open_to.contains(agent.group) || agent.goals.contains(agent.start))
     return invalid(name(index) + " is under way at vertex " + std::to_string(agent.start.index()) +
                    ", to which no edge may lead, and from which one has to lead on");
   if (agent.release > 0)
@@ -91,13 +97,17 @@ std::optional<Error> check_under_way(const Roadmap& roadmap, const Agent& agent,
   return std::nullopt;
 }
 
-/// An agent that overlaps an earlier one when each is at its start (goal).
+/// An agent that overlaps an earlier one when each is where it has to be. `place_of(agent)`: null
+/// if it need not be anywhere.
+template <class PlaceOf>
 std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                 VertexId Agent::*place, const std::string& what, std::size_t& at) {
+                                 const PlaceOf& place_of, const std::string& what,
+                                 std::size_t& at) {
   geometry::BodyIndex placed;
   for (std::size_t j = 0; j < agents.size(); ++j) {
-    if (place == &Agent::goal && agents[j].leaves) continue;
-    const Point& here = roadmap.position(agents[j].*place);
+    const VertexId* const place = place_of(agents[j]);
+    if (place == nullptr) continue;
+    const Point& here = roadmap.position(*place);
     if (const auto i = placed.first_overlap(agents[j].body, here)) {
       at = j;
       return no_plan("the " + what + " of agents " + std::to_string(*i) + " and " +
@@ -114,10 +124,16 @@ std::optional<Error> check_reachable(const Roadmap& roadmap, const std::vector<A
   for (at = 0; at < agents.size(); ++at) {
     const Agent& agent = agents[at];
     const auto found = by_group.try_emplace(agent.group, roadmap, agent.group).first;
-    if (!found->second.leads(agent.start, agent.goal))
-      return no_plan(name(at) + " cannot reach its goal: there is no way from vertex " +
-                     std::to_string(agent.start.index()) + " to vertex " +
-                     std::to_string(agent.goal.index()));
+    const auto goals = agent.goals.vertices();
+    const bool leads = std::any_of(goals.begin(), goals.end(), [&](VertexId goal) {
+      return found->second.leads(agent.start, goal);
+    });
+    if (leads) continue;
+    const std::string from = "there is no way from vertex " + std::to_string(agent.start.index());
+    return no_plan(agent.goals.is_single()
+                       ? name(at) + " cannot reach its goal: " + from + " to vertex " +
+                             std::to_string(agent.goal().index())
+                       : name(at) + " can reach none of its goals: " + from + " to them");
   }
   return std::nullopt;
 }
@@ -169,8 +185,9 @@ std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>&
       if (auto error = check_flat(agents[at].body, name(at))) return error;
     if (auto error = check_under_way(roadmap, agents[at], at)) return error;
   }
-  if (auto error = check_apart(roadmap, agents, &Agent::start, "starts", at)) return error;
-  if (auto error = check_apart(roadmap, agents, &Agent::goal, "goals", at)) return error;
+  const auto start = [](const Agent& agent) { return &agent.start; };
+  if (auto error = check_apart(roadmap, agents, start, "starts", at)) return error;
+  if (auto error = check_apart(roadmap, agents, place_of_rest, "goals", at)) return error;
   return check_reachable(roadmap, agents, at);
 }
 
@@ -268,6 +285,8 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
     instance.class_of_.push_back(known->second);
   }
   instance.roadmap_ = std::move(roadmap);
+  instance.has_goal_sets_ = std::any_of(
+      agents.begin(), agents.end(), [](const Agent& agent) { return !agent.goals.is_single(); });
   instance.agents_ = IdVector<AgentId, Agent>(std::move(agents));
   instance.resolution_ = resolution;
   instance.obstacles_ = std::move(obstacles);

@@ -24,7 +24,7 @@ std::string find_fault(const Instance& instance, AgentId i, const Path& path) {
   };
   if (!std::all_of(path.begin(), path.end(), is_known)) return "names a vertex that is none";
   if (path.front().vertex != agent.start) return "does not begin at its start";
-  if (path.back().vertex != agent.goal) return "does not end at its goal";
+  if (!agent.goals.contains(path.back().vertex)) return "does not end at its goal";
   if (path.front().arrive != 0) return "does not begin at tick 0";
   if (path.back().depart != path.back().arrive || path.back().arrive > kMaxTick)
     return "does not end with an arrival in time";

@@ -38,7 +38,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
   }
   const auto& distances = scene_.task(party.agent).distances;
   const ClassId other_class = instance.class_of(other.agent);
-  const VertexId other_goal = instance.agent(other.agent).goal;
+  const VertexId other_goal = instance.agent(other.agent).goal();
   const Length reach_of_bodies = instance.reach(side.c) + instance.reach(other_class);
   using Entry = std::pair<Ticks, VertexId>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -54,7 +54,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
     queue.emplace(ticks, v);
   };
   const Agent& agent = instance.agent(party.agent);
-  side.release = agent.start == agent.goal ? Ticks{0} : agent.release;
+  side.release = agent.start == agent.goal() ? Ticks{0} : agent.release;
   reach(agent.start, agent.release);
   while (!queue.empty()) {
     const auto [ticks, v] = queue.top();
@@ -62,7 +62,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
     if (ticks > side.from_start[v.index()]) continue;
     side.first_edge[v.index()] = side.end_edge[v.index()] =
         static_cast<std::uint32_t>(side.edges.size());
-    if (agent.leaves && v == agent.goal) continue;
+    if (agent.leaves && v == agent.goal()) continue;
     for (const EdgeId e : instance.out_edges(side.c, v)) {
       const Ticks rest = distances[roadmap.edge(e).to], duration = instance.duration(side.c, e);
       if (rest >= kForever) continue;
@@ -89,7 +89,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
 
 Ticks PairSearch::leave_by(const Side& side, VertexId v) const {
   const Agent& agent = scene_.instance().agent(side.agent);
-  if (v == agent.goal) return agent.leaves ? -kForever : kForever;
+  if (v == agent.goal()) return agent.leaves ? -kForever : kForever;
   Ticks last = -1;
   for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k)
     last = std::max(last, side.edges[k].last);
@@ -206,7 +206,7 @@ void PairSearch::make_elements(Side& side) {
   side.elements.push_back(
       {false, true, side.stay_matters[start.index()] != 0, EdgeId(), start, 0, 0, 0, 0});
   side.elements.push_back(
-      {false, true, false, EdgeId(), instance.agent(side.agent).goal, 0, kForever, 0, kForever});
+      {false, true, false, EdgeId(), instance.agent(side.agent).goal(), 0, kForever, 0, kForever});
   for (const VertexId v : side.reached) {
     side.first_element[v.index()] = static_cast<std::uint32_t>(side.elements.size());
     for (auto k = side.first_edge[v.index()]; k < side.end_edge[v.index()]; ++k) {

@@ -31,6 +31,11 @@ struct Ban {
   [[nodiscard]] static Ban stay(VertexId vertex, const TickInterval& when) {
     return {Kind::stay, vertex.value(), when};
   }
+  /// To end there and stay for good. To pass or to wait is allowed: no move ends that late.
+  [[nodiscard]] static Ban end(VertexId vertex) {
+    return {Kind::stay, vertex.value(), {kForever - 1, kForever}};
+  }
+  [[nodiscard]] bool is_end() const { return *this == end(VertexId(place)); }
   friend auto operator<=>(const Ban&, const Ban&) = default;
 };
 

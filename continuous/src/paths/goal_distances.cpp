@@ -12,9 +12,10 @@ GoalDistances::GoalDistances(const Instance& instance, AgentId agent)
   const ClassId c = instance.class_of(agent);
   using Entry = std::pair<Ticks, VertexId>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const VertexId goal = instance.agent(agent).goal;
-  ticks_[goal.index()] = 0;
-  queue.emplace(Ticks{0}, goal);
+  for (const VertexId goal : instance.agent(agent).goals.vertices()) {
+    ticks_[goal.index()] = 0;
+    queue.emplace(Ticks{0}, goal);
+  }
   while (!queue.empty()) {
     const auto [ticks, v] = queue.top();
     queue.pop();

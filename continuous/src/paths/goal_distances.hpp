@@ -10,13 +10,13 @@
 
 namespace quadrille::continuous {
 
-/// How far each vertex is from the goal of one agent.
+/// How far each vertex is from the nearest goal of one agent.
 class GoalDistances {
  public:
   GoalDistances(const Instance& instance, AgentId agent);
   /// Known already, by vertex.
   explicit GoalDistances(std::vector<Ticks> ticks) : ticks_(std::move(ticks)) {}
-  /// Ticks; kForever if the goal cannot be reached.
+  /// Ticks; kForever if no goal can be reached.
   [[nodiscard]] Ticks operator[](VertexId v) const { return ticks_[v.index()]; }
 
   [[nodiscard]] const std::vector<Ticks>& ticks() const noexcept { return ticks_; }

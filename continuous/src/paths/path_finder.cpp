@@ -86,7 +86,7 @@ std::optional<Ticks> PathFinder::search(Order order, const PathTask& task, BanTa
   begin(order);
   const Agent& agent = instance_.agent(task.agent);
   bound = std::min(bound, arrival_bound(instance_, task.agent));
-  const bool is_goal = agent.start == agent.goal;
+  const bool is_goal = agent.goals.contains(agent.start);
   // Who leaves where it starts is gone at once.
   const Ticks release = is_goal && agent.leaves ? Ticks{0} : agent.release;
   const Ticks least = is_goal ? Ticks{0} : release + task.distances[agent.start];
@@ -109,7 +109,7 @@ std::optional<Ticks> PathFinder::search(Order order, const PathTask& task, BanTa
     heap_.pop_back();
     const Node node = nodes_[index];
     if (best_[state(bans, node.vertex, node.stay)] < node.arrive) continue;
-    if (node.vertex == agent.goal && (node.leave_by == kForever || agent.leaves)) {
+    if ((node.leave_by == kForever || agent.leaves) && agent.goals.contains(node.vertex)) {
       if (path != nullptr) trace(index, *path);
       return node.arrive;
     }

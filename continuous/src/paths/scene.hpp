@@ -39,7 +39,7 @@ class Scene {
   [[nodiscard]] Cost free_cost(AgentId i) const {
     if (!free_costs_.empty()) return free_costs_[i.index()];
     const Agent& agent = instance_.agent(i);
-    if (agent.start == agent.goal) return 0;
+    if (agent.goals.contains(agent.start)) return 0;
     return as_cost(agent.release + distances_[i.index()][agent.start]);
   }
 

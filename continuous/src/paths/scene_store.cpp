@@ -5,6 +5,14 @@
 #include <optional>
 
 namespace quadrille::continuous {
+namespace {
+
+std::vector<VertexId> goals_of(const Agent& agent) {
+  const auto goals = agent.goals.vertices();
+  return {goals.begin(), goals.end()};
+}
+
+}  // namespace
 
 SceneStore::SceneStore(std::shared_ptr<const Roadmap> base)
     : base_(std::move(base)), contacts_(base_) {
@@ -57,7 +65,7 @@ void SceneStore::forget(const Instance& instance, const std::vector<Change>& cha
 
 GoalDistances SceneStore::distances(const Instance& instance, AgentId agent) {
   const ClassId c = instance.class_of(agent);
-  Known& known = distances_[{contacts_.key(c), instance.agent(agent).goal}];
+  Known& known = distances_[{contacts_.key(c), goals_of(instance.agent(agent))}];
   known.is_used = true;
   if (known.ticks.empty()) {
     GoalDistances made(instance, agent);

@@ -41,7 +41,7 @@ class SceneStore {
   ContactStore contacts_;
   std::vector<Groups> open_to_;  // by edge of the base: in the instance
   /// By class and goal.
-  std::map<std::pair<ClassKey, VertexId>, Known> distances_;
+  std::map<std::pair<ClassKey, std::vector<VertexId>>, Known> distances_;  // by goals
 };
 
 }  // namespace quadrille::continuous

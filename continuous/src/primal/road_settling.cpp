@@ -42,7 +42,7 @@ class RoadGraph {
         lanes_at_(instance_.roadmap().num_vertices()) {
     for (const AgentId i : instance_.agent_ids()) {
       is_wanted_[start_.vertex_of(i)] = true;
-      is_wanted_[instance_.agent(i).goal] = true;
+      is_wanted_[instance_.agent(i).goal()] = true;
     }
   }
 
@@ -233,7 +233,7 @@ class RoadGraph {
     std::vector<AgentId> agents;
     std::vector<Local> starts, goals;
     for (const AgentId i : instance_.agent_ids()) {
-      const VertexId goal = instance_.agent(i).goal;
+      const VertexId goal = instance_.agent(i).goal();
       const auto start = numbers.find(number_of_[start_.vertex_of(i)]);
       if (start == numbers.end()) continue;
       const auto end = numbers.find(number_of_[goal]);

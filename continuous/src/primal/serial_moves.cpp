@@ -60,12 +60,12 @@ Standing::Standing(StandingBodies& bodies) : bodies_(bodies), instance_(bodies.s
     const Agent& agent = instance_.agent(i);
     const VertexId at =
         agent.under_way ? roadmap.edge(roadmap.out_edges(agent.start).front()).to : agent.start;
-    put(i, at, agent.leaves && at == agent.goal);
+    put(i, at, agent.leaves && at == agent.goal());
   }
 }
 
 bool Standing::is_home(AgentId i) const {
-  return is_gone_[i] || (!instance_.agent(i).leaves && vertex_of_[i] == instance_.agent(i).goal);
+  return is_gone_[i] || (!instance_.agent(i).leaves && vertex_of_[i] == instance_.agent(i).goal());
 }
 
 bool Standing::are_all_home() const {
@@ -104,7 +104,7 @@ void Standing::put(AgentId i, VertexId v, bool gone) {
 void Standing::move(const SerialMove& move) {
   const Agent& agent = instance_.agent(move.agent);
   const VertexId to = instance_.roadmap().edge(move.edge).to;
-  put(move.agent, to, agent.leaves && to == agent.goal);
+  put(move.agent, to, agent.leaves && to == agent.goal());
 }
 
 bool is_serial_plan(StandingBodies& bodies, std::span<const SerialMove> moves) {

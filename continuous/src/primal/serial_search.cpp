@@ -65,7 +65,7 @@ void SerialSearch::find_distances() {
     limits_.check();
     const ClassId c = instance_.class_of(i);
     std::vector<std::uint32_t> distance(roadmap.num_vertices(), kFar);
-    std::vector<VertexId> queue{instance_.agent(i).goal};
+    std::vector<VertexId> queue{instance_.agent(i).goal()};
     distance[queue.front().index()] = 0;
     for (std::size_t head = 0; head < queue.size(); ++head)
       for (const EdgeId e : roadmap.in_edges(queue[head])) {
@@ -136,7 +136,7 @@ void SerialSearch::add(Node parent, const SerialMove& move) {
   const std::size_t moved = move.agent.index();
   const Agent& agent = instance_.agent(move.agent);
   const VertexId to = instance_.roadmap().edge(move.edge).to;
-  const std::size_t place = agent.leaves && to == agent.goal ? num_places_ - 1 : to.index();
+  const std::size_t place = agent.leaves && to == agent.goal() ? num_places_ - 1 : to.index();
   const auto node = static_cast<Node>(steps_.size());
   const std::uint64_t hash = hashes_[parent] ^
                              hash_of(moved * num_places_ + places_of(parent)[moved]) ^

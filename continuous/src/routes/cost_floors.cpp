@@ -2,35 +2,12 @@
 #include "routes/cost_floors.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <queue>
 #include <utility>
+
+#include "paths/earliest_visits.hpp"
 
 namespace quadrille::continuous {
 namespace {
-
-/// When an agent that is alone can set out from each vertex, by index; kForever if never.
-std::vector<Ticks> earliest_visits(const Instance& instance, AgentId agent) {
-  const Roadmap& roadmap = instance.roadmap();
-  const ClassId c = instance.class_of(agent);
-  std::vector<Ticks> ticks(roadmap.num_vertices(), kForever);
-  using Entry = std::pair<Ticks, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  const auto visit = [&](VertexId v, Ticks tick) {
-    if (tick >= ticks[v.index()]) return;
-    ticks[v.index()] = tick;
-    open.emplace(tick, v.index());
-  };
-  visit(instance.agent(agent).start, instance.agent(agent).release);
-  while (!open.empty()) {
-    const auto [tick, v] = open.top();
-    open.pop();
-    if (tick > ticks[v]) continue;
-    for (const EdgeId e : instance.out_edges(c, VertexId(v)))
-      visit(roadmap.edge(e).to, tick + instance.duration(c, e));
-  }
-  return ticks;
-}
 
 /// When the contact between `passer`, if it is nowhere later than it has to be, and the goal of
 /// `resident` is over at last; 0 if it can go around.
@@ -38,7 +15,7 @@ Ticks last_pass(Scene& scene, AgentId resident, AgentId passer, const std::vecto
   const Instance& instance = scene.instance();
   const Roadmap& roadmap = instance.roadmap();
   const ClassId mover = instance.class_of(passer), stander = instance.class_of(resident);
-  const VertexId place = instance.agent(resident).goal;
+  const VertexId place = instance.agent(resident).goal();
 
   std::vector<std::pair<EdgeId, Ticks>> touching;  // edges, and how long they are in contact
   for (const EdgeId e : scene.contacts().near_vertex(stander, place, mover).edges)
@@ -51,7 +28,7 @@ Ticks last_pass(Scene& scene, AgentId resident, AgentId passer, const std::vecto
   };
 
   std::vector<bool> is_past(roadmap.num_vertices(), false);  // from where it needs none of them
-  std::vector<VertexId> stack{instance.agent(passer).goal};
+  std::vector<VertexId> stack{instance.agent(passer).goal()};
   is_past[stack.front().index()] = true;
   while (!stack.empty()) {
     const VertexId v = stack.back();

@@ -143,7 +143,7 @@ class RouteSearch {
   void extend(Traveller& t, Cost share, VertexId v, Route& route) {
     if (route.edges.size() > kMaxMoves) work_ = -1;
     if (work_ < 0) return;
-    if (v == instance_.agent(t.agent).goal) {
+    if (v == instance_.agent(t.agent).goal()) {
       t.routes.push_back(route);
       work_ -= kWorkPerMove * static_cast<std::int64_t>(route.edges.size());
     }

@@ -37,7 +37,7 @@ class Passage {
       fate.is_alike =
           before.body == after.body && before.speed == after.speed && before.group == after.group;
       fate.rests_alike =
-          fate.is_alike && before.goal == after.goal && before.leaves == after.leaves;
+          fate.is_alike && before.goals == after.goals && before.leaves == after.leaves;
       fates_.push_back(fate);
     }
   }

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "paths/scene_store.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -48,9 +49,12 @@ struct Session::Parts {
 };
 
 std::optional<Error> Session::Parts::refuse(const Agent& agent) const {
-  for (const VertexId v : {agent.start, agent.goal})
+  std::vector<VertexId> ends{agent.start};
+  ends.insert(ends.end(), agent.goals.vertices().begin(), agent.goals.vertices().end());
+  for (const VertexId v : ends)
     if (v.index() >= roadmap->num_vertices())
       return invalid("there is no vertex " + std::to_string(v.index()));
+  if (ends.size() == 1) return invalid("a member has no goal");
   if (agent.under_way) return invalid("a member is put under way by its edge");
   return std::nullopt;
 }

@@ -48,8 +48,8 @@ class Taker {
     const LemmaStock::Obstacle& known = stock_.obstacles[number];
     bool is_new = false;
     if (known.goal)
-      made_[number] = model_.keep_off_goal(known.agent, known.goal->resident, known.goal->from,
-                                           writer_, is_new);
+      made_[number] = model_.keep_off_goal(known.agent, known.goal->resident, known.goal->vertex,
+                                           known.goal->from, writer_, is_new);
     for (const AgentId partner : known.partners)
       made_[number] = model_.usage(known.agent, known.bans, partner, writer_, is_new);
     return *made_[number];
@@ -84,6 +84,8 @@ class Taker {
     const auto owner = [&](ObstacleId id) { return model_.obstacles()[id].agent; };
     if (kind == Kind::path) return sat::why::Path{owner(obstacles_.front())};
     if (kind == Kind::pair) return sat::why::Pair{levels[0].agent, levels[1].agent};
+    if (model_.obstacles()[obstacles_.front()].cause.is_end())
+      return sat::why::Goal{owner(obstacles_.back())};
     const bool is_stay = std::any_of(obstacles_.begin(), obstacles_.end(), [&](ObstacleId id) {
       return model_.obstacles()[id].cause.kind == Ban::Kind::stay;
     });
@@ -103,7 +105,10 @@ LemmaStock::Obstacle kept(const Model& model, ObstacleId id) {
   LemmaStock::Obstacle kept{known.agent, {}, {}};
   const auto meaning = model.variable(known.allowed);
   if (meaning.kind == Model::VariableKind::cost) {
-    kept.goal = {meaning.agent, as_ticks(meaning.cost)};
+    kept.goal = {meaning.agent, model.instance().agent(meaning.agent).goal(),
+                 as_ticks(meaning.cost)};
+  } else if (meaning.kind == Model::VariableKind::rest) {
+    kept.goal = {meaning.agent, meaning.goal, as_ticks(meaning.cost)};
   } else {
     kept.bans = known.bans;
     const auto cause = std::find(kept.bans.begin(), kept.bans.end(), known.cause);

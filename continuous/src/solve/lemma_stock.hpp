@@ -16,9 +16,10 @@ namespace quadrille::continuous {
 struct LemmaStock {
   /// Something that one agent may be kept from.
   struct Obstacle {
-    /// That of another agent from `from` on, once that one stays there.
+    /// Of another agent, from `from` on, once that one stays there.
     struct Goal {
       AgentId resident;
+      VertexId vertex;
       Ticks from = 0;
     };
     AgentId agent;

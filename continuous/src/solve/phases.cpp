@@ -7,6 +7,7 @@
 
 #include "feasibility/bottleneck.hpp"
 #include "feasibility/feasibility.hpp"
+#include "primal/chosen_ends.hpp"
 #include "primal/first_plan.hpp"
 #include "primal/serial_plan.hpp"
 #include "quadrille/core/free_bound.hpp"
@@ -78,8 +79,9 @@ void Phases::run() {
   const auto groups = options_.joint_work > 0 ? small_groups(scene) : std::vector<JointGroup>();
   const bool is_joint_first = !groups.empty();
   if (is_joint_first && search_jointly(scene, groups)) return;
-  const bool is_dpll = options_.system == System::dpll;
-  if (is_dpll && options_.route_work > 0 && instance_.num_agents() <= kMaxRouteAgents &&
+  // Routes lead to one goal.
+  const bool has_routes = options_.system == System::dpll && !instance_.has_goal_sets();
+  if (has_routes && options_.route_work > 0 && instance_.num_agents() <= kMaxRouteAgents &&
       look_at_routes(scene))
     return;
   if (!find_some_plan(scene, is_joint_first))
@@ -132,15 +134,31 @@ bool Phases::find_some_plan(Scene& scene, bool was_joint) {
     desk_.pulse.enter(Phase::first_plan);
     keep_cheaper(find_first_plan(scene), "prioritised");
   }
-  if (!known_.plan) move_one_by_one(scene);
+  if (!known_.plan) with_one_goal_each(scene, &Phases::move_one_by_one);
   if (!known_.plan && !was_joint) {
     desk_.pulse.enter(Phase::feasibility);
     Feasibility feasibility = check_feasibility(scene);
     if (is_blocked(feasibility.blocked)) return true;
     keep_cheaper(std::move(feasibility.plan), "joint");
-    if (!known_.plan) keep_cheaper(search_serial_plan(scene, kLongSearch), "serial-search");
+    if (!known_.plan) with_one_goal_each(scene, &Phases::search_longer);
   }
   return false;
+}
+
+void Phases::with_one_goal_each(Scene& scene, void (Phases::*search)(Scene&)) {
+  if (!instance_.has_goal_sets()) return (this->*search)(scene);
+  std::optional<Instance> chosen;
+  try {
+    chosen = with_chosen_ends(scene);
+  } catch (const LimitReached&) {
+  }
+  if (!chosen) return;
+  Scene with_ends(*chosen, desk_.limits);
+  if (with_ends.is_complete()) (this->*search)(with_ends);
+}
+
+void Phases::search_longer(Scene& scene) {
+  keep_cheaper(search_serial_plan(scene, kLongSearch), "serial-search");
 }
 
 /// The settled one is dear where it can be had, and the search finds a cheaper one soon or not at

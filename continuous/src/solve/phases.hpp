@@ -42,7 +42,11 @@ class Phases {
   [[nodiscard]] bool search_jointly(Scene& scene, const std::vector<JointGroup>& groups);
   [[nodiscard]] bool look_at_routes(Scene& scene);
   [[nodiscard]] bool find_some_plan(Scene& scene, bool was_joint);
+  // Searches that have to know where agents end.
   void move_one_by_one(Scene& scene);
+  void search_longer(Scene& scene);
+  /// Where agents have a choice, one is made for them.
+  void with_one_goal_each(Scene& scene, void (Phases::*search)(Scene&));
   [[nodiscard]] bool is_blocked(const std::vector<AgentId>& blocked);
   /// `source`: where the plan came from.
   [[nodiscard]] bool learn(Cost bound, std::optional<Plan> plan, const char* source);

@@ -40,6 +40,12 @@ void set_crossing(const Roadmap& roadmap, const Obstacle& one, const Obstacle& o
 
 CollisionSite site_of(const Instance& instance, const Obstacle& one, const Obstacle& other) {
   CollisionSite site{one.agent, other.agent, {}, {}, 0, 0, 1};
+  if (one.cause.is_end()) {
+    const VertexId goal(one.cause.place);
+    site.place = {Place::Kind::goal, goal, goal};
+    site.end = CollisionSite::kForever;
+    return site;
+  }
   if (one.cause.kind == Ban::Kind::stay)
     site.place = at_vertex(VertexId(one.cause.place));
   else if (other.cause.kind == Ban::Kind::stay)
@@ -70,10 +76,9 @@ std::vector<CollisionSite> collision_sites(const Model& model, const lazy::Recor
                                             : site_of(model.instance(), other, one));
   });
   for (const lazy::Vocabulary::GoalObstacle& goal : model.goal_obstacles()) {
-    const VertexId v = model.instance().agent(goal.resident).goal;
     sites.push_back({goal.agent,
                      goal.resident,
-                     {Place::Kind::goal, v, v},
+                     {Place::Kind::goal, goal.goal, goal.goal},
                      {},
                      std::max<Cost>(goal.cost - 1, 0),
                      CollisionSite::kForever,

@@ -59,9 +59,27 @@ std::vector<Encounter> ContinuousDomain::conflicts(const PathTrail& /*trail*/) {
 
 std::vector<ObstacleId> ContinuousDomain::exclude(const Encounter& e, const PathTrail& trail,
                                                   FormulaWriter& writer) {
+  if (do_ends_overlap(e.first, e.second))
+    return clauses_.exclude_ends(end_of(e.first), end_of(e.second), writer);
   if (note_collision(e, trail, writer)) return {};
   return clauses_.exclude(e, as_ticks(current_cost(e.first, trail)),
                           as_ticks(current_cost(e.second, trail)), writer);
+}
+
+EncounterClauses::End ContinuousDomain::end_of(AgentId i) const {
+  const TimedPath& path = paths_.path(i)->path;
+  const Instance& instance = model_.instance();
+  return {i, path.moves.empty() ? instance.agent(i).start
+                                : instance.roadmap().edge(path.moves.back().edge).to};
+}
+
+// Two agents who have no choice end apart: seen when the instance was made.
+bool ContinuousDomain::do_ends_overlap(AgentId i, AgentId j) {
+  const Instance& instance = model_.instance();
+  const Agent &a = instance.agent(i), &b = instance.agent(j);
+  if (a.leaves || b.leaves || (a.goals.is_single() && b.goals.is_single())) return false;
+  return model_.contacts().overlap(instance.class_of(i), end_of(i).goal, instance.class_of(j),
+                                   end_of(j).goal);
 }
 
 bool ContinuousDomain::note_collision(const Encounter& e, const PathTrail& trail,

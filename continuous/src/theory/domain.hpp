@@ -92,6 +92,9 @@ class ContinuousDomain {
  private:
   /// What i costs at least: its path does, or literals say so.
   [[nodiscard]] Cost current_cost(AgentId i, const PathTrail& trail) const;
+  /// Where an agent with a choice and another one end, if they would be in each other's way there.
+  [[nodiscard]] bool do_ends_overlap(AgentId i, AgentId j);
+  [[nodiscard]] EncounterClauses::End end_of(AgentId i) const;
   /// True if a lemma of the two agents excludes the encounter.
   bool note_collision(const Encounter& encounter, const PathTrail& trail, FormulaWriter& writer);
 

@@ -88,7 +88,7 @@ std::vector<ObstacleId> EncounterClauses::exclude_stay(Party mover, const Step& 
     // Whoever stays for good before the contact ends is in the way of this move; see keep_off_goal.
     bool is_new = false;
     const ObstacleId id =
-        model_.keep_off_goal(mover.agent, stander.agent, contact.end, writer, is_new);
+        model_.keep_off_goal(mover.agent, stander.agent, stay.vertex, contact.end, writer, is_new);
     if (is_new) add_price(id, writer);
     return {id};
   }
@@ -103,6 +103,12 @@ std::vector<ObstacleId> EncounterClauses::exclude_stay(Party mover, const Step& 
   lift_over_stay(mover, stander, ban_stander, starts.length() / 4, bans_mover);
   return add_pair(mover.agent, std::move(bans_mover), stander.agent, {ban_stander},
                   sat::why::Stay{}, writer);
+}
+
+std::vector<ObstacleId> EncounterClauses::exclude_ends(const End& i, const End& j,
+                                                       FormulaWriter& writer) {
+  return add_pair(i.agent, {Ban::end(i.goal)}, j.agent, {Ban::end(j.goal)}, sat::why::Goal{j.agent},
+                  writer);
 }
 
 std::vector<ObstacleId> EncounterClauses::add_pair(AgentId i, std::vector<Ban> bans_i, AgentId j,

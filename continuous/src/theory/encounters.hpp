@@ -20,6 +20,14 @@ class EncounterClauses {
   /// arrival; `stay_j` likewise.
   std::vector<ObstacleId> exclude(const Encounter& encounter, Ticks stay_i, Ticks stay_j,
                                   FormulaWriter& writer);
+  /// Where an agent ends: its path does, and it stays there for good.
+  struct End {
+    AgentId agent;
+    VertexId goal;
+  };
+  /// The same for two agents who are in each other's way where they end: they do not both end
+  /// there. Requires that the bodies overlap.
+  std::vector<ObstacleId> exclude_ends(const End& i, const End& j, FormulaWriter& writer);
 
  private:
   struct Party {

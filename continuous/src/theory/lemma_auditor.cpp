@@ -76,7 +76,9 @@ std::string LemmaAuditor::audit(const sat::Lemma& lemma) {
   ++num_derived_;
   if (const auto* path = std::get_if<sat::why::Path>(&lemma.why))
     return audit_path(lemma, path->agent);
-  if (lemma.is<sat::why::Moves>() || lemma.is<sat::why::Stay>()) return audit_collision(lemma);
+  if (lemma.is<sat::why::Moves>() || lemma.is<sat::why::Stay>() || lemma.is<sat::why::Goal>())
+    return audit_collision(lemma);
+  if (lemma.is<sat::why::Rest>()) return audit_rest(lemma);
   if (lemma.is<sat::why::Pair>()) return audit_pair(lemma);
   if (lemma.is<sat::why::Order>() || lemma.is<sat::why::Ceiling>()) return audit_order(lemma);
   return "continuous time has no such lemmas";
@@ -90,8 +92,13 @@ std::optional<bool> LemmaAuditor::find_in_plan(sat::Lit lit) const {
     case Kind::usage:  // the variable forbids
       return uses_[meaning.agent].breaks(model_.obstacles()[meaning.obstacle].bans) !=
              lit.positive();
+    case Kind::rest: {
+      const TimedPath& path = paths_[meaning.agent];
+      const bool rests = uses_[meaning.agent].breaks(Ban::end(meaning.goal)) &&
+                         as_cost(path.arrival) < meaning.cost;
+      return rests == lit.positive();
+    }
     case Kind::auxiliary:
-    case Kind::rest:
     case Kind::own:
       break;
   }
@@ -110,10 +117,14 @@ std::string LemmaAuditor::audit_usages(const sat::Lemma& lemma) const {
     const Obstacle& o = obstacle(usage);
     if (o.agent != usage.agent) return "a lemma mistakes the agent of an obstacle";
     const auto meaning = model_.variable(o.allowed);
-    if (meaning.kind == Kind::cost) {
-      if (!o.allowed.positive() || meaning.agent == o.agent)
+    if (meaning.kind == Kind::cost || meaning.kind == Kind::rest) {
+      const bool is_rest = meaning.kind == Kind::rest;
+      const Goals& goals = model_.instance().agent(meaning.agent).goals;
+      if (o.allowed.positive() == is_rest || meaning.agent == o.agent ||
+          (!is_rest && !goals.is_single()))
         return "an obstacle has a literal that says something else";
-      if (std::string wrong = audit_goal_bans(o, meaning.agent, as_ticks(meaning.cost));
+      if (std::string wrong = audit_goal_bans(
+              o, meaning.agent, is_rest ? meaning.goal : goals.only(), as_ticks(meaning.cost));
           !wrong.empty())
         return wrong;
     } else if (meaning.kind != Kind::usage || o.allowed.positive() ||
@@ -125,9 +136,9 @@ std::string LemmaAuditor::audit_usages(const sat::Lemma& lemma) const {
 }
 
 // The resident is at its goal from tick - 1 at the latest. What begins later meets no less of that.
-std::string LemmaAuditor::audit_goal_bans(const Obstacle& o, AgentId resident, Ticks tick) const {
+std::string LemmaAuditor::audit_goal_bans(const Obstacle& o, AgentId resident, VertexId goal,
+                                          Ticks tick) const {
   const Instance& instance = model_.instance();
-  const VertexId goal = instance.agent(resident).goal;
   const geometry::BodyPair pair = bodies(o.agent, resident);
   if (instance.agent(resident).leaves) return "an agent that leaves is said to stay at its goal";
   for (const Ban& ban : o.bans) {
@@ -190,7 +201,7 @@ bool LemmaAuditor::has_path(AgentId i, const std::vector<Ban>& bans, Ticks bound
     const auto [v, k] = queue.front();
     queue.pop_front();
     const SafeStay stay = stays[v][k];
-    if (v == instance.agent(i).goal && (instance.agent(i).leaves || stay.until >= kForever))
+    if (instance.agent(i).goals.contains(v) && (instance.agent(i).leaves || stay.until >= kForever))
       return true;
     for (const EdgeId e : roadmap.out_edges(v)) {
       if (!roadmap.edge(e).open_to.contains(instance.agent(i).group)) continue;
@@ -224,8 +235,11 @@ std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
 
 // Unsafe offsets have no gaps and contacts neither, so that the extreme cases decide.
 bool LemmaAuditor::all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b) const {
-  if (a.kind == Ban::Kind::stay) return b.kind == Ban::Kind::start && all_collide(j, b, i, a);
   const Instance& instance = model_.instance();
+  if (a.is_end() && b.is_end())
+    return bodies(i, j).overlap(instance.roadmap().position(VertexId(a.place)),
+                                instance.roadmap().position(VertexId(b.place)));
+  if (a.kind == Ban::Kind::stay) return b.kind == Ban::Kind::start && all_collide(j, b, i, a);
   if (a.when.end >= kForever || b.when.end >= kForever) return false;
   if (b.kind == Ban::Kind::start) {
     const geometry::BodyPair pair = bodies(i, j);
@@ -278,6 +292,18 @@ std::string LemmaAuditor::audit_pair(const sat::Lemma& lemma) {
   const auto has_plan = PairReplay(model_.instance(), parties[0], parties[1]).has_plan(kMaxStates);
   if (!has_plan) ++num_skipped_;
   return has_plan.value_or(false) ? "some plan breaks a lemma of a pair" : "";
+}
+
+std::string LemmaAuditor::audit_rest(const sat::Lemma& lemma) const {
+  if (lemma.clause.size() != 3) return "a rest has three sides";
+  const auto ends = model_.variable(lemma.clause[0]), late = model_.variable(lemma.clause[1]),
+             rests = model_.variable(lemma.clause[2]);
+  const bool is_of_one = ends.agent == rests.agent && late.agent == rests.agent;
+  const bool holds = ends.kind == Kind::usage && lemma.clause[0].positive() &&
+                     model_.obstacles()[ends.obstacle].bans == std::vector{Ban::end(rests.goal)} &&
+                     late.kind == Kind::cost && lemma.clause[1].positive() &&
+                     rests.kind == Kind::rest && lemma.clause[2].positive();
+  return holds && is_of_one && late.cost <= rests.cost ? "" : "a rest that does not follow";
 }
 
 std::string LemmaAuditor::audit_order(const sat::Lemma& lemma) const {

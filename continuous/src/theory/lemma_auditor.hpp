@@ -36,8 +36,11 @@ class LemmaAuditor final : public sat::ClauseAuditor {
   [[nodiscard]] std::string audit_order(const sat::Lemma& lemma) const;
   /// Whether the literals of the usages say what their bans say, and whether the clause has them.
   [[nodiscard]] std::string audit_usages(const sat::Lemma& lemma) const;
+  /// Whether nobody can do what these bans forbid while `resident` stays at `goal` for good and
+  /// arrived there before `tick`.
   [[nodiscard]] std::string audit_goal_bans(const Obstacle& obstacle, AgentId resident,
-                                            Ticks tick) const;
+                                            VertexId goal, Ticks tick) const;
+  [[nodiscard]] std::string audit_rest(const sat::Lemma& lemma) const;
 
   [[nodiscard]] const Obstacle& obstacle(const sat::Usage& usage) const {
     return model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))];

@@ -30,15 +30,19 @@ ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
   return at->second;
 }
 
-ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, FormulaWriter& writer,
-                                bool& is_new) {
-  const auto make = [&](sat::Lit later) {
+ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, VertexId goal, Ticks tick,
+                                FormulaWriter& writer, bool& is_new) {
+  Rest rest{resident, goal, as_cost(tick)};
+  if (!instance().agent(resident).goals.is_single()) {
+    bool is_new_end = false;
+    rest.may_end = obstacles_[end(resident, goal, agent, writer, is_new_end)].allowed;
+  }
+  const auto make = [&](sat::Lit allowed) {
     const ObstacleId made = obstacles_.next_id();
-    obstacles_.push_back({agent, later, goal_bans(agent, resident, tick), {resident}, {}});
+    obstacles_.push_back({agent, allowed, goal_bans(agent, resident, goal, tick), {resident}, {}});
     return made;
   };
-  const auto [id, inserted] = goal_obstacle(
-      agent, {resident, instance().agent(resident).goal, as_cost(tick)}, writer, make);
+  const auto [id, inserted] = goal_obstacle(agent, rest, writer, make);
   is_new = inserted;
   return id;
 }
@@ -46,9 +50,8 @@ ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, Ticks tick, For
 // Let the resident arrive for good before `tick`, that is at tick - 1 or earlier. Moves that
 // collide with a stay from tick - 1 on for ever collide with one from earlier on. A stay near the
 // goal collides if it ends after the arrival, and ending after tick - 1 is enough.
-std::vector<Ban> Model::goal_bans(AgentId agent, AgentId resident, Ticks tick) {
+std::vector<Ban> Model::goal_bans(AgentId agent, AgentId resident, VertexId goal, Ticks tick) {
   const ClassId a = instance().class_of(agent), b = instance().class_of(resident);
-  const VertexId goal = instance().agent(resident).goal;
   const auto& near = contacts().near_vertex(b, goal, a);
   std::vector<Ban> bans;
   for (const EdgeId e : near.edges)

@@ -58,13 +58,20 @@ class Model final : public lazy::Vocabulary {
   /// partners.
   [[nodiscard]] ObstacleId usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
                                  FormulaWriter& writer, bool& is_new);
-  /// Keeps `agent` away from the goal of `resident` from `tick` on while that costs less.
-  [[nodiscard]] ObstacleId keep_off_goal(AgentId agent, AgentId resident, Ticks tick,
+  /// Keeps `agent` away from a goal of `resident` from `tick` on while that ends there and costs
+  /// less.
+  [[nodiscard]] ObstacleId keep_off_goal(AgentId agent, AgentId resident, VertexId goal, Ticks tick,
                                          FormulaWriter& writer, bool& is_new);
+  /// That `agent` may end at one of its goals. `partner` as for usages.
+  [[nodiscard]] ObstacleId end(AgentId agent, VertexId goal, AgentId partner, FormulaWriter& writer,
+                               bool& is_new) {
+    return usage(agent, {Ban::end(goal)}, partner, writer, is_new);
+  }
 
  private:
   /// Of that obstacle.
-  [[nodiscard]] std::vector<Ban> goal_bans(AgentId agent, AgentId resident, Ticks tick);
+  [[nodiscard]] std::vector<Ban> goal_bans(AgentId agent, AgentId resident, VertexId goal,
+                                           Ticks tick);
 
   Scene& scene_;
   IdVector<ObstacleId, Obstacle> obstacles_;

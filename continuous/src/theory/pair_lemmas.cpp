@@ -71,6 +71,7 @@ PairLemmas::Party PairLemmas::in_time(Party party) const {
 
 bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
   if (scope_ == Scope::proven && !record.is_proven) return false;
+  if (has_choice(i.agent) || has_choice(j.agent)) return false;
   if (++record.count < std::max(record.next_try, kFirstTry)) return false;
   if (i.cap >= kAnyCost || j.cap >= kAnyCost) return false;
   if (wasted_ > kFirstWaste + path_effort_ / kPathStepsPerStep) return false;
@@ -89,6 +90,10 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   if (is_added) record.refuted = caps;
   if (!is_added) record.steps = std::min(kMoreSteps * record.steps, kMostSteps);
   return is_added;
+}
+
+bool PairLemmas::has_choice(AgentId i) const {
+  return !model_.instance().agent(i).goals.is_single();
 }
 
 bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {

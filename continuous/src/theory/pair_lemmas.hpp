@@ -55,6 +55,8 @@ class PairLemmas {
   /// With a cap that is not after the deadline.
   [[nodiscard]] Party in_time(Party party) const;
   bool note(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
+  /// The searches know of one goal for each agent.
+  [[nodiscard]] bool has_choice(AgentId i) const;
   bool try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
   /// Within `steps_`.
   [[nodiscard]] bool is_refuted(const Party& i, const Party& j);

@@ -28,7 +28,7 @@ PairReplay::PairReplay(const Instance& instance, Party first, Party second)
 void PairReplay::fill_rest(Party& party) const {
   const Roadmap& roadmap = instance_.roadmap();
   party.rest.assign(roadmap.num_vertices(), kForever);
-  party.rest[instance_.agent(party.agent).goal.index()] = 0;
+  party.rest[instance_.agent(party.agent).goal().index()] = 0;
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
     for (std::uint32_t e = 0; e < roadmap.num_edges(); ++e) {
@@ -90,9 +90,9 @@ std::vector<PairReplay::Step> PairReplay::steps(const Party& party, const State&
   if (now + party.rest[state.place] >= party.bound) return result;
   const Agent& agent = instance_.agent(party.agent);
   const State parked{Kind::parks, state.place, 0};
-  if (state.place == agent.goal.value() && agent.leaves) return {{parked, parked}};
+  if (state.place == agent.goal().value() && agent.leaves) return {{parked, parked}};
   if (may_be_at(party, state.place, now, now + 1)) result.push_back({state, state});
-  if (state.place == agent.goal.value() && may_be_at(party, state.place, now, kForever))
+  if (state.place == agent.goal().value() && may_be_at(party, state.place, now, kForever))
     result.push_back({state, parked});
   if (now < instance_.agent(party.agent).release) return result;
   // On purpose without the lists of open edges that the searches use.

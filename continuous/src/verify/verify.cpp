@@ -30,11 +30,13 @@ class PathCheck {
       good = fail(Kind::wrong_start, 0,
                   "begins at vertex " + std::to_string(path.front().vertex.index()) +
                       ", but its start is vertex " + std::to_string(agent.start.index()));
-    if (path.back().vertex != agent.goal)
+    if (!agent.goals.contains(path.back().vertex))
       good = fail(Kind::wrong_goal, path.back().arrive,
                   "ends at vertex " + std::to_string(path.back().vertex.index()) + " at time " +
-                      time(path.back().arrive) + ", but its goal is vertex " +
-                      std::to_string(agent.goal.index()));
+                      time(path.back().arrive) +
+                      (agent.goals.is_single()
+                           ? ", but its goal is vertex " + std::to_string(agent.goal().index())
+                           : ", which is none of its goals"));
     if (agent.deadline && path.back().arrive > *agent.deadline)
       good = fail(Kind::too_late, path.back().arrive,
                   "arrives at its goal at time " + time(path.back().arrive) +

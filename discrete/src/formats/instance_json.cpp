@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <istream>
 #include <ostream>
-#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "formats/instance_document.hpp"
 #include "formats/text_input.hpp"
 #include "quadrille/discrete/movingai.hpp"
+#include "quadrille/text/goals.hpp"
 #include "quadrille/text/names.hpp"
 
 namespace quadrille::discrete {
@@ -133,60 +133,33 @@ class JsonInstanceReader {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> places;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, goal, goals, name;
+      std::optional<Node> start, name;
+      text::GoalNodes goals;
       if (!check_.members(a, {{"start", &start},
-                              {"goal", &goal, false},
-                              {"goals", &goals, false},
+                              {"goal", &goals.goal, false},
+                              {"goals", &goals.goals, false},
                               {"name", &name, false}}))
         return false;
-      if (!goal && !goals) return check_.fail(a, "the key 'goal' is missing");
-      if (goal && goals) return check_.fail(*goals, "expected either 'goal' or 'goals'");
       auto& own = names_.agents.emplace_back();
       if (name && !text::read_name(check_, document_, *name, own)) return false;
-      PlacedTask placed{{}, *start, goal ? *goal : *goals};
       places.push_back(a);
-      if (!read_vertex(*start, placed.task.start) ||
-          !(goal ? read_goal(*goal, placed.task.goals) : read_goals(*goals, placed.task.goals)))
+      Agent task;
+      const auto vertex = [&](Node node, VertexId& v) {
+        return read_place(check_, document_, *graph_, node, ErrorCode::invalid_instance, v);
+      };
+      const auto in_words = [&](VertexId v) { return vertex_name(*graph_, v); };
+      if (!vertex(*start, task.start) ||
+          !text::read_goals(check_, document_, a, goals, vertex, in_words, task.goals))
         return false;
-      tasks.push_back(std::move(placed));
+      tasks.push_back({std::move(task), *start, goals.node()});
     }
     return are_distinct(check_, names_.agents, places);
-  }
-
-  bool read_vertex(Node node, VertexId& vertex) {
-    return read_place(check_, document_, *graph_, node, ErrorCode::invalid_instance, vertex);
-  }
-
-  bool read_goal(Node node, Goals& goals) {
-    VertexId only;
-    if (!read_vertex(node, only)) return false;
-    goals = only;
-    return true;
-  }
-
-  bool read_goals(Node node, Goals& goals) {
-    if (!check_.array(node, "goals")) return false;
-    std::vector<VertexId> vertices;
-    for (Node g = document_.first(node); g < document_.next(node); g = document_.next(g)) {
-      VertexId vertex;
-      if (!read_vertex(g, vertex)) return false;
-      if (!is_goal_.insert(vertex).second)
-        return check_.fail(g, ErrorCode::invalid_instance,
-                           "the goal " + vertex_name(*graph_, vertex) + " is given twice");
-      vertices.push_back(vertex);
-    }
-    is_goal_.clear();
-    if (vertices.empty())
-      return check_.fail(node, ErrorCode::invalid_instance, "there is no goal in the list");
-    goals = Goals(std::move(vertices));
-    return true;
   }
 
   const Document& document_;
   Checker check_;
   const std::size_t most_vertices_;
   std::optional<Graph> graph_;
-  std::set<VertexId> is_goal_;  // of the agent that is being read
   text::Names names_;
 };
 
@@ -248,11 +221,8 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   bool first = true;
   for (const AgentId i : instance.agent_ids()) {
     const Agent& task = instance.agents()[i];
-    out << (first ? "\n" : ",\n") << "    {\"start\": " << place(task.start)
-        << (task.goals.is_single() ? ", \"goal\": " : ", \"goals\": [");
-    for (const VertexId& goal : task.goals.vertices())
-      out << (&goal == task.goals.vertices().data() ? "" : ", ") << place(goal);
-    if (!task.goals.is_single()) out << ']';
+    out << (first ? "\n" : ",\n") << "    {\"start\": " << place(task.start) << ", ";
+    text::write_goals(out, task.goals, place);
     if (const std::string* name = names.agent(i.index()))
       out << ", \"name\": " << text::quoted_json(*name);
     out << '}';

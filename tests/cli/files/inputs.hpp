@@ -31,6 +31,7 @@ struct Input {
   bool has_cells = true;  ///< On a grid, in timesteps.
   bool has_heights = false;
   bool has_obstacles = false;  ///< Which move.
+  bool has_goal_sets = false;
   std::size_t num_agents = 0;  ///< As many as the options say.
 };
 

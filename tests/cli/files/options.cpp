@@ -35,7 +35,7 @@ Words draw_search(Random& random, const Input& input, bool has_json) {
   if (input.in_time)
     maybe(random, 40, words, "--system", {"dpll", "smt-cbs"});
   else
-    add_system(random, words, explains);
+    add_system(random, words, explains || input.has_goal_sets);
   if (explains) words.emplace_back("--explain");
   if (!explains && random.percent(25)) {
     words = words + Words{"--threads", "2"};

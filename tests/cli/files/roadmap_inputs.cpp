@@ -22,6 +22,7 @@ Input one_file(Random& random, FileNames& names) {
   options.num_vertices = random.between(2, 6);
   options.num_agents = random.between(1, 3);
   options.under_way_percent = 20;
+  options.goal_sets_percent = 15;
   const auto drawn = continuous::test::random_instance(
       static_cast<std::uint32_t>(random.below(1U << 31)), options);
   const double length = draw_resolution(random);

@@ -101,9 +101,11 @@ Input generated(Random& random, Workshop& workshop, FileNames& names) {
 Input one_file(Random& random, FileNames& names) {
   Input input;
   input.has_cells = random.percent(60);
-  const Instance instance = input.has_cells ? discrete::support::random_grid(random, kShape)
-                                            : discrete::support::random_graph(random, 7, 3);
+  Instance instance = input.has_cells ? discrete::support::random_grid(random, kShape)
+                                      : discrete::support::random_graph(random, 7, 3);
   const bool is_yaml = input.has_cells && random.percent(40);
+  if (!is_yaml && random.percent(30))
+    instance = discrete::support::with_more_goals(random, instance);
   std::ostringstream text;
   const auto error =
       is_yaml ? write_instance_yaml(text, "", instance) : write_instance_json(text, "", instance);
@@ -116,6 +118,8 @@ Input one_file(Random& random, FileNames& names) {
   input.options = {"--instance", file};
   input.num_agents = instance.num_agents();
   limit_agents(random, input);
+  for (std::size_t i = 0; i < input.num_agents; ++i)
+    if (!instance.agents()[AgentId(i)].goals.is_single()) input.has_goal_sets = true;
   return input;
 }
 

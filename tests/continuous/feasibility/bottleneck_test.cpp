@@ -31,7 +31,7 @@ Instance make(std::size_t num_vertices, const std::vector<Ends>& roads,
   for (const auto& [start, goal] : tasks) {
     Agent agent;
     agent.start = VertexId(start);
-    agent.goal = VertexId(goal);
+    agent.goals = VertexId(goal);
     agents.push_back(agent);
   }
   return Instance::make(std::make_shared<const Roadmap>(Roadmap::make(points, edges).value()),

@@ -54,6 +54,21 @@ TEST(RoadmapJson, ReadsWhatFleetsNeed) {
             (MovingObstacle{Disc{20}, {{{100, 100}, 0, 200}, {{100, 300}, 450, 450}}, true}));
 }
 
+TEST(RoadmapJson, ReadsAndWritesGoalsToChooseFrom) {
+  std::istringstream file(
+      "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": 0.1, \"roadmap\": "
+      "{\"vertices\": [[0, 0], [3, 4], [6, 4]], \"edges\": [[0, 1], [1, 2]]}, \"agents\": "
+      "[{\"start\": 0, \"goals\": [2, 1], \"radius\": 0.5}, "
+      "{\"start\": 2, \"goals\": [2], \"radius\": 0.5}]}");
+  const Instance instance = read_instance_json(file, "f").value();
+  EXPECT_EQ(instance.agent(AgentId(0)).goals, Goals({VertexId(1), VertexId(2)}));
+  EXPECT_EQ(instance.agent(AgentId(1)).goal(), VertexId(2));
+  std::ostringstream written;
+  EXPECT_FALSE(write_instance_json(written, "f", instance));
+  EXPECT_NE(written.str().find("\"goals\": [1, 2]"), std::string::npos);
+  EXPECT_NE(written.str().find("\"goal\": 2"), std::string::npos);
+}
+
 TEST(RoadmapJson, ReadsMovesInProgress) {
   const auto read = [](const std::string& how) {
     std::istringstream file(
@@ -91,7 +106,13 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithTheRulesOfFleets) {
       {"12", "-12", "f:15: /agents/1/deadline: the time is negative, or too late"},
       {"12", "null", "f:15: /agents/1/deadline: expected a number"},
       {"\"deadline", "\"goals\": [0, 2], \"deadline",
-       "f:15: /agents/1/goals: sets of several goals are not supported on roadmaps"},
+       "f:15: /agents/1/goals: expected either 'goal' or 'goals'"},
+      {"\"goal\": 0", "\"goals\": []", "f:15: /agents/1/goals: there is no goal in the list"},
+      {"\"goal\": 0", "\"goals\": 0", "f:15: /agents/1/goals: expected a list of goals"},
+      {"\"goal\": 0", "\"goals\": [0, 1, 0]",
+       "f:15: /agents/1/goals/2: the goal vertex 0 is given twice"},
+      {"\"goal\": 0", "\"goals\": [0, 4]", "f:15: /agents/1/goals/1: there is no vertex 4 among 4"},
+      {"\"goal\": 0, ", "", "f:15: /agents/1: the key 'goal' is missing"},
       {"12", "3.49", "f:15: agent 1 cannot arrive before 3.5, and its deadline is 3.49"},
       {"\"radius\": 0.2, ", "",
        "f:18: /obstacles/0: one of the keys 'radius' and 'polygon' is missing"},

@@ -76,9 +76,9 @@ TEST(RoadmapXml, ReadsGridsAndTasks) {
   EXPECT_EQ(task.rows[1].line, 3);
   const auto roadmap = GridRoadmap::make(grid, 2, 300'000, kResolution).value();
   const auto agents = agents_of(task, 2, roadmap, 300'000, kUnitSpeed).value();
-  EXPECT_EQ(roadmap.cell(agents[0].goal), (Cell{3, 0}));
+  EXPECT_EQ(roadmap.cell(agents[0].goal()), (Cell{3, 0}));
   EXPECT_EQ(roadmap.cell(agents[1].start), (Cell{3, 1}));
-  EXPECT_EQ(roadmap.cell(agents[1].goal), (Cell{0, 1}));
+  EXPECT_EQ(roadmap.cell(agents[1].goal()), (Cell{0, 1}));
 }
 
 TEST(RoadmapXml, RefusesWrongRoadmaps) {

@@ -257,7 +257,7 @@ Instance copies_of(const Instance& instance, std::size_t count) {
     }
     for (Agent agent : instance.agents()) {
       agent.start = moved(agent.start);
-      agent.goal = moved(agent.goal);
+      agent.goals = moved(agent.goal());
       agents.push_back(agent);
     }
     for (MovingObstacle obstacle : instance.obstacles()) {

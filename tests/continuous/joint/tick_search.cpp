@@ -107,7 +107,7 @@ class Search {
     State next = state;
     const AgentId i(k);
     const Agent& agent = instance_.agent(i);
-    const bool is_at_goal = p.place == agent.goal.index();
+    const bool is_at_goal = agent.goals.contains(VertexId(p.place));
     if (is_at_goal && (!agent.deadline || state.now <= *agent.deadline) &&
         (agent.leaves || !hits(i, stay(p.place, state.now, kEnd)))) {
       next.agents[k].is_done = true;

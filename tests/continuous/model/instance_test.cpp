@@ -54,8 +54,8 @@ TEST(Instance, NamesTheFirstAgentThatOverlapsAnEarlierOne) {
   const auto starts = Instance::make(square(10), agents);
   ASSERT_FALSE(starts.has_value());
   EXPECT_EQ(starts.error().message, "the starts of agents 30 and 50 overlap");
-  agents[50] = {VertexId(50), agents[20].goal, Disc{5}};
-  agents[45].goal = agents[25].goal;
+  agents[50] = {VertexId(50), agents[20].goals, Disc{5}};
+  agents[45].goals = agents[25].goals;
   const auto goals = Instance::make(square(10), agents);
   ASSERT_FALSE(goals.has_value());
   EXPECT_EQ(goals.error().message, "the goals of agents 25 and 45 overlap");

@@ -62,7 +62,7 @@ void expect_good_path(const Trial& trial, const TimedPath& path) {
     at = instance.roadmap().edge(move.edge).to;
     since = move.start + instance.duration(instance.class_of(kAgent), move.edge);
   }
-  EXPECT_EQ(at, instance.agent(kAgent).goal);
+  EXPECT_EQ(at, instance.agent(kAgent).goal());
   EXPECT_EQ(since, path.arrival);
   EXPECT_LE(since, instance.agent(kAgent).deadline.value_or(since));
   PathUses uses;

@@ -38,7 +38,7 @@ class Edits {
     if (draw(3) == 0) {
       Agent& agent = agents_[draw(agents_.size())];
       agent.body = Disc{Length(1 + static_cast<std::int64_t>(draw(9)))};
-      agent.goal = VertexId(draw(base_->num_vertices()));
+      agent.goals = VertexId(draw(base_->num_vertices()));
     }
     std::vector<Agent> agents = agents_;
     std::vector<Point> points = base_->positions();

@@ -113,7 +113,7 @@ std::optional<discrete::Instance> graph_of(const Instance& instance) {
   for (const Edge& edge : instance.roadmap().edges()) pairs.insert(std::minmax(edge.from, edge.to));
   const std::vector<discrete::Graph::Edge> edges(pairs.begin(), pairs.end());
   std::vector<discrete::Agent> agents;
-  for (const Agent& agent : instance.agents()) agents.push_back({agent.start, agent.goal});
+  for (const Agent& agent : instance.agents()) agents.push_back({agent.start, agent.goal()});
   auto made = discrete::Instance::make(
       std::make_shared<const discrete::Graph>(
           discrete::Graph::make(instance.roadmap().num_vertices(), edges).value()),
@@ -212,7 +212,7 @@ bool has_serial_plan(const Instance& instance) {
   Arrangement start, goal;
   for (const Agent& agent : instance.agents()) {
     start.push_back(agent.start.index());
-    goal.push_back(agent.goal.index());
+    goal.push_back(agent.goal().index());
   }
   const auto is_clear = [&](const Arrangement& places, AgentId i, EdgeId e) {
     const geometry::Motion motion = instance.motion(instance.class_of(i), e);
@@ -313,7 +313,7 @@ TEST(SerialMoves, AnyWalkBecomesAPlanAndLosesItsLoops) {
       moves.push_back(move);
     }
     std::vector<Agent> agents(drawn.agents().begin(), drawn.agents().end());
-    for (const AgentId i : drawn.agent_ids()) agents[i.index()].goal = standing.vertex_of(i);
+    for (const AgentId i : drawn.agent_ids()) agents[i.index()].goals = standing.vertex_of(i);
     const auto instance = Instance::make(drawn.shared_roadmap(), std::move(agents));
     if (!instance) continue;
     Scene own_scene(*instance, limits);

@@ -31,7 +31,7 @@ std::vector<Walk> walks(const Instance& instance, AgentId i, std::size_t max_mov
   for (std::size_t moves = 0; moves <= max_moves; ++moves) {
     std::vector<Walk> longer;
     for (const Walk& walk : some) {
-      if (walk.places.back() == instance.agent(i).goal) found.push_back(walk);
+      if (instance.agent(i).goals.contains(walk.places.back())) found.push_back(walk);
       for (const EdgeId e : instance.roadmap().out_edges(walk.places.back())) {
         if (!is_open(instance, i, e)) continue;
         longer.push_back(walk);

@@ -43,7 +43,7 @@ Learned learned_of_two() {
   LemmaStock& stock = learned.lemmas;
   stock.obstacles = {{a, {Ban::start(kEdge, {0, 10})}, {b}},
                      {b, {Ban::stay(VertexId(1), {5, 9})}, {a}},
-                     {a, {}, {}, LemmaStock::Obstacle::Goal{b, 2500}}};
+                     {a, {}, {}, LemmaStock::Obstacle::Goal{b, VertexId(0), 2500}}};
   stock.lemmas = {{Kind::collision, {}, {0, 1}},
                   {Kind::path, {{a, 2100}}, {0}},
                   {Kind::path, {{a, 2700}}, {0, 2}},
@@ -88,7 +88,7 @@ TEST(LemmaStore, AllStaysTrueOfTheSameAgents) {
   EXPECT_EQ(passed_after([](Situation&) {}), kAll);
   EXPECT_EQ(passed_after([](Situation& now) { now.closed.insert(EdgeId(3)); }), kAll);
   EXPECT_EQ(passed_after([](Situation& now) { now.tasks.erase(kC); }), kAll);
-  EXPECT_EQ(passed_after([](Situation& now) { now.tasks.at(kC).agent.goal = VertexId(0); }), kAll);
+  EXPECT_EQ(passed_after([](Situation& now) { now.tasks.at(kC).agent.goals = VertexId(0); }), kAll);
   EXPECT_EQ(
       passed_after([](Situation& now) { now.tasks.emplace(MemberId(3), Task{agent(3, 1, 50)}); }),
       kAll);
@@ -104,7 +104,7 @@ TEST(LemmaStore, AnotherTaskMakesItsOwnPathsDoubtful) {
   };
   const Passed own_paths{1, 1, 2, 0, 0};
   EXPECT_EQ(change([](Agent& a) { a.start = VertexId(3); }), own_paths);
-  EXPECT_EQ(change([](Agent& a) { a.goal = VertexId(3); }), own_paths);
+  EXPECT_EQ(change([](Agent& a) { a.goals = VertexId(3); }), own_paths);
   EXPECT_EQ(change([](Agent& a) { a.release = 100; }), own_paths);
   EXPECT_EQ(change([](Agent& a) { a.deadline = Ticks(9000); }), own_paths);
   EXPECT_EQ(change([](Agent& a) { a.leaves = true; }), own_paths);
@@ -131,7 +131,7 @@ TEST(LemmaStore, GoalStaysEndWithTheGoal) {
   const auto change = [](void (*other)(Agent&)) {
     return passed_after([other](Situation& now) { other(now.tasks.at(kB).agent); });
   };
-  EXPECT_EQ(change([](Agent& b) { b.goal = VertexId(3); }), (Passed{1, 1, 1, 0, 0}));
+  EXPECT_EQ(change([](Agent& b) { b.goals = VertexId(3); }), (Passed{1, 1, 1, 0, 0}));
   EXPECT_EQ(change([](Agent& b) { b.leaves = true; }), (Passed{1, 1, 1, 0, 0}));
   EXPECT_EQ(change([](Agent& b) { b.start = VertexId(3); }), (Passed{1, 2, 1, 0, 0}));
 }

@@ -42,7 +42,7 @@ class RandomSession {
       const MemberId member = some(members);
       Agent agent = session_.agent(member);
       agent.under_way = false;
-      agent.goal = free_vertex(&Agent::goal);
+      agent.goals = other_goals(agent);
       error = session_.change(member, agent);
     } else if (kind == 4) {
       error = put_under_way(some(members));
@@ -74,18 +74,25 @@ class RandomSession {
   }
   Agent drawn_agent() {
     Agent agent = agents_[draw(agents_.size())];
-    agent.start = free_vertex(&Agent::start);
-    agent.goal = free_vertex(&Agent::goal);
+    agent.start = free_vertex(start_of);
+    agent.goals = other_goals(agent);
     return agent;
   }
+  Goals other_goals(const Agent& agent) {
+    if (agent.goals.is_single()) return free_vertex(goal_of);
+    // One stays, one is new.
+    return Goals({agent.goals.vertices().front(), free_vertex(goal_of)});
+  }
+  static VertexId start_of(const Agent& agent) { return agent.start; }
+  static VertexId goal_of(const Agent& agent) { return agent.goals.vertices().front(); }
   /// Nobody's start (goal), if one is soon found.
-  VertexId free_vertex(VertexId Agent::*place) {
+  VertexId free_vertex(VertexId (*place_of)(const Agent&)) {
     VertexId v;
     for (int k = 0; k < 10; ++k) {
       v = VertexId(draw(roadmap_->num_vertices()));
       const std::vector<MemberId> members = session_.members();
       if (std::none_of(members.begin(), members.end(),
-                       [&](MemberId m) { return session_.agent(m).*place == v; }))
+                       [&](MemberId m) { return place_of(session_.agent(m)) == v; }))
         break;
     }
     return v;
@@ -237,6 +244,29 @@ TEST(Session, LemmasLiveOn) {
   RecordProperty("from_lemmas", tally.from_lemmas);
 }
 
+// Where agents may end at several goals, lemmas say which ones, and pass on as well.
+TEST(Session, GoalSetsLiveOn) {
+  Tally tally;
+  for (std::uint32_t seed = 1; seed <= support::scaled(30); ++seed) {
+    SCOPED_TRACE(seed);
+    RandomOptions roadmap = small_roadmap(seed);
+    roadmap.goal_sets_percent = 80;
+    SolveOptions options;
+    options.objective = seed % 3 == 0 ? Objective::makespan : Objective::sum_of_costs;
+    options.system = seed % 5 == 0 ? System::smt_cbs : System::dpll;
+    if (seed % 4 != 0) options.joint_work = 0;
+    options.limits.conflicts = 300;
+    options.limits.looks = 1000;
+    run_session(RandomSession(3000 + seed, roadmap), options, 20, tally);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(3 * tally.optimal, tally.open);
+  EXPECT_GT(tally.from_lemmas, 0);
+  RecordProperty("optimal", tally.optimal);
+  RecordProperty("open", tally.open);
+  RecordProperty("from_lemmas", tally.from_lemmas);
+}
+
 // What is cut short anywhere, or thrown out of, leaves a session that is as good as before.
 TEST(Session, LimitsAndExceptionsDoNoHarm) {
   Tally tally;
@@ -292,7 +322,7 @@ TEST(Session, ARoadIsClosedAndOpened) {
   EXPECT_FALSE(session.open(kThere));
   EXPECT_EQ(session.solve({})->cost, 2000);
   EXPECT_FALSE(session.change(member, agent(2, 0, 100)));
-  EXPECT_EQ(session.agent(member).goal, VertexId(0));
+  EXPECT_EQ(session.agent(member).goal(), VertexId(0));
   EXPECT_EQ(session.solve({})->cost, 2000);
   EXPECT_FALSE(session.remove(member));
   EXPECT_EQ(session.solve({})->cost, 0);

@@ -102,7 +102,7 @@ TEST_P(FleetRules, WhoLeavesMakesRoom) {
   EXPECT_EQ(answer(blocked).status, Status::infeasible);
   agents[0].leaves = true;
   EXPECT_EQ(least(map, agents), is_sum() ? 4000 : 3000);
-  agents[1].goal = VertexId(2);
+  agents[1].goals = VertexId(2);
   EXPECT_EQ(least(map, agents), is_sum() ? 3000 : 2000);
   // Until it has left it is in the way.
   agents[0].release = 5000;

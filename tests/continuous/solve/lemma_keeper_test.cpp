@@ -55,7 +55,7 @@ LemmaStock stock() {
   const auto back = swap().roadmap().out_edges(VertexId(1)).front();
   stock.obstacles = {{kA, {Ban::start(kThere, {100, 101}), Ban::start(kThere, {0, 9000})}, {kB}},
                      {kB, {Ban::start(back, {100, 101})}, {kA}},
-                     {kA, {}, {}, LemmaStock::Obstacle::Goal{kB, 2001}}};
+                     {kA, {}, {}, LemmaStock::Obstacle::Goal{kB, VertexId(0), 2001}}};
   stock.lemmas = {{Kind::path, {{kA, 2828}}, {0}},
                   {Kind::path, {{kA, 2300}}, {0, 2}},
                   {Kind::pair, {{kA, 2101}, {kB, 2101}}, {1}}};
@@ -85,6 +85,7 @@ TEST(LemmaKeeper, LemmasSayTheSameInAnotherModel) {
       }
       if (one.goal && other.goal) {
         EXPECT_EQ(one.goal->resident, other.goal->resident);
+        EXPECT_EQ(one.goal->vertex, other.goal->vertex);
         EXPECT_EQ(one.goal->from, other.goal->from);
       }
     }

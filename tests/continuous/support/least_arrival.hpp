@@ -16,7 +16,7 @@ namespace quadrille::continuous::test {
                                                         const std::vector<Ban>& bans) {
   const Roadmap& roadmap = instance.roadmap();
   const ClassId c = instance.class_of(agent);
-  const VertexId goal = instance.agent(agent).goal;
+  const VertexId goal = instance.agent(agent).goal();
   // By then, no ban begins or ends any more, and there is time for any way.
   Ticks end = instance.agent(agent).release + 1;
   for (const Ban& ban : bans)

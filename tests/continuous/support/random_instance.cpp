@@ -116,6 +116,17 @@ void lift(Draw& heights, const RandomOptions& options, std::vector<Agent>& agent
   }
 }
 
+void add_goals(Draw& draw, std::size_t num_vertices, int percent, std::vector<Agent>& agents) {
+  for (Agent& agent : agents) {
+    if (!draw.chance(percent)) continue;
+    std::vector<VertexId> goals{agent.goal()};
+    for (std::int64_t k = draw.number(1, 2); k > 0; --k)
+      goals.emplace_back(
+          static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(num_vertices) - 1)));
+    agent.goals = Goals(std::move(goals));
+  }
+}
+
 /// Some agents begin in the middle of a move, which need not be open to them.
 std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
                                              std::vector<Agent>& agents) {
@@ -150,6 +161,13 @@ std::string describe(const Point& p) {
          (p.z == 0 ? "" : "," + std::to_string(p.z.value())) + ")";
 }
 
+std::string describe(const Goals& goals) {
+  std::string text;
+  for (const VertexId goal : goals.vertices())
+    text += (text.empty() ? "" : "|") + std::to_string(goal.index());
+  return text;
+}
+
 std::string describe(const Body& body) {
   if (const auto* disc = std::get_if<Disc>(&body))
     return "r" + std::to_string(disc->radius.value());
@@ -162,6 +180,7 @@ std::string describe(const Body& body) {
 
 Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
   Draw draw(seed), more(seed ^ 0x9e3779b9u), last(seed ^ 0x7f4a7c15u), heights(seed ^ 0x5bd1e995u);
+  Draw sets(seed ^ 0x27d4eb2fu);
   const bool is_in_space = heights.chance(options.space_percent);
   while (true) {
     const bool has_groups = more.chance(options.groups_percent);
@@ -200,6 +219,7 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
       for (std::int64_t k = more.number(1, 2); k > 0; --k)
         obstacles.push_back(draw_obstacle(more, *shared, options));
     if (is_in_space) lift(heights, options, agents, obstacles);
+    add_goals(sets, shared->num_vertices(), options.goal_sets_percent, agents);
     if (last.chance(options.under_way_percent)) shared = put_under_way(last, *shared, agents);
     auto instance =
         Instance::make(shared, std::move(agents), kDefaultResolution, {}, std::move(obstacles));
@@ -230,7 +250,7 @@ std::string describe(const Instance& instance) {
   }
   text += "; agents";
   for (const Agent& a : instance.agents())
-    text += " " + std::to_string(a.start.index()) + "->" + std::to_string(a.goal.index()) + " " +
+    text += " " + std::to_string(a.start.index()) + "->" + describe(a.goals) + " " +
             describe(a.body) + " v" + std::to_string(a.speed.value()) +
             (a.group == GroupId() ? "" : " g" + std::to_string(a.group.index())) +
             (a.release == 0 ? "" : " from " + std::to_string(a.release.value())) +

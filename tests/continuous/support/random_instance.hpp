@@ -50,6 +50,8 @@ struct RandomOptions {
   int obstacles_percent = 15;
   /// Of the instances: some agents begin in the middle of a move.
   int under_way_percent = 0;
+  /// Of the agents: they may end at any of two or three goals.
+  int goal_sets_percent = 0;
 };
 
 /// The same for the same seed. Tries until the instance is valid.

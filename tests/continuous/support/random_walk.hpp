@@ -34,7 +34,7 @@ inline std::vector<Step> draw_steps(Draw& draw, const Instance& instance, AgentI
 inline Path draw_path(Draw& draw, const Instance& instance, AgentId i) {
   const Agent& agent = instance.agent(i);
   Path path{{agent.start, 0, agent.release}};
-  while (path.back().vertex != agent.goal || draw.chance(20)) {
+  while (path.back().vertex != agent.goal() || draw.chance(20)) {
     if (path.size() > 30) break;
     const auto ways = instance.out_edges(instance.class_of(i), path.back().vertex);
     if (ways.empty()) break;

@@ -54,7 +54,7 @@ class Judge {
   /// Whether what the ban forbids collides with a rest at `goal` that begins by `tick`.
   [[nodiscard]] bool meets_rest(AgentId mover, const Ban& ban, AgentId resident, Ticks tick) {
     const ClassId c = instance_.class_of(mover), d = instance_.class_of(resident);
-    const VertexId goal = instance_.agent(resident).goal;
+    const VertexId goal = instance_.agent(resident).goal();
     if (ban.kind == Ban::Kind::start) {
       const auto& clear = meetings_.stay(c, EdgeId(ban.place), d, goal);
       return clear && tick < ban.when.first() + clear->before_arrival;

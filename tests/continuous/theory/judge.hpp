@@ -97,7 +97,7 @@ class Situation {
       at = instance.roadmap().edge(move.edge).to;
       since = move.start + instance.duration(instance.class_of(i), move.edge);
     }
-    if (at != instance.agent(i).goal || since != path.arrival) return "does not end at the goal";
+    if (at != instance.agent(i).goal() || since != path.arrival) return "does not end at the goal";
     if (!may_stay(instance.agent(i).leaves ? since : kForever)) return "rests where it must not";
     if (path.arrival > instance.agent(i).deadline.value_or(kForever)) return "is late";
     return as_cost(path.arrival) > cap(i) ? "costs more than the cap" : "";

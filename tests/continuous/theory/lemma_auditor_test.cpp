@@ -198,13 +198,55 @@ TEST(LemmaAuditor, DerivesBansAroundAGoal) {
   const auto said_of_goal_from = [&](Ticks tick) {
     bool is_new = false;
     const ObstacleId id =
-        model.keep_off_goal(AgentId(1), AgentId(0), tick, encounters.writer(), is_new);
+        model.keep_off_goal(AgentId(1), AgentId(0), model.instance().agent(AgentId(0)).goal(), tick,
+                            encounters.writer(), is_new);
     return complaint(
         model,
         {sat::why::Path{AgentId(1)}, {model.obstacles()[id].allowed}, {{AgentId(1), id.value()}}});
   };
   EXPECT_EQ(said_of_goal_from(120), std::nullopt);
   EXPECT_THAT(said_of_goal_from(121).value_or(""), HasSubstr("some path breaks"));
+}
+
+TEST(LemmaAuditor, DerivesWhereAgentsWithAChoiceRest) {
+  // Both may end at vertex 1, or each where the other one cannot.
+  const auto with_choice = [](std::size_t start, std::size_t own) {
+    Agent made = agent(start, own, 10);
+    made.goals = Goals({VertexId(1), VertexId(own)});
+    return made;
+  };
+  Encounters encounters(
+      Instance::make(roadmap({{0, 0}, {100, 0}, {100, 100}, {100, -100}}, {{0, 1}, {2, 1}, {1, 3}}),
+                     {with_choice(0, 3), with_choice(2, 0)})
+          .value());
+  Model& model = encounters.model();
+  bool is_new = false;
+  const auto end = [&](std::size_t i, std::size_t goal) {
+    return model.end(AgentId(i), VertexId(goal), AgentId(1 - i), encounters.writer(), is_new);
+  };
+  const auto said_of_ends = [&](ObstacleId one, ObstacleId other) {
+    const Obstacle &a = model.obstacles()[one], &b = model.obstacles()[other];
+    return complaint(model, {sat::why::Goal{AgentId(1)},
+                             {~a.allowed, ~b.allowed},
+                             {{AgentId(0), one.value()}, {AgentId(1), other.value()}}});
+  };
+  EXPECT_EQ(said_of_ends(end(0, 1), end(1, 1)), std::nullopt);
+  EXPECT_THAT(said_of_ends(end(0, 1), end(1, 0)).value_or(""), HasSubstr("two agents can do"));
+  // Who ends there and costs less than that rests there and costs less.
+  static_cast<void>(
+      model.keep_off_goal(AgentId(1), AgentId(0), VertexId(1), 150, encounters.writer(), is_new));
+  const auto& kept = encounters.writer().kept();
+  const auto rest = std::find_if(kept.begin(), kept.end(), [](const Keeper::Kept& lemma) {
+    return std::holds_alternative<sat::why::Rest>(lemma.why);
+  });
+  ASSERT_NE(rest, kept.end());
+  EXPECT_EQ(complaint(model, *rest), std::nullopt);
+  Keeper::Kept wrong = *rest;
+  wrong.clause[1] = model.at_least(AgentId(0), 151, encounters.writer());
+  EXPECT_THAT(complaint(model, wrong).value_or(""), HasSubstr("rest"));
+  wrong = *rest;
+  wrong.clause[0] = model.obstacles()[end(0, 3)].allowed;
+  EXPECT_THAT(complaint(model, wrong).value_or(""), HasSubstr("rest"));
 }
 
 }  // namespace

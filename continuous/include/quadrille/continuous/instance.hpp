@@ -9,6 +9,7 @@
 #include "quadrille/continuous/resolution.hpp"
 #include "quadrille/continuous/roadmap.hpp"
 #include "quadrille/core/export.hpp"
+#include "quadrille/core/goals.hpp"
 #include "quadrille/geometry/body.hpp"
 #include "quadrille/geometry/motion.hpp"
 
@@ -28,7 +29,7 @@ using geometry::Disc;
 /// A body with a task.
 struct Agent {
   VertexId start;
-  VertexId goal;
+  Goals goals;  ///< It ends at any one of them. At least one.
   /// A disc, or a convex polygon, which keeps its orientation on all moves: a robot that turns is
   /// the disc around all its orientations. In an instance that is not flat a disc is a ball.
   Body body = Disc{};
@@ -46,6 +47,9 @@ struct Agent {
   /// The start is a vertex of its own, without edges that lead there and with one that leads on,
   /// whose duration is what is left of the move. It has no release.
   bool under_way = false;
+
+  /// Requires that there is one goal only.
+  [[nodiscard]] VertexId goal() const { return goals.only(); }
   friend bool operator==(const Agent&, const Agent&) = default;
 };
 
@@ -73,7 +77,7 @@ using ClassId = StrongId<struct ClassTag>;
 
 /// A MAPF_R instance: a roadmap and one body with a task per agent, all in whole ticks and length
 /// units. Agents wait at vertices only, a whole number of ticks, move along edges at constant
-/// speed, and stay at their goal for ever. Two agents collide when the interiors of their bodies
+/// speed, and stay at a goal for ever. Two agents collide when the interiors of their bodies
 /// meet; touching is allowed. Immutable; cheap to copy (the roadmap is shared).
 class Instance {
  public:
@@ -83,12 +87,12 @@ class Instance {
   /// [0, kMaxGroups), a release or a deadline outside [0, geometry::kMaxDuration], a duration
   /// outside [1, geometry::kMaxDuration], a resolution that is not positive and finite, likewise
   /// for bodies, places and times of obstacles; invalid_instance for vertices that do not exist,
-  /// agents that are under way but not at a place of their own, or released later, obstacles
-  /// without stops, whose times go back, or that vanish when they appear, and polygons in an
-  /// instance that is not flat; no_plan for overlapping starts, also with an obstacle at tick 0,
-  /// overlapping goals (interiors) of agents that stay there, and goals that cannot be reached, or
-  /// not by the deadline. Agents are named by index. `places`: where each agent comes from, for
-  /// errors about it; none, or one per agent.
+  /// agents without a goal, agents that are under way but not at a place of their own, or released
+  /// later, obstacles without stops, whose times go back, or that vanish when they appear, and
+  /// polygons in an instance that is not flat; no_plan for overlapping starts, also with an
+  /// obstacle at tick 0, overlapping goals (interiors) of agents that stay there and have no other
+  /// one, and agents that can reach no goal, or none by the deadline. Agents are named by index.
+  /// `places`: where each agent comes from, for errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents, Resolution resolution = {},
                                              std::span<const SourcePlace> places = {},
@@ -107,6 +111,8 @@ class Instance {
   }
   [[nodiscard]] const IdVector<AgentId, Agent>& agents() const noexcept { return agents_; }
   [[nodiscard]] const Agent& agent(AgentId i) const { return agents_[i]; }
+  /// Some agent has more than one goal.
+  [[nodiscard]] bool has_goal_sets() const noexcept { return has_goal_sets_; }
 
   [[nodiscard]] const std::vector<MovingObstacle>& obstacles() const noexcept { return obstacles_; }
   /// Whether all is in the plane z = 0, vertices and stops of obstacles. Otherwise all bodies are
@@ -158,6 +164,7 @@ class Instance {
   IdVector<AgentId, Agent> agents_;
   std::vector<MovingObstacle> obstacles_;
   bool is_flat_ = true;
+  bool has_goal_sets_ = false;
   Resolution resolution_;
   IdVector<ClassId, Class> classes_;
   IdVector<AgentId, ClassId> class_of_;

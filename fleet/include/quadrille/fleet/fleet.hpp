@@ -102,7 +102,10 @@ class Robot {
   /// what was left of the move, so that it must not be told twice.
   Robot from_edge(VertexId from, VertexId to, double fraction) const;  // NOLINT: part of a chain
   /// Where it goes, and stays. Requires a vertex of the roadmap.
-  Robot to(VertexId goal) const;  // NOLINT: part of a chain
+  Robot to(VertexId goal) const { return to_any({goal}); }  // NOLINT: part of a chain
+  /// Where it may go: it ends at any one of these, in any order, and stays there. Requires vertices
+  /// of the roadmap, at least one.
+  Robot to_any(std::vector<VertexId> goals) const;  // NOLINT: part of a chain
 
   /// It begins no move before this time, rounded up. At its start it is from the beginning all the
   /// same, in the way of others, and its cost counts from there.
@@ -148,7 +151,12 @@ class Fleet {
   [[nodiscard]] const std::optional<UnderWay>& under_way(AgentId id) const {
     return robots_[id].under_way;
   }
-  [[nodiscard]] std::optional<VertexId> goal(AgentId id) const { return robots_[id].goal; }
+  /// nullopt as long as it has not been told. Requires that it has one goal only.
+  [[nodiscard]] std::optional<VertexId> goal(AgentId id) const {
+    return robots_[id].goals ? std::optional(robots_[id].goals->only()) : std::nullopt;
+  }
+  /// All of which it ends at one; nullopt as long as it has not been told.
+  [[nodiscard]] const std::optional<Goals>& goals(AgentId id) const { return robots_[id].goals; }
   [[nodiscard]] Seconds release(AgentId id) const { return robots_[id].release; }
   [[nodiscard]] std::optional<Seconds> deadline(AgentId id) const { return robots_[id].deadline; }
   [[nodiscard]] bool leaves(AgentId id) const { return robots_[id].leaves; }
@@ -170,9 +178,9 @@ class Fleet {
   /// is not convex, or is somewhere where there are heights, a group that the roadmap does not
   /// have, an obstacle without stops, whose times do not increase, or that vanishes when it
   /// appears; out_of_range for sizes, speeds and times that are not supported at this resolution;
-  /// no_plan for starts that overlap, also with an obstacle, goals that overlap and goals that
-  /// cannot be reached, or not by the deadline; where that is so only because places in the middle
-  /// of moves are rounded, it says so.
+  /// no_plan for starts that overlap, also with an obstacle, goals that overlap of robots that have
+  /// no other one, and robots that can reach no goal, or none by the deadline; where that is so
+  /// only because places in the middle of moves are rounded, it says so.
   [[nodiscard]] Result<continuous::Instance> instance() const;
 
  private:
@@ -180,7 +188,8 @@ class Fleet {
   friend class PlaceRounding;
   struct Entry {
     RobotSpec spec;
-    std::optional<VertexId> start = {}, goal = {};
+    std::optional<VertexId> start = {};
+    std::optional<Goals> goals = {};
     std::optional<UnderWay> under_way = {};  // instead of a start
     Seconds release = {};
     std::optional<Seconds> deadline = {};

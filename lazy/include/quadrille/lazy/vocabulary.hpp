@@ -91,7 +91,8 @@ class Vocabulary {
   };
   /// All that were made, in that order.
   [[nodiscard]] const std::vector<GoalObstacle>& goal_obstacles() const { return goal_obstacles_; }
-  /// The positive literals of all usage and cost variables, in the order in which they were made.
+  /// The positive literals of all usage, cost and rest variables, in the order in which they were
+  /// made.
   [[nodiscard]] std::vector<sat::Lit> literals() const;
 
  protected:

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Agents that may end at any one of several goals, against an oracle that knows all routes, and
+// against all choices of one goal each.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "continuous/support/oracle_check.hpp"
+#include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/solver.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::continuous::test {
+namespace {
+
+RandomOptions with_sets(std::uint32_t seed) {
+  RandomOptions random;
+  random.num_agents = 2 + seed % 2;
+  random.num_vertices = 4 + seed / 2 % 4;
+  random.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
+  random.polygon_percent = 30;
+  random.goal_sets_percent = 70;
+  return random;
+}
+
+class GoalSets : public testing::TestWithParam<std::tuple<Objective, System>> {};
+
+TEST_P(GoalSets, AgreeWithTheOracle) {
+  const auto [objective, system] = GetParam();
+  const auto count = static_cast<std::uint32_t>(support::scaled(400));
+  const std::uint32_t part = 2 * static_cast<std::uint32_t>(objective == Objective::makespan) +
+                             static_cast<std::uint32_t>(system == System::smt_cbs);
+  const std::uint32_t first = 20'000'000 + part * 1'000'000;
+  constexpr std::size_t max_moves = 4;
+  Tally tally;
+  for (std::uint32_t seed = first; seed < first + count; ++seed) {
+    const Instance instance = random_instance(seed, with_sets(seed));
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
+    const OrderSearch oracle = search_orders(instance, objective, max_moves);
+    SolveOptions options;
+    options.objective = objective;
+    options.system = system;
+    options.limits.conflicts = 3000;
+    options.joint_work = seed % 4 == 0 ? SolveOptions().joint_work : 0;
+    options.limits.cpu_s = oracle.best ? 2 : 0.1;
+    options.debug.audit = true;
+    options.explain = seed % 3 == 0;
+    if (!oracle.some_plans.empty() && seed % 2 == 0)
+      options.debug.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
+    check_against(oracle, max_moves, instance, options, tally);
+    if (HasFatalFailure()) return;
+  }
+  RecordProperty("optimal", tally.optimal);
+  RecordProperty("infeasible", tally.infeasible);
+  RecordProperty("unknown", tally.unknown);
+  RecordProperty("solvable", tally.solvable);
+  if (count < 200) return;  // scaled down, for slow builds: too few to count on chance
+  EXPECT_GE(2 * tally.solvable, static_cast<int>(count));
+  EXPECT_GE(10 * tally.optimal, 8 * tally.solvable);
+}
+
+std::string name(const testing::TestParamInfo<GoalSets::ParamType>& param) {
+  const auto [objective, system] = param.param;
+  return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
+         (system == System::dpll ? "Dpll" : "SmtCbs");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GoalSets,
+                         testing::Combine(testing::Values(Objective::sum_of_costs,
+                                                          Objective::makespan),
+                                          testing::Values(System::dpll, System::smt_cbs)),
+                         name);
+
+/// The agents of an instance with one goal each; nullopt where that is no instance.
+std::optional<Instance> with_goals(const Instance& instance, const std::vector<VertexId>& goals) {
+  std::vector<Agent> agents;
+  for (const AgentId i : instance.agent_ids()) {
+    agents.push_back(instance.agent(i));
+    agents.back().goals = goals[i.index()];
+  }
+  auto made = Instance::make(instance.shared_roadmap(), std::move(agents), instance.resolution(),
+                             {}, instance.obstacles());
+  if (!made) return std::nullopt;
+  return std::move(made).value();
+}
+
+std::vector<std::vector<VertexId>> choices(const Instance& instance) {
+  std::vector<std::vector<VertexId>> all{{}};
+  for (const Agent& agent : instance.agents()) {
+    std::vector<std::vector<VertexId>> longer;
+    for (const auto& choice : all)
+      for (const VertexId goal : agent.goals.vertices()) {
+        longer.push_back(choice);
+        longer.back().push_back(goal);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+// With roads that are long, obstacles, and agents that begin in the middle of a move.
+TEST(GoalSetsByChoice, CostAsMuchAsTheCheapestChoice) {
+  const auto count = static_cast<std::uint32_t>(support::scaled(300));
+  int num_compared = 0, num_infeasible = 0;
+  for (std::uint32_t seed = 30'000'000; seed < 30'000'000 + count; ++seed) {
+    RandomOptions random = with_sets(seed);
+    random.num_vertices = 6 + seed % 5;
+    random.num_agents = 2 + seed % 3;
+    random.size = 60;
+    random.under_way_percent = 30;
+    const Instance instance = random_instance(seed, random);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
+    SolveOptions options;
+    options.objective = seed % 2 == 0 ? Objective::sum_of_costs : Objective::makespan;
+    options.limits.looks = 20'000;
+    std::optional<Cost> least;
+    bool is_known = true;
+    for (const auto& goals : choices(instance)) {
+      const auto one = with_goals(instance, goals);
+      if (!one) continue;
+      const SolveOutcome outcome = solve(*one, options).value();
+      is_known =
+          is_known && (outcome.status == Status::optimal || outcome.status == Status::infeasible);
+      if (outcome.cost) least = std::min(least.value_or(*outcome.cost), *outcome.cost);
+    }
+    options.joint_work = seed % 4 < 2 ? 0 : options.joint_work;
+    options.threads = seed % 5 == 0 ? 2 : 1;
+    const SolveOutcome outcome = solve(instance, options).value();
+    ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->to_string();
+    ASSERT_TRUE(!outcome.plan || verify(instance, *outcome.plan).valid());
+    ASSERT_TRUE(outcome.status != Status::optimal || !least || *outcome.cost <= *least);
+    if (!is_known) continue;
+    if (outcome.status == Status::optimal) {
+      ASSERT_EQ(outcome.cost, least);
+      ++num_compared;
+    } else if (outcome.status == Status::infeasible) {
+      ASSERT_FALSE(least);
+      ++num_infeasible;
+    } else if (least) {
+      ASSERT_LE(outcome.lower_bound, *least);
+      ASSERT_TRUE(!outcome.cost || *outcome.cost >= *least);
+    }
+  }
+  RecordProperty("compared", num_compared);
+  RecordProperty("infeasible", num_infeasible);
+  EXPECT_GE(2 * num_compared, static_cast<int>(count));
+}
+
+// A dock each for two robots, the nearer one of which only one can have.
+TEST(GoalSetsByHand, TwoRobotsShareTwoDocks) {
+  // 0 - 1 - 2 - 3, one unit of length each
+  std::vector<Point> points;
+  std::vector<Edge> edges;
+  for (std::int64_t v = 0; v < 4; ++v) points.push_back({Length(1'000'000 * v), 0});
+  for (std::size_t v = 0; v + 1 < 4; ++v) {
+    edges.push_back({VertexId(v), VertexId(v + 1), std::nullopt});
+    edges.push_back({VertexId(v + 1), VertexId(v), std::nullopt});
+  }
+  const auto roadmap =
+      std::make_shared<const Roadmap>(Roadmap::make(std::move(points), std::move(edges)).value());
+  const Goals docks({VertexId(2), VertexId(3)});
+  const Body body = Disc{300'000};
+  const auto instance =
+      Instance::make(roadmap, {{VertexId(0), docks, body}, {VertexId(1), docks, body}}).value();
+  EXPECT_TRUE(instance.has_goal_sets());
+  const SolveOutcome outcome = solve(instance, {}).value();
+  ASSERT_EQ(outcome.status, Status::optimal);
+  EXPECT_EQ(outcome.cost, 4'000'000);
+  EXPECT_EQ(outcome.plan->paths[AgentId(0)].back().vertex, VertexId(2));
+  EXPECT_EQ(outcome.plan->paths[AgentId(1)].back().vertex, VertexId(3));
+  // A third one finds no room.
+  const auto crowded = Instance::make(roadmap, {{VertexId(0), docks, body},
+                                                {VertexId(1), docks, body},
+                                                {VertexId(2), docks, body}})
+                           .value();
+  EXPECT_EQ(solve(crowded, {}).value().status, Status::infeasible);
+}
+
+TEST(GoalSetsByHand, ErrorsOfInstances) {
+  const auto roadmap =
+      std::make_shared<const Roadmap>(Roadmap::make({{0, 0}, {1'000'000, 0}, {2'000'000, 0}},
+                                                    {{VertexId(0), VertexId(1), std::nullopt}})
+                                          .value());
+  const auto error = [&](Goals goals) {
+    return Instance::make(roadmap, {{VertexId(0), std::move(goals), Disc{100'000}}}).error();
+  };
+  EXPECT_EQ(error(Goals(std::vector<VertexId>{})).code, ErrorCode::invalid_instance);
+  EXPECT_EQ(error(Goals({VertexId(1), VertexId(9)})).code, ErrorCode::invalid_instance);
+  const Goals unreachable({VertexId(2)});
+  EXPECT_EQ(error(unreachable).message,
+            "agent 0 cannot reach its goal: there is no way from vertex 0 to vertex 2");
+  // One of two is enough.
+  EXPECT_TRUE(
+      Instance::make(roadmap, {{VertexId(0), Goals({VertexId(1), VertexId(2)}), Disc{100'000}}}));
+}
+
+}  // namespace
+}  // namespace quadrille::continuous::test
