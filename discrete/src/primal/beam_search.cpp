@@ -77,8 +77,8 @@ void BeamSearch::expand(NodeIndex node) {
 void BeamSearch::set_priorities(std::span<const VertexId> configuration) {
   constexpr std::uint64_t kLast = std::uint64_t{1} << 32;
   for (const AgentId i : instance_.agent_ids())
-    draws_[i.index()] =
-        random_.below(kLast) + (configuration[i.index()] == instance_.agents()[i].goal() ? kLast : 0);
+    draws_[i.index()] = random_.below(kLast) +
+                        (configuration[i.index()] == instance_.agents()[i].goal() ? kLast : 0);
   std::sort(priority_.begin(), priority_.end(), [&](AgentId a, AgentId b) {
     const auto draw_a = draws_[a.index()], draw_b = draws_[b.index()];
     return draw_a != draw_b ? draw_a < draw_b : a < b;
