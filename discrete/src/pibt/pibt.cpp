@@ -7,12 +7,13 @@
 namespace quadrille::discrete {
 
 Pibt::Pibt(const Instance& instance, const GoalDistances& distances, Random& random,
-           const Guidance* guide)
+           const Guidance* guide, Ties ties)
     : instance_(instance),
       graph_(instance.graph()),
       distances_(distances),
       random_(random),
       guide_(guide),
+      ties_(ties),
       decided_(instance.num_agents(), 0),
       occupant_(graph_.num_vertices(), kNobody),
       claimer_(graph_.num_vertices(), kNobody) {}
@@ -89,18 +90,32 @@ void Pibt::push_frame(AgentId agent) {
   const auto guided = guide_ != nullptr ? guide_->next(agent, here) : std::nullopt;
   const auto add = [&](VertexId v) {
     const Timestep distance = v == guided ? -1 : distances_(agent, v);
-    candidates_.push_back({distance, random_.below(1U << 30), v});
+    const std::uint32_t wanted = ties_ == Ties::random ? 0 : num_wanting(v, here);
+    candidates_.push_back({distance, wanted, random_.below(1U << 30), v});
   };
   for (const VertexId v : graph_.neighbours(here)) add(v);
   add(here);
   const auto begin = candidates_.begin() + static_cast<std::ptrdiff_t>(first);
   std::sort(begin, candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.distance, a.tie, a.vertex) < std::tie(b.distance, b.tie, b.vertex);
+    return std::tie(a.distance, a.num_wanting, a.tie, a.vertex) <
+           std::tie(b.distance, b.num_wanting, b.tie, b.vertex);
   });
   const std::uint32_t partner = swap_partner(agent, begin->vertex);
   // To let the partner pass the agent walks away from its goal, and the partner follows.
   if (partner != kNobody) std::reverse(begin, candidates_.end());
   stack_.push_back({agent, first, first, partner});
+}
+
+/// Of the agents around a vertex: for how many is `to` nearer to the goal than where they are?
+std::uint32_t Pibt::num_wanting(VertexId to, VertexId centre) const {
+  std::uint32_t count = 0;
+  for (const VertexId v : graph_.neighbours(centre)) {
+    const std::uint32_t other = occupant_[v];
+    if (other == kNobody || v == to) continue;
+    const auto distances = distances_.row(AgentId(other));
+    if (distances[to] < distances[v]) ++count;
+  }
+  return count;
 }
 
 /// The partner of a swap follows if the agent could make its first choice.

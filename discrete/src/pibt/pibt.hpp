@@ -23,10 +23,19 @@ class Pibt {
     VertexId to;
   };
 
+  /// Which of several vertices an agent tries first that are as near to its goal.
+  enum class Ties {
+    random,
+    /// One that fewest of those beside the agent would like to go to: hindrance, of Okumura and
+    /// Nagai, "Lightweight and effective preference construction in PIBT for large-scale
+    /// multi-agent pathfinding", SoCS 2025. Then a random one.
+    least_wanted,
+  };
+
   /// All outlive this object. `guide` may be null. An agent on its guide's path would like to
   /// follow it most of all; one off it is drawn to the goal by the distances.
   Pibt(const Instance& instance, const GoalDistances& distances, Random& random,
-       const Guidance* guide = nullptr);
+       const Guidance* guide = nullptr, Ties ties = Ties::random);
 
   /// Makes `to` a configuration that can follow `from` and obeys the orders; earlier agents in
   /// `priority` choose first. False if it found none, which with orders for all agents means that
@@ -40,6 +49,7 @@ class Pibt {
   static constexpr std::uint32_t kNobody = UINT32_MAX;
   struct Candidate {
     Timestep distance;
+    std::uint32_t num_wanting;
     std::uint64_t tie;
     VertexId vertex;
   };
@@ -56,6 +66,7 @@ class Pibt {
   void push_frame(AgentId agent);
   void move(AgentId agent, VertexId to);
   void pull_partner(const Frame& frame);
+  [[nodiscard]] std::uint32_t num_wanting(VertexId to, VertexId centre) const;
   [[nodiscard]] std::uint32_t swap_partner(AgentId agent, VertexId best) const;
   [[nodiscard]] bool has_to_swap(AgentId pusher, AgentId puller, VertexId pusher_at,
                                  VertexId puller_at) const;
@@ -72,6 +83,7 @@ class Pibt {
   const GoalDistances& distances_;
   Random& random_;
   const Guidance* const guide_;
+  const Ties ties_;
   std::span<const VertexId> from_;
   std::vector<VertexId>* to_ = nullptr;
   std::vector<char> decided_;                             // By agent.

@@ -12,11 +12,25 @@ namespace quadrille::discrete {
 
 Lacam::Lacam(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
              std::uint32_t seed, std::shared_ptr<const Guide> guide)
+    : Lacam(instance, std::move(distances), seed, std::move(guide), false) {}
+
+std::unique_ptr<Lacam> Lacam::guided_locally(const Instance& instance,
+                                             std::shared_ptr<const GoalDistances> distances,
+                                             std::uint32_t seed) {
+  return std::unique_ptr<Lacam>(new Lacam(instance, std::move(distances), seed, nullptr, true));
+}
+
+Lacam::Lacam(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+             std::uint32_t seed, std::shared_ptr<const Guide> guide, bool is_local)
     : instance_(instance),
       distances_(std::move(distances)),
       guide_(std::move(guide)),
       random_(seed),
-      pibt_(instance_, *distances_, random_, guide_.get()),
+      local_guide_(is_local ? std::make_optional<LocalGuide>(instance_, *distances_, random_)
+                            : std::nullopt),
+      pibt_(instance_, *distances_, random_,
+            is_local ? static_cast<const Guidance*>(&*local_guide_) : guide_.get(),
+            Pibt::Ties::least_wanted),
       rank_(instance_.num_agents(), 0) {
   Configuration starts;
   std::vector<AgentId> by_distance;
@@ -60,6 +74,11 @@ void Lacam::try_next_order(NodeIndex index) {
   const auto order = static_cast<std::uint32_t>(node.next_order++);
   collect_orders(node, order);
   add_suborders(node, order);
+  if (local_guide_) {
+    const std::int64_t before = local_guide_->effort();
+    local_guide_->renew(node.configuration, node.priority);
+    effort_ += local_guide_->effort() - before;
+  }
   if (pibt_.advance(node.configuration, node.priority, given_, successor_))
     visit(successor_, index);
 }

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
 #include "pibt/pibt.hpp"
 #include "primal/guide.hpp"
+#include "primal/local_guide.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/primal.hpp"
 
@@ -29,11 +31,15 @@ class Lacam {
   /// `instance` outlives the object. `guide` may be null: nothing is guided then.
   Lacam(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
         std::uint32_t seed, std::shared_ptr<const Guide> guide);
+  /// Guided by a LocalGuide instead, which is made anew for each configuration. Takes about ten
+  /// times the effort. Requires an agent.
+  [[nodiscard]] static std::unique_ptr<Lacam> guided_locally(
+      const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+      std::uint32_t seed);
   Lacam(const Lacam&) = delete;
   Lacam& operator=(const Lacam&) = delete;
 
   /// Searches on until `effort` more is spent, a limit is met or the search is over.
-
   State advance(std::int64_t effort, LimitMonitor& limits);
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
@@ -42,6 +48,9 @@ class Lacam {
   [[nodiscard]] Plan plan() const;
 
  private:
+  Lacam(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+        std::uint32_t seed, std::shared_ptr<const Guide> guide, bool is_local);
+
   using NodeIndex = std::uint32_t;
   using Configuration = std::vector<VertexId>;  // By agent.
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -74,6 +83,7 @@ class Lacam {
   const std::shared_ptr<const GoalDistances> distances_;
   const std::shared_ptr<const Guide> guide_;
   Random random_;
+  std::optional<LocalGuide> local_guide_;
   Pibt pibt_;
   Configuration goals_;
   std::vector<std::uint32_t> rank_;  // By agent: position when sorted by distance, far ones first.

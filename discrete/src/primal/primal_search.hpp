@@ -19,9 +19,11 @@ namespace quadrille::discrete {
 
 /// Lacam with restarts, with and without guides.
 ///
-/// Two guided searches have a turn each, and the cheaper plan is kept: their guides allow detours
-/// of different lengths, and which one is better depends on how crowded the map is. Without a plan
-/// then, a search without a guide takes turns with others of other seeds, guided and not, whose
+/// Two guided searches have a turn each, and the cheaper plan is kept. The first follows a Guide,
+/// paths from start to goal. Where its plan is dear agents are in each other's way too much for
+/// plans that are made in advance, and the second one follows a LocalGuide; elsewhere a Guide that
+/// allows longer detours. Without a plan then, a search without a guide takes turns with others of
+/// other seeds, guided by a Guide and not, whose
 /// efforts follow the sequence of Luby et al. ("Optimal speedup of Las Vegas algorithms", IPL
 /// 1993). Why: how long a search takes on a crowded map has a heavy tail over the seeds; most find
 /// a plan at once, some not in a thousand times as long (Gomes et al., "Heavy-tailed phenomena in
@@ -59,6 +61,8 @@ class PrimalSearch::Impl {
   static constexpr std::uint32_t kTurnOfSettling = kNumGuides + 2;
 
   bool begin_turn(LimitMonitor& limits);
+  bool begin_local_turn(LimitMonitor& limits);
+  [[nodiscard]] bool is_dear() const noexcept;
   void advance_settling(std::int64_t effort, LimitMonitor& limits);
   void advance_beam(std::int64_t effort, LimitMonitor& limits);
   void advance_windows(std::int64_t effort, LimitMonitor& limits);
@@ -83,7 +87,7 @@ class PrimalSearch::Impl {
   State state_ = State::searching;
   std::array<std::shared_ptr<const Guide>, kNumGuides> guides_;
   std::optional<Lacam> main_;  // Goes on for ever.
-  std::optional<Lacam> other_;
+  std::unique_ptr<Lacam> other_;
   std::optional<Settling> settling_;
   std::optional<BeamSearch> beam_;
   std::optional<TimeWindows> windows_;

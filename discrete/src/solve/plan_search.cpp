@@ -31,6 +31,15 @@ constexpr double kDeadEndGap = 3;
 /// time without it, six 1.04 with this one.
 constexpr double kHelpedGap = 0.5;
 
+/// Per cent. A first plan with a larger gap is improved before the search for the bound begins: the
+/// first bounds are cheap, but so is what improvement gains then, and that is more. Measured with
+/// random-32-32-20, 300 agents, after 0.5 s: 14,577 without, XXX with.
+constexpr double kDearGap = 12;
+/// That ends after so many steps, half a second, or when the last fifth of them gained less than
+/// one part in kLittle of the gap; this is asked when all paths could have been made so many times.
+constexpr std::int64_t kMostOfFirst = 2'000'000, kFirstLook = 32, kLookAgain = 4;
+constexpr Cost kLittle = 64;
+
 /// Whatever it was made of came first.
 constexpr std::string_view kImproved = "improvement";
 
@@ -143,13 +152,44 @@ PlanSearch::PlanSearch(const PlanSearchContext& context)
   for (const AgentId i : context.instance.agent_ids())
     steps += (*context.distances)(i, context.instance.agents()[i].start);
   long_slice_ = std::max(kLeastSlice, steps);
+  next_look_ = kFirstLook * steps;
 }
 
 bool PlanSearch::start() {
-  static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
-  const bool is_due = first_plan_.effort() < kFirstEffort || first_plan_.is_worth_waiting_for();
-  return !first_plan_.is_over() && is_due && !context_.incumbent.are_closed() &&
+  if (is_first_plan_due())
+    static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
+  else if (is_improvement_due_)
+    improve_first_plan();
+  return (is_first_plan_due() || is_improvement_due_) && !context_.incumbent.are_closed() &&
          !context_.limits.exhausted_now();
+}
+
+bool PlanSearch::is_first_plan_due() const {
+  return !first_plan_.is_over() &&
+         (first_plan_.effort() < kFirstEffort || first_plan_.is_worth_waiting_for());
+}
+
+/// One slice.
+void PlanSearch::improve_first_plan() {
+  const Incumbent& incumbent = context_.incumbent;
+  const auto is_dear = [&] {
+    return context_.objective == Objective::sum_of_costs && incumbent.upper() &&
+           gap_of(incumbent) >= kDearGap;
+  };
+  is_improvement_due_ = is_dear();
+  if (!is_improvement_due_) return;
+  const Cost before = *incumbent.upper();
+  static_cast<void>(improvement_.advance({.effort = long_slice_}));
+  const Cost gain = before - *incumbent.upper();
+  gain_.count_plans(improvement_.effort(), gain, gap_of(incumbent));
+  effort_ += improvement_.effort();
+  gain_since_look_ += gain;
+  is_improvement_due_ = is_dear() && effort_ < kMostOfFirst;
+  if (effort_ < next_look_) return;
+  const Cost gap = *incumbent.upper() - incumbent.lower();
+  if (kLittle * gain_since_look_ < gap) is_improvement_due_ = false;
+  next_look_ = effort_ + effort_ / kLookAgain;
+  gain_since_look_ = 0;
 }
 
 void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>& draft,

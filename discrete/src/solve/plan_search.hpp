@@ -109,8 +109,9 @@ class PlanSearch {
  public:
   explicit PlanSearch(const PlanSearchContext& context);
 
-  /// Looks for a first plan for a while. To be called until it returns false: there is a plan, or
-  /// it is hard to find and others should have their turn.
+  /// Looks for a first plan for a while, then improves a dear one. To be called until it returns
+  /// false: there is a plan that gains little any more, or it is hard to find and others should
+  /// have their turn.
   [[nodiscard]] bool start();
   /// To be called often with the steps of the search so far. `draft` tells the paths that the
   /// search had at last, see Run::draft; null: they are for another one. `after_slice`, unless
@@ -120,7 +121,7 @@ class PlanSearch {
   /// What others told has made the incumbent cheaper by `less`: nobody here gained that. 0 for the
   /// first incumbent.
   void hear(Cost less);
-  /// Steps of `advance` so far.
+  /// Steps for plans so far, first ones not counted.
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
   /// Instead of both, where a search in another thread has all the time that it needs. First the
   /// guided searches, to the end.
@@ -131,6 +132,8 @@ class PlanSearch {
 
  private:
   void count_search(std::int64_t search_effort);
+  [[nodiscard]] bool is_first_plan_due() const;
+  void improve_first_plan();
 
   const PlanSearchContext context_;
   FirstPlan first_plan_;
@@ -141,6 +144,10 @@ class PlanSearch {
   std::int64_t seen_effort_ = 0;  // of the search, counted
   std::int64_t effort_ = 0;
   bool is_hopeful_ = false;  // credit is for the first draft
+  // Of the improvement before the search.
+  bool is_improvement_due_ = true;
+  std::int64_t next_look_ = 0;
+  Cost gain_since_look_ = 0;
   Cost seen_lower_ = 0;
   std::optional<Cost> seen_upper_;
 };
