@@ -64,11 +64,13 @@ class Lanes {
     VertexId parent;
   };
 
-  /// Returns the meetings of the new path.
+  /// Returns the meetings of the new path. A path without any stays.
   std::int64_t renew(AgentId agent) {
     Path& path = paths_[agent];
-    if (!path.empty()) remove(path);
-    const std::int64_t meetings = search(agent);
+    const bool is_first = path.empty();
+    if (!is_first) remove(path);
+    std::int64_t meetings = is_first ? 1 : meetings_of(path);
+    if (meetings > 0) meetings = search(agent);
     add(path);
     effort_ += static_cast<std::int64_t>(path.size()) / 4 + 1;
     return meetings;
@@ -185,6 +187,10 @@ class Lanes {
                                      [&](VertexId v) { return row[v] == row[path.back()] - 1; }));
       }
     }
+    return meetings_of(path);
+  }
+
+  [[nodiscard]] std::int64_t meetings_of(const Path& path) const {
     const auto arrival = static_cast<Timestep>(path.size() - 1);
     std::int64_t meetings = passes_after(path.back(), arrival);
     for (Timestep t = 0; t < arrival; ++t)
