@@ -167,7 +167,8 @@ bool PrimalSearch::Impl::begin_turn(LimitMonitor& limits) {
     turn_end_ = main_->effort() + unit_ * luby(std::max<std::uint32_t>(1, num_restarts_));
     return true;
   }
-  if (turn_ == 1 && is_dear()) return begin_local_turn(limits);
+  if (turn_ == 1 && is_dear() && kLocalEffort * unit_ <= Guide::kMostEffort)
+    return begin_local_turn(limits);
   // Who leaves the first guide to another one begins with the second. In the end one search in
   // three goes without a guide.
   const std::uint32_t kind = turn_ >= kNumGuides          ? num_restarts_ % (kNumGuides + 1)

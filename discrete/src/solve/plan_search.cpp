@@ -173,8 +173,9 @@ bool PlanSearch::is_first_plan_due() const {
 void PlanSearch::improve_first_plan() {
   const Incumbent& incumbent = context_.incumbent;
   const auto is_dear = [&] {
+    // It begins with all paths at once.
     return context_.objective == Objective::sum_of_costs && incumbent.upper() &&
-           gap_of(incumbent) >= kDearGap;
+           *incumbent.upper() <= kMostOfFirst && gap_of(incumbent) >= kDearGap;
   };
   is_improvement_due_ = is_dear();
   if (!is_improvement_due_) return;
