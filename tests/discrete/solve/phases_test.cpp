@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "quadrille/discrete/primal.hpp"
 #include "support/solver_cases.hpp"
 
 namespace quadrille::discrete::support {
@@ -58,6 +59,22 @@ TEST(Phases, LongOnesShowThatTheyGoOn) {
   EXPECT_GE(told.num_times[set_up], 10);
   EXPECT_GE(told.num_times[first_plan], 2);
   EXPECT_GE(told.num_times[search], 10);
+}
+
+TEST(Phases, ADearFirstPlanIsImprovedBeforeTheSearch) {
+  const Instance instance = crowd(20, 200);
+  LimitMonitor limits{Limits{}};
+  PrimalSearch first(instance, GoalDistances::make(instance, limits), 0);
+  while (!first.is_over()) first.advance(100'000, limits);
+  SolveOptions options;
+  options.limits.conflicts = 1;
+  const SolveOutcome result = solve(instance, options).value();
+  ASSERT_TRUE(result.cost.has_value());
+  EXPECT_LT(10 * *result.cost, 9 * first.cost());
+  EXPECT_EQ(solve(instance, options)->plan, result.plan);
+  // There is nothing dear about the makespan of it, and nobody asked for less.
+  options.objective = Objective::makespan;
+  EXPECT_GT(solve(instance, options)->plan->cost(Objective::sum_of_costs), *result.cost);
 }
 
 }  // namespace
