@@ -34,8 +34,7 @@ class Lacam {
   /// Guided by a LocalGuide instead, which is made anew for each configuration. Takes about ten
   /// times the effort. Requires an agent.
   [[nodiscard]] static std::unique_ptr<Lacam> guided_locally(
-      const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-      std::uint32_t seed);
+      const Instance& instance, std::shared_ptr<const GoalDistances> distances, std::uint32_t seed);
   Lacam(const Lacam&) = delete;
   Lacam& operator=(const Lacam&) = delete;
 

@@ -57,8 +57,7 @@ void LocalGuide::renew(std::span<const VertexId> configuration, std::span<const 
   for (const AgentId agent : order) {
     const auto guide = own_path(agent);
     // What is left of a path that was not followed is worth nothing.
-    is_counted_[agent.index()] =
-        !is_first_ && guide[1] == configuration[agent.index()] ? 1 : 0;
+    is_counted_[agent.index()] = !is_first_ && guide[1] == configuration[agent.index()] ? 1 : 0;
     if (is_counted_[agent.index()] == 0) continue;
     std::copy(guide.begin() + 1, guide.end(), guide.begin());
     add(guide);

@@ -83,13 +83,13 @@ class LocalGuide final : public Guidance {
   const Graph& graph_;
   const GoalDistances& distances_;
   TieBreaker ties_;
-  std::vector<VertexId> paths_;                      // By agent, then timestep.
-  std::vector<char> is_counted_;                     // By agent: its path is in the counts.
-  IdVector<VertexId, std::uint32_t> first_edge_;     // Of a vertex; edges are directed.
-  std::vector<std::uint32_t> reverse_;               // By edge.
-  std::vector<Count> present_;                       // By vertex, then timestep: paths there.
-  std::vector<Count> coming_;                        // By edge, then timestep: moves against it.
-  bool is_first_ = true;                             // There are no paths yet.
+  std::vector<VertexId> paths_;                   // By agent, then timestep.
+  std::vector<char> is_counted_;                  // By agent: its path is in the counts.
+  IdVector<VertexId, std::uint32_t> first_edge_;  // Of a vertex; edges are directed.
+  std::vector<std::uint32_t> reverse_;            // By edge.
+  std::vector<Count> present_;                    // By vertex, then timestep: paths there.
+  std::vector<Count> coming_;                     // By edge, then timestep: moves against it.
+  bool is_first_ = true;                          // There are no paths yet.
   std::int64_t effort_ = 0;
 
   // Of the current search.

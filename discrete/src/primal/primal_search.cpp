@@ -171,9 +171,9 @@ bool PrimalSearch::Impl::begin_turn(LimitMonitor& limits) {
     return begin_local_turn(limits);
   // Who leaves the first guide to another one begins with the second. In the end one search in
   // three goes without a guide.
-  const std::uint32_t kind = turn_ >= kNumGuides          ? num_restarts_ % (kNumGuides + 1)
+  const std::uint32_t kind = turn_ >= kNumGuides   ? num_restarts_ % (kNumGuides + 1)
                              : part_ == Part::rest ? 1
-                                                          : turn_;
+                                                   : turn_;
   if (kind < kNumGuides && guides_[kind] == nullptr && !make_guide(kind, limits)) return false;
   if (turn_ >= kNumGuides) ++num_restarts_;
   other_ = std::make_unique<Lacam>(instance_, distances_, seed_ + num_restarts_,

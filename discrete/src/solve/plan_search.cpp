@@ -32,8 +32,9 @@ constexpr double kDeadEndGap = 3;
 constexpr double kHelpedGap = 0.5;
 
 /// Per cent. A first plan with a larger gap is improved before the search for the bound begins: the
-/// first bounds are cheap, but so is what improvement gains then, and that is more. Measured with
-/// random-32-32-20, 300 agents, after 0.5 s: 14,577 without, XXX with.
+/// first bounds are cheap, but so is what improvement gains then, and that is more. Measured
+/// after 1 s: random-32-32-20 with 300 agents costs 14,577 without and 9,518 with, with 400 25,601
+/// and 19,040, empty-48-48 with 600 21,844 and 19,722 (local guidance included).
 constexpr double kDearGap = 12;
 /// That ends after so many steps, half a second, or when the last fifth of them gained less than
 /// one part in kLittle of the gap; this is asked when all paths could have been made so many times.

@@ -180,8 +180,7 @@ TEST(LocalGuide, MakesCheaperPlansForCrowds) {
 
 /// One agent may go down or to the right; the other one, above it, would like to go to the right.
 TEST(Pibt, LeavesToOthersWhatTheyWant) {
-  const auto graph =
-      std::make_shared<const Graph>(Graph::grid(4, 3, std::vector<bool>(12, true)));
+  const auto graph = std::make_shared<const Graph>(Graph::grid(4, 3, std::vector<bool>(12, true)));
   const auto at = [&](std::int32_t x, std::int32_t y) {
     return *graph->layout()->vertex_at({x, y});
   };

@@ -26,7 +26,9 @@ namespace quadrille::discrete {
 /// Looks for a plan of any cost, soon rather than cheap: LaCAM with PIBT as generator of
 /// configurations (Okumura, "LaCAM: search-based algorithm for quick multi-agent pathfinding", AAAI
 /// 2023; Okumura et al., "Priority inheritance with backtracking", AIJ 2022), guided by paths that
-/// avoid each other (Han and Yu, ICRA 2022), with restarts. Where that does not end soon, agents
+/// avoid each other (Han and Yu, ICRA 2022) or, where that gives a dear plan, by such paths for the
+/// next timesteps only (Arita and Okumura, arXiv 2510.19072), with restarts. Where that does not
+/// end soon, agents
 /// are settled one after the other, which finds a plan in polynomial time if there is one
 /// (docs/complete.md). Where at least three in four vertices are taken all begins with that, or on
 /// small boards with a beam search; and a plan that costs more than twice what the agents cost
@@ -40,8 +42,8 @@ class PrimalSearch {
     exhausted,  ///< Every reachable configuration was visited: there is no plan.
   };
 
-  /// Two threads may share the work: one takes the first of the two guided searches that all
-  /// begins with, the other one all the rest.
+  /// Two threads may share the work: one takes the first of the guided searches that all begins
+  /// with, the other one all the rest.
   enum class Part { all, first_guide, rest };
 
   /// `distances` are those of `instance`. Requires that each agent has one goal only.
