@@ -98,7 +98,7 @@ class Prices {
 TEST(LocalGuide, TheLastPathIsTheCheapestAmongTheOthers) {
   support::Random random(21);
   std::size_t num_paths = 0, num_dear = 0;
-  for (std::size_t round = 0; round < scaled(200); ++round) {
+  for (std::size_t round = 0; round < scaled(300); ++round) {
     const Instance instance = random_instance(random);
     const auto distances = distances_of(instance);
     if (!has_goals_in_reach(instance, *distances)) continue;
