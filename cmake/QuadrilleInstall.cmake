@@ -22,7 +22,8 @@ if(NOT BUILD_SHARED_LIBS)
     install(FILES "${CaDiCaL_LIBRARY}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/quadrille" COMPONENT dev)
   else()
     install(FILES cmake/FindCaDiCaL.cmake cmake/cadical_check.cpp
-      sat/src/engine/derived_clause_tracer.hpp DESTINATION "${quadrille_package_dir}" COMPONENT dev)
+      sat/src/engine/derivation_tracer.hpp sat/src/engine/derived_clause_tracer.hpp
+      DESTINATION "${quadrille_package_dir}" COMPONENT dev)
   endif()
   if(TARGET quadrille_glibc_shim)
     set(quadrille_link_glibc_shim ON)

@@ -4,8 +4,10 @@
 // two files.
 #include <cadical.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "derivation_tracer.hpp"
 #include "derived_clause_tracer.hpp"
 
 namespace {
@@ -26,11 +28,22 @@ struct Callbacks final : CaDiCaL::ExternalPropagator, CaDiCaL::Terminator, CaDiC
   void learn(int) override {}
 };
 
+struct Receiver {
+  void given(std::uint64_t, const std::vector<int>&) {}
+  void derived(std::uint64_t, const std::vector<int>&, const std::vector<std::uint64_t>&) {}
+  void refuted(std::uint64_t, const std::vector<int>&, const std::vector<std::uint64_t>&) {
+    has_refuted = true;
+  }
+  bool has_refuted = false;
+};
+
 }  // namespace
 
 int main() {
   Callbacks callbacks;
   quadrille::sat::DerivedClauseTracer tracer([](const std::vector<int>&) {});
+  Receiver receiver;
+  quadrille::sat::DerivationTracer<Receiver> derivations(receiver);
   CaDiCaL::Solver solver;
   bool known = solver.configure("plain");
   // Options that the engine sets: an answer of 1 is for the test, which runs this with each
@@ -41,6 +54,7 @@ int main() {
   solver.connect_terminator(&callbacks);
   solver.connect_learner(&callbacks);
   solver.connect_proof_tracer(&tracer, false);
+  solver.connect_proof_tracer(&derivations, true);
   solver.connect_external_propagator(&callbacks);
   solver.add_observed_var(1);
   solver.phase(1);
@@ -49,11 +63,12 @@ int main() {
   solver.add(0);
   solver.assume(-1);
   known = solver.limit("conflicts", 1) && solver.limit("decisions", 1) && known;
-  bool right = solver.solve() == 20 && solver.failed(-1);
+  bool right = solver.solve() == 20 && solver.failed(-1) && receiver.has_refuted;
   right = solver.solve() == 10 && solver.val(1) > 0 && right;
   solver.reset_assumptions();
   solver.disconnect_external_propagator();
   solver.disconnect_proof_tracer(&tracer);
+  solver.disconnect_proof_tracer(&derivations);
   solver.disconnect_learner();
   solver.disconnect_terminator();
   return known && right ? 0 : 1;

@@ -2,8 +2,11 @@
 #include "lazy/lazy_problem.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/sat/proof_log.hpp"
 
 namespace quadrille::discrete {
 
@@ -19,9 +22,23 @@ LazyProblem::LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theo
         const AgentId agent(input);
         return model_.cost_above(agent, model_.distances(agent).free_cost() + k - 1, writer_);
       }) {
+  note_delays(engine.proof());
   for (const AgentId i : model.instance().agent_ids())
     lower_bound_ = objective == Objective::sum_of_costs ? lower_bound_ + free_cost(i)
                                                         : std::max(lower_bound_, free_cost(i));
+}
+
+void LazyProblem::note_delays(sat::ProofLog* proof) const {
+  if (proof == nullptr) return;
+  std::vector<sat::ProofItem> items;
+  for (const AgentId i : model_.instance().agent_ids()) {
+    sat::ProofItem item;
+    item.kind = sat::ProofItem::Kind::agent;
+    item.agent = i;
+    item.base = free_cost(i);
+    items.push_back(item);
+  }
+  proof->set_inputs(total_delay_.proof_number(), std::move(items));
 }
 
 // Every agent gets a cap: what the bound leaves to it alone.

@@ -38,6 +38,7 @@ Outcome CandidateSearch::advance(Slice slice) {
       if (offline_.refutes_everything()) return Outcome::exhausted;
       const std::array refuted{not_cheaper};
       context_.engine.add_clause({why::Core{}, refuted, {}, false});
+      counter_.note_bound(*best);
       bounds.raise(*best);
       break;
     }

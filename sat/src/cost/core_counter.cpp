@@ -2,8 +2,16 @@
 #include "cost/core_counter.hpp"
 
 #include <array>
+#include <utility>
+
+#include "quadrille/sat/proof_log.hpp"
 
 namespace quadrille::sat {
+
+CoreCounter::CoreCounter(Engine& engine, int height, Level level)
+    : engine_(engine), height_(height), level_(std::move(level)) {
+  if (engine_.proof() != nullptr) proof_number_ = engine_.proof()->add_counter();
+}
 
 Totalizer& CoreCounter::counter(int level) {
   while (counters_.size() < static_cast<std::size_t>(level)) {
@@ -12,6 +20,12 @@ Totalizer& CoreCounter::counter(int level) {
     counters_.emplace_back(engine_, lits.size(), [lits](std::size_t input, int k) {
       return k == 1 ? lits[input] : Lit();
     });
+    ProofLog* const proof = engine_.proof();
+    if (proof == nullptr) continue;
+    std::vector<ProofItem> items(lits.size());
+    for (std::size_t at = 0; at < lits.size(); ++at) items[at].literal = lits[at];
+    proof->set_inputs(counters_.back().proof_number(), std::move(items));
+    proof->add_level(proof_number_, counters_.back().proof_number());
   }
   return counters_[static_cast<std::size_t>(level) - 1];
 }

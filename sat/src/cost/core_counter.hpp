@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "quadrille/sat/totalizer.hpp"
@@ -22,12 +21,13 @@ class CoreCounter {
   using Level = std::function<std::vector<Lit>(int level)>;
 
   /// `engine` and what `level` refers to outlive the counter. Adds no clause yet.
-  CoreCounter(Engine& engine, int height, Level level)
-      : engine_(engine), height_(height), level_(std::move(level)) {}
+  CoreCounter(Engine& engine, int height, Level level);
 
   /// A literal that is implied when `count` numbers are at least `level`, 1 <= level. Invalid if
   /// the counter does not reach so far. Not during solve.
   [[nodiscard]] Lit at_least(int level, int count);
+  /// The number of this counter in the proof log of the engine; 0 if there is none.
+  [[nodiscard]] int proof_number() const noexcept { return proof_number_; }
   /// As Totalizer::retire.
   void retire();
 
@@ -36,6 +36,7 @@ class CoreCounter {
 
   Engine& engine_;
   const int height_;
+  int proof_number_ = 0;
   Level level_;
   std::vector<Totalizer> counters_;  // by level - 1
   std::map<int, int> reached_;       // by count: levels whose literals are there, in order

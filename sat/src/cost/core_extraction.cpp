@@ -36,6 +36,7 @@ CoreExtraction::~CoreExtraction() {
 Outcome CoreExtraction::advance(Slice slice) {
   while (true) {
     context_.bounds.raise(relaxation_->bound());
+    relaxation_->note_bound();
     context_.yield_point.yield();
     if (context_.limits.exhausted_now() || context_.bounds.are_closed()) return Outcome::stopped;
     const Verdict verdict = solve(slice);

@@ -52,6 +52,7 @@ Outcome CostNeighbourhoods::advance(Slice slice) {
       if (core.empty()) return Outcome::exhausted;
       // A core of the sum alone holds for all plans: none is cheaper than the incumbent.
       if (core.size() == 1 && core.front() == ~not_cheaper) {
+        counter_.note_bound(*best);
         bounds.raise(*best);
         break;
       }

@@ -7,6 +7,7 @@
 
 #include "cost/plan_query.hpp"
 #include "quadrille/core/contract.hpp"
+#include "quadrille/sat/proof_log.hpp"
 
 namespace quadrille::sat {
 
@@ -39,6 +40,8 @@ SearchEnd search_upwards(CostSearchContext context) {
     if (core.empty()) return SearchEnd::exhausted;
     const Cost next = context.problem.next_bound(bound, core);
     QUADRILLE_REQUIRE(next >= bound, "bounds only grow");
+    if (context.engine.proof() != nullptr && next > bound)
+      context.engine.proof()->claim_by_core(next, core);
     if (context.raises != nullptr && next > bound)
       add_raise(*context.raises, next - bound, context.problem.agents_of(core));
     bound = next;

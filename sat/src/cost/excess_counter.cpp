@@ -2,6 +2,7 @@
 #include "cost/excess_counter.hpp"
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/sat/proof_log.hpp"
 
 namespace quadrille::sat {
 namespace {
@@ -19,7 +20,8 @@ Cost largest_excess(std::size_t num_inputs) {
 
 ExcessCounter::ExcessCounter(Engine& engine, Cost base, std::size_t num_inputs,
                              Totalizer::Input excess)
-    : base_(base),
+    : engine_(engine),
+      base_(base),
       largest_(base + largest_excess(num_inputs)),
       total_(engine, num_inputs, std::move(excess)) {}
 
@@ -28,6 +30,11 @@ Lit ExcessCounter::above(Cost cost) {
   const Lit lit = total_.at_least(static_cast<int>(cost - base_) + 1);
   QUADRILLE_REQUIRE(lit.valid(), "an agent's cost has no end");
   return lit;
+}
+
+void ExcessCounter::note_bound(Cost bound) {
+  if (engine_.proof() != nullptr)
+    engine_.proof()->claim_by_excess(proof_number(), bound, above(bound - 1));
 }
 
 }  // namespace quadrille::sat

@@ -21,10 +21,15 @@ class ExcessCounter {
   [[nodiscard]] Cost largest() const noexcept { return largest_; }
   /// The literal "the plan costs more than `cost`". Requires base <= cost <= largest.
   [[nodiscard]] Lit above(Cost cost);
+  [[nodiscard]] int proof_number() const noexcept { return total_.proof_number(); }
+  /// Tells the proof log that no plan costs less than `bound`: the last verdict refuted the
+  /// negation of `above(bound - 1)`.
+  void note_bound(Cost bound);
   /// Ends its use, for good. Only destruction may follow.
   void retire() { total_.retire(); }
 
  private:
+  Engine& engine_;
   const Cost base_, largest_;
   Totalizer total_;
 };

@@ -9,6 +9,7 @@
 namespace quadrille::sat {
 
 bool Relaxation::start() {
+  if (engine_.proof() != nullptr) proof_pass_ = engine_.proof()->add_pass();
   for (const AgentId i : IdRange<AgentId>(problem_.num_agents())) {
     if (!add({nullptr, 0, i, problem_.free_cost(i)})) return false;
     bound_ += problem_.free_cost(i);
@@ -72,18 +73,20 @@ bool Relaxation::relax(std::span<const Lit> core, Cost lift) {
     raises_.push_back({RaiseKind::core, lift, agents, {}});
   }
   bound_ += lift;
+  const int height = static_cast<int>(lift), size = static_cast<int>(softs.size());
+  if (size > 1)
+    counters_.emplace_back(engine_, height, [this, softs](int level) {
+      std::vector<Lit> lits;
+      for (const Soft& soft : softs)
+        if (const Lit lit = violated_by(soft, level); lit.valid()) lits.push_back(lit);
+      return lits;
+    });
+  note_core(softs, lift, size > 1 ? counters_.back().proof_number() : 0);
   for (Soft soft : softs) {
     soft.bound += lift;
     if (!add(soft)) return false;
   }
-  if (softs.size() == 1) return true;
-  const int height = static_cast<int>(lift), size = static_cast<int>(softs.size());
-  counters_.emplace_back(engine_, height, [this, softs = std::move(softs)](int level) {
-    std::vector<Lit> lits;
-    for (const Soft& soft : softs)
-      if (const Lit lit = violated_by(soft, level); lit.valid()) lits.push_back(lit);
-    return lits;
-  });
+  if (size == 1) return true;
   if (keeps_raises_) counted_.emplace(&counters_.back(), std::move(agents));
   if (height == 1) return add({&counters_.back(), 0, AgentId(), 0});
   for (int rank = 2; rank <= size; ++rank)
@@ -110,6 +113,37 @@ Totalizer::Input Relaxation::excess() const {
   std::vector<Soft> items;
   for (const auto& [lit, soft] : softs_) items.push_back(soft);
   return [this, items](std::size_t input, int k) { return violated_by(items[input], k); };
+}
+
+ProofItem Relaxation::proof_item(const Soft& soft) {
+  ProofItem item;
+  item.kind = soft.counter == nullptr ? ProofItem::Kind::agent : ProofItem::Kind::counter;
+  item.agent = soft.agent;
+  item.base = soft.bound;
+  item.rank = soft.rank;
+  if (soft.counter != nullptr) item.counter = soft.counter->proof_number();
+  return item;
+}
+
+void Relaxation::note_core(const std::vector<Soft>& softs, Cost lift, int counter) const {
+  ProofLog* const proof = engine_.proof();
+  if (proof == nullptr) return;
+  std::vector<ProofItem> items;
+  for (const Soft& soft : softs) items.push_back(proof_item(soft));
+  proof->add_core(proof_pass_, counter, lift, std::move(items));
+}
+
+void Relaxation::note_excess(int sum) const {
+  ProofLog* const proof = engine_.proof();
+  if (proof == nullptr) return;
+  std::vector<ProofItem> items;
+  for (const auto& [lit, soft] : softs_) items.push_back(proof_item(soft));
+  proof->set_inputs(sum, std::move(items));
+  proof->add_excess(proof_pass_, sum, bound_);
+}
+
+void Relaxation::note_bound() const {
+  if (engine_.proof() != nullptr) engine_.proof()->claim_by_cores(proof_pass_, bound_);
 }
 
 void Relaxation::retire() {

@@ -10,6 +10,7 @@
 #include "cost/core_counter.hpp"
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/sat/cost_search.hpp"
+#include "quadrille/sat/proof_log.hpp"
 #include "quadrille/sat/totalizer.hpp"
 
 namespace quadrille::sat {
@@ -48,6 +49,11 @@ class Relaxation {
   /// until the relaxation is retired. For problems that need no growth.
   [[nodiscard]] Totalizer::Input excess() const;
 
+  /// Tells the proof log that the sum of that number is over `excess()`.
+  void note_excess(int sum) const;
+  /// Tells it that no plan costs less than `bound()`.
+  void note_bound() const;
+
   /// Ends the use of all counters, for good. Only destruction may follow.
   void retire();
 
@@ -65,6 +71,8 @@ class Relaxation {
   [[nodiscard]] Lit violated_by(const Soft& soft, Cost units) const;
   /// Adds the soft if it can be violated. False: a limit was met.
   [[nodiscard]] bool add(const Soft& soft);
+  [[nodiscard]] static ProofItem proof_item(const Soft& soft);
+  void note_core(const std::vector<Soft>& softs, Cost lift, int counter) const;
   [[nodiscard]] const Soft& soft_of(Lit assumption) const;
   [[nodiscard]] std::vector<AgentId> agents_of(const std::vector<Soft>& softs) const;
 
@@ -74,6 +82,7 @@ class Relaxation {
   std::map<Lit, Soft> softs_;
   std::list<CoreCounter> counters_;
   Cost bound_ = 0;
+  int proof_pass_ = 0;
   bool keeps_raises_ = false;
   std::vector<Raise> raises_;
   std::map<const CoreCounter*, std::vector<AgentId>> counted_;  // with keeps_raises_

@@ -17,6 +17,7 @@ void SearchFromAbove::rebase(const Relaxation& relaxation) {
   if (parts_ && relaxation.bound() < parts_->counter.base() + kRebaseAfter) return;
   if (parts_) parts_->counter.retire();
   parts_ = std::make_unique<Parts>(context_, offline_, relaxation, candidates_within_);
+  relaxation.note_excess(parts_->counter.proof_number());
 }
 
 Outcome SearchFromAbove::advance(Slice slice) {

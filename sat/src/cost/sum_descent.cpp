@@ -22,6 +22,7 @@ Outcome SumDescent::advance(Slice slice) {
     const Verdict verdict = find_plan(context_, assumptions, end - limits.conflicts());
     if (verdict == Verdict::unsat) {
       if (context_.engine.core().empty()) return Outcome::exhausted;
+      counter_.note_bound(target + 1);
       bounds.raise(target + 1);
     }
     if (verdict == Verdict::unknown) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/sat/proof_log.hpp"
 
 namespace quadrille::sat {
 
@@ -20,6 +21,10 @@ Totalizer::Totalizer(Engine& engine, std::size_t num_inputs, Input input)
     if (layer.size() % 2 == 1) next.push_back(layer.back());
     layer = std::move(next);
   }
+  if (engine_.proof() == nullptr) return;
+  std::vector<std::pair<std::size_t, std::size_t>> tree;
+  for (const Adder& adder : adders_) tree.emplace_back(adder.left, adder.right);
+  proof_number_ = engine_.proof()->add_sum(num_inputs_, std::move(tree));
 }
 
 Lit Totalizer::output(std::size_t item, int k) const {
@@ -41,7 +46,10 @@ void Totalizer::grow(std::size_t item, int k) {
     const Lit left = a > 0 ? output(adder.left, a) : Lit();
     const Lit right = a < k ? output(adder.right, k - a) : Lit();
     if ((a > 0 && !left.valid()) || (a < k && !right.valid())) continue;  // never that large
-    if (!sum.valid()) sum = engine_.new_lit();
+    if (!sum.valid()) {
+      sum = engine_.new_lit();
+      if (engine_.proof() != nullptr) engine_.proof()->set_output(proof_number_, item, k, sum);
+    }
     clause.clear();
     if (a > 0) clause.push_back(~left);
     if (a < k) clause.push_back(~right);

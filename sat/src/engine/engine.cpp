@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The only file that knows CaDiCaL, with derived_clause_tracer.hpp. What it uses of CaDiCaL is in
-// cmake/cadical_check.cpp, too.
+// The only file that knows CaDiCaL, with derived_clause_tracer.hpp and derivation_tracer.hpp. What it
+// uses of CaDiCaL is in cmake/cadical_check.cpp, too.
 #include "quadrille/sat/engine.hpp"
 
 #include <cadical.hpp>
 #include <exception>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "engine/derivation_tracer.hpp"
 #include "engine/derived_clause_tracer.hpp"
 #include "engine/theory_host.hpp"
 #include "quadrille/core/contract.hpp"
@@ -67,6 +69,28 @@ class Border {
   bool is_solver_lost_ = false;
 };
 
+/// What the solver tells a DerivationObserver.
+class DerivationReceiver {
+ public:
+  using Number = DerivationObserver::Number;
+  using Clause = std::vector<int>;
+  DerivationReceiver(DerivationObserver& observer, Border& border)
+      : observer_(observer), border_(border) {}
+  void given(Number number, const Clause& clause) {
+    border_.notification([&] { observer_.on_given(number, clause); });
+  }
+  void derived(Number number, const Clause& clause, const std::vector<Number>& antecedents) {
+    border_.notification([&] { observer_.on_derived(number, clause, antecedents); });
+  }
+  void refuted(Number number, const Clause& clause, const std::vector<Number>& antecedents) {
+    border_.notification([&] { observer_.on_refuted(number, clause, antecedents); });
+  }
+
+ private:
+  DerivationObserver& observer_;
+  Border& border_;
+};
+
 /// A theory that has no opinion, for plain SAT solving: the solver's decisions are still counted.
 class NoTheory final : public Theory {
  public:
@@ -112,6 +136,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     }
     solver_->disconnect_external_propagator();
     if (tracer_) solver_->disconnect_proof_tracer(tracer_.get());
+    if (derivation_tracer_) solver_->disconnect_proof_tracer(derivation_tracer_.get());
     solver_->disconnect_learner();
     solver_->disconnect_terminator();
   }
@@ -231,6 +256,12 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
           [this](const std::vector<int>& clause) { pass_on_learned(clause); });
       solver_->connect_proof_tracer(tracer_.get(), false);
     }
+    if (options.derivations != nullptr) {
+      receiver_.emplace(*options.derivations, border_);
+      derivation_tracer_ =
+          std::make_unique<DerivationTracer<DerivationReceiver>>(*receiver_);
+      solver_->connect_proof_tracer(derivation_tracer_.get(), true);
+    }
     solver_->connect_external_propagator(this);
     // Without any observed variable the solver would not ask the propagator for clauses.
     if (observed_) static_cast<void>(new_lit());
@@ -252,6 +283,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   void abandon_solver() noexcept {
     static_cast<void>(solver_.release());
     static_cast<void>(tracer_.release());
+    static_cast<void>(derivation_tracer_.release());
   }
 
   int search(const SolveBudget& budget) {
@@ -347,6 +379,8 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   TheoryHost host_;
   std::unique_ptr<CaDiCaL::Solver> solver_;
   std::unique_ptr<DerivedClauseTracer> tracer_;
+  std::optional<DerivationReceiver> receiver_;
+  std::unique_ptr<DerivationTracer<DerivationReceiver>> derivation_tracer_;
   LimitMonitor* limits_ = nullptr;
   int num_variables_ = 0;
   std::int64_t last_effort_ = kNoEnd;  // of the running solve
@@ -359,7 +393,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
 };
 
 Engine::Engine(Theory* theory, const EngineOptions& options)
-    : impl_(std::make_unique<Impl>(theory, options)) {}
+    : impl_(std::make_unique<Impl>(theory, options)), proof_(options.proof) {}
 Engine::~Engine() = default;
 
 Lit Engine::new_lit() { return impl_->new_lit(); }

@@ -3,11 +3,14 @@
 
 #include <vector>
 
+#include "quadrille/sat/proof_log.hpp"
+
 namespace quadrille::sat {
 namespace {
 
-EngineOptions offline_options() {
+EngineOptions offline_options(const Engine& engine) {
   EngineOptions options;
+  if (engine.proof() != nullptr) options.derivations = &engine.proof()->offline();
   options.inprocessing = true;
   return options;
 }
@@ -15,7 +18,7 @@ EngineOptions offline_options() {
 }  // namespace
 
 OfflineSolver::OfflineSolver(Engine& engine)
-    : source_(engine), solver_(nullptr, offline_options()) {}
+    : source_(engine), solver_(nullptr, offline_options(engine)) {}
 
 void OfflineSolver::catch_up() {
   // The same numbers mean the same variables.

@@ -10,12 +10,15 @@
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/statistics.hpp"
+#include "quadrille/sat/derivation.hpp"
 #include "quadrille/sat/lemma.hpp"
 #include "quadrille/sat/theory.hpp"
 
 QUADRILLE_API_BEGIN
 
 namespace quadrille::sat {
+
+class ProofLog;
 
 enum class Verdict { sat, unsat, unknown };
 
@@ -31,6 +34,12 @@ struct EngineOptions {
   bool keep_clauses = false;  ///< For Engine::take_clauses.
   /// Hears every clause; null: nobody. Must outlive the engine.
   ClauseObserver* observer = nullptr;
+  /// Hears how the solver comes to its clauses; null: nobody, and the solver keeps no account of it.
+  /// The search is the same. Must outlive the engine.
+  DerivationObserver* derivations = nullptr;
+  /// What counters and searches that use the engine tell of themselves, see Engine::proof; null: they
+  /// do not. To be set as `observer` and `derivations`, too.
+  ProofLog* proof = nullptr;
 };
 
 /// Limits of one call of solve, besides those of the LimitMonitor. Meeting one gives `unknown`.
@@ -80,6 +89,9 @@ class Engine {
   /// ended by no literal. Requires EngineOptions::keep_clauses. Not during solve.
   [[nodiscard]] std::vector<Lit> take_clauses();
 
+  /// EngineOptions::proof.
+  [[nodiscard]] ProofLog* proof() const noexcept { return proof_; }
+
   /// Adds what this engine did to `statistics` (sat_calls, conflicts, decisions, variables,
   /// clauses, collision_clauses, models_checked).
   void add_statistics(Statistics& statistics) const;
@@ -87,6 +99,7 @@ class Engine {
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;
+  ProofLog* const proof_;
 };
 
 }  // namespace quadrille::sat

@@ -26,6 +26,8 @@ class Totalizer {
   Totalizer(Engine& engine, std::size_t num_inputs, Input input);
 
   [[nodiscard]] std::size_t num_inputs() const noexcept { return num_inputs_; }
+  /// The number of this sum in the proof log of the engine; 0 if there is none.
+  [[nodiscard]] int proof_number() const noexcept { return proof_number_; }
   /// A literal that is implied when the inputs' sum is at least `k`, k >= 1; assuming its negation
   /// bounds the sum. Invalid if the sum is never that large. Adds the clauses for all sums up to
   /// `k` that are missing: O(num_inputs * k^2) in all. Not during solve.
@@ -47,6 +49,7 @@ class Totalizer {
   Engine& engine_;
   Input input_;
   std::size_t num_inputs_;
+  int proof_number_ = 0;
   // Tree items: 0 .. num_inputs-1 are the inputs, the others adders in an order in which children
   // come before parents. The last one is the root.
   std::vector<Adder> adders_;
