@@ -20,7 +20,7 @@ bool Delivery::probe(const std::string& path, std::optional<OutputFile>& file) {
 
 bool Delivery::probe() {
   return probe(plan_, plan_file_) && probe(json_, json_file_) && probe(view_, view_file_) &&
-         probe(svg_, svg_file_);
+         probe(svg_, svg_file_) && probe(proof_, proof_file_);
 }
 
 void Delivery::write(const OutputFile& file, const std::string& text) {
@@ -56,10 +56,10 @@ void Delivery::write_json(const std::string& text) {
 }
 
 void Delivery::show(const std::optional<OutputFile>& file,
-                    const std::optional<Result<std::string>>& text) {
+                    const std::optional<Result<std::string>>& text, std::string_view what) {
   if (!file) return;
   if (!text) {
-    console_.print(fmt::format("picture    none; {} is not written\n", file->path()));
+    console_.print(fmt::format("{}none; {} is not written\n", what, file->path()));
     return;
   }
   if (!*text) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "exit_codes.hpp"
 #include "output.hpp"
@@ -10,18 +11,20 @@
 
 namespace quadrille::cli {
 
-/// The outputs of one solve: a file for the plan, one for the result, one each for a page and a
-/// picture, and the console. A result that none of them takes ends up on stderr.
+/// The outputs of one solve: a file for the plan, one for the result, one each for a page, a picture
+/// and a certificate, and the console. A result that none of them takes ends up on stderr.
 class Delivery {
  public:
   /// File names; empty for none, "-" for standard output.
   Delivery(bool quiet, std::string plan, std::string json, std::string view = "",
-           std::string svg = "")
+           std::string svg = "", std::string proof = "")
       : plan_(std::move(plan)),
         json_(std::move(json)),
         view_(std::move(view)),
         svg_(std::move(svg)),
-        console_(quiet, plan_ == "-" || json_ == "-" || view_ == "-" || svg_ == "-") {}
+        proof_(std::move(proof)),
+        console_(quiet, plan_ == "-" || json_ == "-" || view_ == "-" || svg_ == "-" ||
+                            proof_ == "-") {}
 
   /// Whether all files can be written, as far as that is known beforehand. Says why not.
   [[nodiscard]] bool probe();
@@ -39,8 +42,17 @@ class Delivery {
   [[nodiscard]] bool has_svg_file() const noexcept { return svg_file_.has_value(); }
   /// `text`: what is to be seen, or why it cannot be drawn; nullopt without a plan. Pictures do not
   /// count as a place for the result.
-  void write_view(const std::optional<Result<std::string>>& text) { show(view_file_, text); }
-  void write_svg(const std::optional<Result<std::string>>& text) { show(svg_file_, text); }
+  void write_view(const std::optional<Result<std::string>>& text) {
+    show(view_file_, text, "picture    ");
+  }
+  void write_svg(const std::optional<Result<std::string>>& text) {
+    show(svg_file_, text, "picture    ");
+  }
+  [[nodiscard]] bool has_proof_file() const noexcept { return proof_file_.has_value(); }
+  /// Likewise a certificate.
+  void write_proof(const std::optional<Result<std::string>>& bytes) {
+    show(proof_file_, bytes, "proof      ");
+  }
   /// The end of the human output.
   void print_summary(const std::string& summary, const std::string& picture);
   /// `code`, unless an output failed.
@@ -49,11 +61,12 @@ class Delivery {
  private:
   static bool probe(const std::string& path, std::optional<OutputFile>& file);
   void write(const OutputFile& file, const std::string& text);
-  void show(const std::optional<OutputFile>& file, const std::optional<Result<std::string>>& text);
+  void show(const std::optional<OutputFile>& file, const std::optional<Result<std::string>>& text,
+            std::string_view what);
 
-  std::string plan_, json_, view_, svg_;
+  std::string plan_, json_, view_, svg_, proof_;
   Console console_;
-  std::optional<OutputFile> plan_file_, json_file_, view_file_, svg_file_;
+  std::optional<OutputFile> plan_file_, json_file_, view_file_, svg_file_, proof_file_;
   bool delivered_ = false;  // a file with the result has been written
   bool output_failed_ = false;
   std::string unwritten_;  // the text of an output that failed

@@ -159,6 +159,10 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
            "Write a page that plays the plan in a browser; - is standard output")
       ->group(group);
   add_picture_options(app, arguments.picture, group);
+  add_file(app, "--proof", arguments.proof,
+           "dpll, on grids and graphs, one thread: write why no plan is cheaper, for\n"
+           "quadrille-check; - is standard output")
+      ->group(group);
   app.add_flag("--quiet", arguments.quiet, "Print nothing but errors and what is asked for")
       ->group(group);
   app.add_flag("--explain", arguments.options.explain,
@@ -195,6 +199,7 @@ std::string check_solve_outputs(const SolveArguments& arguments) {
       check_outputs({{"--plan", &arguments.plan, &arguments.initial_plan},
                      {"--json", &arguments.json},
                      {"--view", &arguments.view},
+                     {"--proof", &arguments.proof},
                      {"--svg", &arguments.picture.file}},
                     {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
                      &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.initial_plan,

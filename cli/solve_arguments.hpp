@@ -23,7 +23,7 @@ struct SolveArguments {
   std::optional<discrete::CheckSchedule> check;
   std::optional<std::int64_t> seed, threads, memory_mib;
   std::string initial_plan, known_plan;  ///< File names; empty without one.
-  std::string plan, json, view;          ///< Output files; empty without, "-" for standard output.
+  std::string plan, json, view, proof;   ///< Output files; empty without, "-" for standard output.
   PictureArguments picture;
   PlanFormats plan_format;
   std::optional<double> known_bound;  ///< In the units of the input.

@@ -64,11 +64,12 @@ template <class Outcome, class MakeJson>
 ExitCode deliver_without_search(const SolveArguments& arguments, const Outcome& outcome,
                                 const MakeJson& json, const std::string& summary) {
   Delivery delivery(arguments.quiet, arguments.plan, arguments.json, arguments.view,
-                    arguments.picture.file);
+                    arguments.picture.file, arguments.proof);
   if (!delivery.probe()) return ExitCode::output;
   delivery.write_plan(std::nullopt);
   delivery.write_view(std::nullopt);
   delivery.write_svg(std::nullopt);
+  delivery.write_proof(std::nullopt);
   if (delivery.has_json_file()) delivery.write_json(json());
   delivery.print_summary(summary, "");
   return delivery.finish(exit_code_of(outcome));
@@ -96,12 +97,13 @@ Outcome ended_before_search(StopReason reason, const Usage& used) {
 ///     plan_text(plan)                    Result<std::string>, the file of --plan
 ///     json(outcome, replay)              the file of --json
 ///     page(outcome), drawing(plan)       the files of --view and --svg
+///     proof(outcome)                     the file of --proof, where there are certificates
 ///     describe(outcome, replay)          the last lines of the human output
 ///     picture(plan)                      the plan for the eye
 template <class Domain>
 ExitCode solve_and_deliver(const Domain& domain, const SolveArguments& arguments) {
   Delivery delivery(arguments.quiet, arguments.plan, arguments.json, arguments.view,
-                    arguments.picture.file);
+                    arguments.picture.file, arguments.proof);
   if (!delivery.probe()) return ExitCode::output;
   delivery.console().print(domain.describe_request());
   auto answer = [&] {
@@ -134,6 +136,8 @@ ExitCode solve_and_deliver(const Domain& domain, const SolveArguments& arguments
                             : std::nullopt);
   if (delivery.has_svg_file())
     delivery.write_svg(outcome.plan ? std::optional(domain.drawing(*outcome.plan)) : std::nullopt);
+  if constexpr (requires { domain.proof(outcome); })
+    if (delivery.has_proof_file()) delivery.write_proof(domain.proof(outcome));
   const bool draw = outcome.plan && !delivery.has_plan_file();
   delivery.print_summary(domain.describe(outcome, replay),
                          draw ? domain.picture(*outcome.plan) : "");

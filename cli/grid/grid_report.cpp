@@ -38,6 +38,7 @@ Json options_json(const SolveArguments& arguments) {
   json["threads"] = options.threads;
   json["race"] = options.race;
   json["explain"] = options.explain;
+  json["proof"] = text_or_null(arguments.proof);
   json["seed"] = options.seed;
   add_limits(json, options.limits);
   json["audit"] = options.debug.audit;
@@ -80,6 +81,14 @@ std::string result_json(const discrete::Instance* instance, const SolveArguments
   json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
   if (options.explain && instance != nullptr)
     add_explanation(json, outcome.attribution, notes.reasons, names_of(*instance));
+  if (options.proof) {
+    Json proof(nullptr);
+    if (outcome.certificate)
+      proof = {{"claim", outcome.certificate->claim}, {"bytes", outcome.certificate->bytes.size()}};
+    else if (!outcome.no_certificate.empty())
+      proof = {{"none", outcome.no_certificate}};
+    json.add("proof", proof);
+  }
   if (arguments.history) add_history(json, notes.history);
   return json.finish(
       outcome.statistics, options.seed, options_json(arguments),

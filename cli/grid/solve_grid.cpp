@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -46,6 +47,9 @@ std::string settle(SolveArguments& arguments) {
   }
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
   if (options.race && options.threads == 1) return "--race needs --threads";
+  options.proof = !arguments.proof.empty();
+  if (options.proof && options.threads > 1) return "--proof needs one thread";
+  if (options.proof && options.system != System::dpll) return "--proof needs --system dpll";
   if (options.explain && options.threads > 1) return "--explain needs one thread";
   if (options.explain && options.system != System::dpll) return "--explain needs --system dpll";
   if (arguments.known_bound) {
@@ -116,9 +120,18 @@ class GridSolve {
   [[nodiscard]] Result<std::string> drawing(const discrete::Plan& plan) const {
     return view::picture(instance(), plan, arguments_.picture.options);
   }
+  [[nodiscard]] std::optional<Result<std::string>> proof(const SolveOutcome& outcome) const {
+    if (!outcome.certificate) return std::nullopt;
+    return outcome.certificate->bytes;
+  }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const discrete::VerifyReport& replay) const {
     std::string text = describe_outcome(objective(), outcome, replay);
+    if (outcome.certificate)
+      text += fmt::format("proof      no plan costs less than {}, {} bytes\n",
+                          outcome.certificate->claim, outcome.certificate->bytes.size());
+    if (!outcome.no_certificate.empty())
+      text += fmt::format("proof      none: {}\n", outcome.no_certificate);
     if (outcome.attribution)
       text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
                                    kMaxSites);

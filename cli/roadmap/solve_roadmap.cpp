@@ -41,6 +41,8 @@ std::string check(const CLI::App& app, const SolveArguments& arguments) {
     wrong = "--race needs --threads";
   if (wrong.empty() && arguments.options.explain && arguments.threads.value_or(1) > 1)
     wrong = "--explain needs one thread";
+  if (wrong.empty() && !arguments.proof.empty())
+    wrong = "--proof needs a grid or a graph: there are no certificates for roadmaps yet";
   return wrong;
 }
 

@@ -32,7 +32,7 @@ std::vector<ObstacleId> EncounterClauses::exclude_corridor(const Encounter& e,
   std::vector<ObstacleId> usages;
   for (const Corridors::Exit& exit : {exits->first, exits->second})
     usages.push_back(model_.range(exit.agent, exit.vertex, exit.first, exit.last, writer));
-  write(usages, sat::why::Corridor{e.vertex}, writer);
+  write(usages, sat::why::Corridor{corridors_.is_inside(e.vertex) ? e.vertex : e.to}, writer);
   return usages;
 }
 

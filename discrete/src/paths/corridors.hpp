@@ -19,6 +19,9 @@ class Corridors {
   /// `graph` outlives the object. O(V).
   explicit Corridors(const Graph& graph);
 
+  /// Whether it is one of a chain, and none of its ends.
+  [[nodiscard]] bool is_inside(VertexId v) const { return corridor_of_[v] != kNone; }
+
   /// An agent's use of an end of a corridor in a range of time.
   struct Exit {
     AgentId agent;

@@ -45,7 +45,8 @@ SolveOptions options_of(const Instance& instance, const SolveOptions& options, c
 }  // namespace
 
 void search_side_by_side(const Instance& instance, const SolveOptions& options, const Tuner& tuner,
-                         const std::shared_ptr<ResourceAccount>& account, const Desk& desk) {
+                         const std::shared_ptr<ResourceAccount>& account, const Desk& desk,
+                         ProofDraft& proof) {
   GoalDistancesInTheMaking in_the_making(instance);
   const GetDistances get_distances = [&](LimitMonitor& limits) {
     return options.threads == 1 ? GoalDistances::make(instance, limits)
@@ -58,7 +59,9 @@ void search_side_by_side(const Instance& instance, const SolveOptions& options, 
   };
   const auto search_as = [&](std::size_t worker, const Desk& own) {
     const SolveOptions own_options = options_of(instance, options, tuner, worker);
-    search(instance, own_options, tuner(own_options), own, get_distances);
+    ProofDraft other;
+    search(instance, own_options, tuner(own_options), own, get_distances,
+           worker == 0 ? proof : other);
   };
   const solve::Pace pace{tuner(options).round, kLag};
   solve::Portfolio<Plan, Message>(options, account, pace, role_of, search_as).run(desk);

@@ -5,6 +5,7 @@
 
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/solver.hpp"
+#include "solve/certify.hpp"
 #include "solve/desk.hpp"
 #include "solve/tuning.hpp"
 
@@ -14,7 +15,9 @@ namespace quadrille::discrete {
 /// lower bound with `options`, the second one looks for plans and makes them cheaper, further ones
 /// search with other systems (without options.first_plan the second one, too). They exchange
 /// bounds, plans and drafts; see solve::Portfolio. `account`: that of `desk.limits`.
+/// `proof`: of the first one.
 void search_side_by_side(const Instance& instance, const SolveOptions& options, const Tuner& tuner,
-                         const std::shared_ptr<ResourceAccount>& account, const Desk& desk);
+                         const std::shared_ptr<ResourceAccount>& account, const Desk& desk,
+                         ProofDraft& proof);
 
 }  // namespace quadrille::discrete

@@ -5,6 +5,7 @@
 
 #include "lazy/collision_sites.hpp"
 #include "lazy/lazy_auditor.hpp"
+#include "lazy/lazy_meanings.hpp"
 #include "lazy/lazy_model.hpp"
 #include "lazy/lazy_problem.hpp"
 #include "lazy/lazy_theory.hpp"
@@ -13,6 +14,7 @@
 #include "mdd/lemma_auditor.hpp"
 #include "mdd/mdd_model.hpp"
 #include "mdd/mdd_problem.hpp"
+#include "quadrille/sat/proof_log.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -89,8 +91,13 @@ class LazyRun final : public Run {
       recorder_.emplace(*model_, instance_.num_agents(), observer);
       observer = &*recorder_;
     }
-    engine_ =
-        std::make_unique<sat::Engine>(theory_.get(), engine_options(options_, tuning_, observer));
+    sat::EngineOptions engine_options = discrete::engine_options(options_, tuning_, observer);
+    if (options_.proof) {
+      log_.emplace(observer);
+      engine_options.observer = engine_options.proof = &*log_;
+      engine_options.derivations = &*log_;
+    }
+    engine_ = std::make_unique<sat::Engine>(theory_.get(), engine_options);
     problem_ = std::make_unique<LazyProblem>(*model_, *engine_, *theory_, options_.objective);
     return true;
   }
@@ -104,6 +111,10 @@ class LazyRun final : public Run {
   std::int64_t num_rejected() const override { return 0; }
   std::optional<std::string> complaint() const override {
     return auditor_ ? auditor_->complaint() : std::nullopt;
+  }
+  Result<sat::TrimmedProof> proof() const override {
+    return sat::trim_proof(*log_, LazyMeanings(*model_), engine_->num_variables(),
+                           problem_->lower_bound());
   }
   void explain(std::vector<Raise> raises, Attribution& attribution) const override {
     const sat::Dependence dependence = recorder_->dependence(true);
@@ -120,11 +131,16 @@ class LazyRun final : public Run {
   std::unique_ptr<LazyTheory> theory_;
   std::unique_ptr<LazyAuditor> auditor_;
   std::optional<lazy::Recorder> recorder_;
+  std::optional<sat::ProofLog> log_;
   std::unique_ptr<sat::Engine> engine_;
   std::unique_ptr<LazyProblem> problem_;
 };
 
 }  // namespace
+
+Result<sat::TrimmedProof> Run::proof() const {
+  return Error{ErrorCode::internal, "no certificate: the system keeps no proof", {}};
+}
 
 std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options,
                               const Tuning& tuning) {

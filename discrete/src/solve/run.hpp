@@ -9,8 +9,10 @@
 
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/core/limits.hpp"
+#include "quadrille/core/result.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/solver.hpp"
+#include "quadrille/sat/certificate.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/sat/engine.hpp"
 #include "solve/tuning.hpp"
@@ -34,6 +36,8 @@ class Run {
   [[nodiscard]] virtual std::int64_t num_checks() const = 0;
   [[nodiscard]] virtual std::int64_t num_rejected() const = 0;
   [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
+  /// What its lower bound rests on. Requires SolveOptions::proof. Errors: internal.
+  [[nodiscard]] virtual Result<sat::TrimmedProof> proof() const;
   /// Adds the raises, with their bystanders, and the sites. Requires SolveOptions::explain.
   virtual void explain(std::vector<Raise> /*raises*/, Attribution& /*attribution*/) const {}
 };

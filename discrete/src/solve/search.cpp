@@ -24,11 +24,12 @@ namespace {
 class Search final : private sat::YieldPoint {
  public:
   Search(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
-         const Desk& desk, const GetDistances& get_distances)
+         const Desk& desk, const GetDistances& get_distances, ProofDraft& proof)
       : instance_(instance),
         options_(options),
         tuning_(tuning),
         get_distances_(get_distances),
+        proof_(proof),
         limits_(desk.limits),
         known_(desk.known),
         pulse_(desk.pulse),
@@ -189,6 +190,14 @@ class Search final : private sat::YieldPoint {
     return sat::search_upwards(context);
   }
 
+  void keep_proof(const Run& run) {
+    auto proof = run.proof();
+    if (proof)
+      proof_.proof = *std::move(proof);
+    else
+      proof_.fault = proof.error().message;
+  }
+
   void search_costs(const std::shared_ptr<const GoalDistances>& distances) {
     enter(Phase::search);
     const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
@@ -203,6 +212,7 @@ class Search final : private sat::YieldPoint {
       end = search_costs_of(*run, options_.explain ? &raises : nullptr);
     } catch (const LimitReached&) {  // the engine is left in order, and what was raised is proved
     }
+    if (options_.proof) keep_proof(*run);
     if (known_.attribution) run->explain(std::move(raises), *known_.attribution);
     run->engine().add_statistics(known_.statistics);
     known_.statistics.checks = run->num_checks();
@@ -223,6 +233,7 @@ class Search final : private sat::YieldPoint {
   const SolveOptions& options_;
   const Tuning tuning_;
   const GetDistances& get_distances_;
+  ProofDraft& proof_;
   LimitMonitor& limits_;
   Knowledge& known_;
   solve::Pulse<Plan>& pulse_;
@@ -243,8 +254,8 @@ class Search final : private sat::YieldPoint {
 }  // namespace
 
 void search(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
-            const Desk& desk, const GetDistances& get_distances) {
-  Search(instance, options, tuning, desk, get_distances).run();
+            const Desk& desk, const GetDistances& get_distances, ProofDraft& proof) {
+  Search(instance, options, tuning, desk, get_distances, proof).run();
 }
 
 }  // namespace quadrille::discrete

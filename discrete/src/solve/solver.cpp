@@ -12,6 +12,7 @@
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "quadrille/solve/frame.hpp"
+#include "solve/certify.hpp"
 #include "solve/portfolio.hpp"
 
 namespace quadrille::discrete {
@@ -41,6 +42,13 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return refuse(ErrorCode::out_of_range,
                   "the system " + std::string(to_string(options.system)) +
                       " knows one goal for each agent; sets of several need the system dpll");
+  if (options.proof && options.system != System::dpll)
+    return refuse(ErrorCode::out_of_range, "a certificate needs the system dpll");
+  if (options.proof && options.threads > 1)
+    return refuse(ErrorCode::out_of_range, "a certificate needs one thread");
+  if (options.proof && instance.has_goal_sets())
+    return refuse(ErrorCode::out_of_range,
+                  "a certificate knows one goal for each agent, not sets of several");
   return std::nullopt;
 }
 
@@ -82,13 +90,35 @@ class Domain {
       return;
     }
     solve::Exchange<Message> alone;
-    search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone});
+    search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone}, proof_);
+    if (known.has_floor) floor_ = known.floor;
+  }
+
+  /// Into the outcome, which is complete otherwise.
+  void certify(SolveOutcome& outcome) {
+    if (outcome.status == Status::infeasible) {
+      outcome.no_certificate = "infeasible answers have none yet";
+    } else if (outcome.internal_error || !proof_.fault.empty()) {
+      outcome.no_certificate =
+          proof_.fault.empty() ? outcome.internal_error->message : std::move(proof_.fault);
+    } else {
+      if (!proof_.proof) proof_.proof = free_proof(floor_.value_or(bound_without_claim(outcome)));
+      outcome.certificate =
+          discrete::certify(instance_, options_.objective, *proof_.proof, outcome.plan);
+    }
   }
 
  private:
+  /// Of a solve that a limit ended before the search began.
+  [[nodiscard]] Cost bound_without_claim(const SolveOutcome& outcome) const {
+    return options_.known_lower_bound ? 0 : outcome.lower_bound;
+  }
+
   const Instance& instance_;
   const SolveOptions& options_;
   const Tuner& tuner_;
+  ProofDraft proof_;
+  std::optional<Cost> floor_;  // what agents cost when each is alone
 };
 
 }  // namespace
@@ -97,7 +127,9 @@ Result<SolveOutcome> solve_tuned(const Instance& instance, const SolveOptions& o
                                  const Tuner& tuner) {
   if (auto error = check_options(instance, options)) return *std::move(error);
   Domain domain(instance, options, tuner);
-  return solve::Frame<Domain>(domain, options).solve();
+  auto outcome = solve::Frame<Domain>(domain, options).solve();
+  if (outcome && options.proof) domain.certify(outcome.value());
+  return outcome;
 }
 
 Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {

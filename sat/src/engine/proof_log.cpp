@@ -218,6 +218,12 @@ int ProofLog::add_counter() {
 
 void ProofLog::add_level(int counter, int sum) {
   counters_[static_cast<std::size_t>(counter) - 1].push_back(sum);
+  counter_of_[sum] = counter;
+}
+
+int ProofLog::counter_of(int sum) const {
+  const auto found = counter_of_.find(sum);
+  return found == counter_of_.end() ? 0 : found->second;
 }
 
 const ProofLog::Output* ProofLog::output_of(int variable) const {

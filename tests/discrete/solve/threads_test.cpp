@@ -110,11 +110,13 @@ struct Found {
 
 Found search_beside(Prompter& prompter, const Instance& instance, const SolveOptions& options) {
   Found found;
+  ProofDraft proof;
   LimitMonitor limits(options.limits);
   solve::Pulse<Plan> pulse(options, limits, found.known, true);
   solve::run_guarded(found.known, limits, [&] {
-    search(instance, options, tuner_for(instance)(options), {limits, found.known, pulse, prompter},
-           [&](LimitMonitor& own) { return GoalDistances::make(instance, own); });
+    search(
+        instance, options, tuner_for(instance)(options), {limits, found.known, pulse, prompter},
+        [&](LimitMonitor& own) { return GoalDistances::make(instance, own); }, proof);
   });
   found.settled = settle(found.known, options.gap_percent);
   return found;

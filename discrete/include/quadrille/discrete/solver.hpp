@@ -101,14 +101,30 @@ struct SolveOptions : Request<Plan> {
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
   bool first_plan = true;
+  /// Keep all that the lower bound follows from, for SolveOutcome::certificate. For dpll, with one
+  /// thread. The search is the same. Takes 1 to 3 MB of memory per second.
+  bool proof = false;
+};
+
+/// That no plan costs less than `claim`, in a form that the program quadrille-check checks; with the
+/// plan, if there is one. docs/certificates.md.
+struct Certificate {
+  Cost claim = 0;
+  std::string bytes;  ///< A file's content, binary.
 };
 
 /// Infeasible: see Feasibility. `explain` is for dpll.
-using SolveOutcome = Outcome<Plan>;
+struct SolveOutcome : Outcome<Plan> {
+  /// With `proof`, for every status but infeasible. Its claim is the lower bound, or less where that
+  /// rests on `known_lower_bound`, or where memory ran out in the search.
+  std::optional<Certificate> certificate;
+  /// With `proof`: why there is none. Else empty.
+  std::string no_certificate;
+};
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range
-/// (an option, `explain` with what it is not for, more vertices than kMaxVertices, or
+/// (an option, `explain` or `proof` with what it is not for, more vertices than kMaxVertices, or
 /// `known_lower_bound` if a plan is found that costs less, or given), invalid_plan (`initial_plan`
 /// or `debug.known_plan` is not a plan of the instance; with the first violation).
 ///

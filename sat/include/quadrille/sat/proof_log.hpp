@@ -137,6 +137,8 @@ class ProofLog final : public PassingObserver, public DerivationObserver {
   [[nodiscard]] const std::vector<int>& levels(int counter) const {
     return counters_[static_cast<std::size_t>(counter) - 1];
   }
+  /// The counter that the sum is a level of; 0: of none.
+  [[nodiscard]] int counter_of(int sum) const;
   /// Null: not an output of a sum.
   [[nodiscard]] const Output* output_of(int variable) const;
   /// Invalid: it was never asked for.
@@ -182,6 +184,7 @@ class ProofLog final : public PassingObserver, public DerivationObserver {
   std::map<std::vector<int>, Index> refuted_;                // by sorted literals; the last one
   std::vector<Sum> sums_;
   std::vector<std::vector<int>> counters_;
+  std::map<int, int> counter_of_;  // by sum
   std::map<int, Output> outputs_;  // by variable
   std::map<std::tuple<int, std::size_t, int>, Lit> literals_;
   std::vector<Core> cores_;

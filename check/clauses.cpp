@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "clauses.hpp"
+
+#include <cstdlib>
+#include <utility>
+
+namespace quadrille_check {
+
+void Clauses::add(std::span<const Int> clause) {
+  where_.push_back({literals_.size(), clause.size(), true});
+  for (const Int lit : clause) literals_.push_back(static_cast<std::int32_t>(lit));
+}
+
+const Clauses::Place& Clauses::place(Int number) const {
+  require(number > 0 && number <= last(), "no such clause");
+  const Place& found = where_[static_cast<std::size_t>(number)];
+  require(found.is_alive, "the clause was deleted");
+  return found;
+}
+
+std::vector<Int> Clauses::operator[](Int number) const {
+  const Place& at = place(number);
+  const auto begin = literals_.begin() + static_cast<std::ptrdiff_t>(at.begin);
+  return {begin, begin + static_cast<std::ptrdiff_t>(at.size)};
+}
+
+void Clauses::remove(Int number) {
+  num_dead_ += place(number).size;
+  where_[static_cast<std::size_t>(number)].is_alive = false;
+  tidy();
+}
+
+void Clauses::tidy() {
+  constexpr std::size_t kFew = 1 << 20;
+  if (num_dead_ < kFew || 2 * num_dead_ < literals_.size()) return;
+  std::size_t end = 0;
+  for (Place& at : where_) {
+    if (!at.is_alive) continue;
+    for (std::size_t k = 0; k < at.size; ++k) literals_[end + k] = literals_[at.begin + k];
+    at.begin = end;
+    end += at.size;
+  }
+  literals_.resize(end);
+  num_dead_ = 0;
+}
+
+int Clauses::value(std::int32_t lit) const {
+  const int known = values_[static_cast<std::size_t>(std::abs(lit))];
+  return lit > 0 ? known : -known;
+}
+
+void Clauses::make_true(std::int32_t lit) {
+  values_[static_cast<std::size_t>(std::abs(lit))] = lit > 0 ? 1 : -1;
+  trail_.push_back(lit);
+}
+
+bool Clauses::implied(std::span<const Int> clause, std::span<const Int> hints, Int num_variables) {
+  for (const std::int32_t lit : std::exchange(trail_, {}))
+    values_[static_cast<std::size_t>(std::abs(lit))] = 0;
+  if (values_.size() <= static_cast<std::size_t>(num_variables))
+    values_.resize(static_cast<std::size_t>(num_variables) + 1);
+  for (const Int wide : clause) {
+    const auto lit = static_cast<std::int32_t>(wide);
+    if (value(lit) > 0) return true;  // with its opposite
+    if (value(lit) == 0) make_true(-lit);
+  }
+  for (const Int hint : hints) {
+    require(hint > 0 && hint <= last(), "a hint to a clause that is not there");
+    const Place& at = place(last() + 1 - hint);
+    std::int32_t open = 0;
+    bool is_useless = false;
+    for (std::size_t k = 0; k < at.size && !is_useless; ++k) {
+      const std::int32_t lit = literals_[at.begin + k];
+      const int known = value(lit);
+      is_useless = known > 0 || (known == 0 && open != 0 && open != lit);
+      if (known == 0) open = lit;
+    }
+    if (is_useless) continue;
+    if (open == 0) return true;
+    make_true(open);
+  }
+  return false;
+}
+
+}  // namespace quadrille_check

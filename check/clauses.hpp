@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "basics.hpp"
+
+namespace quadrille_check {
+
+/// Clauses that are true in every plan, by their numbers, from 1.
+class Clauses {
+ public:
+  void add(std::span<const Int> clause);
+  /// Throw Rejected if there is no such clause any more.
+  [[nodiscard]] std::vector<Int> operator[](Int number) const;
+  void remove(Int number);
+  /// The number of the last one.
+  [[nodiscard]] Int last() const { return static_cast<Int>(where_.size()) - 1; }
+
+  /// Whether the clause follows by unit propagation: with its literals false, the hints, in their
+  /// order, each imply one literal more, until one is false. Hints that imply nothing are passed
+  /// over. `hints`: how many clauses before the next one they are. Literals are of variables that
+  /// `num_variables` does not exceed.
+  [[nodiscard]] bool implied(std::span<const Int> clause, std::span<const Int> hints,
+                             Int num_variables);
+
+ private:
+  struct Place {
+    std::size_t begin = 0, size = 0;
+    bool is_alive = false;
+  };
+  [[nodiscard]] const Place& place(Int number) const;
+  [[nodiscard]] int value(std::int32_t lit) const;
+  void make_true(std::int32_t lit);
+  /// Forgets clauses that were removed, when they are more than half.
+  void tidy();
+
+  std::vector<std::int32_t> literals_;
+  std::vector<Place> where_ = std::vector<Place>(1);
+  std::size_t num_dead_ = 0;  // literals
+  std::vector<signed char> values_;
+  std::vector<std::int32_t> trail_;
+};
+
+}  // namespace quadrille_check

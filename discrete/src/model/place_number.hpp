@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "quadrille/discrete/graph.hpp"
+
+namespace quadrille::discrete {
+
+/// How certificates call a vertex: on grids the number of its cell, row by row, blocked ones
+/// counted; on other graphs the vertex's own number.
+[[nodiscard]] inline std::int64_t place_number(const Graph& graph, VertexId v) {
+  if (!graph.layout()) return static_cast<std::int64_t>(v.value());
+  const Cell cell = graph.layout()->cell_of(v);
+  return std::int64_t{cell.y} * graph.layout()->width() + cell.x;
+}
+
+}  // namespace quadrille::discrete
