@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// Certificates of small instances: each is verified, proves what the solver says, and cannot be
+// broken in a way that proves more than what is true.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "check/support.hpp"
+#include "quadrille/discrete/solver.hpp"
+#include "solve/tuning.hpp"
+#include "support/environment.hpp"
+#include "support/generators.hpp"
+#include "support/joint_search.hpp"
+
+namespace quadrille::discrete {
+namespace {
+
+using quadrille::support::Random;
+using quadrille::support::scaled;
+using quadrille_check::Int;
+using quadrille_check::Record;
+using quadrille_check::support::Answer;
+using quadrille_check::support::ask;
+using quadrille_check::support::checked;
+using quadrille_check::support::Interpretation;
+using quadrille_check::support::places;
+using quadrille_check::support::records_of;
+using quadrille_check::support::text_of;
+using support::joint_search;
+
+/// Passes, retired counters, searches from above and candidates occur on small instances, too.
+struct Pace {
+  std::int64_t first_turn = 0;  ///< 0: as usual.
+  Cost candidates_within = 8;
+};
+
+SolveOutcome solve_at(const Instance& instance, const SolveOptions& options, const Pace& pace) {
+  const Tuner usual = tuner_for(instance);
+  return solve_tuned(instance, options,
+                     [&](const SolveOptions& of_one) {
+                       Tuning tuning = usual(of_one);
+                       if (pace.first_turn == 0) return tuning;
+                       tuning.cores.first_turn = pace.first_turn;
+                       tuning.cores.head_start = 1;
+                       tuning.cores.candidates_within = pace.candidates_within;
+                       return tuning;
+                     })
+      .value();
+}
+
+struct Case {
+  Instance instance;
+  SolveOptions options;
+  Pace pace;
+};
+
+Instance draw_instance(Random& random) {
+  if (random.percent(25)) return support::random_graph(random, 9, 4);
+  return support::random_grid(random, {2, 5, 40, 2, 5});
+}
+
+Case draw(std::uint64_t seed) {
+  Random random(seed);
+  Case drawn{draw_instance(random), {}, {}};
+  drawn.options.proof = true;
+  drawn.options.seed = static_cast<std::uint32_t>(random.below(3));
+  if (random.percent(25)) drawn.options.objective = Objective::makespan;
+  if (random.percent(20)) drawn.options.cost_search = CostSearch::iterative;
+  drawn.options.first_plan = random.percent(70);
+  drawn.options.lazy.forbid_first = random.percent(20);
+  if (random.percent(30)) drawn.options.lazy.chronological = random.percent(50);
+  if (random.percent(60))
+    drawn.pace = {static_cast<std::int64_t>(random.between(1, 60)),
+                  static_cast<Cost>(random.pick(std::vector<int>{0, 3, 20}))};
+  return drawn;
+}
+
+/// Of the certificate's clauses, those that are false in a plan.
+std::string find_false_clause(const quadrille_check::Instance& instance,
+                              const std::string& certificate,
+                              const std::vector<std::vector<int>>& paths) {
+  quadrille_check::Checker checker(instance);
+  const Interpretation plan(checker.meanings(), paths);
+  Int clause = 0;
+  for (const Record& record : records_of(certificate)) {
+    checker.check(record);
+    if (record.tag != 'a' && record.tag != 'l') continue;
+    ++clause;
+    if (!plan.is_true(record.tag == 'a' ? record.literals() : record.derived()))
+      return record.text(clause);
+  }
+  return "";
+}
+
+std::vector<std::vector<int>> paths_of(const Instance& instance, const Plan& plan) {
+  std::vector<std::vector<int>> paths;
+  for (const AgentId i : instance.agent_ids()) paths.push_back(places(instance, plan.paths[i]));
+  return paths;
+}
+
+TEST(Certificate, ProvesEachAnswerOnRandomInstances) {
+  std::size_t proved = 0, with_excess = 0, with_levels = 0;
+  for (std::uint64_t seed = 0; seed < scaled(600); ++seed) {
+    SCOPED_TRACE(seed);
+    const Case c = draw(seed);
+    const SolveOutcome outcome = solve_at(c.instance, c.options, c.pace);
+    if (outcome.status == Status::infeasible) {
+      EXPECT_FALSE(outcome.certificate);
+      EXPECT_NE(outcome.no_certificate, "");
+      continue;
+    }
+    ASSERT_EQ(outcome.status, Status::optimal);
+    ASSERT_TRUE(outcome.certificate) << outcome.no_certificate;
+    const auto instance = checked(c.instance);
+    const Answer answer = ask(instance, outcome.certificate->bytes);
+    ASSERT_TRUE(answer.is_verified) << answer.reason;
+    EXPECT_EQ(answer.verdict.bound, *outcome.cost);
+    EXPECT_EQ(answer.verdict.cost, *outcome.cost);
+    EXPECT_EQ(outcome.certificate->claim, *outcome.cost);
+    const auto oracle = joint_search(c.instance, c.options.objective, 200'000);
+    if (oracle.status == Status::optimal) {
+      ASSERT_EQ(oracle.cost, answer.verdict.bound);
+      EXPECT_EQ(find_false_clause(instance, outcome.certificate->bytes,
+                                  paths_of(c.instance, oracle.plan)),
+                "");
+    }
+    ++proved;
+    for (const Record& record : records_of(outcome.certificate->bytes)) {
+      with_excess += record.tag == 'e' ? 1 : 0;
+      with_levels += record.tag == 'n' && record.values[1] == 4 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(proved, 0U);
+  if (scaled(100) < 100) return;
+  EXPECT_GT(with_excess, 0U);  // claims from above
+  EXPECT_GT(with_levels, 0U);  // of cores that raise the bound by more than one
+}
+
+TEST(Certificate, LeavesTheSearchAsItIsAndIsTheSameEachTime) {
+  for (std::uint64_t seed = 1000; seed < 1000 + scaled(150); ++seed) {
+    SCOPED_TRACE(seed);
+    const Case c = draw(seed);
+    SolveOptions without = c.options;
+    without.proof = false;
+    const SolveOutcome a = solve_at(c.instance, c.options, c.pace);
+    const SolveOutcome b = solve_at(c.instance, without, c.pace);
+    const SolveOutcome again = solve_at(c.instance, c.options, c.pace);
+    EXPECT_FALSE(b.certificate);
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.cost, b.cost);
+    EXPECT_EQ(a.lower_bound, b.lower_bound);
+    EXPECT_EQ(a.statistics.conflicts, b.statistics.conflicts);
+    EXPECT_EQ(a.statistics.decisions, b.statistics.decisions);
+    EXPECT_EQ(a.statistics.sat_calls, b.statistics.sat_calls);
+    EXPECT_EQ(a.statistics.clauses, b.statistics.clauses);
+    if (a.plan) {
+      EXPECT_EQ(a.plan->paths, b.plan->paths);
+      EXPECT_EQ(a.certificate->bytes, again.certificate->bytes);
+    }
+  }
+}
+
+TEST(Certificate, ProvesTheBoundThatALimitLeaves) {
+  std::size_t below = 0;
+  for (std::uint64_t seed = 2000; seed < 2000 + scaled(60); ++seed) {
+    const Case c = draw(seed);
+    for (const std::int64_t conflicts : {0, 1, 2, 3, 5, 8, 13, 21}) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", conflicts " << conflicts);
+      SolveOptions options = c.options;
+      options.limits.conflicts = conflicts;
+      const SolveOutcome outcome = solve_at(c.instance, options, c.pace);
+      if (outcome.status == Status::infeasible) break;
+      ASSERT_TRUE(outcome.certificate) << outcome.no_certificate;
+      const Answer answer = ask(checked(c.instance), outcome.certificate->bytes);
+      ASSERT_TRUE(answer.is_verified) << answer.reason;
+      EXPECT_EQ(answer.verdict.bound, outcome.lower_bound);
+      EXPECT_EQ(answer.verdict.cost.has_value(), outcome.plan.has_value());
+      below += outcome.status == Status::optimal ? 0 : 1;
+    }
+  }
+  EXPECT_GT(below, 0U);
+}
+
+TEST(Certificate, DoesNotProveWhatTheUserClaims) {
+  const Case c = draw(3);
+  SolveOptions options = c.options;
+  options.objective = Objective::sum_of_costs;
+  options.limits.conflicts = 0;
+  const SolveOutcome plain = solve_at(c.instance, options, {});
+  ASSERT_NE(plain.status, Status::infeasible);
+  options.known_lower_bound = plain.lower_bound + 1;
+  const auto claimed = solve_tuned(c.instance, options, tuner_for(c.instance));
+  if (!claimed) GTEST_SKIP() << "the claim is refuted";
+  EXPECT_LE(claimed->certificate->claim, plain.lower_bound);
+  EXPECT_TRUE(ask(checked(c.instance), claimed->certificate->bytes).is_verified);
+}
+
+TEST(Certificate, IsRefusedWhereThereIsNone) {
+  const Case c = draw(0);
+  SolveOptions options;
+  options.proof = true;
+  options.system = System::dpll_mdd;
+  EXPECT_EQ(solve(c.instance, options).error().code, ErrorCode::out_of_range);
+  options.system = System::dpll;
+  options.threads = 2;
+  EXPECT_EQ(solve(c.instance, options).error().code, ErrorCode::out_of_range);
+}
+
+// ---- mutations ----------------------------------------------------------------------------------
+
+/// One change to a random record, of a kind that might matter.
+void mutate(std::vector<Record>& records, Random& random) {
+  const std::size_t at = random.below(records.size());
+  Record& record = records[at];
+  switch (random.below(7)) {
+    case 0:
+      records.erase(records.begin() + static_cast<std::ptrdiff_t>(at));
+      return;
+    case 1:
+      records.insert(records.begin() + static_cast<std::ptrdiff_t>(random.below(records.size())),
+                     Record(record));
+      return;
+    case 2:
+      std::swap(records[at], records[random.below(records.size())]);
+      return;
+    case 3:
+      if (!record.values.empty())
+        record.values.erase(record.values.begin() +
+                            static_cast<std::ptrdiff_t>(random.below(record.values.size())));
+      return;
+    case 4:
+      if (!record.values.empty()) {
+        Int& value = record.values[random.below(record.values.size())];
+        value = -value;
+      }
+      return;
+    case 5:
+      record.tag = records[random.below(records.size())].tag;
+      return;
+    default:
+      if (!record.values.empty())
+        record.values[random.below(record.values.size())] +=
+            random.percent(50) ? 1 : -static_cast<Int>(random.between(1, 3));
+  }
+}
+
+/// As a file in the binary form, which may say what the text form cannot.
+std::string bytes_of(const std::vector<Record>& records) {
+  std::string bytes = "qcert 1 bin\n";
+  const auto put = [&](std::uint64_t value) {
+    for (; value >= 128; value >>= 7) bytes += static_cast<char>(value | 128);
+    bytes += static_cast<char>(value);
+  };
+  for (const Record& record : records) {
+    bytes += record.tag;
+    put(record.values.size());
+    for (const Int value : record.values)
+      put(static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63));
+  }
+  return bytes;
+}
+
+TEST(Certificate, CannotBeBrokenToProveTooMuch) {
+  std::size_t accepted = 0, tried = 0;
+  for (std::uint64_t seed = 3000; seed < 3000 + scaled(120); ++seed) {
+    SCOPED_TRACE(seed);
+    const Case c = draw(seed);
+    const SolveOutcome outcome = solve_at(c.instance, c.options, c.pace);
+    if (!outcome.certificate) continue;
+    const auto instance = checked(c.instance);
+    const auto records = records_of(outcome.certificate->bytes);
+    ASSERT_EQ(bytes_of(records), outcome.certificate->bytes);
+    ASSERT_TRUE(ask(instance, text_of(records)).is_verified);
+    Random random(seed);
+    for (int k = 0; k < 150; ++k) {
+      std::vector<Record> broken = records;
+      for (std::size_t n = random.between(1, 3); n > 0 && !broken.empty(); --n)
+        mutate(broken, random);
+      const Answer answer = ask(instance, bytes_of(broken));
+      ++tried;
+      if (!answer.is_verified) continue;
+      ++accepted;
+      const Objective about =
+          answer.verdict.is_makespan ? Objective::makespan : Objective::sum_of_costs;
+      // Of the other objective the plan is as good as any.
+      const Cost most = about == c.options.objective ? *outcome.cost : outcome.plan->cost(about);
+      ASSERT_LE(answer.verdict.bound, most) << text_of(broken);
+    }
+  }
+  EXPECT_LT(accepted, tried);
+}
+
+TEST(Certificate, IsRejectedWithoutWhatItNeeds) {
+  for (std::uint64_t seed = 5000; seed < 5000 + scaled(60); ++seed) {
+    SCOPED_TRACE(seed);
+    const Case c = draw(seed);
+    const SolveOutcome outcome = solve_at(c.instance, c.options, c.pace);
+    if (!outcome.certificate) continue;
+    const auto instance = checked(c.instance);
+    const auto records = records_of(outcome.certificate->bytes);
+    for (std::size_t at = 0; at < records.size(); ++at) {
+      std::vector<Record> broken = records;
+      if (broken[at].tag == 'q') {
+        ++broken[at].values[0];
+        EXPECT_FALSE(ask(instance, bytes_of(broken)).is_verified) << "a larger claim";
+      }
+      if (broken[at].tag == 'k' && broken[at].values[1] != -1) {
+        broken.insert(broken.begin() + static_cast<std::ptrdiff_t>(at), Record(broken[at]));
+        EXPECT_FALSE(ask(instance, bytes_of(broken)).is_verified) << "a core that is paid twice";
+      }
+      if (broken[at].tag == 'a') {
+        // Without what is true in the plan it excludes a plan.
+        quadrille_check::Checker checker(instance);
+        for (std::size_t k = 0; k < at; ++k) checker.check(records[k]);
+        const Interpretation plan(checker.meanings(), paths_of(c.instance, *outcome.plan));
+        Record& axiom = broken[at];
+        const auto first = axiom.values.begin() + 2 + static_cast<std::ptrdiff_t>(axiom.values[1]);
+        axiom.values.erase(std::remove_if(first, axiom.values.end(),
+                                          [&](Int lit) { return plan.is_true(lit); }),
+                           axiom.values.end());
+        EXPECT_THROW(checker.check(axiom), quadrille_check::Rejected) << axiom.text(0);
+      }
+    }
+    const std::string& whole = outcome.certificate->bytes;
+    Random random(seed);
+    for (int k = 0; k < 20; ++k) {
+      const Answer cut = ask(instance, whole.substr(0, random.below(whole.size())));
+      EXPECT_FALSE(cut.is_verified && cut.verdict.cost == *outcome.cost);
+      std::string flipped = whole;
+      flipped[random.below(whole.size())] ^= static_cast<char>(1 << random.below(8));
+      const Answer answer = ask(instance, flipped);
+      EXPECT_TRUE(!answer.is_verified || answer.verdict.bound <= *outcome.cost ||
+                  answer.verdict.is_makespan != (c.options.objective == Objective::makespan));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quadrille::discrete

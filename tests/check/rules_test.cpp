@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: MIT
+// The checker's rules, with neighbours that are false: against enumeration where that is possible.
+#include "rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "check/support.hpp"
+#include "support/environment.hpp"
+#include "support/random.hpp"
+
+namespace quadrille_check::support {
+namespace {
+
+using quadrille::support::Random;
+using quadrille::support::scaled;
+
+/// A grid of letters, "." and "@", rows apart by "/".
+Instance grid(const std::string& rows, const std::vector<Instance::Agent>& agents) {
+  std::vector<bool> passable;
+  std::istringstream in(rows);
+  int width = 0, height = 0;
+  for (std::string row; std::getline(in, row, '/'); ++height) {
+    width = static_cast<int>(row.size());
+    for (const char c : row) passable.push_back(c == '.');
+  }
+  Instance made = Instance::on_grid(width, height, passable);
+  for (const auto& agent : agents) made.add_agent(agent);
+  return made;
+}
+
+/// Why the records, without a head, are rejected; empty if they are not.
+std::string rejection(const Instance& instance, const std::string& lines) {
+  const std::string head =
+      "qcert 1 text\ni " + std::to_string(instance.agents().size()) + " 0\n";
+  try {
+    Checker checker(instance);
+    RecordReader reader(head + lines);
+    for (Record record; reader.next(record);) checker.check(record);
+    return "";
+  } catch (const Rejected& rejected) {
+    return rejected.what();
+  }
+}
+bool accepts(const Instance& instance, const std::string& lines) {
+  return rejection(instance, lines).empty();
+}
+
+// ---- rule 1 -------------------------------------------------------------------------------------
+
+// Agent 0 from 0 to 4 along a lane, agent 1 beside it.
+const Instance kLane = grid("...../.....", {{0, 4}, {5, 9}});
+
+TEST(Rules, OneAgentCostsMoreOrIsSomewhere) {
+  const std::string lane = "c 1 0 4\nf 2 0 0 2 2\nf 3 0 0 2 3\nf 4 0 0 7 3\nc 5 0 5\nf 6 0 1 1 2 1\n";
+  EXPECT_TRUE(accepts(kLane, lane + "f 7 0 2 5 1 -1\na 1 0 | -1 -2 -7\n"));
+  EXPECT_FALSE(accepts(kLane, lane + "a 1 0 | -5 -2\n"));                    // it may wait
+  EXPECT_FALSE(accepts(kLane, lane + "a 1 0 | -1 -3\n"));                    // in 2 at 2, not at 3
+  EXPECT_FALSE(accepts(kLane, lane + "a 1 1 | -1 -2\n"));                    // about the other agent
+  EXPECT_FALSE(accepts(kLane, lane + "a 1 0 | -2\n"));                       // at any cost
+  EXPECT_FALSE(accepts(kLane, lane + "a 1 0 | -5 1\n"));                     // it may cost 5
+  EXPECT_TRUE(accepts(kLane, lane + "a 1 0 | 5 -1\n"));                      // 5 or more than 4
+  EXPECT_FALSE(accepts(kLane, lane + "a 1 0 | 1 2\n"));
+}
+
+TEST(Rules, OneAgentKeepsOffTheGoalsOfThoseWhoRest) {
+  // A lane with one way: agent 0 has to pass the goal of agent 1.
+  const Instance lane = grid(".....", {{0, 4}, {1, 2}});
+  EXPECT_TRUE(accepts(lane, "c 1 0 4\nc 2 1 1\na 1 0 | -1 -2\n"));
+  EXPECT_TRUE(accepts(lane, "c 1 0 4\nc 2 1 2\na 1 0 | -1 -2\n"));   // both would be there at 2
+  EXPECT_FALSE(accepts(lane, "c 1 0 4\nc 2 1 3\na 1 0 | -1 -2\n"));  // it has passed by then
+  EXPECT_FALSE(accepts(lane, "c 1 0 4\nc 2 1 1\na 1 0 | -1 2\n"));
+}
+
+/// All paths of agent 0 that are `steps` long.
+void for_each_path(const Instance& instance, std::vector<int>& path, std::size_t steps,
+                   const std::function<void(const std::vector<int>&)>& visit) {
+  if (path.size() == steps + 1) return visit(path);
+  const int here = path.back();
+  const auto go = [&](int next) {
+    path.push_back(next);
+    for_each_path(instance, path, steps, visit);
+    path.pop_back();
+  };
+  go(here);
+  for (const int next : instance.neighbours(here)) go(next);
+}
+
+std::string random_literal_of(Random& random, int variable, int steps, int places) {
+  const auto time = [&] { return std::to_string(random.below(static_cast<std::size_t>(steps))); };
+  const auto place = [&] { return std::to_string(random.below(static_cast<std::size_t>(places))); };
+  const std::string name = std::to_string(variable);
+  switch (random.below(6)) {
+    case 0:
+      return "c " + name + " 0 " + time() + "\n";
+    case 1:
+      return "c " + name + " 1 " + time() + "\n";
+    case 2:
+      return "x " + name + " 0 " + place() + " " + time() + "\n";
+    case 3:
+      return "f " + name + " 0 3 " + place() + " " + time() + " " + place() + " " + time() + "\n";
+    case 4:
+      return "f " + name + " 0 2 " + place() + " " + std::to_string(random.below(3)) + " " +
+             (random.percent(50) ? "-1" : std::to_string(2 + random.below(4))) + "\n";
+    default:
+      return "f " + name + " 0 0 " + place() + " " + time() + "\n";
+  }
+}
+
+// A clause that is accepted is true for all paths; most that are true for all are accepted.
+TEST(Rules, OneAgentAgreesWithEnumeration) {
+  constexpr int kSteps = 6;
+  int num_accepted = 0, num_missed = 0;
+  for (std::uint64_t seed = 0; seed < scaled(400); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Instance instance = random.percent(50) ? grid("../..", {{0, 3}, {1, 2}})
+                                                 : grid(".../.@.", {{0, 2}, {2, 3}});
+    Checker checker(instance);
+    checker.check({'i', {2, 0}});
+    std::string text;
+    constexpr int kVariables = 6;
+    for (int v = 1; v <= kVariables; ++v) {
+      std::string line;
+      do line = random_literal_of(random, v, kSteps, 4);
+      while (line.find(" 4 ") != std::string::npos);  // blocked in the second one
+      for (const Record& record : records_of("qcert 1 text\n" + line)) checker.check(record);
+      text += line;
+    }
+    for (int trial = 0; trial < 8; ++trial) {
+      Ints clause;
+      for (int v = 1; v <= kVariables; ++v)
+        if (random.percent(60)) clause.push_back(random.percent(85) ? -v : v);
+      bool is_true = true;
+      std::vector<int> path{instance.agents()[0].start};
+      for_each_path(instance, path, kSteps, [&](const std::vector<int>& whole) {
+        if (!is_true || whole.back() != instance.agents()[0].goal) return;
+        const Interpretation plan(checker.meanings(), {whole, {instance.agents()[1].goal}});
+        const auto may_be_false = [&](Int lit) {
+          const Variable& x = checker.meanings().variable(lit);
+          if (x.agent == 0) return !plan.is_true(lit);
+          if (lit > 0) return true;  // the other one may come late
+          for (std::size_t t = static_cast<std::size_t>(x.number); t <= kSteps; ++t)
+            if (whole[t] == instance.agents()[1].goal) return false;
+          return true;
+        };
+        is_true = !std::all_of(clause.begin(), clause.end(), may_be_false);
+      });
+      Distances distances(instance);
+      const bool is_accepted =
+          OneAgent(instance, checker.meanings(), distances).holds(0, clause);
+      // Paths that cost more than the steps were not looked at.
+      const bool has_cap = std::any_of(clause.begin(), clause.end(), [&](Int lit) {
+        const Variable& x = checker.meanings().variable(lit);
+        return lit < 0 && x.kind == Variable::Kind::costs_at_most && x.agent == 0;
+      });
+      if (is_accepted) {
+        ASSERT_TRUE(is_true) << text;
+      }
+      num_accepted += is_accepted ? 1 : 0;
+      num_missed += is_true && has_cap && !is_accepted ? 1 : 0;
+    }
+  }
+  EXPECT_GT(num_accepted, 0);
+  EXPECT_LE(num_missed, num_accepted / 5);  // stretches are looked at one by one
+}
+
+// ---- rules 2, 4 and 5 ---------------------------------------------------------------------------
+
+TEST(Rules, TwoAgentsAreInOnePlace) {
+  EXPECT_TRUE(accepts(kLane, "f 1 0 0 2 3\nf 2 1 0 2 3\na 2 | 1 2\n"));
+  EXPECT_TRUE(accepts(kLane, "f 1 0 0 2 3\nx 2 1 2 3\na 2 | 1 -2\n"));
+  EXPECT_TRUE(accepts(kLane, "f 1 0 1 2 3 5\nf 2 1 1 3 2 5\na 2 | 1 2\n"));
+  EXPECT_FALSE(accepts(kLane, "f 1 0 0 2 3\nf 2 1 0 2 4\na 2 | 1 2\n"));    // another time
+  EXPECT_FALSE(accepts(kLane, "f 1 0 0 2 3\nf 2 1 0 3 3\na 2 | 1 2\n"));    // another place
+  EXPECT_FALSE(accepts(kLane, "f 1 0 0 2 3\nf 2 0 0 2 3\na 2 | 1 2\n"));    // one agent
+  EXPECT_FALSE(accepts(kLane, "f 1 0 0 2 3\nf 2 1 0 2 3\na 2 | 1 -2\n"));
+  EXPECT_FALSE(accepts(kLane, "f 1 0 0 2 3\nx 2 1 2 3\na 2 | 1 2\n"));
+  EXPECT_FALSE(accepts(kLane, "f 1 0 2 2 3 4\nf 2 1 2 2 3 4\na 2 | 1 2\n"));  // at different times
+  EXPECT_FALSE(accepts(kLane, "f 1 0 1 2 3 5\nf 2 1 1 3 2 6\na 2 | 1 2\n"));
+  EXPECT_FALSE(accepts(kLane, "f 1 0 1 2 3 5\nf 2 1 0 2 5\na 2 | 1 2\n"));
+}
+
+// Agent 0 crosses from x 1 to x 2, agent 1 from y 1 to y 2; cell (1, 1) at time 2.
+TEST(Rules, TwoAgentsCrossARectangle) {
+  const Instance square = grid("..../..../..../....", {{4, 7}, {1, 13}});
+  const std::string sides =
+      "f 1 0 3 5 2 9 3\nf 2 0 3 6 3 10 4\nf 3 1 3 5 2 6 3\nf 4 1 3 9 3 10 4\n";
+  const std::string rule = "a 4 1 1 2 2 2 0 1 | ";
+  EXPECT_TRUE(accepts(square, sides + rule + "1 2 3 4\n"));
+  EXPECT_FALSE(accepts(square, sides + rule + "1 2 3\n"));
+  EXPECT_FALSE(accepts(square, sides + "a 4 1 1 2 2 3 0 1 | 1 2 3 4\n"));  // another time
+  EXPECT_FALSE(accepts(square, sides + "a 4 1 1 2 2 2 1 0 | 1 2 3 4\n"));  // the other way round
+  EXPECT_FALSE(accepts(square, sides + "a 4 1 1 3 2 2 0 1 | 1 2 3 4\n"));  // larger
+  EXPECT_FALSE(accepts(square, sides + "a 4 2 1 1 2 2 0 1 | 1 2 3 4\n"));  // mirrored
+  EXPECT_FALSE(accepts(square, sides + "f 5 0 3 5 2 9 4\n" + rule + "5 2 3 4\n"));  // a late visit
+  EXPECT_FALSE(accepts(square, sides + "f 5 0 3 5 2 13 4\n" + rule + "5 2 3 4\n"));  // one outside
+  EXPECT_FALSE(accepts(square, sides + rule + "-1 2 3 4\n"));
+  // A start in the side is as good as a visit.
+  const Instance inside = grid("..../..../..../....", {{5, 7}, {1, 13}});
+  EXPECT_TRUE(accepts(inside, "f 2 0 3 6 1 10 2\nf 3 1 3 5 0 6 1\nf 4 1 3 9 1 10 2\n"
+                              "a 4 1 1 2 2 0 0 1 | 2 3 4\n"));
+}
+
+// 0 1 2 3 4, with a second way around from 0 to 4 of 6 steps.
+TEST(Rules, TwoAgentsPassACorridor) {
+  const Instance ring = [] {
+    Instance made = Instance::on_graph(
+        12, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {0, 5}, {5, 6}, {6, 7}, {7, 8}, {8, 9}, {9, 4},
+             {0, 10}, {4, 11}});
+    made.add_agent({10, 11});
+    made.add_agent({11, 10});
+    return made;
+  }();
+  // Agent 0 is in 4 at 5 the earliest, the other way at 7; agent 1 likewise in 0.
+  EXPECT_TRUE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 6\na 5 2 | 1 2\n"));
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 7\nf 2 1 2 0 5 6\na 5 2 | 1 2\n"));
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 7\na 5 2 | 1 2\n"));
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 0 5 6\nf 2 1 2 4 5 6\na 5 2 | 1 2\n"));  // where they come from
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 4 5 6\na 5 2 | 1 2\n"));  // one end
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 6\na 5 0 | 1 2\n"));  // an end is not inside
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 -1\na 5 2 | 1 2\n"));
+  Instance started = Instance::on_graph(4, {{0, 1}, {1, 2}, {2, 3}});
+  started.add_agent({1, 3});
+  started.add_agent({3, 0});
+  EXPECT_FALSE(accepts(started, "f 1 0 2 3 2 3\nf 2 1 2 0 3 4\na 5 1 | 1 2\n"));  // starts inside
+  Instance circle = Instance::on_graph(4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}});
+  circle.add_agent({0, 2});
+  circle.add_agent({2, 0});
+  EXPECT_FALSE(accepts(circle, "f 1 0 2 2 2 3\nf 2 1 2 0 2 3\na 5 1 | 1 2\n"));
+}
+
+// ---- counters and cores -------------------------------------------------------------------------
+
+/// Three agents that may cost up to two more than their four steps, each on a lane of its own.
+const Instance kLanes = grid("...../...../.....", {{0, 4}, {5, 9}, {10, 14}});
+
+/// All plans as far as costs matter.
+std::vector<std::vector<std::vector<int>>> all_plans() {
+  std::vector<std::vector<std::vector<int>>> plans;
+  for (int k = 0; k < 27; ++k) {
+    std::vector<std::vector<int>> paths;
+    for (int agent = 0, rest = k; agent < 3; ++agent, rest /= 3) {
+      std::vector<int> path(static_cast<std::size_t>(rest % 3 + 1), 5 * agent);
+      for (int x = 1; x < 5; ++x) path.push_back(5 * agent + x);
+      paths.push_back(path);
+    }
+    plans.push_back(paths);
+  }
+  return plans;
+}
+
+// Random counters over costs and over each other. What the rules accept, and what the ledger says
+// plans cost, is true in all plans in which all cores that were paid are.
+TEST(Rules, CountersAndCoresAgreeWithEnumeration) {
+  int num_sums = 0, num_orders = 0, num_paid = 0, num_excesses = 0;
+  for (std::uint64_t seed = 0; seed < scaled(1500); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Checker checker(kLanes);
+    Meanings& meanings = const_cast<Meanings&>(checker.meanings());
+    Ledger ledger(kLanes, meanings);
+    auto plans = all_plans();
+    Ints units;  // literals
+    Int variable = 0, node = 0;
+    const auto add_node = [&](Ints values) {
+      values.insert(values.begin(), node);
+      meanings.add_node({'n', values});
+      return node++;
+    };
+    for (Int agent = 0; agent < 3; ++agent)
+      for (Int cost = 4; cost < 6; ++cost) {
+        meanings.add_variable({'c', {++variable, agent, cost}});
+        units.push_back(-variable);
+      }
+    Ints sums;
+    for (int step = 0; step < 6; ++step) {
+      // A core: a random part of the units. Plans in which it is false are none any more.
+      Ints core;
+      for (const Int lit : units)
+        if (random.percent(30)) core.push_back(lit);
+      if (core.size() < 2) continue;
+      auto left = plans;
+      left.erase(std::remove_if(left.begin(), left.end(),
+                                [&](const auto& paths) {
+                                  return !Interpretation(meanings, paths).is_true(core);
+                                }),
+                 left.end());
+      if (left.empty()) continue;
+      Int sum = add_node({0, core[0]});
+      for (std::size_t k = 1; k < core.size(); ++k) {
+        const Int leaf = add_node({0, core[k]});
+        sum = add_node({3, sum, leaf});
+      }
+      for (Int k = 1; k <= static_cast<Int>(core.size()); ++k) {
+        meanings.add_variable({'s', {++variable, sum, k}});
+        units.push_back(variable);
+      }
+      sums.push_back(sum);
+      try {
+        ledger.pay(core, random.percent(80) ? sum : -1);
+        plans = left;
+        ++num_paid;
+      } catch (const Rejected&) {
+        continue;  // some of them were paid
+      }
+      for (int trial = 0; trial < 6; ++trial) {
+        Ints guess;
+        for (int k = 0; k < 3; ++k) {
+          const Int lit = random.pick(units);
+          guess.push_back(random.percent(50) ? lit : -lit);
+        }
+        const Ints pair(guess.begin(), guess.begin() + 2);
+        for (const auto& paths : all_plans()) {
+          const Interpretation plan(meanings, paths);
+          ASSERT_TRUE(!is_sum(meanings, guess) || plan.is_true(guess));
+          ASSERT_TRUE(!is_order(meanings, pair) || plan.is_true(pair));
+        }
+        num_sums += is_sum(meanings, guess) ? 1 : 0;
+        num_orders += is_order(meanings, pair) ? 1 : 0;
+      }
+      for (const auto& paths : plans) {
+        const Interpretation plan(meanings, paths);
+        ASSERT_GE(plan.cost(0) + plan.cost(1) + plan.cost(2), ledger.lower());
+        for (const Int a : sums)
+          for (const Int b : sums)
+            ASSERT_TRUE(!meanings.is_at_most(a, b) || plan.value(a) <= plan.value(b));
+      }
+    }
+    // What is left open, as far as the ledger agrees.
+    Int excess = -1;
+    const auto count = [&](Int leaf) {
+      excess = excess < 0 ? leaf : add_node({3, excess, leaf});
+    };
+    for (Int agent = 0; agent < 3; ++agent)
+      if (random.percent(70)) count(add_node({1, agent, static_cast<Int>(4 + random.below(3))}));
+    for (const Int sum : sums)
+      if (random.percent(60)) count(add_node({2, sum, static_cast<Int>(random.between(1, 2))}));
+    if (excess < 0) continue;
+    const Int base = ledger.lower();
+    try {
+      ledger.count_excess(excess);
+    } catch (const Rejected&) {
+      continue;
+    }
+    ++num_excesses;
+    for (const auto& paths : plans) {
+      const Interpretation plan(meanings, paths);
+      ASSERT_GE(plan.cost(0) + plan.cost(1) + plan.cost(2), base + plan.value(excess));
+    }
+  }
+  EXPECT_GT(num_sums, 0);
+  EXPECT_GT(num_orders, 0);
+  EXPECT_GT(num_paid, 0);
+  EXPECT_GT(num_excesses, 0);
+}
+
+TEST(Rules, CoresArePaidOnce) {
+  const std::string costs = "c 1 0 4\nc 2 1 4\nc 3 0 5\nc 4 0 3\n";
+  // That one of two costs more is no axiom of lanes that are apart: the ledger is asked alone.
+  Checker checker(kLanes);
+  Meanings& meanings = const_cast<Meanings&>(checker.meanings());
+  for (const Record& record : records_of("qcert 1 text\n" + costs +
+                                         "n 0 0 -1\nn 1 0 -2\nn 2 3 0 1\ns 5 2 2\ns 6 2 1\n"))
+    record.tag == 'n' ? meanings.add_node(record) : meanings.add_variable(record);
+  Ledger ledger(kLanes, meanings);
+  EXPECT_THROW(ledger.pay({5}, -1), Rejected);   // nobody opened it
+  EXPECT_THROW(ledger.pay({-4}, -1), Rejected);  // every plan costs that
+  EXPECT_THROW(ledger.pay({}, -1), Rejected);
+  EXPECT_EQ(ledger.lower(), 12);
+  Ledger wrong(kLanes, meanings);
+  EXPECT_THROW(wrong.pay({-1, -3}, 2), Rejected);  // the counter counts something else
+  ledger.pay({-1, -2}, 2);
+  EXPECT_EQ(ledger.lower(), 13);
+  EXPECT_THROW(ledger.pay({-1}, -1), Rejected);  // paid
+  EXPECT_THROW(ledger.pay({6}, -1), Rejected);   // that there is one was paid
+  ledger.pay({5}, -1);
+  EXPECT_THROW(ledger.pay({5}, -1), Rejected);
+  EXPECT_EQ(ledger.lower(), 14);
+}
+
+// ---- hints --------------------------------------------------------------------------------------
+
+TEST(Rules, DerivedClausesNeedTheirHints) {
+  Clauses clauses;
+  clauses.add(Ints{1, 2});
+  clauses.add(Ints{-2, 3});
+  clauses.add(Ints{-3, 4});
+  EXPECT_TRUE(clauses.implied(Ints{1, 4}, Ints{3, 2, 1}, 4));
+  EXPECT_FALSE(clauses.implied(Ints{1, 4}, Ints{3, 2}, 4));     // one is missing
+  EXPECT_FALSE(clauses.implied(Ints{1, 4}, Ints{1, 2, 3}, 4));  // in another order
+  EXPECT_FALSE(clauses.implied(Ints{4}, Ints{3, 2, 1}, 4));
+  EXPECT_TRUE(clauses.implied(Ints{1, -1}, Ints{}, 4));
+  EXPECT_THROW(static_cast<void>(clauses.implied(Ints{1, 4}, Ints{0}, 4)), Rejected);
+  EXPECT_THROW(static_cast<void>(clauses.implied(Ints{1, 4}, Ints{4}, 4)), Rejected);
+  clauses.remove(2);
+  EXPECT_THROW(static_cast<void>(clauses.implied(Ints{1, 4}, Ints{3, 2, 1}, 4)), Rejected);
+  EXPECT_THROW(clauses.remove(2), Rejected);
+}
+
+}  // namespace
+}  // namespace quadrille_check::support
