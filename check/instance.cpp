@@ -104,8 +104,8 @@ Distances::Table Distances::from(int place, int without) {
     order_.pop_front();
   }
   order_.push_back(key);
-  return known_[key] = std::make_shared<const std::vector<int>>(
-             instance_.distances(place, without));
+  return known_[key] =
+             std::make_shared<const std::vector<int>>(instance_.distances(place, without));
 }
 
 }  // namespace quadrille_check

@@ -72,8 +72,9 @@ class Distances {
 
 /// Throw BadInput with the name of the file. `passable` and `blocked`: letters besides "." and "G",
 /// "@", "O" and "T".
-[[nodiscard]] Instance read_movingai(const std::string& map, const std::string& scen, int num_agents,
-                                     const std::string& passable, const std::string& blocked);
+[[nodiscard]] Instance read_movingai(const std::string& map, const std::string& scen,
+                                     int num_agents, const std::string& passable,
+                                     const std::string& blocked);
 [[nodiscard]] Instance read_json(const std::string& file);
 
 /// A file's content. Throws BadInput.

@@ -104,7 +104,8 @@ const Json& Json::at(const std::string& key) const {
 }
 void Json::only(const std::set<std::string>& keys) const {
   expect(kind == '{', "an object");
-  for (const auto& [name, member] : members) expect(keys.count(name) != 0, "no key \"" + name + "\"");
+  for (const auto& [name, member] : members)
+    expect(keys.count(name) != 0, "no key \"" + name + "\"");
 }
 std::vector<const Json*> Json::list() const {
   expect(kind == '[', "a list");

@@ -10,10 +10,10 @@
 
 namespace quadrille_check {
 
-/// As much of JSON as instances need: objects, lists, texts and natural numbers. All functions throw
-/// BadInput when the value is of another kind.
+/// As much of JSON as instances need: objects, lists, texts and natural numbers. All functions
+/// throw BadInput when the value is of another kind.
 struct Json {
-  char kind = '0';  // { [ " or 0
+  char kind = '0';                                    // { [ " or 0
   std::vector<std::pair<std::string, Json>> members;  // of a list without names
   std::string content;
   Int value = 0;

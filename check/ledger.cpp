@@ -73,8 +73,7 @@ void Ledger::take_leaf(const Node& leaf, std::set<Unit>& taken, std::set<Int>& a
   } else if (leaf.kind == Node::Kind::beyond) {
     const auto sum = opened_.find(leaf.of);
     require(sum != opened_.end(), "the excess counts a sum that is not open");
-    for (Int number = leaf.base + 1; number <= sum->second; ++number)
-      take(leaf.of, number, taken);
+    for (Int number = leaf.base + 1; number <= sum->second; ++number) take(leaf.of, number, taken);
   } else {
     require(leaf.kind == Node::Kind::levels, "the excess counts something else");
     for (auto level = static_cast<std::size_t>(leaf.base); level < leaf.levels.size(); ++level)

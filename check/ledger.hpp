@@ -17,18 +17,18 @@ namespace quadrille_check {
 /// What plans cost at least, and what some of them cost beyond that.
 ///
 /// A unit is something that costs one if it is true in a plan: "agent i costs more than k", k at
-/// least its free cost d_i, and "the sum N is at least c", c = 2 .. m, for a sum of m literals that a
-/// core step has opened. For every plan P at all times: P costs `lower()` or more, and one more for
-/// each open unit that is true in P.
+/// least its free cost d_i, and "the sum N is at least c", c = 2 .. m, for a sum of m literals that
+/// a core step has opened. For every plan P at all times: P costs `lower()` or more, and one more
+/// for each open unit that is true in P.
 class Ledger {
  public:
   /// Both outlive it. Throws BadInput if an agent has no way to its goal.
   Ledger(const Instance& instance, const Meanings& meanings);
 
-  /// The clause, which is true in all plans, is one of open units: at least one is true, and as many
-  /// as 1, and one for "2 or more are", ..., "all are". Closes them, opens the latter if `node` is
-  /// the sum of the clause's literals (-1: it gives them up), and raises the bound by one. Throws
-  /// Rejected.
+  /// The clause, which is true in all plans, is one of open units: at least one is true, and as
+  /// many as 1, and one for "2 or more are", ..., "all are". Closes them, opens the latter if
+  /// `node` is the sum of the clause's literals (-1: it gives them up), and raises the bound by
+  /// one. Throws Rejected.
   void pay(const std::vector<Int>& clause, Int node);
   /// `node` is a sum of numbers that open units make up, each counted once: plans cost that much
   /// beyond the bound as it is now. Throws Rejected.

@@ -22,7 +22,8 @@ constexpr const char* kHelp =
     "  quadrille-check --map M --scen S --agents K [OPTIONS] CERTIFICATE\n"
     "  quadrille-check --instance I.json [OPTIONS] CERTIFICATE\n"
     "\n"
-    "  --objective O       what the certificate has to be about: sum-of-costs (default) or makespan\n"
+    "  --objective O       what the certificate has to be about: sum-of-costs (default) or "
+    "makespan\n"
     "  --passable LETTERS  letters of the map that are passable besides . and G\n"
     "  --blocked LETTERS   letters of the map that are blocked besides @, O and T\n"
     "  --print             write the certificate as text to standard output; checks nothing\n"
@@ -30,7 +31,8 @@ constexpr const char* kHelp =
     "                      write the propositional part for checkers of LRAT proofs\n"
     "  --help              print this\n"
     "\n"
-    "Exit codes: 0 verified, 1 rejected, 64 wrong command line, 65 the instance cannot be read or is\n"
+    "Exit codes: 0 verified, 1 rejected, 64 wrong command line, 65 the instance cannot be read or "
+    "is\n"
     "wrong, 71 no more memory, 74 an output cannot be written.\n";
 
 struct Arguments {
@@ -110,7 +112,8 @@ std::string text_of(const Verdict& verdict) {
   const std::string objective = verdict.is_makespan ? "makespan" : "sum of costs";
   if (verdict.cost == verdict.bound)
     return "verified: optimal, " + objective + " " + std::to_string(verdict.bound);
-  std::string text = "verified: no plan has a " + objective + " of less than " + std::to_string(verdict.bound);
+  std::string text =
+      "verified: no plan has a " + objective + " of less than " + std::to_string(verdict.bound);
   if (verdict.cost) text += " (plan in the file: " + std::to_string(*verdict.cost) + ")";
   return text;
 }

@@ -90,7 +90,8 @@ void Meanings::add_variable(const Record& record) {
 
 void Meanings::add_node(const Record& record) {
   const auto& values = record.values;
-  require(values.size() >= 3 && values[0] == num_nodes(), "nodes come in the order of their numbers");
+  require(values.size() >= 3 && values[0] == num_nodes(),
+          "nodes come in the order of their numbers");
   require(values[1] >= 0 && values[1] <= 4, "no such kind of node");
   Node made;
   made.kind = static_cast<Node::Kind>(values[1]);
@@ -105,7 +106,8 @@ void Meanings::add_node(const Record& record) {
               "a level is at most the one before");
     }
   } else {
-    require(values.size() == (made.kind == Node::Kind::literal ? 3U : 4U), "a node of another length");
+    require(values.size() == (made.kind == Node::Kind::literal ? 3U : 4U),
+            "a node of another length");
     made.of = values[2];
     if (made.kind != Node::Kind::literal) made.base = values[3];
   }
@@ -143,8 +145,7 @@ Int Meanings::implied(Int number, Int lit) const {
     return is_cost ? std::max<Int>(0, x.number + 1 - n.base) : 0;
   }
   if (x.kind != Variable::Kind::number_is_at_least || lit < 0) return 0;
-  if (n.kind == Node::Kind::beyond)
-    return x.node == n.of ? std::max<Int>(0, x.number - n.base) : 0;
+  if (n.kind == Node::Kind::beyond) return x.node == n.of ? std::max<Int>(0, x.number - n.base) : 0;
   if (n.kind == Node::Kind::sum) return x.node == number ? x.number : 0;
   // All levels up to this one are at least as large.
   if (x.number < n.rank) return 0;

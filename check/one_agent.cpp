@@ -37,9 +37,8 @@ void OneAgent::forbid_move(int from, int to, int time) {
 
 bool OneAgent::is_forbidden(int place, int time) const {
   const Ban& ban = bans_[static_cast<std::size_t>(ban_of_[static_cast<std::size_t>(place)])];
-  return std::any_of(ban.visits.begin(), ban.visits.end(), [&](const Visit& visit) {
-    return visit.first <= time && time <= visit.last;
-  });
+  return std::any_of(ban.visits.begin(), ban.visits.end(),
+                     [&](const Visit& visit) { return visit.first <= time && time <= visit.last; });
 }
 
 bool OneAgent::is_move_forbidden(int from, int to, int time) const {
@@ -54,8 +53,8 @@ bool OneAgent::holds(int agent, Clause clause) {
   return !collect(agent, clause, task) || !has_walk(agent, task);
 }
 
-// What the negated literals say of this agent. Whatever else they say is left out, and the clause is
-// proved without that literal.
+// What the negated literals say of this agent. Whatever else they say is left out, and the clause
+// is proved without that literal.
 bool OneAgent::collect(int agent, Clause clause, Task& task) {
   task.must_be.emplace_back(0, instance_.agents()[static_cast<std::size_t>(agent)].start);
   for (const Int lit : clause) {
@@ -78,8 +77,7 @@ bool OneAgent::collect(int agent, Clause clause, Task& task) {
       }
       for (const Visit& visit : x.visits) {
         forbid(visit);
-        task.horizon =
-            std::max(task.horizon, visit.last == kForever ? visit.first : visit.last);
+        task.horizon = std::max(task.horizon, visit.last == kForever ? visit.first : visit.last);
       }
     } else if (x.kind == Variable::Kind::is_there && x.agent == agent) {
       const Visit& visit = x.visits.front();

@@ -123,8 +123,7 @@ Instance read_movingai(const std::string& map, const std::string& scen, int num_
       value[k] = number(field[k + 2], kMaxCells, scen + ": a field");
     if (value[0] != instance.width() || value[1] != instance.height())
       lines.fail("a row for a map of another size");
-    instance.add_agent(
-        {cell(instance, value[2], value[3]), cell(instance, value[4], value[5])});
+    instance.add_agent({cell(instance, value[2], value[3]), cell(instance, value[4], value[5])});
   }
   return instance;
 }

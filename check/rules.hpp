@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When a clause is true in every plan: the rules of docs/certificates.md, which proves them. Whether
-// the answer "no" is right does not matter.
+// When a clause is true in every plan: the rules of docs/certificates.md, which proves them.
+// Whether the answer "no" is right does not matter.
 #pragma once
 
 #include <span>
@@ -53,10 +53,10 @@ class OneAgent {
     std::vector<Visit> visits;
     std::vector<Move> moves;
   };
-  std::vector<Ban> bans_;         // [0] is none
-  std::vector<int> ban_of_;       // by place: in bans_
-  std::vector<int> banned_;       // places
-  std::vector<int> seen_;         // by place: the number of the last layer that it was in
+  std::vector<Ban> bans_;    // [0] is none
+  std::vector<int> ban_of_;  // by place: in bans_
+  std::vector<int> banned_;  // places
+  std::vector<int> seen_;    // by place: the number of the last layer that it was in
   int layer_ = 0;
 };
 

@@ -67,8 +67,7 @@ bool is_rectangle(const Instance& instance, const Meanings& meanings, Clause cla
     for (const Int lit : clause) {
       const Variable* const x = usage(meanings, lit);
       if (x == nullptr || x->agent != agent || x->is_edge || x->visits.empty()) continue;
-      is_made = is_made ||
-                std::all_of(x->visits.begin(), x->visits.end(), [&](const Visit& visit) {
+      is_made = is_made || std::all_of(x->visits.begin(), x->visits.end(), [&](const Visit& visit) {
                   return visit.first == visit.last && is_on(side, visit.place, visit.first);
                 });
     }

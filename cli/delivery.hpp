@@ -11,8 +11,8 @@
 
 namespace quadrille::cli {
 
-/// The outputs of one solve: a file for the plan, one for the result, one each for a page, a picture
-/// and a certificate, and the console. A result that none of them takes ends up on stderr.
+/// The outputs of one solve: a file for the plan, one for the result, one each for a page, a
+/// picture and a certificate, and the console. A result that none of them takes ends up on stderr.
 class Delivery {
  public:
   /// File names; empty for none, "-" for standard output.
@@ -23,8 +23,8 @@ class Delivery {
         view_(std::move(view)),
         svg_(std::move(svg)),
         proof_(std::move(proof)),
-        console_(quiet, plan_ == "-" || json_ == "-" || view_ == "-" || svg_ == "-" ||
-                            proof_ == "-") {}
+        console_(quiet,
+                 plan_ == "-" || json_ == "-" || view_ == "-" || svg_ == "-" || proof_ == "-") {}
 
   /// Whether all files can be written, as far as that is known beforehand. Says why not.
   [[nodiscard]] bool probe();

@@ -317,9 +317,9 @@ TEST(Certificate, IsRejectedWithoutWhatItNeeds) {
         const Interpretation plan(checker.meanings(), paths_of(c.instance, *outcome.plan));
         Record& axiom = broken[at];
         const auto first = axiom.values.begin() + 2 + static_cast<std::ptrdiff_t>(axiom.values[1]);
-        axiom.values.erase(std::remove_if(first, axiom.values.end(),
-                                          [&](Int lit) { return plan.is_true(lit); }),
-                           axiom.values.end());
+        axiom.values.erase(
+            std::remove_if(first, axiom.values.end(), [&](Int lit) { return plan.is_true(lit); }),
+            axiom.values.end());
         EXPECT_THROW(checker.check(axiom), quadrille_check::Rejected) << axiom.text(0);
       }
     }

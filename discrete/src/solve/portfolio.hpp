@@ -3,9 +3,9 @@
 
 #include <memory>
 
+#include "certificate/certify.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/solver.hpp"
-#include "solve/certify.hpp"
 #include "solve/desk.hpp"
 #include "solve/tuning.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <utility>
 
+#include "certificate/lazy_meanings.hpp"
 #include "lazy/collision_sites.hpp"
 #include "lazy/lazy_auditor.hpp"
-#include "lazy/lazy_meanings.hpp"
 #include "lazy/lazy_model.hpp"
 #include "lazy/lazy_problem.hpp"
 #include "lazy/lazy_theory.hpp"

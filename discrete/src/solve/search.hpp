@@ -4,10 +4,10 @@
 #include <functional>
 #include <memory>
 
+#include "certificate/certify.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/solver.hpp"
-#include "solve/certify.hpp"
 #include "solve/desk.hpp"
 #include "solve/tuning.hpp"
 
@@ -17,8 +17,8 @@ namespace quadrille::discrete {
 using GetDistances = std::function<std::shared_ptr<const GoalDistances>(LimitMonitor&)>;
 
 /// One search: goal distances, a first plan, the search for the least cost. Requires an instance
-/// that has a plan. Leaves at `desk` what it finds, whatever ends it, and, with SolveOptions::proof, in
-/// `proof` why no plan is cheaper.
+/// that has a plan. Leaves at `desk` what it finds, whatever ends it, and, with
+/// SolveOptions::proof, in `proof` why no plan is cheaper.
 void search(const Instance& instance, const SolveOptions& options, const Tuning& tuning,
             const Desk& desk, const GetDistances& get_distances, ProofDraft& proof);
 

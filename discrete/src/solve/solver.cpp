@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "certificate/certify.hpp"
 #include "feasibility/goal_choice.hpp"
 #include "mdd/usages.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "quadrille/solve/frame.hpp"
-#include "solve/certify.hpp"
 #include "solve/portfolio.hpp"
 
 namespace quadrille::discrete {
@@ -90,7 +90,8 @@ class Domain {
       return;
     }
     solve::Exchange<Message> alone;
-    search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone}, proof_);
+    search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone},
+                        proof_);
     if (known.has_floor) floor_ = known.floor;
   }
 

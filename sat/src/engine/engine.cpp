@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The only file that knows CaDiCaL, with derived_clause_tracer.hpp and derivation_tracer.hpp. What it
-// uses of CaDiCaL is in cmake/cadical_check.cpp, too.
+// The only file that knows CaDiCaL, with derived_clause_tracer.hpp and derivation_tracer.hpp. What
+// it uses of CaDiCaL is in cmake/cadical_check.cpp, too.
 #include "quadrille/sat/engine.hpp"
 
 #include <cadical.hpp>
@@ -258,8 +258,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
     }
     if (options.derivations != nullptr) {
       receiver_.emplace(*options.derivations, border_);
-      derivation_tracer_ =
-          std::make_unique<DerivationTracer<DerivationReceiver>>(*receiver_);
+      derivation_tracer_ = std::make_unique<DerivationTracer<DerivationReceiver>>(*receiver_);
       solver_->connect_proof_tracer(derivation_tracer_.get(), true);
     }
     solver_->connect_external_propagator(this);

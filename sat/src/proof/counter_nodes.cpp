@@ -73,7 +73,8 @@ void CounterNodes::write_leaf(std::int64_t number, const ProofItem& item) {
   if (item.kind == ProofItem::Kind::literal)
     return writer_.record('n', {number, 0, item.literal.dimacs()});
   if (item.kind == ProofItem::Kind::agent)
-    return writer_.record('n', {number, 1, static_cast<std::int64_t>(item.agent.value()), item.base});
+    return writer_.record('n',
+                          {number, 1, static_cast<std::int64_t>(item.agent.value()), item.base});
   const std::vector<int> sums = levels_with(item);
   if (sums.empty()) return fail("a counter that counts nothing is needed");
   if (item.rank == 0)  // of all numbers but the largest
@@ -118,11 +119,10 @@ int CounterNodes::rule_of(std::span<const Lit> clause) const {
   if (clause.size() != 2) return kSum;
   const ProofLog::Output* first = log_.output_of(clause[0].variable());
   const ProofLog::Output* second = log_.output_of(clause[1].variable());
-  const bool is_of_levels = first != nullptr && second != nullptr &&
-                            clause[0].positive() != clause[1].positive() &&
-                            log_.counter_of(first->sum) != 0 &&
-                            log_.counter_of(first->sum) == log_.counter_of(second->sum) &&
-                            first->sum != second->sum;
+  const bool is_of_levels =
+      first != nullptr && second != nullptr && clause[0].positive() != clause[1].positive() &&
+      log_.counter_of(first->sum) != 0 &&
+      log_.counter_of(first->sum) == log_.counter_of(second->sum) && first->sum != second->sum;
   return is_of_levels ? kLevels : kSum;
 }
 

@@ -11,8 +11,8 @@
 
 namespace quadrille::sat {
 
-/// Says in a certificate what variables mean, each before it is used: those of the domain, and those
-/// of counters with the numbers ("nodes") that these count.
+/// Says in a certificate what variables mean, each before it is used: those of the domain, and
+/// those of counters with the numbers ("nodes") that these count.
 ///
 /// What cannot be said is remembered as a fault.
 class CounterNodes {
@@ -47,7 +47,7 @@ class CounterNodes {
   CertificateWriter& writer_;
   int num_variables_;
   std::int64_t num_nodes_ = 0;
-  std::map<int, std::int64_t> first_node_;           // by sum
+  std::map<int, std::int64_t> first_node_;             // by sum
   std::map<std::pair<AgentId, Cost>, Lit> new_costs_;  // that the search had no variable for
   std::set<int> declared_;
   std::string fault_;

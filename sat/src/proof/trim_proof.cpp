@@ -55,7 +55,8 @@ class Trimmer {
     }
     for (Index at = size; at-- > 0;) {
       const ProofLog::Entry entry = log_.entry(at);
-      if (entry.kind == Kind::core && pass != 0 && log_.core(entry.number).pass == pass && at < end) {
+      if (entry.kind == Kind::core && pass != 0 && log_.core(entry.number).pass == pass &&
+          at < end) {
         is_needed_[at] = true;
         is_needed_[log_.core(entry.number).clause] = true;
       }

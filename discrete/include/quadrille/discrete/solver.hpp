@@ -106,8 +106,8 @@ struct SolveOptions : Request<Plan> {
   bool proof = false;
 };
 
-/// That no plan costs less than `claim`, in a form that the program quadrille-check checks; with the
-/// plan, if there is one. docs/certificates.md.
+/// That no plan costs less than `claim`, in a form that the program quadrille-check checks; with
+/// the plan, if there is one. docs/certificates.md.
 struct Certificate {
   Cost claim = 0;
   std::string bytes;  ///< A file's content, binary.
@@ -115,8 +115,8 @@ struct Certificate {
 
 /// Infeasible: see Feasibility. `explain` is for dpll.
 struct SolveOutcome : Outcome<Plan> {
-  /// With `proof`, for every status but infeasible. Its claim is the lower bound, or less where that
-  /// rests on `known_lower_bound`, or where memory ran out in the search.
+  /// With `proof`, for every status but infeasible. Its claim is the lower bound, or less where
+  /// that rests on `known_lower_bound`, or where memory ran out in the search.
   std::optional<Certificate> certificate;
   /// With `proof`: why there is none. Else empty.
   std::string no_certificate;

@@ -71,10 +71,10 @@ struct TrimmedProof {
   Cost claim = 0;  ///< No plan costs less.
   std::string records;
 };
-/// Of all that was noted, what the best claim rests on, with the claim at the end. `free_bound`: what
-/// plans cost at least when each agent is alone; the claim if there is no better one. `num_variables`:
-/// of the engine. Deterministic; linear in the size of the log. Errors: internal, when the log does not have what
-/// the claim rests on, or what it rests on has no rule.
+/// Of all that was noted, what the best claim rests on, with the claim at the end. `free_bound`:
+/// what plans cost at least when each agent is alone; the claim if there is no better one.
+/// `num_variables`: of the engine. Deterministic; linear in the size of the log. Errors: internal,
+/// when the log does not have what the claim rests on, or what it rests on has no rule.
 [[nodiscard]] Result<TrimmedProof> trim_proof(const ProofLog& log, const ProofMeanings& meanings,
                                               int num_variables, Cost free_bound);
 

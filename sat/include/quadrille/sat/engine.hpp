@@ -34,11 +34,11 @@ struct EngineOptions {
   bool keep_clauses = false;  ///< For Engine::take_clauses.
   /// Hears every clause; null: nobody. Must outlive the engine.
   ClauseObserver* observer = nullptr;
-  /// Hears how the solver comes to its clauses; null: nobody, and the solver keeps no account of it.
-  /// The search is the same. Must outlive the engine.
+  /// Hears how the solver comes to its clauses; null: nobody, and the solver keeps no account of
+  /// it. The search is the same. Must outlive the engine.
   DerivationObserver* derivations = nullptr;
-  /// What counters and searches that use the engine tell of themselves, see Engine::proof; null: they
-  /// do not. To be set as `observer` and `derivations`, too.
+  /// What counters and searches that use the engine tell of themselves, see Engine::proof; null:
+  /// they do not. To be set as `observer` and `derivations`, too.
   ProofLog* proof = nullptr;
 };
 

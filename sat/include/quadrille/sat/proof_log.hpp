@@ -39,9 +39,9 @@ struct ProofItem {
   Cost base = 0;
 };
 
-/// Notes all that a lower bound may rest on, so that a certificate can be made of it when the search
-/// has ended (docs/certificates.md): the lemmas, how the SAT solvers derive clauses from them, what
-/// counters count, which cores were paid for, which bounds were claimed.
+/// Notes all that a lower bound may rest on, so that a certificate can be made of it when the
+/// search has ended (docs/certificates.md): the lemmas, how the SAT solvers derive clauses from
+/// them, what counters count, which cores were paid for, which bounds were claimed.
 ///
 /// All is kept in memory: 1 to 3 MB per second of search. Nothing is decided here, and nothing is
 /// asked of it by those who search. Numbers of sums, counters and passes begin with 1; 0 is none.
@@ -62,7 +62,8 @@ class ProofLog final : public PassingObserver, public DerivationObserver {
   [[nodiscard]] DerivationObserver& offline() noexcept { return offline_; }
 
   // ---- by counters
-  /// A tree of sums of two: items 0 .. num_inputs - 1 are the inputs, then the adders by their items.
+  /// A tree of sums of two: items 0 .. num_inputs - 1 are the inputs, then the adders by their
+  /// items.
   [[nodiscard]] int add_sum(std::size_t num_inputs,
                             std::vector<std::pair<std::size_t, std::size_t>> adders);
   void set_inputs(int sum, std::vector<ProofItem> inputs);

@@ -19,8 +19,8 @@ struct ProofDraft {
 /// A certificate for the proof's claim, with the plan if there is one.
 [[nodiscard]] Certificate certify(const Instance& instance, Objective objective,
                                   const sat::TrimmedProof& proof, const std::optional<Plan>& plan);
-/// A proof that rests on nothing but what agents cost at least when each is alone, which is `bound` or
-/// more.
+/// A proof that rests on nothing but what agents cost at least when each is alone, which is `bound`
+/// or more.
 [[nodiscard]] sat::TrimmedProof free_proof(Cost bound);
 
 }  // namespace quadrille::discrete

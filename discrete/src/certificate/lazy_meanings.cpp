@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lazy/lazy_meanings.hpp"
+#include "certificate/lazy_meanings.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include "model/place_number.hpp"
+#include "certificate/place_number.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -58,8 +58,8 @@ void LazyMeanings::declare_usage(int variable, const Obstacle& o, CertificateWri
     case Obstacle::Kind::edge:
       return writer.record('f', {variable, agent, 1, place(o.vertex), place(o.to), o.first});
     case Obstacle::Kind::range:
-      return writer.record('f', {variable, agent, 2, place(o.vertex), o.first,
-                                 o.last == kForever ? -1 : o.last});
+      return writer.record(
+          'f', {variable, agent, 2, place(o.vertex), o.first, o.last == kForever ? -1 : o.last});
     case Obstacle::Kind::barrier: {
       std::vector<std::int64_t> values{variable, agent, 3};
       for (const Visit& visit : model_.obstacles().visits(o)) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "solve/certify.hpp"
+#include "certificate/certify.hpp"
 
 #include <utility>
 #include <vector>
 
-#include "model/place_number.hpp"
+#include "certificate/place_number.hpp"
 
 namespace quadrille::discrete {
 
