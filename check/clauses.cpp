@@ -25,23 +25,8 @@ std::vector<Int> Clauses::operator[](Int number) const {
 }
 
 void Clauses::remove(Int number) {
-  num_dead_ += place(number).size;
+  static_cast<void>(place(number));
   where_[static_cast<std::size_t>(number)].is_alive = false;
-  tidy();
-}
-
-void Clauses::tidy() {
-  constexpr std::size_t kFew = 1 << 20;
-  if (num_dead_ < kFew || 2 * num_dead_ < literals_.size()) return;
-  std::size_t end = 0;
-  for (Place& at : where_) {
-    if (!at.is_alive) continue;
-    for (std::size_t k = 0; k < at.size; ++k) literals_[end + k] = literals_[at.begin + k];
-    at.begin = end;
-    end += at.size;
-  }
-  literals_.resize(end);
-  num_dead_ = 0;
 }
 
 int Clauses::value(std::int32_t lit) const {

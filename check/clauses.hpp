@@ -35,12 +35,9 @@ class Clauses {
   [[nodiscard]] const Place& place(Int number) const;
   [[nodiscard]] int value(std::int32_t lit) const;
   void make_true(std::int32_t lit);
-  /// Forgets clauses that were removed, when they are more than half.
-  void tidy();
 
   std::vector<std::int32_t> literals_;
   std::vector<Place> where_ = std::vector<Place>(1);
-  std::size_t num_dead_ = 0;  // literals
   std::vector<signed char> values_;
   std::vector<std::int32_t> trail_;
 };

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <limits>
 
 #include "rules.hpp"
 
 namespace quadrille_check {
+
+constexpr int kLastLayer = std::numeric_limits<int>::max();
 
 OneAgent::OneAgent(const Instance& instance, const Meanings& meanings, Distances& distances)
     : instance_(instance),
@@ -154,7 +157,10 @@ bool OneAgent::leads(std::pair<int, int> from, std::pair<int, int> to, Direction
   std::vector<int> here{is_back ? to.first : from.first}, next;
   const int end = is_back ? from.second : to.second, step = is_back ? -1 : 1;
   for (int time = is_back ? to.second : from.second; time != end; time += step) {
-    ++layer_;
+    if (++layer_ == kLastLayer) {
+      std::fill(seen_.begin(), seen_.end(), 0);
+      layer_ = 1;
+    }
     next.clear();
     for (const int place : here) {
       const auto go = [&](int other) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "quadrille/sat/cost_search.hpp"
@@ -362,6 +364,92 @@ TEST(Engine, WhatATheoryThrowsComesOutOfIt) {
     num_thrown += has_thrown ? 1 : 0;
   }
   EXPECT_GT(num_thrown, 300);
+}
+
+/// Holds what the solver says against itself: each clause follows from its antecedents by unit
+/// propagation.
+class Derivations final : public DerivationObserver {
+ public:
+  void on_given(Number number, Clause clause) override { keep(number, clause); }
+  void on_derived(Number number, Clause clause, std::span<const Number> antecedents) override {
+    std::set<int> is_false(clause.begin(), clause.end());
+    bool follows = false;
+    for (const Number antecedent : antecedents) {
+      std::set<int> left;
+      for (const int lit : clauses_.at(antecedent))
+        if (!is_false.contains(lit)) left.insert(lit);
+      follows = left.empty();
+      if (left.size() == 1) is_false.insert(-*left.begin());
+      if (follows) break;
+    }
+    EXPECT_TRUE(follows) << "clause " << number;
+    keep(number, clause);
+    ++num_derived_;
+  }
+  void on_refuted(Number number, Clause clause, std::span<const Number> antecedents) override {
+    on_derived(number, clause, antecedents);
+    refuted_.emplace(clause.begin(), clause.end());
+  }
+
+  [[nodiscard]] bool has_refuted(const std::vector<Lit>& core) const {
+    std::set<int> clause;
+    for (const Lit lit : core) clause.insert(-lit.dimacs());
+    return refuted_.contains(clause);
+  }
+  [[nodiscard]] int num_derived() const { return num_derived_; }
+
+ private:
+  void keep(Number number, Clause clause) {
+    EXPECT_TRUE(clauses_.try_emplace(number, clause.begin(), clause.end()).second);
+  }
+
+  std::map<Number, std::vector<int>> clauses_;
+  std::set<std::set<int>> refuted_;
+  int num_derived_ = 0;
+};
+
+TEST(Engine, TellsHowItComesToItsClausesAndSearchesAsBefore) {
+  int num_derived = 0, num_cores = 0;
+  for (std::uint64_t seed = 0; seed < quadrille::support::scaled(40); ++seed) {
+    SCOPED_TRACE(seed);
+    Derivations derivations;
+    std::vector<Statistics> statistics;
+    for (const bool listens : {true, false}) {
+      std::mt19937_64 random(seed);
+      EngineOptions options;
+      options.inprocessing = seed % 2 == 0;
+      if (listens) options.derivations = &derivations;
+      ExactlySum sum(20, ExactlySum::Style::eager);
+      Engine engine(options.inprocessing ? nullptr : &sum, options);
+      std::vector<Lit> lits;
+      for (int i = 0; i < 50; ++i) {
+        lits.push_back(engine.new_lit());
+        sum.watch(lits.back());
+      }
+      const auto draw = [&] {
+        const Lit lit = lits[random() % lits.size()];
+        return random() % 2 == 0 ? lit : ~lit;
+      };
+      for (int i = 0; i < 190; ++i) {
+        Clause clause{draw(), draw(), draw()};
+        add(engine, clause);
+      }
+      for (int round = 0; round < 10; ++round) {
+        std::vector<Lit> assumptions;
+        for (int i = 0; i < 6; ++i) assumptions.push_back(draw());
+        if (solve(engine, assumptions) != Verdict::unsat || engine.core().empty()) continue;
+        if (!listens) continue;
+        EXPECT_TRUE(derivations.has_refuted(engine.core()));
+        ++num_cores;
+      }
+      engine.add_statistics(statistics.emplace_back());
+    }
+    EXPECT_EQ(statistics[0].conflicts, statistics[1].conflicts);
+    EXPECT_EQ(statistics[0].decisions, statistics[1].decisions);
+    num_derived += derivations.num_derived();
+  }
+  EXPECT_GT(num_derived, 0);
+  EXPECT_GT(num_cores, 0);
 }
 
 }  // namespace
