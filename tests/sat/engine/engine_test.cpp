@@ -373,12 +373,14 @@ class Derivations final : public DerivationObserver {
   void on_given(Number number, Clause clause) override { keep(number, clause); }
   void on_derived(Number number, Clause clause, std::span<const Number> antecedents) override {
     std::set<int> is_false(clause.begin(), clause.end());
-    bool follows = false;
+    // Of assumptions that contradict each other.
+    bool follows =
+        std::any_of(clause.begin(), clause.end(), [&](int lit) { return is_false.contains(-lit); });
     for (const Number antecedent : antecedents) {
       std::set<int> left;
       for (const int lit : clauses_.at(antecedent))
         if (!is_false.contains(lit)) left.insert(lit);
-      follows = left.empty();
+      follows = follows || left.empty();
       if (left.size() == 1) is_false.insert(-*left.begin());
       if (follows) break;
     }

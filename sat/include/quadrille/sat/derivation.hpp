@@ -24,7 +24,8 @@ class DerivationObserver {
   /// It follows by unit propagation: if all its literals are false, `antecedents`, taken in their
   /// order, imply one literal after the other, and the last one is false.
   virtual void on_derived(Number number, Clause clause, std::span<const Number> antecedents) = 0;
-  /// Likewise, for the negations of a verdict's core: they never become a clause of the solver.
+  /// Likewise, for the negations of a verdict's core: they never become a clause of the solver. Of
+  /// assumptions that contradict each other they are a literal and its negation.
   virtual void on_refuted(Number number, Clause clause, std::span<const Number> antecedents) = 0;
 };
 
