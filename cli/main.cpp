@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "program.hpp"
+#include "frame/program.hpp"
 
 int main(int argc, char** argv) { return quadrille::cli::run_program(argc, argv); }

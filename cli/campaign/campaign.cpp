@@ -4,9 +4,9 @@
 #include <optional>
 #include <string_view>
 
-#include "arguments.hpp"
 #include "campaign/commands.hpp"
-#include "subcommands.hpp"
+#include "frame/arguments.hpp"
+#include "frame/subcommands.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -10,10 +10,10 @@
 #include <system_error>
 #include <vector>
 
-#include "campaign/runner.hpp"
-#include "output.hpp"
+#include "campaign/run/runner.hpp"
+#include "frame/output.hpp"
+#include "frame/signals.hpp"
 #include "quadrille/core/terminal_text.hpp"
-#include "signals.hpp"
 
 namespace quadrille::cli::campaign {
 namespace {

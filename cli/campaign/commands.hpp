@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "campaign/results.hpp"
-#include "exit_codes.hpp"
+#include "campaign/run/results.hpp"
+#include "frame/exit_codes.hpp"
 
 namespace quadrille::cli::campaign {
 

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "campaign/answers/merged.hpp"
+#include "campaign/answers/replay.hpp"
 #include "campaign/commands.hpp"
-#include "campaign/merged.hpp"
-#include "campaign/replay.hpp"
-#include "output.hpp"
+#include "frame/output.hpp"
 #include "quadrille/core/terminal_text.hpp"
 
 namespace quadrille::cli::campaign {

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <thread>
 
-#include "campaign/child.hpp"
 #include "campaign/commands.hpp"
-#include "output.hpp"
+#include "campaign/run/child.hpp"
+#include "frame/output.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::cli::campaign {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <sstream>
 
-#include "arguments.hpp"
-#include "grid/grid_input.hpp"
+#include "frame/arguments.hpp"
 #include "quadrille/discrete/instance_json.hpp"
 #include "quadrille/discrete/instance_yaml.hpp"
+#include "quadrille/input/grid.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -29,7 +29,7 @@ std::string check(const ConvertArguments& arguments) {
 }
 
 /// The text of the plan or the instance in its new format.
-Result<std::string> convert(const ConvertArguments& arguments, const GridInput& input) {
+Result<std::string> convert(const ConvertArguments& arguments, const input::GridInput& input) {
   std::ostringstream text;
   std::optional<Error> error;
   if (!arguments.plan.empty()) {

@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "grid/grid_input.hpp"
+#include "grid/grid_text.hpp"
 #include "quadrille/execution/clearance.hpp"
+#include "quadrille/input/grid.hpp"
 
 namespace quadrille::cli {
 namespace {

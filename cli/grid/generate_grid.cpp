@@ -7,9 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "arguments.hpp"
-#include "output.hpp"
+#include "frame/arguments.hpp"
+#include "frame/output.hpp"
 #include "quadrille/discrete/generator.hpp"
+#include "quadrille/input/source.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -54,7 +55,7 @@ std::string map_name(const GenerateArguments& arguments) {
   std::string name = std::filesystem::path(file).filename().string();
   for (char& c : name)
     if (std::string_view(" \t\r\n\v\f").find(c) != std::string_view::npos) c = '_';
-  return name.empty() || file == "-" || file == kStandardInput ? "map.map" : name;
+  return name.empty() || file == "-" || file == input::kStandardInput ? "map.map" : name;
 }
 
 /// The texts of the map and the scenario, in this order, as far as they are wanted.

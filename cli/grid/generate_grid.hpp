@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "exit_codes.hpp"
-#include "generate_arguments.hpp"
-#include "option_parser.hpp"
+#include "asked/generate_arguments.hpp"
+#include "frame/exit_codes.hpp"
+#include "frame/option_parser.hpp"
 
 namespace quadrille::cli {
 

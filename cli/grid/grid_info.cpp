@@ -10,10 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "graph_shape.hpp"
-#include "grid/grid_input.hpp"
-#include "output.hpp"
+#include "answers/graph_shape.hpp"
+#include "frame/output.hpp"
+#include "grid/grid_text.hpp"
 #include "quadrille/discrete/feasibility.hpp"
+#include "quadrille/input/grid.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -128,7 +129,7 @@ ExitCode finish(const Console& console) {
 ExitCode print_map_info(const InputOptions& options) {
   const auto map = discrete::read_map(std::filesystem::path(options.map), options.letters);
   if (!map) {
-    report_error(with_letters_hint(map.error()));
+    report_error(input::with_letters_hint(map.error()));
     return ExitCode::bad_input;
   }
   const GraphShape shape = MapShape(*map).run();

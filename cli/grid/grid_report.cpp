@@ -5,8 +5,8 @@
 
 #include <string_view>
 
+#include "answers/report.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
-#include "report.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "explanation.hpp"
+#include "answers/explanation.hpp"
+#include "answers/search_notes.hpp"
+#include "asked/solve_arguments.hpp"
 #include "quadrille/discrete/solver.hpp"
 #include "quadrille/discrete/verify.hpp"
-#include "search_notes.hpp"
-#include "solve_arguments.hpp"
 
 namespace quadrille::cli {
 

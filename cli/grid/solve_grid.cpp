@@ -11,16 +11,17 @@
 #include <utility>
 #include <vector>
 
-#include "arguments.hpp"
-#include "grid/grid_input.hpp"
+#include "asked/solving.hpp"
+#include "frame/arguments.hpp"
 #include "grid/grid_report.hpp"
+#include "grid/grid_text.hpp"
 #include "grid/picture.hpp"
 #include "grid/reason_map.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/input/grid.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
-#include "solving.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -69,7 +70,7 @@ std::string settle(SolveArguments& arguments) {
 class GridSolve {
  public:
   /// `used`: while it was read.
-  GridSolve(const SolveArguments& arguments, const GridInput& input, const Usage& used)
+  GridSolve(const SolveArguments& arguments, const input::GridInput& input, const Usage& used)
       : arguments_(arguments), input_(input), used_(used) {}
 
   [[nodiscard]] const discrete::Instance& instance() const { return input_.instance; }
@@ -166,13 +167,13 @@ class GridSolve {
   }
 
   const SolveArguments& arguments_;
-  const GridInput& input_;
+  const input::GridInput& input_;
   const Usage used_;
   mutable SearchNotes notes_;  // of the one solve
 };
 
 /// Reads all that there is to read. Plans go into the options.
-Result<GridInput> read_input(SolveArguments& arguments) {
+Result<input::GridInput> read_input(SolveArguments& arguments) {
   auto input = load_grid_input(arguments.input);
   if (!input) return input;
   const auto read = [&](const std::filesystem::path& path) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "exit_codes.hpp"
-#include "input_watch.hpp"
-#include "solve_arguments.hpp"
+#include "asked/solve_arguments.hpp"
+#include "frame/exit_codes.hpp"
+#include "frame/input_watch.hpp"
 
 namespace quadrille::cli {
 

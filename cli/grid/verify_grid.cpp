@@ -4,17 +4,18 @@
 #include <filesystem>
 #include <string>
 
-#include "arguments.hpp"
-#include "grid/grid_input.hpp"
+#include "frame/arguments.hpp"
 #include "grid/grid_report.hpp"
+#include "grid/grid_text.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/input/grid.hpp"
 
 namespace quadrille::cli {
 namespace {
 
 class GridVerdict {
  public:
-  GridVerdict(const GridInput& input, const discrete::Plan& plan,
+  GridVerdict(const input::GridInput& input, const discrete::Plan& plan,
               const discrete::VerifyReport& replay)
       : input_(input), plan_(plan), replay_(replay) {}
 
@@ -42,7 +43,7 @@ class GridVerdict {
   }
 
  private:
-  const GridInput& input_;
+  const input::GridInput& input_;
   const discrete::Plan& plan_;
   const discrete::VerifyReport& replay_;
 };

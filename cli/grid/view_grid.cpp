@@ -5,10 +5,10 @@
 #include <optional>
 #include <sstream>
 
-#include "arguments.hpp"
-#include "attribution_input.hpp"
-#include "grid/grid_input.hpp"
+#include "frame/arguments.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
+#include "quadrille/input/attribution.hpp"
+#include "quadrille/input/grid.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
 
@@ -16,7 +16,7 @@ namespace quadrille::cli {
 
 namespace {
 
-ReadVertex reader_of_vertices(const discrete::Graph& graph) {
+input::ReadVertex reader_of_vertices(const discrete::Graph& graph) {
   return [&graph](text::Checker& check, text::Document::Node node, VertexId& vertex) {
     std::int64_t x = 0, y = 0;
     if (graph.layout()) {
@@ -44,28 +44,28 @@ ExitCode view_grid(const CLI::App& app, const ViewArguments& arguments) {
 
   std::optional<Attribution> attribution;
   Objective objective = Objective::sum_of_costs;
-  const auto read = [&](const GridInput& input) -> Result<discrete::PlanFile> {
+  const auto read = [&](const input::GridInput& input) -> Result<discrete::PlanFile> {
     const discrete::Graph& graph = input.instance.graph();
-    const auto text = read_text(arguments.plan);
+    const auto text = input::read_text(arguments.plan);
     if (!text) return text.error();
     std::istringstream in(*text);
     auto file = discrete::read_plan(in, arguments.plan, graph, arguments.format.discrete);
     if (!file) return file;
-    const auto found = read_attribution(*text, arguments.plan, input.instance.num_agents(),
-                                        reader_of_vertices(graph));
+    const auto found = input::read_attribution(*text, arguments.plan, input.instance.num_agents(),
+                                               reader_of_vertices(graph));
     if (!found) return found.error();
     attribution = *found;
     objective = file->stated.objective;
     return file;
   };
-  const auto page = [&](const GridInput& input, const discrete::Plan& plan) {
+  const auto page = [&](const input::GridInput& input, const discrete::Plan& plan) {
     view::PageOptions options;
     options.title = std::filesystem::path(input.source).filename().string();
     options.objective = objective;
     options.attribution = attribution;
     return view::page(input.instance, plan, options);
   };
-  const auto draw = [&](const GridInput& input, const discrete::Plan& plan) {
+  const auto draw = [&](const input::GridInput& input, const discrete::Plan& plan) {
     return view::picture(input.instance, plan, arguments.picture.options);
   };
   return view_and_write(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "view_arguments.hpp"
+#include "asked/view_arguments.hpp"
 
 namespace quadrille::cli {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <sstream>
 
-#include "arguments.hpp"
+#include "frame/arguments.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 
@@ -24,7 +24,7 @@ std::string check(const ConvertArguments& arguments) {
 }
 
 /// The text of the plan or the instance in its new format.
-Result<std::string> convert(const ConvertArguments& arguments, const RoadmapInput& input) {
+Result<std::string> convert(const ConvertArguments& arguments, const input::RoadmapInput& input) {
   std::ostringstream text;
   std::optional<Error> error;
   if (!arguments.plan.empty()) {

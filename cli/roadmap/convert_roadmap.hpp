@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "conversion.hpp"
+#include "asked/conversion.hpp"
 
 namespace quadrille::cli {
 

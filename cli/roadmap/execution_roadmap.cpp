@@ -7,6 +7,7 @@
 
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/execution/clearance.hpp"
+#include "roadmap/roadmap_text.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "executing.hpp"
+#include "asked/execution_case.hpp"
 #include "quadrille/core/result.hpp"
 
 namespace quadrille::cli {

@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "arguments.hpp"
-#include "conversion.hpp"
+#include "asked/conversion.hpp"
+#include "frame/arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "roadmap/releasing.hpp"
+#include "roadmap/roadmap_text.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -39,7 +40,7 @@ struct Checked {
   execution::Precedences order;
 };
 
-Result<Checked> read_checked(const ExportArguments& arguments, const RoadmapInput& input) {
+Result<Checked> read_checked(const ExportArguments& arguments, const input::RoadmapInput& input) {
   if (arguments.to == ExportFormat::vda5050 && !input.instance.roadmap().is_flat())
     return Error{ErrorCode::invalid_instance,
                  "orders of VDA 5050 have no heights, and the roadmap has",
@@ -84,7 +85,7 @@ bool may_lock_up(const ExportArguments& arguments, const execution::Precedences&
 }
 
 /// The text of the plan as samples.
-Result<std::string> convert(const ExportArguments& arguments, const RoadmapInput& input) {
+Result<std::string> convert(const ExportArguments& arguments, const input::RoadmapInput& input) {
   const auto checked = read_checked(arguments, input);
   if (!checked) return checked.error();
   const auto& [plan, order] = *checked;

@@ -5,12 +5,12 @@
 #include <sstream>
 #include <utility>
 
-#include "arguments.hpp"
-#include "output.hpp"
+#include "frame/arguments.hpp"
+#include "frame/output.hpp"
 #include "quadrille/continuous/generator.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/quantise.hpp"
-#include "roadmap/roadmap_input.hpp"
+#include "quadrille/input/roadmap.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -22,8 +22,8 @@ Result<continuous::Instance> make(const GenerateRoadmapOptions& options, std::in
   };
   continuous::RandomInstanceOptions wanted;
   wanted.resolution = options.resolution.value_or(continuous::kDefaultResolution);
-  const auto radius =
-      continuous::quantise_radius(options.radius.value_or(kDefaultRadius), wanted.resolution);
+  const auto radius = continuous::quantise_radius(options.radius.value_or(input::kDefaultRadius),
+                                                  wanted.resolution);
   if (!radius) return refuse("--radius is less than one length unit, or too large");
   const auto speed = continuous::quantise_speed(options.speed.value_or(1), wanted.resolution);
   if (!speed) return refuse("--speed is not between 0.000001 and 1000000");

@@ -2,21 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
-#include "exit_codes.hpp"
-#include "option_parser.hpp"
+#include "asked/generate_arguments.hpp"
+#include "frame/exit_codes.hpp"
+#include "frame/option_parser.hpp"
 
 namespace quadrille::cli {
-
-/// What `generate --kind roadmap` is asked for, besides width, height, agents and seed.
-struct GenerateRoadmapOptions {
-  std::optional<std::int64_t> vertices;
-  std::optional<double> altitude, radius, speed, reach, resolution;
-  bool mixed = false;
-  std::string output;
-};
 
 void add_generate_roadmap_options(CLI::App& app, GenerateRoadmapOptions& options);
 

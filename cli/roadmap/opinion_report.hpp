@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "output.hpp"
+#include "answers/report.hpp"
+#include "frame/output.hpp"
 #include "quadrille/continuous/second_opinion.hpp"
-#include "report.hpp"
 
 namespace quadrille::cli {
 

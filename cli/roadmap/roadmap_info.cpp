@@ -8,10 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "graph_shape.hpp"
-#include "output.hpp"
+#include "answers/graph_shape.hpp"
+#include "frame/output.hpp"
 #include "quadrille/continuous/free_cost.hpp"
+#include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "roadmap/roadmap_text.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "exit_codes.hpp"
-#include "roadmap/roadmap_input.hpp"
+#include "frame/exit_codes.hpp"
+#include "frame/input_options.hpp"
 
 namespace quadrille::cli {
 

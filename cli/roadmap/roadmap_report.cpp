@@ -9,10 +9,10 @@
 #include <string>
 #include <variant>
 
+#include "answers/report.hpp"
 #include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
-#include "report.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "explanation.hpp"
+#include "answers/explanation.hpp"
+#include "answers/report.hpp"
+#include "answers/search_notes.hpp"
+#include "asked/solve_arguments.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
-#include "report.hpp"
-#include "search_notes.hpp"
-#include "solve_arguments.hpp"
 
 namespace quadrille::cli {
 

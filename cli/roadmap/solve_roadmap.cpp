@@ -10,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "arguments.hpp"
+#include "asked/solving.hpp"
+#include "frame/arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/solver.hpp"
@@ -18,7 +19,7 @@
 #include "quadrille/view/picture.hpp"
 #include "roadmap/opinion_report.hpp"
 #include "roadmap/roadmap_report.hpp"
-#include "solving.hpp"
+#include "roadmap/roadmap_text.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -67,7 +68,7 @@ class RoadmapSolve {
  public:
   /// `used`: while it was read.
   RoadmapSolve(const SolveArguments& arguments, const SolveOptions& options,
-               const RoadmapInput& input, const Usage& used)
+               const input::RoadmapInput& input, const Usage& used)
       : arguments_(arguments), options_(options), input_(input), used_(used) {}
 
   [[nodiscard]] const continuous::Instance& instance() const { return input_.instance; }
@@ -184,7 +185,7 @@ class RoadmapSolve {
 
   const SolveArguments& arguments_;
   const SolveOptions& options_;
-  const RoadmapInput& input_;
+  const input::RoadmapInput& input_;
   const Usage used_;
   mutable SearchNotes notes_;  // of the one solve
 };
@@ -198,7 +199,7 @@ ExitCode deliver(const SolveArguments& arguments, const SolveOptions& options,
 }
 
 /// Reads all that there is to read. Plans go into the options.
-Result<RoadmapInput> read_input(const SolveArguments& arguments, SolveOptions& options) {
+Result<input::RoadmapInput> read_input(const SolveArguments& arguments, SolveOptions& options) {
   auto input = load_roadmap_input(arguments.roadmap, arguments.input);
   if (!input) return input;
   const auto read = [&](const std::filesystem::path& path) {

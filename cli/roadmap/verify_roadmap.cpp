@@ -5,19 +5,20 @@
 #include <optional>
 #include <string>
 
-#include "arguments.hpp"
+#include "frame/arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "roadmap/opinion_report.hpp"
 #include "roadmap/roadmap_report.hpp"
+#include "roadmap/roadmap_text.hpp"
 
 namespace quadrille::cli {
 namespace {
 
 class RoadmapVerdict {
  public:
-  RoadmapVerdict(const RoadmapInput& input, const continuous::VerifyReport& replay,
+  RoadmapVerdict(const input::RoadmapInput& input, const continuous::VerifyReport& replay,
                  const std::optional<continuous::SecondOpinion>& opinion)
       : input_(input), replay_(replay), opinion_(opinion) {}
 
@@ -53,7 +54,7 @@ class RoadmapVerdict {
     return opinion_ ? cli::describe_opinion(input_.instance, *opinion_) : "";
   }
 
-  const RoadmapInput& input_;
+  const input::RoadmapInput& input_;
   const continuous::VerifyReport& replay_;
   const std::optional<continuous::SecondOpinion>& opinion_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "verdict.hpp"
+#include "asked/verdict.hpp"
 
 namespace quadrille::cli {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <sstream>
 
-#include "arguments.hpp"
-#include "attribution_input.hpp"
+#include "frame/arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
+#include "quadrille/input/attribution.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
 
@@ -15,7 +15,7 @@ namespace quadrille::cli {
 
 namespace {
 
-ReadVertex reader_of_vertices(const continuous::Roadmap& roadmap) {
+input::ReadVertex reader_of_vertices(const continuous::Roadmap& roadmap) {
   return [&roadmap](text::Checker& check, text::Document::Node node, VertexId& vertex) {
     std::int64_t number = 0;
     const auto last = static_cast<std::int64_t>(roadmap.num_vertices()) - 1;
@@ -35,28 +35,28 @@ ExitCode view_roadmap(const CLI::App& app, const ViewArguments& arguments) {
 
   std::optional<Attribution> attribution;
   Objective objective = Objective::sum_of_costs;
-  const auto read = [&](const RoadmapInput& input) -> Result<continuous::PlanFile> {
-    const auto text = read_text(arguments.plan);
+  const auto read = [&](const input::RoadmapInput& input) -> Result<continuous::PlanFile> {
+    const auto text = input::read_text(arguments.plan);
     if (!text) return text.error();
     std::istringstream in(*text);
     auto file = continuous::read_plan(in, arguments.plan, input.instance, input.grid_or_null(),
                                       arguments.format.continuous);
     if (!file) return file;
-    const auto found = read_attribution(*text, arguments.plan, input.instance.num_agents(),
-                                        reader_of_vertices(input.instance.roadmap()));
+    const auto found = input::read_attribution(*text, arguments.plan, input.instance.num_agents(),
+                                               reader_of_vertices(input.instance.roadmap()));
     if (!found) return found.error();
     attribution = *found;
     objective = file->stated.objective;
     return file;
   };
-  const auto page = [&](const RoadmapInput& input, const continuous::Plan& plan) {
+  const auto page = [&](const input::RoadmapInput& input, const continuous::Plan& plan) {
     view::PageOptions options;
     options.title = std::filesystem::path(input.source).filename().string();
     options.objective = objective;
     options.attribution = attribution;
     return view::page(input.instance, plan, options, input.grid_or_null());
   };
-  const auto draw = [&](const RoadmapInput& input, const continuous::Plan& plan) {
+  const auto draw = [&](const input::RoadmapInput& input, const continuous::Plan& plan) {
     return view::picture(input.instance, plan, arguments.picture.options, input.grid_or_null());
   };
   return view_and_write(

@@ -8,8 +8,8 @@
 
 #include "bindings.hpp"
 #include "errors.hpp"
-#include "grid/grid_input.hpp"
-#include "roadmap/roadmap_input.hpp"
+#include "quadrille/input/grid.hpp"
+#include "quadrille/input/roadmap.hpp"
 #include "saving.hpp"
 #include "timed.hpp"
 
@@ -19,18 +19,18 @@ namespace {
 /// (a StepInstance or a TimedInstance, what the file calls its parts). The names are those of the
 /// program's options.
 py::object read(const py::dict& names) {
-  cli::InputOptions input;
-  cli::RoadmapOptions roadmap;
+  input::InputOptions source;
+  input::RoadmapOptions roadmap;
   const auto set = [&](const char* name, auto& value) {
     using Value = std::decay_t<decltype(value)>;
     if (names.contains(name)) value = py::object(names[name]).cast<Value>();
   };
-  set("map", input.map);
-  set("scen", input.scen);
-  set("instance", input.instance);
-  set("agents", input.agents);
-  set("passable", input.letters.passable);
-  set("blocked", input.letters.blocked);
+  set("map", source.map);
+  set("scen", source.scen);
+  set("instance", source.instance);
+  set("agents", source.agents);
+  set("passable", source.letters.passable);
+  set("blocked", source.letters.blocked);
   set("roadmap", roadmap.roadmap);
   set("task", roadmap.task);
   set("radius", roadmap.radius);
@@ -39,16 +39,16 @@ py::object read(const py::dict& names) {
   set("resolution", roadmap.resolution);
 
   py::gil_scoped_release release;
-  const bool timed = cli::is_roadmap(input, roadmap);
+  const bool timed = is_roadmap(source, roadmap);
   std::string wrong;
   if (timed) {
-    wrong = check_roadmap_options(roadmap, input, cli::Need::map);
+    wrong = check_roadmap_options(roadmap, source, input::Need::map);
   } else {
     wrong = why_no_roadmap(roadmap);
-    if (wrong.empty()) wrong = check_grid_options(input, cli::Need::map);
+    if (wrong.empty()) wrong = check_grid_options(source, input::Need::map);
   }
   if (timed && wrong.empty()) {
-    auto loaded = load_roadmap_input(roadmap, input);
+    auto loaded = load_roadmap_input(roadmap, source);
     const py::gil_scoped_acquire acquire;
     if (!loaded && loaded.error().code == ErrorCode::no_plan)
       return py::make_tuple(TimedInstance(loaded.error(), std::nullopt), lists_of({}));
@@ -57,7 +57,7 @@ py::object read(const py::dict& names) {
                           lists_of(loaded->names));
   }
   if (wrong.empty()) {
-    auto loaded = load_grid_input(input);
+    auto loaded = load_grid_input(source);
     const py::gil_scoped_acquire acquire;
     if (!loaded) raise(loaded.error());
     return py::make_tuple(std::move(loaded->instance), lists_of(loaded->names));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Agents on roadmaps, from arrays and back.
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/quantise_polygon.hpp"
 #include "quadrille/continuous/under_way.hpp"
+#include "quadrille/core/decimal.hpp"
 #include "timed.hpp"
 
 namespace quadrille::python {
@@ -33,7 +33,6 @@ using continuous::Ticks;
 using continuous::Words;
 
 /// For messages: a number in the user's units.
-std::string text(double number) { return fmt::format("{}", number); }
 
 /// `corners`: float64[k, 2]. `who`: for messages.
 continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution,
@@ -45,7 +44,7 @@ continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution
   if (!polygon)
     raise({polygon.error().code,
            who + " has a polygon that is not supported at a resolution of " +
-               text(resolution.length) + ": " + polygon.error().message,
+               decimal(resolution.length) + ": " + polygon.error().message,
            {}});
   return *std::move(polygon);
 }
@@ -56,7 +55,7 @@ continuous::Body body_of(const py::handle& body, const Resolution& resolution,
   if (!py::isinstance<py::float_>(body)) return polygon_of(body.cast<Doubles>(), resolution, who);
   const auto radius = continuous::quantise_radius_up(body.cast<double>(), resolution);
   if (!radius)
-    refuse(who + " has a radius of " + text(body.cast<double>()) +
+    refuse(who + " has a radius of " + decimal(body.cast<double>()) +
            ", which is not positive, or too large");
   return continuous::Disc{*radius};
 }
@@ -65,7 +64,7 @@ continuous::Body body_of(const py::handle& body, const Resolution& resolution,
 std::optional<Ticks> moment_of(double value, const Resolution& resolution, const std::string& who) {
   if (std::isnan(value)) return std::nullopt;
   const auto ticks = continuous::quantise_time(value, resolution);
-  if (!ticks) refuse(who + " at " + text(value) + ", which is negative, or too late");
+  if (!ticks) refuse(who + " at " + decimal(value) + ", which is negative, or too late");
   return ticks;
 }
 
@@ -138,7 +137,7 @@ std::shared_ptr<const Roadmap> put_under_way(const py::list& under_way,
     const VertexId from = vertex_of(source, roadmap->num_vertices(), who + ": start");
     const VertexId to = vertex_of(target, roadmap->num_vertices(), who + ": start");
     if (!(fraction >= 0 && fraction <= 1))
-      refuse(who + " has a part of its move behind it of " + text(fraction) +
+      refuse(who + " has a part of its move behind it of " + decimal(fraction) +
              ", which is not from 0 to 1");
     continuous::Agent& made = agents[number];
     made.under_way = true;
@@ -184,10 +183,11 @@ Words words_of(const py::dict& called, const Resolution& resolution) {
       return call(number).cast<std::string>();
     };
   };
-  return {[agent = name("agent")](AgentId i) { return agent(i.index()); },
-          [](std::size_t o) { return "obstacle " + std::to_string(o); },
-          [vertex = name("vertex")](VertexId v) { return vertex(v.index()); },
-          [resolution](Ticks time) { return text(continuous::in_input_units(time, resolution)); }};
+  return {
+      [agent = name("agent")](AgentId i) { return agent(i.index()); },
+      [](std::size_t o) { return "obstacle " + std::to_string(o); },
+      [vertex = name("vertex")](VertexId v) { return vertex(v.index()); },
+      [resolution](Ticks time) { return decimal(continuous::in_input_units(time, resolution)); }};
 }
 
 template <class VertexOf>
@@ -220,7 +220,8 @@ TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& 
     made.goals = Goals(std::move(set));
     made.body = body_of(bodies[static_cast<std::size_t>(i)], resolution, who);
     const auto speed = continuous::quantise_speed(speeds.at(i), resolution);
-    if (!speed) refuse(who + " has a speed of " + text(speeds.at(i)) + ", which is not supported");
+    if (!speed)
+      refuse(who + " has a speed of " + decimal(speeds.at(i)) + ", which is not supported");
     made.speed = *speed;
     agents.push_back(std::move(made));
   }

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "cli/process.hpp"
-#include "exit_codes.hpp"
+#include "frame/exit_codes.hpp"
 #include "support/sanitizer.hpp"
 
 namespace quadrille::cli::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "outcome_check.hpp"
+#include "answers/outcome_check.hpp"
 
 #include <gtest/gtest.h>
 

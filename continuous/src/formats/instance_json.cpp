@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "formats/json_numbers.hpp"
-#include "model/decimal.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/core/decimal.hpp"
 #include "quadrille/text/document.hpp"
 #include "quadrille/text/goals.hpp"
 #include "quadrille/text/names.hpp"

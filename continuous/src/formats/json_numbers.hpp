@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "model/decimal.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/resolution.hpp"
+#include "quadrille/core/decimal.hpp"
 #include "quadrille/text/document.hpp"
 
 namespace quadrille::continuous {

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "model/body_numbers.hpp"
-#include "model/decimal.hpp"
 #include "model/place_of_rest.hpp"
 #include "model/reachability.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/core/decimal.hpp"
 #include "quadrille/geometry/body_index.hpp"
 
 namespace quadrille::continuous {

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "program.hpp"
+#include "frame/program.hpp"
 
 namespace quadrille::cli::test {
 namespace {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "frame/arguments.hpp"
+#include "frame/subcommands.hpp"
+#include "roadmap/export_roadmap.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+constexpr const char* kFooter =
+    "For plans on roadmaps; a grid is one with --roadmap map.map. A plan that breaks a rule is\n"
+    "refused; so are orders, unless --allow-cycles is given, that wait for each other for ever: "
+    "exit\n"
+    "code 1.\n"
+    "\n"
+    "Examples:\n"
+    "  quadrille export --instance discs.json --to csv --rate 20 --output plan.csv plan.json\n"
+    "  quadrille export --instance discs.json --to vda5050 plan.json\n"
+    "  ... | quadrille export --instance discs.json --to vda5050 --states - plan.json | ...\n"
+    "\n";
+
+}  // namespace
+
+Subcommand add_export(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("export", "Write a plan for other systems");
+  const auto arguments = std::make_shared<ExportArguments>();
+  add_input_options(*app, arguments->input);
+  add_roadmap_options(*app, arguments->roadmap);
+  add_input_file(*app, "PLAN", arguments->plan, "Plan file")->required();
+  add_choice(
+      *app, "--to", arguments->to, "csv, multidof, path or vda5050",
+      +[](std::string_view text) -> std::optional<std::optional<ExportFormat>> {
+        const auto format = parse_export_format(text);
+        if (!format) return std::nullopt;
+        return format;
+      },
+      "csv (samples), multidof (trajectory_msgs), path (nav_msgs) or vda5050 (orders)")
+      ->required();
+  add_positive(*app, "--rate", arguments->rate, "Samples per unit of time; default 10");
+  add_input_file(*app, "--states", arguments->states,
+                 "States of robots, one JSON message per line: release orders as they go");
+  app->add_flag("--allow-cycles", arguments->allow_cycles,
+                "With vda5050: write orders that wait for each other for ever, with a warning");
+  add_plan_format(*app, "--from", arguments->from,
+                  "Format of PLAN; default: by what the file says");
+  add_file(*app, "--output", arguments->output, "Where to write; default - is standard output");
+  app->footer(std::string(kFooter) + kExitCodesHelp);
+  return {app, [app, arguments] {
+            if (!is_roadmap(arguments->input, arguments->roadmap))
+              return usage_error(*app,
+                                 "export is for plans on roadmaps: --roadmap, or an "
+                                 "--instance with one");
+            return export_roadmap(*app, *arguments);
+          }};
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "frame/input_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "frame/arguments.hpp"
+#include "quadrille/continuous/grid.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+constexpr std::int64_t kMaxAgents = 1'000'000'000;
+
+void add_letters(CLI::App& app, const std::string& name, std::string& letters,
+                 const std::string& help) {
+  const auto read = [&letters, name](const std::string& text) {
+    if (text.empty()) refuse_value(name, text, "a list of letters");
+    letters = text;
+  };
+  app.add_option_function<std::string>(name, read, help)->type_name("LETTERS");
+}
+
+}  // namespace
+
+void add_input_options(CLI::App& app, InputOptions& options) {
+  const std::string group = "Instance";
+  add_input_file(app, "--map", options.map, "Map in MovingAI's format")->group(group);
+  add_input_file(app, "--scen", options.scen, "Scenario in MovingAI's format")->group(group);
+  add_integer(app, "--agents", options.agents, 0, kMaxAgents,
+              "Take the first N rows of --scen, or agents of --instance")
+      ->group(group);
+  add_input_file(app, "--instance", options.instance,
+                 "Instead: one file, quadrille's JSON (also with a roadmap) or\n"
+                 "libMultiRobotPlanning's YAML")
+      ->group(group);
+  add_letters(app, "--passable", options.letters.passable,
+              "Map letters that are passable besides . and G");
+  add_letters(app, "--blocked", options.letters.blocked,
+              "Map letters that are blocked besides @, O and T");
+  for (const char* name : {"--passable", "--blocked"}) app.get_option(name)->group(group);
+}
+
+void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
+  const std::string group = "Continuous time";
+  add_input_file(app, "--roadmap", options.roadmap,
+                 "Roadmap: GraphML, a grid as XML, a MovingAI .map file, or a nav graph of\n"
+                 "Open-RMF as .yaml")
+      ->group(group);
+  add_input_file(app, "--task", options.task, "Its agents: a task as XML, or a MovingAI .scen file")
+      ->group(group);
+  add_positive(app, "--radius", options.radius, "Radius of all agents; default sqrt(2)/4")
+      ->group(group);
+  add_positive(app, "--speed", options.speed, "Speed of all agents; default 1")->group(group);
+  add_integer(
+      app, "--neighbourhood", options.neighbourhood, continuous::GridRoadmap::kMinNeighbourhood,
+      continuous::GridRoadmap::kMaxNeighbourhood, "On grids: moves to 2^N neighbours; default 3")
+      ->group(group);
+  add_positive(app, "--resolution", options.resolution,
+               "Size of a tick and of a length unit; default 0.000001")
+      ->group(group);
+}
+
+std::string PlanFormats::why_not_discrete(const std::string& option) const {
+  if (!is_given() || discrete) return "";
+  return fmt::format("{} {} is for roadmaps", option, to_string(*continuous));
+}
+
+std::string PlanFormats::why_not_continuous(const std::string& option) const {
+  if (!is_given() || continuous) return "";
+  return fmt::format("{} {} is not for roadmaps, whose plans are json or ccbs", option,
+                     to_string(*discrete));
+}
+
+CLI::Option* add_plan_format(CLI::App& app, const std::string& name, PlanFormats& formats,
+                             const std::string& help) {
+  const auto read = [&formats, name](const std::string& text) {
+    formats = {discrete::parse_plan_format(text), continuous::parse_plan_format(text)};
+    if (!formats.is_given()) refuse_value(name, text, "json, cbsh2, visualizer, yaml or ccbs");
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name("FORMAT");
+}
+
+}  // namespace quadrille::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "quadrille/core/result.hpp"
+#include "quadrille/discrete/instance.hpp"
+#include "quadrille/discrete/movingai.hpp"
+#include "quadrille/input/source.hpp"
+#include "quadrille/text/names.hpp"
+
+namespace quadrille::input {
+
+/// What is wrong with the combination of options where they name no roadmap; empty if nothing is.
+[[nodiscard]] std::string check_grid_options(const InputOptions& options, Need need);
+
+/// An instance and what is worth saying about its files.
+struct GridInput {
+  discrete::Instance instance;
+  std::string source;       ///< The file that holds the graph.
+  std::string task_source;  ///< The file that holds the agents; empty if there are none.
+  std::size_t rows = 0;     ///< Of the scenario; 0 without one.
+  std::vector<discrete::LetterCount> other_letters;
+  std::string other_map;  ///< What the scenario names, if it is not the map; else empty.
+  text::Names names = {};
+};
+/// Requires options that pass check_grid_options. Reads each file once, front to back.
+[[nodiscard]] Result<GridInput> load_grid_input(const InputOptions& options);
+
+}  // namespace quadrille::input

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "quadrille/core/result.hpp"
+#include "quadrille/discrete/movingai.hpp"
+
+namespace quadrille::input {
+
+/// Under this name standard input is a file like others.
+inline constexpr const char* kStandardInput = "/dev/stdin";
+
+/// Where an instance comes from: `--map`, `--scen` and `--agents`, or `--instance`.
+struct InputOptions {
+  std::string map, scen, instance;
+  std::optional<std::int64_t> agents;
+  discrete::MapOptions letters;
+  /// Maps with more passable cells are refused before a graph is made of them.
+  std::size_t most_vertices = SIZE_MAX;
+  /// The contents of `instance`, if they have been read already.
+  std::optional<std::string> instance_text;
+};
+
+enum class Need {
+  tasks,  ///< A map needs its scenario and the number of agents.
+  map,    ///< A map alone will do, and all rows of a scenario are taken by default.
+};
+
+/// What is wrong if an `--instance` with this number of agents has fewer than `--agents` asks for.
+[[nodiscard]] std::optional<Error> check_agents(const InputOptions& options, std::size_t agents);
+
+/// What is wrong if a map, in this file, has too many passable cells.
+[[nodiscard]] std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,
+                                                  const std::string& file);
+
+/// An error of the reader of maps; one about a letter says which options can help.
+[[nodiscard]] Error with_letters_hint(Error error);
+
+/// What a file is, if `--instance` is given one that belongs to another option; empty else.
+[[nodiscard]] std::string why_no_instance(const std::string& text);
+
+}  // namespace quadrille::input

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/input/roadmap.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "quadrille/continuous/instance_json.hpp"
+#include "quadrille/continuous/nav_graph.hpp"
+#include "quadrille/continuous/quantise.hpp"
+#include "quadrille/continuous/roadmap_xml.hpp"
+#include "quadrille/core/decimal.hpp"
+#include "quadrille/discrete/movingai.hpp"
+#include "quadrille/text/text_input.hpp"
+
+namespace quadrille::input {
+namespace {
+
+using continuous::GridRoadmap;
+using continuous::Instance;
+using continuous::OccupancyGrid;
+using continuous::Roadmap;
+
+constexpr int kDefaultNeighbourhood = 3;
+
+bool is_movingai_map(const std::string& file) { return std::string_view(file).ends_with(".map"); }
+bool is_nav_graph(const std::string& file) {
+  return std::string_view(file).ends_with(".yaml") || std::string_view(file).ends_with(".yml");
+}
+
+template <class Size>
+std::string size_text(Size width, Size height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+Result<std::string> text_of(const std::string& file) {
+  std::ifstream in;
+  if (auto error = text::open_input(file, in)) return *error;
+  return text::read_all(in, file);
+}
+
+Result<continuous::MapXml> read_map(const std::string& file, const discrete::MapOptions& letters,
+                                    double resolution, continuous::Speed speed) {
+  if (is_nav_graph(file)) {
+    auto graph = continuous::read_nav_graph(std::filesystem::path(file), resolution, speed);
+    if (!graph) return graph.error();
+    return continuous::MapXml{std::move(graph->roadmap), graph->num_zero_length_edges};
+  }
+  const auto text = text_of(file);
+  if (!text) return text.error();
+  std::istringstream in(*text);
+  // The program writes maps to files of any name.
+  if (!is_movingai_map(file) && !text->starts_with("type "))
+    return continuous::read_map_xml(in, file, resolution);
+  auto map = discrete::read_map(in, file, letters);
+  if (!map) return with_letters_hint(map.error());
+  return continuous::MapXml{OccupancyGrid{map->height, map->width, std::move(map->passable)}, 0};
+}
+
+/// `grid`: what the cells of a scenario belong to, if the map is one.
+Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGrid* grid) {
+  const auto text = text_of(file);
+  if (!text) return text.error();
+  std::istringstream in(*text);
+  if (!std::string_view(file).ends_with(".scen") && !text->starts_with("version "))
+    return continuous::read_task_xml(in, file);
+  const auto scenario = discrete::read_scenario(in, file);
+  if (!scenario) return scenario.error();
+  continuous::TaskXml task{file, {}};
+  for (const discrete::ScenarioRow& row : scenario->rows) {
+    if (grid != nullptr && (row.width != grid->width || row.height != grid->height))
+      return Error{ErrorCode::invalid_instance,
+                   "the row is for a map of " + size_text(row.width, row.height) + " cells, not " +
+                       size_text(grid->width, grid->height),
+                   {file, row.line}};
+    task.rows.push_back({row.line, std::pair{continuous::Cell{row.start.x, row.start.y},
+                                             continuous::Cell{row.goal.x, row.goal.y}}});
+  }
+  return task;
+}
+
+Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
+
+/// What all agents have in common.
+struct Numbers {
+  double resolution;
+  continuous::Length radius;
+  continuous::Speed speed;
+};
+
+Result<Numbers> quantise(const RoadmapOptions& options) {
+  const double resolution = options.resolution.value_or(continuous::kDefaultResolution);
+  const auto radius =
+      continuous::quantise_radius(options.radius.value_or(kDefaultRadius), resolution);
+  if (!radius)
+    return out_of_range("--radius: " + decimal(options.radius.value_or(kDefaultRadius)) +
+                        " is less than one length unit, or too large");
+  const auto speed = continuous::quantise_speed(options.speed.value_or(1), resolution);
+  if (!speed)
+    return out_of_range("--speed: " + decimal(options.speed.value_or(1)) +
+                        " is not between 0.000001 and 1000000");
+  return Numbers{resolution, *radius, *speed};
+}
+
+Result<RoadmapInput> read_instance(const InputOptions& input) {
+  std::istringstream in(*input.instance_text);
+  text::Names names;
+  auto instance = continuous::read_instance_json(in, input.instance, &names);
+  if (!instance) return instance.error();
+  if (auto error = check_agents(input, instance->num_agents())) return *std::move(error);
+  if (input.agents) {
+    std::vector<continuous::Agent> agents(instance->agents().begin(), instance->agents().end());
+    agents.resize(static_cast<std::size_t>(*input.agents));
+    instance = Instance::make(instance->shared_roadmap(), std::move(agents), instance->resolution(),
+                              {}, instance->obstacles());
+    names.agents.resize(static_cast<std::size_t>(*input.agents));
+  }
+  const std::size_t count = instance->num_agents();
+  return RoadmapInput{std::move(instance).value(),
+                      {},
+                      input.instance,
+                      input.instance,
+                      count,
+                      "",
+                      0,
+                      std::move(names)};
+}
+
+}  // namespace
+
+bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
+  if (!input.instance.empty()) {
+    std::ifstream in;
+    if (text::open_input(input.instance, in)) return !options.roadmap.empty();
+    auto text = text::read_all(in, input.instance);
+    if (text) input.instance_text = std::move(text).value();
+    if (input.instance_text && continuous::is_roadmap_json(*input.instance_text)) return true;
+  }
+  return !options.roadmap.empty();
+}
+
+std::string check_roadmap_options(const RoadmapOptions& options, const InputOptions& input,
+                                  Need need) {
+  const bool letters = !input.letters.passable.empty() || !input.letters.blocked.empty();
+  if (!options.roadmap.empty()) {
+    if (!input.map.empty() || !input.scen.empty() || !input.instance.empty())
+      return "--roadmap goes with --task, not with --map, --scen or --instance";
+    if (letters && !is_movingai_map(options.roadmap))
+      return "--passable and --blocked belong to .map files";
+    if (options.task.empty() && (need == Need::tasks || input.agents)) return "--task is missing";
+    const auto numbers = quantise(options);
+    return numbers ? "" : numbers.error().message;
+  }
+  if (!input.map.empty() || !input.scen.empty()) return "--instance excludes --map and --scen";
+  if (letters) return "--passable and --blocked belong to .map files, not to --instance";
+  return why_no_roadmap(options);
+}
+
+std::string why_no_roadmap(const RoadmapOptions& options) {
+  if (options.task.empty() && !options.radius && !options.speed && !options.resolution &&
+      !options.neighbourhood)
+    return "";
+  return "--task, --radius, --speed, --neighbourhood and --resolution belong to --roadmap";
+}
+
+Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const InputOptions& input) {
+  if (options.roadmap.empty()) return read_instance(input);
+  const auto numbers = quantise(options);
+  if (!numbers) return numbers.error();
+  auto map = read_map(options.roadmap, input.letters, numbers->resolution, numbers->speed);
+  if (!map) return map.error();
+  const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
+  if (cells != nullptr)
+    if (auto error =
+            check_map_size(input, std::count(cells->passable.begin(), cells->passable.end(), true),
+                           options.roadmap))
+      return *std::move(error);
+  continuous::TaskXml task;
+  if (!options.task.empty()) {
+    auto read = read_task(options.task, cells);
+    if (!read) return read.error();
+    task = std::move(read).value();
+  }
+  const std::size_t count =
+      input.agents ? static_cast<std::size_t>(*input.agents) : task.rows.size();
+
+  std::optional<GridRoadmap> grid;
+  std::shared_ptr<const Roadmap> roadmap;
+  Result<std::vector<continuous::Agent>> agents = std::vector<continuous::Agent>();
+  std::string kind;
+  if (cells != nullptr) {
+    const auto k = static_cast<int>(options.neighbourhood.value_or(kDefaultNeighbourhood));
+    auto made = GridRoadmap::make(*cells, k, numbers->radius, numbers->resolution);
+    if (!made) return Error{made.error().code, made.error().message, {options.roadmap, 0}};
+    grid = std::move(made).value();
+    roadmap = grid->roadmap();
+    agents = agents_of(task, count, *grid, numbers->radius, numbers->speed);
+    kind =
+        size_text(cells->width, cells->height) + " grid, 2^" + std::to_string(k) + " neighbours, ";
+  } else {
+    if (options.neighbourhood)
+      return Error{ErrorCode::invalid_instance,
+                   "--neighbourhood is for grids, and this is a roadmap",
+                   {options.roadmap, 0}};
+    roadmap = std::make_shared<const Roadmap>(std::get<Roadmap>(std::move(map->map)));
+    agents = agents_of(task, count, *roadmap, numbers->radius, numbers->speed);
+  }
+  if (!agents) return agents.error();
+  std::vector<SourcePlace> places;
+  for (std::size_t i = 0; i < count; ++i) places.push_back({task.file, task.rows[i].line});
+  auto instance = Instance::make(roadmap, std::move(agents).value(), numbers->resolution, places);
+  if (!instance) {
+    Error error = instance.error();
+    if (error.where.file.empty()) error.where.file = options.roadmap;
+    return error;
+  }
+  return RoadmapInput{std::move(instance).value(),
+                      std::move(grid),
+                      options.roadmap,
+                      options.task,
+                      task.rows.size(),
+                      std::move(kind),
+                      map->num_zero_length_edges};
+}
+
+}  // namespace quadrille::input

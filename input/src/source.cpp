@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/input/source.hpp"
+
+#include <string_view>
+#include <utility>
+
+namespace quadrille::input {
+std::optional<Error> check_agents(const InputOptions& options, std::size_t agents) {
+  if (!options.agents || static_cast<std::size_t>(*options.agents) <= agents) return std::nullopt;
+  return Error{ErrorCode::invalid_instance,
+               "there are only " + std::to_string(agents) + " agents, not " +
+                   std::to_string(*options.agents),
+               {options.instance, 0}};
+}
+
+std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,
+                                    const std::string& file) {
+  if (static_cast<std::size_t>(cells) <= options.most_vertices) return std::nullopt;
+  return Error{ErrorCode::out_of_range,
+               "the map has " + std::to_string(cells) + " passable cells, more than " +
+                   std::to_string(options.most_vertices) +
+                   ", which are the most that can be solved",
+               {file, 0}};
+}
+
+Error with_letters_hint(Error error) {
+  if (error.message.find("is neither known as passable nor as blocked") != std::string::npos)
+    error.message += " (--passable and --blocked say what it is)";
+  return error;
+}
+
+std::string why_no_instance(const std::string& text) {
+  const std::string_view begin = std::string_view(text).substr(0, text.find_first_of("\r\n"));
+  if (begin.starts_with("type ")) return "this is a map of MovingAI's: it belongs to --map";
+  if (begin.starts_with("version "))
+    return "this is a scenario of MovingAI's: it belongs to --scen";
+  if (begin.starts_with('<')) return "this is XML: roadmaps belong to --roadmap, tasks to --task";
+  return "";
+}
+
+}  // namespace quadrille::input
