@@ -26,6 +26,9 @@ constexpr std::int64_t kGuideEffortPerTimestep = 5;
 /// 184; maze-32-32-2, 150, 186 and 168; den312d, 500, 227 and 189; but warehouse-10-20-10-2-1, 600,
 /// 145 and 161; random-64-64-20, 500, 124 and 131; empty-48-48, 600, 120 and 129.
 constexpr Cost kDearInHalves = 3;
+/// The same, in quarters, for whoever makes all plans but the first and does not know what that
+/// costs: less, so that it does not leave out a search that one alone would make.
+constexpr Cost kDearBesideInQuarters = 5;
 /// Steps of a local guide for each one of PIBT. Measured: 6 to 22.
 constexpr std::int64_t kLocalEffort = 16;
 /// Longer plans stay as they are: a pass over their windows would take more than half a minute.
@@ -191,7 +194,9 @@ bool PrimalSearch::Impl::begin_local_turn(LimitMonitor& limits) {
 
 /// Or there is none.
 bool PrimalSearch::Impl::is_dear() const noexcept {
-  return !plan_ || 2 * cost_ > kDearInHalves * ideal_;
+  if (!plan_) return true;
+  return part_ == Part::rest ? 4 * cost_ > kDearBesideInQuarters * ideal_
+                             : 2 * cost_ > kDearInHalves * ideal_;
 }
 
 bool PrimalSearch::Impl::make_guide(std::uint32_t kind, LimitMonitor& limits) {
