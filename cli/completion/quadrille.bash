@@ -27,7 +27,7 @@ _quadrille() {
     --kind) values="empty random maze room warehouse roadmap" ;;
     --rule) values="naive gated coupled" ;;
     --neighbourhood) values="2 3 4 5" ;;
-    --map | --scen | --instance | --roadmap | --task | --plan | --json | --initial-plan | --known-plan | --states | --output | --view | --svg | --map-output | \
+    --map | --scen | --instance | --roadmap | --task | --plan | --json | --proof | --initial-plan | --known-plan | --states | --output | --view | --svg | --map-output | \
       --scen-output | --instance-output | --folder | --data)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
@@ -52,7 +52,7 @@ _quadrille() {
       options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
         --backtracking --no-first-plan --initial-plan --known-bound --threads --race --gap --seed --time-limit --cpu-limit
         --memory-limit --conflict-limit --plan --plan-format --plan-every --check-with --json --history --view --svg
-        --svg-kind --svg-agents --quiet --explain --audit --known-plan"
+        --svg-kind --svg-agents --proof --quiet --explain --audit --known-plan"
       ;;
     explain)
       options="$instance --objective --seed --time-limit --cpu-limit --memory-limit --conflict-limit --gap

@@ -117,7 +117,7 @@ TEST_F(ExplainTest, NothingIsSearchedWhenTimeIsUp) {
                 .code,
             0);
   const Finished finished = run({"explain", "--map", map, "--scen", scen, "--agents", "250",
-                                 "--time-limit", "1", "--json", path("result.json")});
+                                 "--time-limit", "3", "--json", path("result.json")});
   const json result = json::parse(read("result.json"));
   ASSERT_EQ(result["stop_reason"], "wall-time") << finished.out;
   ASSERT_FALSE(result["reasons"].empty());
