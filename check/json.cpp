@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "json.hpp"
 
+#include <algorithm>
+
 namespace quadrille_check {
 namespace {
 
@@ -61,14 +63,13 @@ class Parser {
       return;
     }
     for (char c = ','; c != end;) {
-      std::string key;
       if (json.kind == '{') {
         expect(next() == '"', "a key");
-        key = text();
-        expect(keys.insert(key).second, "each key once");
+        json.names.push_back(text());
+        expect(keys.insert(json.names.back()).second, "each key once");
         expect(take() == ':', "a colon");
       }
-      json.members.emplace_back(std::move(key), value(depth + 1));
+      json.members.push_back(value(depth + 1));
       c = take();
       expect(c == ',' || c == end, "a comma or an end");
     }
@@ -93,9 +94,8 @@ class Parser {
 
 const Json* Json::find(const std::string& key) const {
   expect(kind == '{', "an object");
-  for (const auto& [name, member] : members)
-    if (name == key) return &member;
-  return nullptr;
+  const auto at = std::find(names.begin(), names.end(), key);
+  return at == names.end() ? nullptr : &members[static_cast<std::size_t>(at - names.begin())];
 }
 const Json& Json::at(const std::string& key) const {
   const Json* const found = find(key);
@@ -104,13 +104,12 @@ const Json& Json::at(const std::string& key) const {
 }
 void Json::only(const std::set<std::string>& keys) const {
   expect(kind == '{', "an object");
-  for (const auto& [name, member] : members)
-    expect(keys.count(name) != 0, "no key \"" + name + "\"");
+  for (const std::string& name : names) expect(keys.count(name) != 0, "no key \"" + name + "\"");
 }
 std::vector<const Json*> Json::list() const {
   expect(kind == '[', "a list");
   std::vector<const Json*> items;
-  for (const auto& [name, member] : members) items.push_back(&member);
+  for (const Json& member : members) items.push_back(&member);
   return items;
 }
 const std::string& Json::text() const {

@@ -3,7 +3,6 @@
 
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "basics.hpp"
@@ -13,8 +12,9 @@ namespace quadrille_check {
 /// As much of JSON as instances need: objects, lists, texts and natural numbers. All functions
 /// throw BadInput when the value is of another kind.
 struct Json {
-  char kind = '0';                                    // { [ " or 0
-  std::vector<std::pair<std::string, Json>> members;  // of a list without names
+  char kind = '0';                 // { [ " or 0
+  std::vector<std::string> names;  // of the members of an object
+  std::vector<Json> members;
   std::string content;
   Int value = 0;
 

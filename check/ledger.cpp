@@ -5,8 +5,7 @@
 
 namespace quadrille_check {
 
-Ledger::Ledger(const Instance& instance, const Meanings& meanings)
-    : instance_(instance), meanings_(meanings) {
+Ledger::Ledger(const Instance& instance, const Meanings& meanings) : meanings_(meanings) {
   for (const Instance::Agent& agent : instance.agents()) {
     const Int cost = instance.distances(agent.start)[static_cast<std::size_t>(agent.goal)];
     if (cost == kFar) throw BadInput("an agent has no way to its goal");

@@ -49,7 +49,6 @@ class Ledger {
   [[nodiscard]] Int bound_of(Int lit, bool is_makespan) const;
   [[nodiscard]] bool is_sum_of_delays(Int node) const;
 
-  const Instance& instance_;
   const Meanings& meanings_;
   std::vector<Int> free_costs_;
   Int free_sum_ = 0, free_makespan_ = 0;

@@ -247,7 +247,9 @@ TEST(Session, LemmasLiveOn) {
 // Where agents may end at several goals, lemmas say which ones, and pass on as well.
 TEST(Session, GoalSetsLiveOn) {
   Tally tally;
-  for (std::uint32_t seed = 1; seed <= support::scaled(30); ++seed) {
+  // Of fewer, lemmas from before may decide none.
+  const std::size_t count = std::max<std::size_t>(support::scaled(30), 15);
+  for (std::uint32_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE(seed);
     RandomOptions roadmap = small_roadmap(seed);
     roadmap.goal_sets_percent = 80;
