@@ -3,6 +3,7 @@
 
 #include "cli/process.hpp"
 #include "cli/roadmap_support.hpp"
+#include "support/sanitizer.hpp"
 
 namespace quadrille::cli::test {
 namespace {
@@ -116,8 +117,10 @@ TEST_F(ExplainTest, NothingIsSearchedWhenTimeIsUp) {
                  "250", "--map-output", map, "--scen-output", scen})
                 .code,
             0);
+  // Long enough for a few bounds, after the first plan.
+  const std::string seconds = support::kAddressSanitizer ? "20" : "3";
   const Finished finished = run({"explain", "--map", map, "--scen", scen, "--agents", "250",
-                                 "--time-limit", "3", "--json", path("result.json")});
+                                 "--time-limit", seconds, "--json", path("result.json")});
   const json result = json::parse(read("result.json"));
   ASSERT_EQ(result["stop_reason"], "wall-time") << finished.out;
   ASSERT_FALSE(result["reasons"].empty());
