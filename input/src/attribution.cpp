@@ -2,7 +2,6 @@
 #include "quadrille/input/attribution.hpp"
 
 #include <cstdint>
-#include <fstream>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -165,12 +164,6 @@ std::optional<Node> member(const Document& document, std::string_view name) {
 }
 
 }  // namespace
-
-Result<std::string> read_text(const std::string& file) {
-  std::ifstream in;
-  if (auto error = text::open_input(file, in)) return *error;
-  return text::read_all(in, file);
-}
 
 Result<std::optional<Attribution>> read_attribution(const std::string& text,
                                                     const std::string& file, std::size_t num_agents,

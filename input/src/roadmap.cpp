@@ -37,12 +37,6 @@ std::string size_text(Size width, Size height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-Result<std::string> text_of(const std::string& file) {
-  std::ifstream in;
-  if (auto error = text::open_input(file, in)) return *error;
-  return text::read_all(in, file);
-}
-
 Result<continuous::MapXml> read_map(const std::string& file, const discrete::MapOptions& letters,
                                     double resolution, continuous::Speed speed) {
   if (is_nav_graph(file)) {
@@ -50,7 +44,7 @@ Result<continuous::MapXml> read_map(const std::string& file, const discrete::Map
     if (!graph) return graph.error();
     return continuous::MapXml{std::move(graph->roadmap), graph->num_zero_length_edges};
   }
-  const auto text = text_of(file);
+  const auto text = read_text(file);
   if (!text) return text.error();
   std::istringstream in(*text);
   // The program writes maps to files of any name.
@@ -63,7 +57,7 @@ Result<continuous::MapXml> read_map(const std::string& file, const discrete::Map
 
 /// `grid`: what the cells of a scenario belong to, if the map is one.
 Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGrid* grid) {
-  const auto text = text_of(file);
+  const auto text = read_text(file);
   if (!text) return text.error();
   std::istringstream in(*text);
   if (!std::string_view(file).ends_with(".scen") && !text->starts_with("version "))

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/input/source.hpp"
 
+#include <fstream>
 #include <string_view>
 #include <utility>
+
+#include "quadrille/text/text_input.hpp"
 
 namespace quadrille::input {
 std::optional<Error> check_agents(const InputOptions& options, std::size_t agents) {
@@ -27,6 +30,12 @@ Error with_letters_hint(Error error) {
   if (error.message.find("is neither known as passable nor as blocked") != std::string::npos)
     error.message += " (--passable and --blocked say what it is)";
   return error;
+}
+
+Result<std::string> read_text(const std::string& file) {
+  std::ifstream in;
+  if (auto error = text::open_input(file, in)) return *error;
+  return text::read_all(in, file);
 }
 
 std::string why_no_instance(const std::string& text) {

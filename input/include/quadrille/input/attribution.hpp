@@ -15,9 +15,6 @@ namespace quadrille::input {
 /// How a domain reads a vertex. Returns whether all is well; the checker has the error.
 using ReadVertex = std::function<bool(text::Checker&, text::Document::Node, VertexId&)>;
 
-/// The text of a file, which may be a pipe. Errors: those of text::read_all.
-[[nodiscard]] Result<std::string> read_text(const std::string& file);
-
 /// What a JSON result says of its lower bound under the key "attribution" (docs/formats.md);
 /// nullopt if it says nothing, and of other plan files. `text`: of a file that has been read as a
 /// plan of `num_agents` agents. Errors, with the line: a wrong form, other agents than these,

@@ -40,6 +40,9 @@ enum class Need {
 /// An error of the reader of maps; one about a letter says which options can help.
 [[nodiscard]] Error with_letters_hint(Error error);
 
+/// The text of a file, which may be a pipe. Errors: those of text::read_all.
+[[nodiscard]] Result<std::string> read_text(const std::string& file);
+
 /// What a file is, if `--instance` is given one that belongs to another option; empty else.
 [[nodiscard]] std::string why_no_instance(const std::string& text);
 
