@@ -17,7 +17,7 @@
 namespace quadrille::continuous::test {
 namespace {
 
-class FleetRules : public testing::TestWithParam<std::tuple<Objective, System>> {
+class FleetRules : public testing::TestWithParam<Asked> {
  protected:
   [[nodiscard]] Objective objective() const { return std::get<0>(GetParam()); }
   [[nodiscard]] System system() const { return std::get<1>(GetParam()); }
@@ -245,27 +245,14 @@ TEST_P(FleetRules, AgreeWithTheOracle) {
     check_against(oracle, max_moves, instance, options, tally);
     if (HasFatalFailure()) return;
   }
-  RecordProperty("optimal", tally.optimal);
-  RecordProperty("infeasible", tally.infeasible);
-  RecordProperty("unknown", tally.unknown);
-  RecordProperty("solvable", tally.solvable);
+  record(tally);
   if (count < 80) return;  // scaled down, for slow builds: too few to count on chance
   EXPECT_GE(tally.solvable, 15);
   EXPECT_GE(10 * tally.optimal, 8 * tally.solvable);
   EXPECT_GE(tally.infeasible, 3);
 }
 
-std::string name(const testing::TestParamInfo<FleetRules::ParamType>& param) {
-  const auto [objective, system] = param.param;
-  return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
-         (system == System::dpll ? "Dpll" : "SmtCbs");
-}
-
-INSTANTIATE_TEST_SUITE_P(All, FleetRules,
-                         testing::Combine(testing::Values(Objective::sum_of_costs,
-                                                          Objective::makespan),
-                                          testing::Values(System::dpll, System::smt_cbs)),
-                         name);
+INSTANTIATE_TEST_SUITE_P(All, FleetRules, all_asked(), name_of);
 
 }  // namespace
 }  // namespace quadrille::continuous::test

@@ -29,7 +29,7 @@ RandomOptions with_sets(std::uint32_t seed) {
   return random;
 }
 
-class GoalSets : public testing::TestWithParam<std::tuple<Objective, System>> {};
+class GoalSets : public testing::TestWithParam<Asked> {};
 
 TEST_P(GoalSets, AgreeWithTheOracle) {
   const auto [objective, system] = GetParam();
@@ -56,26 +56,13 @@ TEST_P(GoalSets, AgreeWithTheOracle) {
     check_against(oracle, max_moves, instance, options, tally);
     if (HasFatalFailure()) return;
   }
-  RecordProperty("optimal", tally.optimal);
-  RecordProperty("infeasible", tally.infeasible);
-  RecordProperty("unknown", tally.unknown);
-  RecordProperty("solvable", tally.solvable);
+  record(tally);
   if (count < 200) return;  // scaled down, for slow builds: too few to count on chance
   EXPECT_GE(2 * tally.solvable, static_cast<int>(count));
   EXPECT_GE(10 * tally.optimal, 8 * tally.solvable);
 }
 
-std::string name(const testing::TestParamInfo<GoalSets::ParamType>& param) {
-  const auto [objective, system] = param.param;
-  return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
-         (system == System::dpll ? "Dpll" : "SmtCbs");
-}
-
-INSTANTIATE_TEST_SUITE_P(All, GoalSets,
-                         testing::Combine(testing::Values(Objective::sum_of_costs,
-                                                          Objective::makespan),
-                                          testing::Values(System::dpll, System::smt_cbs)),
-                         name);
+INSTANTIATE_TEST_SUITE_P(All, GoalSets, all_asked(), name_of);
 
 /// The agents of an instance with one goal each; nullopt where that is no instance.
 std::optional<Instance> with_goals(const Instance& instance, const std::vector<VertexId>& goals) {

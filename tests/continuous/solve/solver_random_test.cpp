@@ -15,7 +15,7 @@
 namespace quadrille::continuous::test {
 namespace {
 
-class SolverRandom : public testing::TestWithParam<std::tuple<Objective, System>> {};
+class SolverRandom : public testing::TestWithParam<Asked> {};
 
 TEST_P(SolverRandom, AgreesWithTheOracle) {
   const auto [objective, system] = GetParam();
@@ -59,26 +59,13 @@ TEST_P(SolverRandom, AgreesWithTheOracle) {
     check_against(oracle, max_moves, instance, options, tally);
     if (HasFatalFailure()) return;
   }
-  RecordProperty("optimal", tally.optimal);
-  RecordProperty("infeasible", tally.infeasible);
-  RecordProperty("unknown", tally.unknown);
-  RecordProperty("solvable", tally.solvable);
+  record(tally);
   if (count < 250) return;  // scaled down, for slow builds: too few to count on chance
   EXPECT_GE(2 * tally.solvable, static_cast<int>(count));
   EXPECT_GE(10 * tally.optimal, 8 * tally.solvable);
 }
 
-std::string name(const testing::TestParamInfo<SolverRandom::ParamType>& param) {
-  const auto [objective, system] = param.param;
-  return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
-         (system == System::dpll ? "Dpll" : "SmtCbs");
-}
-
-INSTANTIATE_TEST_SUITE_P(All, SolverRandom,
-                         testing::Combine(testing::Values(Objective::sum_of_costs,
-                                                          Objective::makespan),
-                                          testing::Values(System::dpll, System::smt_cbs)),
-                         name);
+INSTANTIATE_TEST_SUITE_P(All, SolverRandom, all_asked(), name_of);
 
 /// On instances that are too large for the oracle, half of them in space, the others with polygons.
 class SystemsAgree : public testing::TestWithParam<Objective> {};

@@ -50,4 +50,17 @@ void check_against(const OrderSearch& oracle, std::size_t max_moves, const Insta
   }
 }
 
+void record(const Tally& tally) {
+  testing::Test::RecordProperty("optimal", tally.optimal);
+  testing::Test::RecordProperty("infeasible", tally.infeasible);
+  testing::Test::RecordProperty("unknown", tally.unknown);
+  testing::Test::RecordProperty("solvable", tally.solvable);
+}
+
+std::string name_of(const testing::TestParamInfo<Asked>& param) {
+  const auto [objective, system] = param.param;
+  return std::string(objective == Objective::makespan ? "Makespan" : "SumOfCosts") +
+         (system == System::dpll ? "Dpll" : "SmtCbs");
+}
+
 }  // namespace quadrille::continuous::test

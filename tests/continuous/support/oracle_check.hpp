@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+
 #include "continuous/routes/order_search.hpp"
 #include "quadrille/continuous/solver.hpp"
 
@@ -15,5 +20,17 @@ struct Tally {
 /// routes of at most `max_moves` moves; fatal failures otherwise.
 void check_against(const OrderSearch& oracle, std::size_t max_moves, const Instance& instance,
                    const SolveOptions& options, Tally& tally);
+
+/// Leaves it in the report of the test that runs.
+void record(const Tally& tally);
+
+/// Parameters of tests that ask all systems, for each objective.
+using Asked = std::tuple<Objective, System>;
+[[nodiscard]] inline auto all_asked() {
+  return testing::Combine(testing::Values(Objective::sum_of_costs, Objective::makespan),
+                          testing::Values(System::dpll, System::smt_cbs));
+}
+/// "SumOfCostsDpll", ...
+[[nodiscard]] std::string name_of(const testing::TestParamInfo<Asked>& param);
 
 }  // namespace quadrille::continuous::test
