@@ -12,6 +12,7 @@
 
 #include "continuous/support/oracle_check.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "continuous/support/roads.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "support/environment.hpp"
@@ -139,34 +140,55 @@ TEST(GoalSetsByChoice, CostAsMuchAsTheCheapestChoice) {
   EXPECT_GE(2 * num_compared, static_cast<int>(count));
 }
 
-// A dock each for two robots, the nearer one of which only one can have.
+/// A robot that may end at either of two docks, the last two of a row of four places 1000 apart.
+Agent docker(std::size_t start) {
+  Agent made = agent(start, start, 300);
+  made.goals = Goals({VertexId(2), VertexId(3)});
+  return made;
+}
+std::vector<Point> row() { return {{0, 0}, {1000, 0}, {2000, 0}, {3000, 0}}; }
+const Roads kRow{{0, 1}, {1, 2}, {2, 3}};
+
+// The nearer dock is nearer for both.
 TEST(GoalSetsByHand, TwoRobotsShareTwoDocks) {
-  // 0 - 1 - 2 - 3, one unit of length each
-  std::vector<Point> points;
-  std::vector<Edge> edges;
-  for (std::int64_t v = 0; v < 4; ++v) points.push_back({Length(1'000'000 * v), 0});
-  for (std::size_t v = 0; v + 1 < 4; ++v) {
-    edges.push_back({VertexId(v), VertexId(v + 1), std::nullopt});
-    edges.push_back({VertexId(v + 1), VertexId(v), std::nullopt});
-  }
-  const auto roadmap =
-      std::make_shared<const Roadmap>(Roadmap::make(std::move(points), std::move(edges)).value());
-  const Goals docks({VertexId(2), VertexId(3)});
-  const Body body = Disc{300'000};
-  const auto instance =
-      Instance::make(roadmap, {{VertexId(0), docks, body}, {VertexId(1), docks, body}}).value();
+  const auto instance = Instance::make(roadmap(row(), kRow), {docker(0), docker(1)}).value();
   EXPECT_TRUE(instance.has_goal_sets());
-  const SolveOutcome outcome = solve(instance, {}).value();
+  SolveOptions options;
+  options.joint_work = 0;
+  options.explain = true;
+  const SolveOutcome outcome = solve(instance, options).value();
   ASSERT_EQ(outcome.status, Status::optimal);
-  EXPECT_EQ(outcome.cost, 4'000'000);
+  EXPECT_EQ(outcome.cost, 4000);
   EXPECT_EQ(outcome.plan->paths[AgentId(0)].back().vertex, VertexId(2));
   EXPECT_EQ(outcome.plan->paths[AgentId(1)].back().vertex, VertexId(3));
-  // A third one finds no room.
-  const auto crowded = Instance::make(roadmap, {{VertexId(0), docks, body},
-                                                {VertexId(1), docks, body},
-                                                {VertexId(2), docks, body}})
-                           .value();
-  EXPECT_EQ(solve(crowded, {}).value().status, Status::infeasible);
+  // What they are in each other's way for is that dock, for ever.
+  const Place dock{Place::Kind::goal, VertexId(2), VertexId(2)};
+  const auto& sites = outcome.attribution->sites;
+  const auto site = std::find_if(sites.begin(), sites.end(),
+                                 [&](const CollisionSite& one) { return one.place == dock; });
+  ASSERT_NE(site, sites.end());
+  EXPECT_EQ(site->begin, 0);
+  EXPECT_EQ(site->end, CollisionSite::kForever);
+}
+
+// Nobody looks at all agents together, because they are too many, nor at the three of them. So it
+// is clauses that say that no two end in one place: by how long they stay away there is no end.
+TEST(GoalSetsByHand, ThreeRobotsFindNoRoomInTwoDocks) {
+  std::vector<Point> points = row();
+  std::vector<Agent> agents{docker(0), docker(1), docker(2)};
+  for (std::int64_t k = 1; k <= 6; ++k) {
+    agents.push_back(agent(points.size(), points.size(), 300));
+    points.push_back({Length(10'000 * k), 0});
+  }
+  const auto instance = Instance::make(roadmap(std::move(points), kRow), std::move(agents)).value();
+  SolveOptions options;
+  options.joint_work = 0;
+  options.limits.conflicts = 1000;
+  options.limits.looks = 100'000;
+  options.debug.audit = true;
+  const SolveOutcome outcome = solve(instance, options).value();
+  EXPECT_FALSE(outcome.internal_error);
+  EXPECT_EQ(outcome.status, Status::infeasible);
 }
 
 TEST(GoalSetsByHand, ErrorsOfInstances) {

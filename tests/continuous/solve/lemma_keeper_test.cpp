@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "continuous/support/roads.hpp"
@@ -40,7 +41,8 @@ Instance swap() {
 
 /// A model whose lemmas are kept and audited.
 struct Bench {
-  Instance instance = swap();
+  explicit Bench(Instance of = swap()) : instance(std::move(of)) {}
+  Instance instance;
   LimitMonitor limits{{}};
   Scene scene{instance, limits};
   Model model{scene};
@@ -90,6 +92,24 @@ TEST(LemmaKeeper, LemmasSayTheSameInAnotherModel) {
       }
     }
   }
+}
+
+TEST(LemmaKeeper, WhereSomebodyWithAChoiceRestsIsKept) {
+  std::vector<Agent> agents{agent(0, 2, 100), agent(2, 0, 100)};
+  agents[1].goals = Goals({VertexId(0), VertexId(1)});
+  Bench bench(Instance::make(swap().shared_roadmap(), std::move(agents)).value());
+  LemmaStock given = stock();
+  given.lemmas = {{Kind::path, {{kA, 2300}}, {0, 2}}};
+  ASSERT_EQ(take_up(given, bench.model, bench.teller), 1U);
+  EXPECT_FALSE(bench.auditor.complaint()) << *bench.auditor.complaint();
+  const LemmaStock left = bench.keeper.stock();
+  ASSERT_EQ(left.lemmas.size(), 1U);
+  EXPECT_EQ(left.lemmas[0].levels, given.lemmas[0].levels);
+  const auto& goal = left.obstacles[left.lemmas[0].obstacles[1]].goal;
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(goal->resident, kB);
+  EXPECT_EQ(goal->vertex, VertexId(0));
+  EXPECT_EQ(goal->from, Ticks{2001});
 }
 
 TEST(LemmaKeeper, WhatIsDoubtfulIsLookedAtAgain) {
