@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 namespace quadrille_check::support {
 
@@ -43,6 +44,30 @@ Instance checked(const discrete::Instance& instance) {
   return made;
 }
 
+Instance grid(const std::string& rows, const std::vector<Instance::Agent>& agents) {
+  std::vector<bool> passable;
+  std::istringstream in(rows);
+  int width = 0, height = 0;
+  for (std::string row; std::getline(in, row, '/'); ++height) {
+    width = static_cast<int>(row.size());
+    for (const char c : row) passable.push_back(c == '.');
+  }
+  Instance made = Instance::on_grid(width, height, passable);
+  for (const auto& agent : agents) made.add_agent(agent);
+  return made;
+}
+
+std::string rejection(const Instance& instance, const std::string& lines) {
+  const std::string head = "qcert 1 text\ni " + std::to_string(instance.agents().size()) + " 0\n";
+  try {
+    Checker checker(instance);
+    RecordReader reader(head + lines);
+    for (Record record; reader.next(record);) checker.check(record);
+    return "";
+  } catch (const Rejected& rejected) {
+    return rejected.what();
+  }
+}
 Answer ask(const Instance& instance, const std::string& certificate) {
   try {
     Checker checker(instance);

@@ -16,6 +16,15 @@ namespace quadrille_check::support {
 [[nodiscard]] std::vector<int> places(const quadrille::discrete::Instance& instance,
                                       const quadrille::discrete::Path& path);
 
+/// A grid of letters, "." and "@", rows apart by "/".
+[[nodiscard]] Instance grid(const std::string& rows, const std::vector<Instance::Agent>& agents);
+
+/// Why the records, without a head, are rejected; empty if they are not.
+[[nodiscard]] std::string rejection(const Instance& instance, const std::string& lines);
+[[nodiscard]] inline bool accepts(const Instance& instance, const std::string& lines) {
+  return rejection(instance, lines).empty();
+}
+
 /// "verified" and what was proved, or why it was not.
 struct Answer {
   bool is_verified = false;
