@@ -206,6 +206,8 @@ ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments, InputWatch& 
   // Not bad input: another system takes it.
   if (input->instance.has_goal_sets() && arguments.options.system != System::dpll)
     return usage_error(app, "some agents have several goals, which needs --system dpll");
+  if (input->instance.has_goal_sets() && arguments.options.proof)
+    return usage_error(app, "some agents have several goals, which --proof does not know yet");
   return solve_and_deliver(GridSolve(arguments, *input, used), arguments);
 }
 

@@ -73,6 +73,9 @@ TEST_F(SolveTest, OnlyDpllKnowsGoalSets) {
     else
       EXPECT_THAT(finished.err, HasSubstr("some agents have several goals"));
   }
+  const Finished proved = run({"solve", "--instance", file, "--proof", path("sets.qcert")});
+  EXPECT_EQ(proved.code, 64);
+  EXPECT_THAT(proved.err, HasSubstr("which --proof does not know yet"));
 }
 
 TEST_F(SolveTest, InfeasibleIs20AndSaysWhy) {
