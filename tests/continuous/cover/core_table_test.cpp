@@ -17,8 +17,9 @@ using Costs = IdVector<AgentId, Cost>;
 
 LevelCores draw_cores(Random& random) {
   const std::size_t num_agents = random.between(1, 6);
-  return LevelCores::draw(random, num_agents, random.below(10), random.between(1, 8),
-                          random.percent(50) ? 1 : 100'000'000);
+  const std::size_t num_cores = random.below(10), num_levels = random.between(1, 8);
+  const Cost step = random.percent(50) ? 1 : 100'000'000;
+  return LevelCores::draw(random, num_agents, num_cores, num_levels, step);
 }
 
 TEST(CoreTable, ListsLevelsAndCores) {

@@ -46,8 +46,9 @@ TEST(CoverShares, HoldForEachSetOfAgents) {
   int num_of_one_core = 0, num_of_all = 0;
   for (std::uint64_t seed = 0; seed < support::scaled(150); ++seed) {
     Random random(seed);
-    const auto all = LevelCores::draw(random, kAgents, 1 + random.below(7), 3,
-                                      1 + static_cast<Cost>(random.below(50)));
+    const std::size_t num_cores = 1 + random.below(7);
+    const Cost step = 1 + static_cast<Cost>(random.below(50));
+    const auto all = LevelCores::draw(random, kAgents, num_cores, 3, step);
     LevelCover cover(all.free_costs);
     LimitMonitor limits{Limits()};
     for (const LevelCore& core : all.cores) cover.add(core);

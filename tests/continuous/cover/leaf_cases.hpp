@@ -120,8 +120,8 @@ struct LeafCase {
     // Low levels and many cores make linear programs take halves.
     const std::size_t num_agents = random.percent(50) ? 6 : random.between(1, 5);
     const std::size_t num_levels = num_agents > 4 ? 2 : 6;
-    result.input = LevelCores::draw(random, num_agents, random.below(16),
-                                    random.between(1, num_levels), result.step);
+    const std::size_t num_cores = random.below(16), highest = random.between(1, num_levels);
+    result.input = LevelCores::draw(random, num_agents, num_cores, highest, result.step);
     if (random.percent(50)) result.leaf = draw_leaf(random, result.input);
     return result;
   }
