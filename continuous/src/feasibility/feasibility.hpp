@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "paths/scene.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "paths/scene.hpp"
 #include "paths/timed_path.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

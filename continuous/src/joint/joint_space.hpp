@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "joint/joint_clock.hpp"
-#include "paths/scene.hpp"
 #include "paths/timed_path.hpp"
 #include "paths/unsafe_starts.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

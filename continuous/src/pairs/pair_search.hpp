@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pairs/box_grid.hpp"
-#include "paths/scene.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "paths/scene.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "paths/traffic.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/core/random.hpp"
+#include "traffic/traffic.hpp"
 
 namespace quadrille::continuous {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "paths/scene.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

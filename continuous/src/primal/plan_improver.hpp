@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "paths/steps.hpp"
-#include "paths/traffic.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/random.hpp"
+#include "traffic/steps.hpp"
+#include "traffic/traffic.hpp"
 
 namespace quadrille::continuous {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "paths/scene.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "paths/scene.hpp"
 #include "paths/timed_path.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

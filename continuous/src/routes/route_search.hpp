@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "paths/scene.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "paths/scene_store.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/under_way.hpp"
 #include "session/bound_cache.hpp"
 #include "session/lemma_store.hpp"
 #include "solve/warm_start.hpp"
+#include "traffic/scene_store.hpp"
 
 namespace quadrille::continuous {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "joint/joint_groups.hpp"
-#include "paths/scene.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "solve/desk.hpp"
 #include "solve/warm_start.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

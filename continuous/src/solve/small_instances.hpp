@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "joint/joint_groups.hpp"
-#include "paths/scene.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

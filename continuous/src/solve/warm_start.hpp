@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "cover/core_table.hpp"
-#include "paths/scene_store.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "solve/lemma_stock.hpp"
+#include "traffic/scene_store.hpp"
 
 namespace quadrille::continuous {
 

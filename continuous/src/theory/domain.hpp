@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "paths/meetings.hpp"
 #include "quadrille/lazy/theory.hpp"
 #include "theory/current_paths.hpp"
 #include "theory/encounters.hpp"
 #include "theory/model.hpp"
 #include "theory/pair_lemmas.hpp"
 #include "theory/path_search.hpp"
+#include "traffic/meetings.hpp"
 
 namespace quadrille::continuous {
 

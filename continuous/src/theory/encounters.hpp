@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "paths/steps.hpp"
 #include "theory/model.hpp"
+#include "traffic/steps.hpp"
 
 namespace quadrille::continuous {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "paths/steps.hpp"
 #include "quadrille/lazy/trail.hpp"
+#include "traffic/steps.hpp"
 
 namespace quadrille::continuous {
 

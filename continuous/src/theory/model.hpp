@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "paths/bans.hpp"
-#include "paths/scene.hpp"
 #include "quadrille/lazy/vocabulary.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "primal/reservations.hpp"
 #include "quadrille/core/contract.hpp"
 #include "quadrille/core/random.hpp"
+#include "reservations/reservations.hpp"
 
 namespace quadrille::discrete {
 namespace {

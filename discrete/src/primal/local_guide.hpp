@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "pibt/guidance.hpp"
-#include "primal/tie_breaker.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
+#include "reservations/tie_breaker.hpp"
 
 namespace quadrille::discrete {
 

@@ -7,7 +7,7 @@
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
-#include "quadrille/discrete/primal.hpp"
+#include "quadrille/discrete/plan_improver.hpp"
 
 namespace quadrille::discrete {
 

@@ -7,7 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "primal/draft_repair.hpp"
+#include "neighbourhoods/draft_repair.hpp"
+#include "quadrille/discrete/plan_improver.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/sat/strategy.hpp"
 #include "solve/incumbent.hpp"

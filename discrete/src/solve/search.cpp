@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "feasibility/goal_choice.hpp"
-#include "primal/plan_merger.hpp"
+#include "neighbourhoods/plan_merger.hpp"
 #include "quadrille/core/free_bound.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/sat/cost_search.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "quadrille/discrete/primal.hpp"
+#include "quadrille/discrete/plan_improver.hpp"
 
 namespace quadrille::discrete {
 

@@ -9,10 +9,10 @@
 
 #include "continuous/support/random_instance.hpp"
 #include "continuous/support/random_walk.hpp"
-#include "paths/scene.hpp"
 #include "primal/first_plan.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "support/environment.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "continuous/support/least_arrival.hpp"
 #include "continuous/support/random_bans.hpp"
-#include "paths/scene.hpp"
 #include "support/environment.hpp"
 #include "theory/explanation.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous::test {
 namespace {

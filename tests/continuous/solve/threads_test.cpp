@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "continuous/support/random_instance.hpp"
-#include "paths/scene.hpp"
 #include "primal/first_plan.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/core/free_bound.hpp"
@@ -21,6 +20,7 @@
 #include "solve/cost_run.hpp"
 #include "solve/portfolio.hpp"
 #include "support/environment.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous::test {
 namespace {

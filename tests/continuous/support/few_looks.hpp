@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "paths/scene.hpp"
 #include "quadrille/core/limits.hpp"
+#include "traffic/scene.hpp"
 
 namespace quadrille::continuous::test {
 

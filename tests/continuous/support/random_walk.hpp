@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "continuous/support/random_instance.hpp"
-#include "paths/steps.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "traffic/steps.hpp"
 
 namespace quadrille::continuous::test {
 

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "discrete/primal/primal_support.hpp"
-#include "primal/soft_reservations.hpp"
+#include "reservations/soft_reservations.hpp"
 #include "support/environment.hpp"
 
 namespace quadrille::discrete::primal_test {

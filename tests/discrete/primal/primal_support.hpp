@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "quadrille/discrete/plan_improver.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "support/case_text.hpp"
 #include "support/generators.hpp"

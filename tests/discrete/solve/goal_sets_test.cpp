@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "quadrille/discrete/feasibility.hpp"
+#include "quadrille/discrete/plan_improver.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "support/environment.hpp"

@@ -14,10 +14,10 @@
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
 
-// Upper bounds. PrimalSearch finds some plan soon, PlanImprover makes a plan cheaper; neither
-// proves anything about costs. Both can be run in slices of a given *effort*, a count of elementary
-// steps (a fraction of a microsecond each): what they do depends on instance, options, seed and the
-// efforts asked for, never on clocks; limits only cut them short.
+// Upper bounds: PrimalSearch finds some plan soon, and proves nothing about costs. It can be run in
+// slices of a given *effort*, a count of elementary steps (a fraction of a microsecond each): what
+// it does depends on instance, seed and the efforts asked for, never on clocks; limits only cut it
+// short.
 
 QUADRILLE_API_BEGIN
 
@@ -28,12 +28,11 @@ namespace quadrille::discrete {
 /// 2023; Okumura et al., "Priority inheritance with backtracking", AIJ 2022), guided by paths that
 /// avoid each other (Han and Yu, ICRA 2022) or, where that gives a dear plan, by such paths for the
 /// next timesteps only (Arita and Okumura, arXiv 2510.19072), with restarts. Where that does not
-/// end soon, agents
-/// are settled one after the other, which finds a plan in polynomial time if there is one
-/// (docs/complete.md). Where at least three in four vertices are taken all begins with that, or on
-/// small boards with a beam search; and a plan that costs more than twice what the agents cost
-/// alone is made cheaper in windows of time before the search is over. Memory grows by about 12
-/// bytes per agent and configuration visited.
+/// end soon, agents are settled one after the other, which finds a plan in polynomial time if there
+/// is one (docs/complete.md). Where at least three in four vertices are taken all begins with that,
+/// or on small boards with a beam search; and a plan that costs more than twice what the agents
+/// cost alone is made cheaper in windows of time before the search is over. Memory grows by about
+/// 12 bytes per agent and configuration visited.
 class PrimalSearch {
  public:
   enum class State {
@@ -81,43 +80,6 @@ class PrimalSearch {
 /// it knows none.
 [[nodiscard]] std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits,
                                             std::uint32_t seed);
-
-/// Makes a plan cheaper by large-neighbourhood search (Li et al., "Anytime multi-agent path finding
-/// via large neighborhood search", IJCAI 2021): takes a few agents out of the plan, gives them new
-/// paths one after the other, and keeps the result unless it is costlier. Which agents are taken
-/// out together, and how many, is learned from what paid. One thread.
-///
-/// The objective decides first. For the makespan the sum of costs breaks ties.
-class PlanImprover {
- public:
-  /// Requires that `plan` is a valid plan of `instance`, and `distances` its distances.
-  PlanImprover(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-               Objective objective, const Plan& plan, std::uint32_t seed);
-  ~PlanImprover();
-  PlanImprover(PlanImprover&&) noexcept;
-  PlanImprover& operator=(PlanImprover&&) noexcept;
-
-  /// One neighbourhood. True if the plan is cheaper now (or as dear, with a smaller sum of costs).
-  /// When a limit is met on the way the plan stays as it was.
-  bool step(LimitMonitor& limits);
-  /// Steps until `effort` more is spent, a limit is met, or the plan costs `target` or less. True
-  /// if the plan is cheaper than before.
-  bool improve(std::int64_t effort, LimitMonitor& limits, Cost target = 0);
-
-  /// Goes on from another plan, a cheaper one that was found elsewhere for instance. Requires a
-  /// valid plan of the same instance. What was learned is kept.
-  void restart_from(const Plan& plan);
-
-  [[nodiscard]] const Plan& plan() const noexcept;     ///< Trimmed, always valid.
-  [[nodiscard]] Cost cost() const noexcept;            ///< Of the objective.
-  [[nodiscard]] std::int64_t effort() const noexcept;  ///< Spent so far.
-  /// Every agent takes a shortest path: no plan is better, and steps do nothing.
-  [[nodiscard]] bool is_ideal() const noexcept;
-
- private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
-};
 
 }  // namespace quadrille::discrete
 

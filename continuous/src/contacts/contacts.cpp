@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "contacts/contacts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "contacts/contact_store.hpp"
+
+namespace quadrille::continuous {
+Contacts::Contacts(const Instance& instance, LimitMonitor& limits, ContactStore* store)
+    : instance_(instance), limits_(limits), store_(store) {
+  const IdRange<ClassId> classes(instance.num_classes());
+  const std::size_t num_edges = instance.roadmap().num_edges();
+  for (const ClassId a : classes)
+    for (const ClassId b : classes) {
+      limits_.check();
+      pairs_.push_back(
+          store != nullptr
+              ? store->pair(instance, a, b)
+              : std::make_shared<Pair>(Pair{
+                    geometry::BodyPair(instance.body(a), instance.body(b)),
+                    IntervalTable(num_edges, std::max<std::size_t>(num_edges, 1)),
+                    IntervalTable(num_edges,
+                                  std::max<std::size_t>(instance.roadmap().num_vertices(), 1))}));
+    }
+}
+
+Contacts::Offsets Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
+  Pair& p = pair(a, b);
+  return p.offsets.get(e.index(), f.index(), [&] {
+    limits_.check();
+    return p.bodies.unsafe_offsets(instance_.motion(a, e), instance_.motion(b, f));
+  });
+}
+
+Contacts::Window Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
+  Pair& p = pair(a, b);
+  return p.windows.get(e.index(), v.index(), [&] {
+    limits_.check();
+    return p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().position(v));
+  });
+}
+
+bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
+  return pairs_[a.index() * instance_.num_classes() + b.index()]->bodies.overlap(
+      instance_.roadmap().position(v), instance_.roadmap().position(w));
+}
+
+// One tree is enough for all classes. Edges between the same two vertices are one line, in whatever
+// direction and time.
+const Contacts::Volumes& Contacts::volumes() {
+  if (volumes_ == nullptr && store_ != nullptr) volumes_ = store_->volumes();
+  if (volumes_ != nullptr) return *volumes_;
+  const Roadmap& roadmap = instance_.roadmap();
+  const auto ends = [&](EdgeId e) {
+    const Edge& edge = roadmap.edge(e);
+    return std::minmax(edge.from, edge.to);
+  };
+  std::vector<EdgeId> edges;
+  for (const EdgeId e : IdRange<EdgeId>(roadmap.num_edges())) edges.push_back(e);
+  std::sort(edges.begin(), edges.end(),
+            [&](EdgeId e, EdgeId f) { return std::pair(ends(e), e) < std::pair(ends(f), f); });
+  std::vector<std::size_t> begins;
+  std::vector<geometry::Motion> motions;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    if (k > 0 && ends(edges[k]) == ends(edges[k - 1])) continue;
+    begins.push_back(k);
+    motions.push_back(instance_.motion(ClassId(0), edges[k]));
+  }
+  begins.push_back(edges.size());
+  for (const Point& position : roadmap.positions()) motions.push_back(geometry::rest(position, 1));
+  volumes_ = std::make_shared<const Volumes>(
+      Volumes{geometry::SweptVolumes(std::move(motions)), std::move(edges), std::move(begins)});
+  if (store_ != nullptr) store_->keep(volumes_);
+  return *volumes_;
+}
+
+// What a store keeps has to do for roadmaps in which other edges are closed.
+bool Contacts::is_listed(ClassId c, EdgeId e) const {
+  return store_ != nullptr ? store_->is_ever_open(instance_, c, e) : instance_.may_use(c, e);
+}
+
+const Contacts::Neighbours& Contacts::near(
+    std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>>& known, std::uint32_t key,
+    ClassId a, const geometry::Motion& motion, ClassId b) {
+  auto& entry = known[key];
+  if (entry == nullptr) {
+    limits_.check();
+    auto made = std::make_unique<Neighbours>();
+    const Roadmap& roadmap = instance_.roadmap();
+    const geometry::BodyPair& bodies = pair(a, b).bodies;
+    const Volumes& all = volumes();
+    const std::size_t num_segments = all.segment_begins.size() - 1;
+    for (const auto& [index, is_sure] : all.tree.near(motion, bodies)) {
+      if (index < num_segments) {
+        const std::size_t begin = all.segment_begins[index];
+        if (is_sure || bodies.can_meet(motion, instance_.motion(b, all.segment_edges[begin])))
+          for (std::size_t k = begin; k < all.segment_begins[index + 1]; ++k)
+            if (is_listed(b, all.segment_edges[k])) made->edges.push_back(all.segment_edges[k]);
+      } else {
+        const VertexId v(index - num_segments);
+        if (is_sure || bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))
+          made->vertices.push_back(v);
+      }
+    }
+    std::sort(made->edges.begin(), made->edges.end());
+    entry = std::move(made);
+  }
+  return *entry;
+}
+
+const Contacts::Neighbours& Contacts::near_edge(ClassId a, EdgeId e, ClassId b) {
+  return near(pair(a, b).near_edges, e.value(), a, instance_.motion(a, e), b);
+}
+
+const Contacts::Neighbours& Contacts::near_vertex(ClassId a, VertexId v, ClassId b) {
+  return near(pair(a, b).near_vertices, v.value(), a,
+              geometry::rest(instance_.roadmap().position(v), 1), b);
+}
+
+}  // namespace quadrille::continuous
