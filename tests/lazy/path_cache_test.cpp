@@ -14,7 +14,6 @@ using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 /// Paths are words.
-template <Forgets kForgets>
 class Cache {
  public:
   explicit Cache(std::size_t capacity) : cache_(2, capacity) {}
@@ -35,11 +34,11 @@ class Cache {
   }
 
  private:
-  PathCache<std::string, kForgets> cache_;
+  PathCache<std::string> cache_;
 };
 
 TEST(PathCache, KeepsTheLastDifferentPathsOfEachAgentApart) {
-  Cache<Forgets::oldest> cache(3);
+  Cache cache(3);
   EXPECT_THAT(cache.paths(), IsEmpty());
   EXPECT_FALSE(cache.add("ab"));
   EXPECT_FALSE(cache.add("aab"));
@@ -49,14 +48,8 @@ TEST(PathCache, KeepsTheLastDifferentPathsOfEachAgentApart) {
   EXPECT_THAT(cache.paths(1), UnorderedElementsAre("cd"));
 }
 
-TEST(PathCache, ForgetsTheOldestPathFirst) {
-  Cache<Forgets::oldest> cache(3);
-  for (const char* path : {"ab", "aab", "aaab", "aaaab", "aab", "aaaaab"}) cache.add(path);
-  EXPECT_THAT(cache.paths(), UnorderedElementsAre("aaab", "aaaab", "aaaaab"));
-}
-
-TEST(PathCache, OrForgetsWhatWasFoundLongestAgo) {
-  Cache<Forgets::unused> cache(3);
+TEST(PathCache, ForgetsWhatWasFoundLongestAgo) {
+  Cache cache(3);
   for (const char* path : {"a", "b", "c"}) cache.add(path);
   EXPECT_THAT(cache.paths(), ElementsAre("c", "b", "a"));
   EXPECT_TRUE(cache.add("a"));

@@ -61,7 +61,7 @@ class SeatPaths {
 /// What goes wrong in a domain that does not keep its word.
 enum class Fault { none, wrong_seat, silent };
 
-/// With the habits of discrete time or of continuous time.
+/// Searches to the cap, and agents without one are absent, as in discrete time; or neither.
 template <bool kDiscrete>
 class SeatDomain {
  public:
@@ -79,13 +79,6 @@ class SeatDomain {
   };
   static constexpr bool kAbsentWithoutCap = kDiscrete;
   static constexpr bool kSearchesToCap = kDiscrete;
-  static constexpr bool kLooksAtLimits = kDiscrete;
-  static constexpr bool kMendsAfterFailure = !kDiscrete;
-  static constexpr bool kAnyLemmaEndsCheck = !kDiscrete;
-  static constexpr bool kKeepsFloors = !kDiscrete;
-  static constexpr bool kRecallsCheapest = !kDiscrete;
-  static constexpr bool kRemembersFirstPaths = !kDiscrete;
-  static constexpr Forgets kForgets = kDiscrete ? Forgets::oldest : Forgets::unused;
 
   SeatDomain(SeatVocabulary& vocabulary, std::size_t num_agents, int num_seats, Fault fault)
       : vocabulary_(vocabulary),
@@ -103,7 +96,6 @@ class SeatDomain {
   [[nodiscard]] static Cost cost(int seat) { return seat; }
   [[nodiscard]] static bool is_same(int known, int found) { return known == found; }
   [[nodiscard]] static int make_path(AgentId, int found) { return found; }
-  [[nodiscard]] static Cost rank(AgentId, int seat) { return seat; }
   static std::optional<ObstacleId>* hint(int) { return nullptr; }
   [[nodiscard]] Plan plan() const {
     Plan plan;

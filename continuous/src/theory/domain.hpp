@@ -26,13 +26,6 @@ class ContinuousDomain {
 
   static constexpr bool kAbsentWithoutCap = false;
   static constexpr bool kSearchesToCap = false;
-  static constexpr bool kLooksAtLimits = false;
-  static constexpr bool kMendsAfterFailure = true;
-  static constexpr bool kAnyLemmaEndsCheck = true;
-  static constexpr bool kKeepsFloors = true;
-  static constexpr bool kRecallsCheapest = true;
-  static constexpr bool kRemembersFirstPaths = true;
-  static constexpr lazy::Forgets kForgets = lazy::Forgets::unused;
 
   /// `model` outlives the domain.
   explicit ContinuousDomain(Model& model);
@@ -59,8 +52,6 @@ class ContinuousDomain {
   [[nodiscard]] static const KnownPathRef& make_path(AgentId, const KnownPathRef& known) {
     return known;
   }
-  /// Of remembered paths the cheapest one.
-  [[nodiscard]] Cost rank(AgentId, const KnownPathRef& path) const { return paths_.cost(path); }
   static std::optional<ObstacleId>* hint(const KnownPathRef& path) { return &path->breaks; }
   [[nodiscard]] Plan plan() const;
 

@@ -28,13 +28,6 @@ class DiscreteDomain {
 
   static constexpr bool kAbsentWithoutCap = true;
   static constexpr bool kSearchesToCap = true;
-  static constexpr bool kLooksAtLimits = true;
-  static constexpr bool kMendsAfterFailure = false;
-  static constexpr bool kAnyLemmaEndsCheck = false;
-  static constexpr bool kKeepsFloors = false;
-  static constexpr bool kRecallsCheapest = false;
-  static constexpr bool kRemembersFirstPaths = false;
-  static constexpr lazy::Forgets kForgets = lazy::Forgets::oldest;
 
   /// Both outlive the domain. Plans free paths that avoid each other where that is easy.
   DiscreteDomain(LazyModel& model, LimitMonitor& limits, ExplicitPaths::Price price);
@@ -49,10 +42,6 @@ class DiscreteDomain {
   [[nodiscard]] Cost cost(const Path& path) const { return trailed_paths_.cost(path); }
   [[nodiscard]] static bool is_same(const Path& known, const Path& found) { return known == found; }
   [[nodiscard]] static const Path& make_path(AgentId, const Path& found) { return found; }
-  /// Of remembered paths the one with the fewest collisions.
-  [[nodiscard]] Cost rank(AgentId i, const Path& path) const {
-    return paths_.num_collisions(i, path);
-  }
   static std::optional<ObstacleId>* hint(const Path&) { return nullptr; }
   [[nodiscard]] Plan plan() const;
 

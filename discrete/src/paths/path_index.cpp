@@ -78,13 +78,6 @@ int PathIndex::num_collisions(AgentId agent) const {
   return static_cast<int>(scratch_.size());
 }
 
-int PathIndex::num_collisions(AgentId agent, const Path& path) const {
-  int count = 0;
-  for (std::size_t t = 1; t < path.size(); ++t)
-    count += collisions_of_step(agent, path[t - 1], path[t], static_cast<Timestep>(t));
-  return count + collisions_of_rest(agent, path.back(), static_cast<Timestep>(path.size()) - 1);
-}
-
 void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
   const Path& path = paths_[agent];
   const auto end = static_cast<Timestep>(path.size()) - 1;

@@ -67,9 +67,6 @@ class PathIndex {
   [[nodiscard]] int collisions_of_rest(AgentId agent, VertexId goal, Timestep arrival) const;
   /// How many collisions the agent's path has.
   [[nodiscard]] int num_collisions(AgentId agent) const;
-  /// How many collisions another path of the agent would have, which begins at its start and ends
-  /// with its arrival at one of its goals.
-  [[nodiscard]] int num_collisions(AgentId agent, const Path& path) const;
   /// All collisions among current paths; each pair's are in the order of time.
   [[nodiscard]] const std::vector<Encounter>& collisions();
 

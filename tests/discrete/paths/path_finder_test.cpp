@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "discrete/paths/count_collisions.hpp"
 #include "support/distances.hpp"
 
 namespace quadrille::discrete {
@@ -68,7 +69,7 @@ TEST_F(PathFinderEffort, LateGoalsTakeThatOfAPathAndNobodyIsMet) {
   PathFinder finder(instance_.graph().num_vertices());
   ASSERT_TRUE(find(finder, kForever - 1));
   expect_path(kLast + 1);
-  EXPECT_EQ(others_.num_collisions(agent_, path_), 0);
+  EXPECT_EQ(test::count_collisions(others_, agent_, path_), 0);
   EXPECT_LE(finder.effort(), 2 * kLast);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "discrete/paths/count_collisions.hpp"
 #include "paths/path_finder.hpp"
 #include "support/distances.hpp"
 
@@ -82,13 +83,13 @@ TEST(PathIndex, ListsAllCollisionsWhateverWasReplacedBefore) {
         }
       }
       for (const AgentId i : instance.agent_ids()) {
-        EXPECT_EQ(index.num_collisions(i, index.path(i)), index.num_collisions(i));
+        EXPECT_EQ(test::count_collisions(index, i, index.path(i)), index.num_collisions(i));
         // Of a path that is not there yet.
         const Path other = random_walk(graph, tasks[i.index()], random);
         int collisions = 0;
         for (const AgentId j : instance.agent_ids())
           if (j != i) collisions += static_cast<int>(collide(other, index.path(j)).size());
-        EXPECT_EQ(index.num_collisions(i, other), collisions);
+        EXPECT_EQ(test::count_collisions(index, i, other), collisions);
       }
       std::sort(expected.begin(), expected.end());
       std::sort(found.begin(), found.end());

@@ -61,7 +61,6 @@ concept Domain = TrailPaths<typename D::Paths> &&
   domain.on_explained(explanation, trail, writer);
   domain.on_obstacles(writer);
   { known.plan() } -> std::same_as<typename D::Plan>;
-  { known.rank(i, path) } -> std::totally_ordered;
   { D::hint(path) } -> std::same_as<std::optional<ObstacleId>*>;
   { known.effort(steps) } -> std::same_as<std::int64_t>;
   { D::kAbsentWithoutCap } -> std::convertible_to<bool>;
@@ -113,7 +112,6 @@ class PathTheory : public sat::Theory {
         domain_(std::forward<Arguments>(domain)...),
         trail_(domain_.paths(), domain_.num_agents(), kNoCap),
         cache_(domain_.num_agents(), kRememberedPaths) {
-    if (!D::kRemembersFirstPaths) return;
     for (const AgentId i : IdRange<AgentId>(domain_.num_agents()))
       remember(i, domain_.paths().path(i));
   }
@@ -154,8 +152,8 @@ class PathTheory : public sat::Theory {
   bool replan_all(CheckWriter& writer);
   bool replan(AgentId i, FormulaWriter& writer);
   [[nodiscard]] bool obeys(AgentId i, const Path& path) const;
-  /// The best remembered path that a search could have found as well: within the cap, around the
-  /// active obstacles, and so cheap that it leaves no bound to refute. Null if there is none.
+  /// The cheapest remembered path that a search could have found as well: within the cap, around
+  /// the active obstacles, and so cheap that it leaves no bound to refute. Null if there is none.
   [[nodiscard]] const Path* recall(AgentId i) const;
   template <class Found>
   const Path& remember(AgentId i, const Found& found) {
@@ -165,12 +163,9 @@ class PathTheory : public sat::Theory {
   }
   template <class Cheapest>
   void explain_bound(AgentId i, const Cheapest& found, Cost bound, FormulaWriter& writer);
-  [[nodiscard]] bool ends_check(const CheckWriter& writer) const {
-    return D::kAnyLemmaEndsCheck ? writer.has_written() : writer.has_excluded();
-  }
   void accept();
 
-  PathCache<Path, D::kForgets> cache_;
+  PathCache<Path> cache_;
   std::int64_t num_checks_ = 0;
   std::int64_t num_assigned_ = 0;  // literals
 };
@@ -188,7 +183,7 @@ void PathTheory<D>::on_assign(std::span<const sat::Lit> newly_true) {
     if (meaning.kind != Vocabulary::VariableKind::cost) continue;
     if (!vocabulary.is_at_least(lit))
       trail_.lower_cap(meaning.agent, meaning.cost - 1);
-    else if (D::kKeepsFloors)
+    else
       trail_.raise_floor(meaning.agent, meaning.cost);
   }
 }
@@ -209,12 +204,12 @@ bool PathTheory<D>::replan_all(CheckWriter& writer) {
   bool good = true;
   trail_.mend_violated([&](AgentId i) {
     if (!takes_part(i)) return true;
-    if (D::kLooksAtLimits && limits_.exhausted()) {
+    if (limits_.exhausted()) {
       writer.stop();
       return good = false;
     }
     good = replan(i, writer) && good;
-    return good || D::kMendsAfterFailure;
+    return true;
   });
   return good;
 }
@@ -268,12 +263,9 @@ auto PathTheory<D>::recall(AgentId i) const -> const Path* {
   Cost least = 0;
   for (const Path& known : cache_.paths(i)) {
     const Cost cost = domain_.paths().cost(known);
-    if (cost > most || (D::kRecallsCheapest && best != nullptr && cost >= least)) continue;
-    if (!obeys(i, known)) continue;
-    const Cost rank = domain_.rank(i, known);
-    if (best != nullptr && rank >= least) continue;
+    if (cost > most || (best != nullptr && cost >= least) || !obeys(i, known)) continue;
     best = &known;
-    least = rank;
+    least = cost;
   }
   return best;
 }
@@ -302,19 +294,19 @@ void PathTheory<D>::explain_bound(AgentId i, const Cheapest& found, Cost bound,
 template <Domain D>
 void PathTheory<D>::check_paths(CheckWriter& writer) {
   for (bool is_first = true;; is_first = false) {
-    if (!replan_all(writer) || ends_check(writer)) return;
+    if (!replan_all(writer) || writer.has_written()) return;
     ++num_checks_;
-    if (D::kLooksAtLimits && limits_.exhausted_now()) return writer.stop();
+    if (limits_.exhausted_now()) return writer.stop();
     if (is_first) domain_.before_conflicts(trail_);
     const auto conflicts = domain_.conflicts(trail_);
     if (conflicts.empty()) return accept();
     for (const auto& conflict : conflicts) {
       // One may take several searches of the whole map.
-      if (D::kLooksAtLimits && limits_.exhausted()) return writer.stop();
+      if (limits_.exhausted()) return writer.stop();
       exclude(conflict, writer);
     }
     notice_obstacles(writer);
-    if (ends_check(writer)) return;
+    if (writer.has_written()) return;
     if (!trail_.any_violated([&](AgentId i) { return takes_part(i); }))
       throw InternalError{"clauses that were written before do not exclude a collision"};
   }
