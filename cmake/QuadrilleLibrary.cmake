@@ -81,7 +81,9 @@ function(quadrille_add_library folder)
     message(FATAL_ERROR "${folder}: public headers that are not listed: ${headers}")
   endif()
   foreach(header IN LISTS arg_HEADERS arg_INTERNAL_HEADERS)
-    set_property(GLOBAL APPEND PROPERTY QUADRILLE_HEADERS "quadrille/${folder}/${header}")
+    if(header MATCHES "[.]hpp$")  # Tables that a header includes do not compile on their own.
+      set_property(GLOBAL APPEND PROPERTY QUADRILLE_HEADERS "quadrille/${folder}/${header}")
+    endif()
     if(QUADRILLE_INSTALL AND NOT header IN_LIST arg_INTERNAL_HEADERS)
       install(FILES "include/quadrille/${folder}/${header}"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder}" COMPONENT ${component})

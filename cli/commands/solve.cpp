@@ -138,6 +138,17 @@ void add_limit_options(CLI::App& app, SolveArguments& arguments) {
       ->group(group);
 }
 
+/// For measurements: users are not told.
+void add_settings(CLI::App& app, Settings& settings) {
+  const auto read = [&settings](const std::vector<std::string>& assignments) {
+    for (const std::string& assignment : assignments)
+      if (const auto error = assign_setting(settings, assignment))
+        throw CLI::ValidationError("--set", error->message);
+  };
+  app.add_option_function<std::vector<std::string>>("--set", read, "name=value of a setting")
+      ->group("");
+}
+
 void add_output_options(CLI::App& app, SolveArguments& arguments) {
   const std::string group = "Output";
   add_file(app, "--plan", arguments.plan, "Write the plan to a file; - is standard output")
@@ -174,6 +185,7 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
   add_input_file(app, "--known-plan", arguments.known_plan,
                  "Check every clause against this valid plan; slow")
       ->group("Debugging");
+  add_settings(app, arguments.options.settings);
 }
 
 ExitCode run(const CLI::App& app, SolveArguments& arguments) {

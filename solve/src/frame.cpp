@@ -12,7 +12,7 @@ std::optional<Error> check_numbers(const Choices& choices) {
     return refuse("the gap is not a number of at least 0");
   if (choices.threads < 1 || choices.threads > kMaxThreads)
     return refuse("the number of threads is not from 1 to 64");
-  return std::nullopt;
+  return check_settings(choices.settings);
 }
 
 }  // namespace quadrille::solve

@@ -42,9 +42,9 @@ SolveOutcome solve_at(const Instance& instance, const SolveOptions& options, con
                      [&](const SolveOptions& of_one) {
                        Tuning tuning = usual(of_one);
                        if (pace.first_turn == 0) return tuning;
-                       tuning.cores.first_turn = pace.first_turn;
-                       tuning.cores.head_start = 1;
-                       tuning.cores.candidates_within = pace.candidates_within;
+                       tuning.settings.core_turn = pace.first_turn;
+                       tuning.settings.core_head_start = 1;
+                       tuning.settings.above_candidates_within = pace.candidates_within;
                        return tuning;
                      })
       .value();

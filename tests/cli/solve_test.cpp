@@ -189,6 +189,16 @@ TEST_F(SolveTest, LettersAreReadAsTold) {
   EXPECT_EQ(solve({"--blocked", "S", "--passable", "S"}).code, 65);
 }
 
+TEST_F(SolveTest, SettingsAreForWhoMeasures) {
+  EXPECT_EQ(run(small("solve", {"--set", "core_passes=1", "--set", "core_turn=10"})).code, 0);
+  for (const char* text : {"core_passes=0", "core_passes", "no_such_setting=1"}) {
+    const Finished finished = run(small("solve", {"--set", text}));
+    EXPECT_EQ(finished.code, 64) << text;
+    EXPECT_THAT(finished.err, HasSubstr("--set")) << text;
+  }
+  EXPECT_THAT(run({"solve", "--help"}).out, Not(HasSubstr("--set")));
+}
+
 TEST_F(SolveTest, QuietIsQuiet) {
   const Finished finished = run(small("solve", {"--quiet"}));
   EXPECT_EQ(finished.code, 0);

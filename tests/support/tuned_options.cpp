@@ -11,10 +11,13 @@ Result<SolveOutcome> solve(const Instance& instance, const TunedOptions& options
     Tuning tuning = choose_tuning(features, of_one);
     if (options.open) {
       features.is_open = *options.open;
-      tuning.cores = choose_tuning(features, of_one).cores;
+      const Tuning other = choose_tuning(features, of_one);
+      tuning.cores = other.cores;
+      tuning.settings = other.settings;
     }
-    tuning.round = options.round.value_or(tuning.round);
-    tuning.cores.first_turn = options.first_turn.value_or(tuning.cores.first_turn);
+    Settings& settings = tuning.settings;
+    settings.grid_round = options.round.value_or(settings.grid_round);
+    settings.core_turn = options.first_turn.value_or(settings.core_turn);
     return tuning;
   });
 }

@@ -10,8 +10,8 @@ namespace quadrille::discrete::support {
 
 /// Options with settings that users do not choose, but tests do.
 struct TunedOptions : SolveOptions {
-  std::optional<std::int64_t> first_turn;  ///< See sat::CoreGuidedOptions. 1 .. 2^31 - 1.
-  std::optional<std::int64_t> round;       ///< See Tuning. 1 or more.
+  std::optional<std::int64_t> first_turn;  ///< Settings::core_turn
+  std::optional<std::int64_t> round;       ///< Settings::grid_round
   std::optional<bool> open;                ///< Cost search as on open maps, or others.
 };
 

@@ -7,28 +7,6 @@
 #include "quadrille/continuous/verify.hpp"
 
 namespace quadrille::continuous {
-namespace {
-
-/// Agents in one neighbourhood, at most. Measured on 25 hard rows with three seeds each, what plans
-/// cost too much at the end, with up to 8 and 16 agents: sparse 1.1 and 0.3 %, empty16 0.28 and
-/// 0.25 %, room64 0.16 and 0.13 %.
-constexpr std::size_t kMaxChosen = 16;
-/// Steps without gain after which it pays no more: kLeastPatience, and kPatience for each step up
-/// to the last gain. Measured: 4,000,000 instead of 2,000,000 changes little; two for each step
-/// take two to four times as long, and the plans of sparse, empty16 and room64 cost 0.30, 0.25 and
-/// 0.13 % too much instead of 0.59, 0.48 and 0.14 %, but proofs are no faster with them.
-constexpr std::int64_t kLeastPatience = 2'000'000, kPatience = 1;
-/// After kLongWork steps, and where at most 1 / kSmallPart of the cost is left above the free
-/// costs, a turn pays if it gains 1 / kGainedPart of what is left. A proof is near then, and where
-/// many agents have far to go, something is gained all the time: on the warehouse (k = 3) the last
-/// 0.04 % of the plans of 135 and 155 agents took 20 s; with this rule the whole solves take 4 and
-/// 10 s (with a quarter to gain 4 and 11, with a twentieth 5 and 10). Where more is left, plans
-/// close the gap faster than cores do.
-constexpr std::int64_t kLongWork = 8'000'000;
-constexpr Cost kSmallPart = 200, kGainedPart = 10;
-
-}  // namespace
-
 PlanImprover::PlanImprover(Scene& scene, Plan plan)
     : scene_(scene),
       plan_(std::move(plan)),
@@ -52,9 +30,14 @@ void PlanImprover::restart_from(Plan plan) {
   is_loaded_ = false;
 }
 
+// After long work, where little of the cost is left above the free costs, a proof is near, and
+// where many agents have far to go, something is gained all the time. Where more is left, plans
+// close the gap faster than cores do.
 bool PlanImprover::pays() const {
-  return !is_done() && effort() < kLeastPatience + kPatience * last_gain_ &&
-         (effort() < kLongWork || excess() > cost_ / kSmallPart ||
+  constexpr Cost kSmallPart = 200, kGainedPart = 10;
+  const Settings& settings = scene_.settings();
+  return !is_done() && effort() < settings.improve_patience + last_gain_ &&
+         (effort() < settings.improve_long_work || excess() > cost_ / kSmallPart ||
           turn_gain_ >= excess() / kGainedPart);
 }
 
@@ -127,7 +110,8 @@ AgentId PlanImprover::choose_delayed() {
 /// Somebody who is late, the likelier the later, some of those who are in its way, and some others.
 std::vector<AgentId> PlanImprover::choose() {
   const Instance& instance = scene_.instance();
-  const std::size_t size = std::min<std::size_t>(2 + draw(kMaxChosen - 1), instance.num_agents());
+  const auto most = static_cast<std::size_t>(scene_.settings().improve_agents);
+  const std::size_t size = std::min<std::size_t>(2 + draw(most - 1), instance.num_agents());
   std::vector<AgentId> chosen{choose_delayed()};
   const AgentId late = chosen.front();
   std::vector<Step>& steps = free_steps_[late];

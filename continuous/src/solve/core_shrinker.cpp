@@ -8,26 +8,24 @@ namespace {
 
 using sat::Verdict;
 
-/// Conflicts and decisions of a test. Raises take some twenty of them for each core, and one that
-/// is given up too early costs little. Measured on 18 hard rows of four families, PAR-2 at 10 s and
-/// mean gap: 11.8 s and 0.10 %; with 100 and 350 for both 12.1 s and 0.11 %, with 20 and 60 for
-/// both 11.7 s and 0.12 % (`dense` and `sparse` lose).
-constexpr sat::SolveBudget kRaiseBudget{20, 60}, kDropBudget{100, 350};
-
-/// Tests of all levels of a core at once, besides that of the next thresholds. What they are worth
-/// stands in bench/notebook, continuous-cores.
-constexpr int kMostJointTests = 3;
-
-/// Tests that fail take most of the time of the drops, and on sparse maps nearly all do: allowed
-/// are kKeptToBegin, and kKeptPerDrop for each level that could be dropped. One core in kTry is
-/// tested anyway.
-constexpr std::int64_t kKeptToBegin = 200, kKeptPerDrop = 24, kTry = 8;
+/// One core in so many is tested anyway.
+constexpr std::int64_t kTry = 8;
 
 bool has(const LevelCore& core, const Level& level) {
   return std::find(core.begin(), core.end(), level) != core.end();
 }
 
 }  // namespace
+
+sat::SolveBudget CoreShrinker::raise_budget() const {
+  return {static_cast<int>(settings_.shrink_raise_conflicts),
+          static_cast<int>(settings_.shrink_raise_decisions)};
+}
+
+sat::SolveBudget CoreShrinker::drop_budget() const {
+  return {static_cast<int>(settings_.shrink_drop_conflicts),
+          static_cast<int>(settings_.shrink_drop_decisions)};
+}
 
 LevelCore CoreShrinker::shrink(LevelCore core, const IdVector<AgentId, Cost>& ceilings) {
   ceilings_of_core_ = problem_.ceilings_of_core();
@@ -48,7 +46,7 @@ bool CoreShrinker::is_core(const LevelCore& core, const IdVector<AgentId, Cost>&
 }
 
 bool CoreShrinker::is_core(const LevelCore& candidate, const IdVector<AgentId, Cost>& ceilings) {
-  return is_core(candidate, ceilings, kDropBudget);
+  return is_core(candidate, ceilings, drop_budget());
 }
 
 CoreShrinker::Ladder CoreShrinker::ladder(const Level& level, Cost ceiling) const {
@@ -98,7 +96,8 @@ void CoreShrinker::raise_together(Climb& climb, const IdVector<AgentId, Cost>& c
   if (usual_rise_ == 0) return;
   bool has_succeeded = false, has_failed = false;
   Cost rise = usual_rise_;
-  for (int test = 0; test < kMostJointTests && !(has_succeeded && has_failed); ++test) {
+  for (int test = 0; test < settings_.shrink_joint_tests && !(has_succeeded && has_failed);
+       ++test) {
     std::vector<std::size_t> goods;
     for (const Ladder& ladder : climb.ladders)
       goods.push_back(std::max(ladder.good, ladder.within(rise)));
@@ -138,7 +137,7 @@ bool CoreShrinker::has_raised(Climb& climb, const std::vector<std::size_t>& good
   if (goods == climb.goods()) return true;
   LevelCore raised = climb.core;
   for (std::size_t k = 0; k < raised.size(); ++k) raised[k].cost = climb.ladders[k].cost(goods[k]);
-  if (!is_core(raised, ceilings, kRaiseBudget)) return false;
+  if (!is_core(raised, ceilings, raise_budget())) return false;
   // Some of the others may not be needed.
   Climb left;
   for (std::size_t k = 0; k < raised.size(); ++k) {
@@ -152,7 +151,8 @@ bool CoreShrinker::has_raised(Climb& climb, const std::vector<std::size_t>& good
 }
 
 bool CoreShrinker::drops_pay() const {
-  return num_kept_ <= kKeptToBegin + kKeptPerDrop * num_dropped_ || num_shrunk_ % kTry == 0;
+  return num_kept_ <= settings_.shrink_kept + settings_.shrink_kept_per_drop * num_dropped_ ||
+         num_shrunk_ % kTry == 0;
 }
 
 // What is still there after the raises has the levels that it will have: raised later, a level may
@@ -161,7 +161,7 @@ void CoreShrinker::drop(LevelCore& core, const IdVector<AgentId, Cost>& ceilings
   for (std::size_t at = 0; at < core.size();) {
     LevelCore part = core;
     part.erase(part.begin() + static_cast<std::ptrdiff_t>(at));
-    if (!is_core(part, ceilings, kDropBudget)) {
+    if (!is_core(part, ceilings, drop_budget())) {
       ++num_kept_;
       ++at;
       continue;

@@ -13,7 +13,8 @@ namespace quadrille::continuous {
 class CoreShrinker {
  public:
   /// Both arguments outlive the shrinker.
-  CoreShrinker(CostProblem& problem, LimitMonitor& limits) : problem_(problem), limits_(limits) {}
+  CoreShrinker(CostProblem& problem, LimitMonitor& limits)
+      : problem_(problem), limits_(limits), settings_(problem.model().scene().settings()) {}
 
   /// `core` is that of the problem's last question. The result holds for plans in which nobody
   /// costs more than its ceiling, and hits no costs that `core` does not hit. Empty: there is no
@@ -51,6 +52,8 @@ class CoreShrinker {
     [[nodiscard]] std::vector<std::size_t> goods() const;
   };
 
+  [[nodiscard]] sat::SolveBudget raise_budget() const;
+  [[nodiscard]] sat::SolveBudget drop_budget() const;
   [[nodiscard]] bool is_core(const LevelCore& core, const IdVector<AgentId, Cost>& ceilings,
                              const sat::SolveBudget& budget);
   void raise(LevelCore& core, const IdVector<AgentId, Cost>& ceilings);
@@ -66,6 +69,7 @@ class CoreShrinker {
 
   CostProblem& problem_;
   LimitMonitor& limits_;
+  const Settings& settings_;
   std::vector<AgentId> ceilings_of_core_;
   Cost usual_rise_ = 0;  // in ticks, of the level of a core that rises least, lately; 0: unknown
   std::int64_t num_shrunk_ = 0, num_dropped_ = 0, num_kept_ = 0;  // cores; levels

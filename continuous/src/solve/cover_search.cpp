@@ -18,38 +18,10 @@ using End = sat::SearchEnd;
 using sat::Verdict;
 using Core = LevelCore;
 
-/// Conflicts of a question whether known clauses refute something.
-constexpr sat::SolveBudget kNextBudget{1000, {}};
-/// Steps for a better plan at each turn; before the first core a quarter of all before, within
-/// these limits: after each turn the plan is verified, and others are told.
-constexpr std::int64_t kEffort = 300'000, kFirstEffort = 1'000'000, kMostEffort = 8'000'000;
-/// Covers by greed between two cheapest ones, whatever these take: where no plan is known, costs by
-/// greed may rise for ever.
-constexpr int kMaxGreedyRounds = 50;
-/// Of questions whose costs lie between the cheapest cover and the plan (bench/notebook,
-/// continuous-cores). How far on the way: one part in kInnerPart. The budget has few conflicts, and
-/// elementary steps for a hundredth of a second, because one conflict may take a tenth of a second
-/// where two agents have much room.
-constexpr Cost kInnerPart = 7;
-constexpr sat::SolveBudget kInnerBudget{50, {}, 200'000};
-/// Of a question for any plan, where none is known.
-constexpr sat::SolveBudget kAnyPlanBudget{1000, {}};
-/// Of drawn costs: how many agents keep what they cost at last, conflicts of a question, and how
-/// many in a row may be of no use. Measured with two threads that do not wait, eight hard rows of
-/// four families, mean wall time: 50 % 5.0 s, 70 % 4.7 s, 85 % 4.1 s, 93 % 4.5 s, 98 % 4.6 s; one
-/// thread takes 5.2 s.
-constexpr unsigned kKeptPercent = 85;
-constexpr sat::SolveBudget kGuessBudget{2000, {}};
-constexpr int kMaxMisses = 20;
-/// Elementary steps of a search for plans, and of the cover, that take as long as one of an engine.
-constexpr std::int64_t kPlanStepsOfSearch = 2, kCoverStepsOfSearch = 40;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-/// Of a search that begins with candidates: steps for a better plan before it tries them, as one
-/// was mended, and new cores after which the plan is improved like others. Measured in sessions of
-/// 15 agents on 200 vertices, as against solves that know nothing: 12 times as fast; if the plan is
-/// improved at once 3.2 times, after 8 cores 8 times.
-constexpr std::int64_t kMendEffort = 10'000, kMostNewCores = 16;
 constexpr Objective kSum = Objective::sum_of_costs;
+
+sat::SolveBudget conflicts(std::int64_t count) { return {static_cast<int>(count), {}}; }
 
 /// The levels that are one above caps.
 std::vector<Level> above(const IdVector<AgentId, Cost>& caps) {
@@ -68,6 +40,7 @@ class CoverSearch {
       : context_(context),
         problem_(context.problem),
         limits_(context.limits),
+        settings_(problem_.model().scene().settings()),
         cover_(free_costs()),
         shrinker_(problem_, limits_),
         random_(context.seed) {
@@ -155,8 +128,8 @@ class CoverSearch {
   bool solve_cover() {
     const std::int64_t before = cover_.effort();
     const bool is_solved = cover_.solve(limits_);
-    next_cover_ = problem_.effort() + (cover_.effort() - before) / kCoverStepsOfSearch;
-    count(cover_, kCoverStepsOfSearch, seen_cover_effort_);
+    next_cover_ = problem_.effort() + (cover_.effort() - before) / settings_.cover_step_of_search;
+    count(cover_, settings_.cover_step_of_search, seen_cover_effort_);
     return is_solved;
   }
 
@@ -167,7 +140,8 @@ class CoverSearch {
   bool improve_at_first() {
     do {
       if (is_closed()) return true;
-      improve(std::clamp(improver_ ? improver_->effort() / 4 : 0, kFirstEffort, kMostEffort));
+      const std::int64_t least = settings_.cover_first_plan_effort;
+      improve(std::clamp(improver_ ? improver_->effort() / 4 : 0, least, 8 * least));
     } while (improver_ && improver_->pays() && !limits_.exhausted_now());
     return false;
   }
@@ -179,7 +153,7 @@ class CoverSearch {
     else if (cost(*report_.plan, kSum) < improver_->cost())
       improver_->restart_from(*report_.plan);
     if (improver_->improve(effort)) report_.plan = improver_->plan();
-    count(*improver_, kPlanStepsOfSearch, seen_plan_effort_);
+    count(*improver_, settings_.cover_plan_step_of_search, seen_plan_effort_);
   }
 
   /// Finds cores of costs that need not be the cheapest: drawn ones, beside a search that covers
@@ -187,18 +161,19 @@ class CoverSearch {
   /// costs are no cheaper than the plan. True if that ended the search.
   bool guess_costs() {
     IdVector<AgentId, Cost> last = cover_.costs();
-    for (int misses = 0; misses <= kMaxMisses;) {
+    const auto kept_percent = static_cast<std::size_t>(settings_.cover_kept_percent);
+    for (std::int64_t misses = 0; misses <= settings_.cover_guess_misses;) {
       if (is_closed() || limits_.exhausted_now()) return true;
       IdVector<AgentId, Cost> drawn = free_costs();
       for (const AgentId i : problem_.model().instance().agent_ids())
-        if (random_.below(100) < kKeptPercent) drawn[i] = last[i];
+        if (random_.below(100) < kept_percent) drawn[i] = last[i];
       drawn = cover_.completed(std::move(drawn));
       if (report_.plan && sum(drawn) >= cost(*report_.plan, kSum)) {
         ++misses;
         continue;
       }
-      const Verdict verdict =
-          problem_.solve({.below = above(drawn), .budget = kGuessBudget}, limits_);
+      const Verdict verdict = problem_.solve(
+          {.below = above(drawn), .budget = conflicts(settings_.cover_guess_conflicts)}, limits_);
       if (verdict == Verdict::sat) report_.plan = problem_.plan();
       if (verdict == Verdict::unknown) ++misses;
       if (verdict != Verdict::unsat) continue;
@@ -215,9 +190,12 @@ class CoverSearch {
   /// which that refuted something are searched then: others would delay what is needed.
   Verdict ask() {
     asked_ = towards_plan();
+    const sat::SolveBudget budget{
+        static_cast<int>(settings_.cover_inner_conflicts), {}, settings_.cover_inner_effort};
     const Question inner{
-        .below = above(asked_), .budget = kInnerBudget, .search = Question::Search::quick};
-    if (asked_ != cover_.costs() && problem_.solve(inner, limits_) == Verdict::unsat)
+        .below = above(asked_), .budget = budget, .search = Question::Search::quick};
+    if (settings_.cover_inner_conflicts > 0 && asked_ != cover_.costs() &&
+        problem_.solve(inner, limits_) == Verdict::unsat)
       return Verdict::unsat;
     asked_ = cover_.costs();
     return problem_.solve({.below = above(asked_)}, limits_);
@@ -229,7 +207,8 @@ class CoverSearch {
     IdVector<AgentId, Cost> costs = cover_.costs();
     if (report_.plan)
       for (const AgentId i : problem_.model().instance().agent_ids())
-        costs[i] += std::max<Cost>(cost(report_.plan->paths[i]) - costs[i], 0) / kInnerPart;
+        costs[i] +=
+            std::max<Cost>(cost(report_.plan->paths[i]) - costs[i], 0) / settings_.cover_inner_part;
     return costs;
   }
 
@@ -245,9 +224,10 @@ class CoverSearch {
   bool look_for_plan() {
     const std::int64_t cores = context_.statistics.cores;
     next_turn_ = cores + std::max<std::int64_t>(cores / 4, 1);
-    improve(kEffort);
+    improve(settings_.cover_plan_effort);
     if (report_.plan) return is_closed();
-    const Verdict verdict = problem_.solve({.budget = kAnyPlanBudget}, limits_);
+    const Verdict verdict =
+        problem_.solve({.budget = conflicts(settings_.cover_next_conflicts)}, limits_);
     if (verdict == Verdict::unsat) return end_without_plans();
     if (verdict == Verdict::sat) report_.plan = problem_.plan();
     return is_closed();
@@ -284,7 +264,8 @@ class CoverSearch {
     Core below = above(asked_);
     for (int round = 0;; ++round) {
       if (!learn_disjoint_cores(std::move(below))) return false;
-      if (problem_.effort() >= next_cover_ || round == kMaxGreedyRounds || limits_.exhausted())
+      if (problem_.effort() >= next_cover_ || round == settings_.cover_greedy_rounds ||
+          limits_.exhausted())
         return true;
       below = above(cover_.completed(cover_.costs()));
       if (!is_refuted(below)) return true;
@@ -319,7 +300,7 @@ class CoverSearch {
 
   /// A question for each candidate. True if that ended the search.
   bool try_candidates() {
-    improve(kMendEffort);
+    improve(settings_.cover_mend_effort);
     for (const Core& candidate : context_.candidates) {
       if (is_closed() || limits_.exhausted()) return true;
       const bool is_hit = std::any_of(candidate.begin(), candidate.end(), [&](const Level& level) {
@@ -329,7 +310,8 @@ class CoverSearch {
       if (is_hit || !shrinker_.is_core(candidate, highest)) continue;
       if (!learn(problem_.core(), highest)) return end_without_plans();
     }
-    if (context_.role == Role::all) next_improvement_ = context_.statistics.cores + kMostNewCores;
+    if (context_.role == Role::all)
+      next_improvement_ = context_.statistics.cores + settings_.cover_mend_cores;
     return !solve_cover();
   }
 
@@ -341,14 +323,16 @@ class CoverSearch {
 
   /// Whether known clauses say that one of these levels is reached.
   bool is_refuted(const Core& below) {
-    return problem_.solve(
-               {.below = below, .budget = kNextBudget, .search = Question::Search::known_clauses},
-               limits_) == Verdict::unsat;
+    return problem_.solve({.below = below,
+                           .budget = conflicts(settings_.cover_next_conflicts),
+                           .search = Question::Search::known_clauses},
+                          limits_) == Verdict::unsat;
   }
 
   const SumSearchContext context_;
   CostProblem& problem_;
   LimitMonitor& limits_;
+  const Settings& settings_;
   LevelCover cover_;
   CoreShrinker shrinker_;
   Random random_;

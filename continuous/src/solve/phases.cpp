@@ -68,7 +68,7 @@ solve::Infeasibility infeasibility(const Instance& instance, const std::vector<A
 
 void Phases::run() {
   desk_.pulse.enter(Phase::set_up);
-  Scene scene(instance_, desk_.limits, warm_.store);
+  Scene scene(instance_, desk_.limits, warm_.store, options_.settings);
   if (!scene.is_complete() || are_kept_off(scene)) return;
   const auto free_cost = [&](AgentId i) { return scene.free_cost(i); };
   const auto agents = instance_.agent_ids();
@@ -153,7 +153,7 @@ void Phases::with_one_goal_each(Scene& scene, void (Phases::*search)(Scene&)) {
   } catch (const LimitReached&) {
   }
   if (!chosen) return;
-  Scene with_ends(*chosen, desk_.limits);
+  Scene with_ends(*chosen, desk_.limits, nullptr, options_.settings);
   if (with_ends.is_complete()) (this->*search)(with_ends);
 }
 

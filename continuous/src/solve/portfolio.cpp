@@ -27,7 +27,7 @@ void search_side_by_side(Scene& scene, const SolveOptions& options,
   const auto search_as = [&](std::size_t worker, const Desk& own) {
     const SolveOptions own_options = options_of(options, worker);
     if (worker == 0) return search_costs(scene, own_options, own, warm);
-    Scene own_scene(scene.instance(), own.limits);
+    Scene own_scene(scene.instance(), own.limits, nullptr, options.settings);
     if (own_scene.is_complete()) search_costs(own_scene, own_options, own);
   };
   solve::Portfolio<Plan, Message>(options, account, pace, role_of, search_as).run(desk);

@@ -6,48 +6,10 @@
 namespace quadrille::continuous {
 namespace {
 
-/// Steps of one search to begin with, and how many times as many after one that refuted nothing:
-/// most pairs are refuted for little or never, but where two agents have much room, refuting one
-/// pair of caps takes up to 25,000,000 steps, and without that there is no end of collisions. The
-/// most is what can still be multiplied.
-constexpr std::int64_t kFirstSteps = 50'000, kMoreSteps = 4, kMostSteps = std::int64_t{1} << 40;
-/// Steps for dropping obstacles, and for each raise: kSearchesForMore times what the search was
-/// allowed, up to a limit, or, if that is more, kRefutationsForMore times what the refutation took.
-/// With less, less is raised: with 4 refutations den520d (k = 3, task 3, 62 agents) takes more than
-/// 60 instead of 22 s.
-constexpr std::int64_t kSearchesForMore = 8, kMostStepsForMore = 30'000'000,
-                       kRefutationsForMore = 8;
-/// Steps of one test while obstacles are dropped: the most of kLeastPerTest, what the search was
-/// allowed, and kRefutationsPerTest times what the refutation took. Without the first, sparse (task
-/// 3, 25 agents) takes more than 30 instead of 12 s; with 4,000,000 task 2 with 34 agents takes 20
-/// instead of 12 s.
-constexpr std::int64_t kLeastPerTest = 1'000'000, kRefutationsPerTest = 2;
-/// A search that refutes nothing is repeated with intervals half as long, if it took at most one
-/// part in kPartForHalf of its steps, and intervals are longer than what they have to tell apart.
-/// Without that, caps of two agents who have to change sides (sparse, task 3, agents 4 and 17) rose
-/// tick by tick.
-constexpr std::int64_t kPartForHalf = 8;
-/// Searches of pairs that refute nothing may take this many steps in all: kFirstWaste, and one for
-/// kPathStepsPerStep steps of the path searches, which take twice as long each. More are in vain
-/// where many pairs are near each other. Searches that refute something do not count: they would
-/// keep the next one waiting, while the same two collide without end.
-constexpr std::int64_t kFirstWaste = 12'000'000, kPathStepsPerStep = 2;
-
+/// What can still be multiplied.
+constexpr std::int64_t kMostSteps = std::int64_t{1} << 40;
+/// Of the move by which caps are raised at most.
 constexpr std::int64_t kSmallPart = 64;
-/// The first raise that is tried is one part in kFirstRaise of a move: higher ones are searched in
-/// larger pieces, and refute less. Where it refutes nothing, lower ones are tried, each one part in
-/// kLowerRaise of the one before: otherwise caps would rise tick by tick.
-constexpr std::int64_t kFirstRaise = 4, kLowerRaise = 4;
-constexpr int kMostLowerRaises = 3;
-/// Most pairs need no such search: the clauses do as well. Those that do need it are worth it
-/// early.
-constexpr int kFirstTry = 4;
-/// Caps that were refuted and come again, with other obstacles, are left to clauses until the
-/// number of collisions has grown by this factor. Measured with searches from the 64th collision
-/// on: den520d (k = 3, task 5, 62 agents) takes 14 s instead of more than 30, task 1 with 69 agents
-/// 23 instead of 28. After other refutations every other collision becomes clauses: where the two
-/// have no plan at all, caps would rise for ever, and clauses may prove it.
-constexpr int kAgain = 4;
 
 PairSearch::Party searched(const PairLemmas::Party& party) {
   return {party.agent, as_ticks(party.cap)};
@@ -69,13 +31,16 @@ PairLemmas::Party PairLemmas::in_time(Party party) const {
   return party;
 }
 
+// Searches that refute something do not count as waste: they would keep the next one waiting, while
+// the same two collide without end. After a refutation every other collision becomes clauses: where
+// the two have no plan at all, caps would rise for ever, and clauses may prove it.
 bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
   if (scope_ == Scope::proven && !record.is_proven) return false;
   if (has_choice(i.agent) || has_choice(j.agent)) return false;
-  if (++record.count < std::max(record.next_try, kFirstTry)) return false;
+  if (++record.count < std::max(record.next_try, settings_.pair_first_try)) return false;
   if (i.cap >= kAnyCost || j.cap >= kAnyCost) return false;
-  if (wasted_ > kFirstWaste + path_effort_ / kPathStepsPerStep) return false;
-  if (record.steps == 0) record.steps = kFirstSteps;
+  if (wasted_ > settings_.pair_waste + path_effort_ / settings_.pair_path_steps) return false;
+  if (record.steps == 0) record.steps = settings_.pair_steps;
   steps_ = record.steps;
   search_.set_width(kForever);
   const std::int64_t before = search_.effort();
@@ -84,11 +49,11 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   record.is_proven = is_added;
   const std::pair caps{i.cap, j.cap};
   if (!is_added || record.refuted == caps)
-    record.next_try = (is_added ? kAgain : 2) * record.count;
+    record.next_try = (is_added ? settings_.pair_again : 2) * record.count;
   else
     record.next_try = record.count + 2;
   if (is_added) record.refuted = caps;
-  if (!is_added) record.steps = std::min(kMoreSteps * record.steps, kMostSteps);
+  if (!is_added) record.steps = std::min(settings_.pair_more_steps * record.steps, kMostSteps);
   return is_added;
 }
 
@@ -126,7 +91,7 @@ bool PairLemmas::refute(const Party& i, const Party& j) {
   while (true) {
     const std::int64_t before = search_.effort();
     if (is_refuted(i, j)) return true;
-    const bool is_long = search_.effort() - before >= steps_ / kPartForHalf;
+    const bool is_long = search_.effort() - before >= steps_ / settings_.pair_half_part;
     if (is_long || search_.width() <= passing_time(i.agent, j.agent)) return false;
     search_.set_width(search_.width() / 2);
   }
@@ -147,8 +112,8 @@ Ticks PairLemmas::passing_time(AgentId i, AgentId j) {
 }
 
 std::int64_t PairLemmas::steps_for_more() const {
-  return std::max(std::min(kSearchesForMore * steps_, kMostStepsForMore),
-                  kRefutationsForMore * refutation_);
+  return std::max(std::min(settings_.pair_raise_share * steps_, settings_.pair_raise_steps),
+                  settings_.pair_raise_share * refutation_);
 }
 
 void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
@@ -163,7 +128,7 @@ void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
 
 void PairLemmas::reduce(const Party& i, const Party& j) {
   const std::int64_t last = search_.effort() + steps_for_more();
-  steps_ = std::max({steps_, kLeastPerTest, kRefutationsPerTest * refutation_});
+  steps_ = std::max({steps_, settings_.pair_test_steps, settings_.pair_test_share * refutation_});
   struct Slot {
     std::size_t side, slot;
   };
@@ -209,12 +174,12 @@ void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other,
   const auto refuted = [&](Ticks tried) {
     return search_.refuted_raise(party, other, tried, steps_for_more());
   };
-  Ticks tried = most / kFirstRaise;
+  Ticks tried = most / settings_.pair_first_raise;
   Ticks raise = refuted(tried);
   if (raise > tried) raise = std::max(raise, refuted(most));
   // One tick is what is refuted anyway.
-  for (int lower = 0; raise <= 1 && lower < kMostLowerRaises; ++lower) {
-    tried = tried / kLowerRaise;
+  for (int lower = 0; raise <= 1 && lower < settings_.pair_lower_raises; ++lower) {
+    tried = tried / 4;
     raise = std::max(raise, refuted(tried));
   }
   if (is_second) search_.swap_bans();

@@ -17,7 +17,8 @@ namespace quadrille::continuous {
 /// a search of the two pays, and how long, in proportion to what the path searches take.
 class PairLemmas {
  public:
-  explicit PairLemmas(Model& model) : model_(model), search_(model.scene()) {}
+  explicit PairLemmas(Model& model)
+      : model_(model), settings_(model.scene().settings()), search_(model.scene()) {}
 
   struct Party {
     AgentId agent;
@@ -45,8 +46,8 @@ class PairLemmas {
 
  private:
   struct Record {
-    int count = 0;
-    int next_try = 0;
+    std::int64_t count = 0;
+    std::int64_t next_try = 0;
     bool is_proven = false;                        // the last search refuted something
     std::optional<std::pair<Cost, Cost>> refuted;  // caps, the last time
     std::int64_t steps = 0;                        // of one search; 0: it has not been tried
@@ -77,6 +78,7 @@ class PairLemmas {
   [[nodiscard]] Ticks max_raise(AgentId i) const;
 
   Model& model_;
+  const Settings& settings_;
   Scope scope_ = Scope::all;
   PairSearch search_;
   std::map<std::pair<AgentId, AgentId>, Record> collisions_, explanations_;

@@ -7,9 +7,11 @@
 
 namespace quadrille::continuous {
 
-Scene::Scene(const Instance& instance, LimitMonitor& limits, SceneStore* store)
+Scene::Scene(const Instance& instance, LimitMonitor& limits, SceneStore* store,
+             const Settings& settings)
     : instance_(instance),
       limits_(limits),
+      settings_(settings),
       contacts_(instance, limits, store != nullptr ? &store->contacts() : nullptr) {
   distances_.reserve(instance.num_agents());
   detours_.reserve(instance.num_agents());

@@ -6,6 +6,7 @@
 #include "contacts/contacts.hpp"
 #include "paths/path_finder.hpp"
 #include "quadrille/core/limits.hpp"
+#include "quadrille/core/settings.hpp"
 #include "traffic/scene_store.hpp"
 
 namespace quadrille::continuous {
@@ -17,13 +18,14 @@ class Scene {
   /// Computes the distances to all goals and the bans around moving obstacles, the latter with as
   /// many contacts as there are edges and vertices for each of their steps, per class. If `limits`
   /// end that early, the scene is not complete and of no use. `store`, unless null, has adopted the
-  /// instance: distances and contacts come from there, and stay there. All arguments outlive the
-  /// scene.
-  Scene(const Instance& instance, LimitMonitor& limits, SceneStore* store = nullptr);
+  /// instance: distances and contacts come from there, and stay there. All three outlive the scene.
+  Scene(const Instance& instance, LimitMonitor& limits, SceneStore* store = nullptr,
+        const Settings& settings = {});
   [[nodiscard]] bool is_complete() const { return is_complete_; }
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] LimitMonitor& limits() noexcept { return limits_; }
+  [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
   [[nodiscard]] Contacts& contacts() noexcept { return contacts_; }
   [[nodiscard]] PathTask task(AgentId i) { return {i, distances_[i.index()], detours_[i.index()]}; }
   /// What keeps agents of the class clear of the moving obstacles, and those that are under way
@@ -50,6 +52,7 @@ class Scene {
 
   const Instance& instance_;
   LimitMonitor& limits_;
+  const Settings settings_;
   bool is_complete_ = false;
   std::vector<GoalDistances> distances_;
   std::vector<Detours> detours_;

@@ -7,6 +7,7 @@
 
 #include "lazy/lazy_model.hpp"
 #include "mdd/mdd_paths.hpp"
+#include "quadrille/core/settings.hpp"
 
 namespace quadrille::discrete {
 
@@ -19,11 +20,10 @@ namespace quadrille::discrete {
 /// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
 class ExplicitPaths {
  public:
-  /// As many `variables` are worth as many path `lemmas`. Both at least 1. Measured where maps have
-  /// walls: 1 for 1 leaves agents in mazes with twice the conflicts, 64 for 1 makes the formulas of
-  /// large maps too large.
+  /// As many `variables` are worth as many path `lemmas`, at least 1. No variables: no explicit
+  /// paths.
   struct Price {
-    std::int64_t variables = 8, lemmas = 1;
+    std::int64_t variables = Settings().explicit_variables, lemmas = Settings().explicit_lemmas;
   };
   /// `model` outlives this.
   ExplicitPaths(LazyModel& model, Price price)

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "quadrille/core/ids.hpp"
+#include "quadrille/core/settings.hpp"
 
 namespace quadrille::discrete {
 
@@ -12,18 +13,23 @@ namespace quadrille::discrete {
 /// is what they took off the gap lately, per step. Counts only, no clocks.
 class MarginalGain {
  public:
+  /// `settings` outlive it.
+  explicit MarginalGain(const Settings& settings) : settings_(settings) {}
+
   /// The search did `effort` steps and took `gain` off the gap.
-  void count_search(std::int64_t effort, Cost gain) { search_.add(kStepOfSearch * effort, gain); }
+  void count_search(std::int64_t effort, Cost gain) {
+    add(search_, settings_.plans_step_of_search * effort, gain);
+  }
   /// As well for plans; decides on the share from now on. `gap_percent`: what is left.
   void count_plans(std::int64_t effort, Cost gain, double gap_percent);
 
   /// Steps for plans that are due for `search_effort` steps of the search.
   [[nodiscard]] std::int64_t due(std::int64_t search_effort) const {
-    return search_effort * kStepOfSearch * share_ / kUnit;
+    return search_effort * settings_.plans_step_of_search * share_ / kUnit;
   }
   /// As much as it can be: for what shows its gain in the end only.
-  [[nodiscard]] static std::int64_t most_due(std::int64_t search_effort) {
-    return search_effort * kStepOfSearch * kLargest / kUnit;
+  [[nodiscard]] std::int64_t most_due(std::int64_t search_effort) const {
+    return search_effort * settings_.plans_step_of_search * kLargest / kUnit;
   }
 
  private:
@@ -31,12 +37,12 @@ class MarginalGain {
   struct Lately {
     std::int64_t effort = 0;
     Cost gain = 0;
-    void add(std::int64_t more_effort, Cost more_gain);
   };
-  /// Steps for plans that take as long as one of the search. Measured: 2 to 6.
-  static constexpr std::int64_t kStepOfSearch = 4;
+  void add(Lately& side, std::int64_t effort, Cost gain) const;
+
   static constexpr std::int64_t kUnit = 256, kLeast = 1, kFirst = 8, kLargest = 1792;
 
+  const Settings& settings_;
   Lately search_, plans_;
   std::int64_t share_ = kFirst;  // of kUnit
 };

@@ -8,38 +8,10 @@
 namespace quadrille::discrete {
 namespace {
 
-/// Of a search for a first plan that nothing else runs beside, and of its slices.
-constexpr std::int64_t kFirstEffort = 20'000'000, kFirstSlice = 200'000;
-constexpr std::int64_t kLeastSlice = 20'000;
-/// Steps of a search for a first plan that count as one of a search beside it, which waits for
-/// them. Measured with 1, 2, 4 and 8, two threads and 1,000 agents, wall time:
-/// warehouse-20-40-10-2-1 to a gap of 2 % 5.7, 5.6, 7.6 and 7.6 s; den520d to 2 % 2.3, 1.6, 1.4
-/// and 1.8 s.
-constexpr std::int64_t kFirstStepsOfSearch = 2;
-/// Steps for the first draft for each that the incumbent gets beside it. Measured with 1, 4 and no
-/// steps for the incumbent: random-32-32-20 with 400 agents costs 19,765, 19,703 and 21,342 after
-/// two seconds; den520d with 1,000 needs 4.5, 4.1 and 3.7 s to a gap of 1 %.
-constexpr std::int64_t kFirstDraftShare = 4;
-/// Steps of the search, some two seconds: what it solves sooner needs no better plans.
-constexpr std::int64_t kPatience = 1'600'000;
-/// Per cent. With a smaller one the first draft is repaired in the time that plans have anyway.
-constexpr double kHopefulGap = 0.2;
-/// Per cent. With a smaller one it is as a rule the proof that is missing.
-constexpr double kDeadEndGap = 3;
-/// Per cent. With a smaller one who raises the bound leaves plans to the other. Measured on
-/// instances that two threads solve to optimality: with help at any gap nine took 1.08 times the
-/// time without it, six 1.04 with this one.
-constexpr double kHelpedGap = 0.5;
-
-/// Per cent. A first plan with a larger gap is improved before the search for the bound begins: the
-/// first bounds are cheap, but so is what improvement gains then, and that is more. Measured
-/// after 1 s: random-32-32-20 with 300 agents costs 14,577 without and 9,518 with, with 400 25,601
-/// and 19,040, empty-48-48 with 600 21,844 and 19,722 (local guidance included).
-constexpr double kDearGap = 12;
-/// That ends after so many steps, half a second, or when the last fifth of them gained less than
-/// one part in kLittle of the gap; this is asked when all paths could have been made so many times.
-constexpr std::int64_t kMostOfFirst = 2'000'000, kFirstLook = 32, kLookAgain = 4;
-constexpr Cost kLittle = 64;
+/// Of a search for a first plan, and the least of improvement.
+constexpr std::int64_t kFirstSlice = 200'000, kLeastSlice = 20'000;
+/// Improvement of a first plan is looked at when all paths could have been made so many times.
+constexpr std::int64_t kFirstLook = 32;
 
 /// Whatever it was made of came first.
 constexpr std::string_view kImproved = "improvement";
@@ -93,19 +65,20 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   effort_ = 0;
   if (!improver_) {
     second_chance_.emplace(context_.instance, context_.distances, context_.objective,
-                           incumbent.plan(), context_.seed);
+                           incumbent.plan(), context_.seed, context_.settings);
     improver_.emplace(context_.instance, context_.distances, context_.objective, incumbent.plan(),
                       context_.seed);
   } else if (*incumbent.upper() < improver_->cost()) {
     improver_->restart_from(incumbent.plan());
   }
   const std::int64_t effort =
-      is_at_first_draft() ? *slice.effort / kFirstDraftShare : *slice.effort;
+      is_at_first_draft() ? *slice.effort / context_.settings.plans_draft_share : *slice.effort;
   if (has_second_chance())
     take_second_chance(effort);
   else if (improve(*improver_, effort))
     incumbent.offer(improver_->plan(), kImproved);
-  if (!is_at_first_draft() && gap_of(incumbent) >= kDeadEndGap)
+  if (!is_at_first_draft() &&
+      gap_of(incumbent) >= in_percent(context_.settings.plans_second_chance_gap))
     second_chance_->watch(improver_->effort(), *incumbent.upper(),
                           *incumbent.upper() - incumbent.lower());
   // The more drafts have resisted, the more of the time the incumbent gets.
@@ -148,7 +121,10 @@ void PlanImprovement::improve_draft(std::int64_t effort) {
 }
 
 PlanSearch::PlanSearch(const PlanSearchContext& context)
-    : context_(context), first_plan_(context), improvement_(for_improvement(context)) {
+    : context_(context),
+      first_plan_(context),
+      improvement_(for_improvement(context)),
+      gain_(context.settings) {
   std::int64_t steps = 0;
   for (const AgentId i : context.instance.agent_ids())
     steps += (*context.distances)(i, context.instance.agents()[i].start);
@@ -166,17 +142,19 @@ bool PlanSearch::start() {
 }
 
 bool PlanSearch::is_first_plan_due() const {
-  return !first_plan_.is_over() &&
-         (first_plan_.effort() < kFirstEffort || first_plan_.is_worth_waiting_for());
+  return !first_plan_.is_over() && (first_plan_.effort() < context_.settings.plans_first_effort ||
+                                    first_plan_.is_worth_waiting_for());
 }
 
 /// One slice.
 void PlanSearch::improve_first_plan() {
+  const Settings& settings = context_.settings;
   const Incumbent& incumbent = context_.incumbent;
   const auto is_dear = [&] {
     // It begins with all paths at once.
     return context_.objective == Objective::sum_of_costs && incumbent.upper() &&
-           *incumbent.upper() <= kMostOfFirst && gap_of(incumbent) >= kDearGap;
+           *incumbent.upper() <= settings.plans_first_improvement &&
+           gap_of(incumbent) >= in_percent(settings.plans_large_gap);
   };
   is_improvement_due_ = is_dear();
   if (!is_improvement_due_) return;
@@ -186,11 +164,11 @@ void PlanSearch::improve_first_plan() {
   gain_.count_plans(improvement_.effort(), gain, gap_of(incumbent));
   effort_ += improvement_.effort();
   gain_since_look_ += gain;
-  is_improvement_due_ = is_dear() && effort_ < kMostOfFirst;
+  is_improvement_due_ = is_dear() && effort_ < settings.plans_first_improvement;
   if (effort_ < next_look_) return;
   const Cost gap = *incumbent.upper() - incumbent.lower();
-  if (kLittle * gain_since_look_ < gap) is_improvement_due_ = false;
-  next_look_ = effort_ + effort_ / kLookAgain;
+  if (settings.plans_little * gain_since_look_ < gap) is_improvement_due_ = false;
+  next_look_ = effort_ + effort_ / settings.plans_look_again;
   gain_since_look_ = 0;
 }
 
@@ -202,8 +180,9 @@ void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>
   const std::int64_t slice = credit_ >= long_slice_ ? long_slice_ : kLeastSlice;
   if (credit_ < slice) return;
   const Incumbent& incumbent = context_.incumbent;
+  const double small_gap = in_percent(context_.settings.plans_small_gap);
   const bool has_nothing_to_do = incumbent.upper()
-                                     ? is_helper(context_) && gap_of(incumbent) < kHelpedGap
+                                     ? is_helper(context_) && gap_of(incumbent) < small_gap
                                      : first_plan_.is_over();
   if (has_nothing_to_do) {
     credit_ = 0;
@@ -246,11 +225,13 @@ void PlanSearch::begin() {
 
 std::int64_t PlanSearch::work(const std::function<Plan()>& draft) {
   const std::int64_t before = first_plan_.effort();
-  const bool is_due =
-      !context_.incumbent.upper() || before < kFirstEffort || first_plan_.is_worth_waiting_for();
+  const bool is_due = !context_.incumbent.upper() ||
+                      before < context_.settings.plans_first_effort ||
+                      first_plan_.is_worth_waiting_for();
   if (!first_plan_.is_over() && is_due) {
     static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
-    return std::max(kFirstSlice, first_plan_.effort() - before) / kFirstStepsOfSearch;
+    return std::max(kFirstSlice, first_plan_.effort() - before) /
+           context_.settings.plans_first_step_of_search;
   }
   if (!context_.incumbent.upper()) return kFirstSlice;  // until another search finds a plan
   improvement_.offer_draft(draft);
@@ -264,9 +245,10 @@ void PlanSearch::count_search(std::int64_t search_effort) {
   Cost gain = incumbent.lower() - seen_lower_;
   if (seen_upper_) gain += *seen_upper_ - *incumbent.upper();
   gain_.count_search(effort, gain);
-  is_hopeful_ =
-      improvement_.is_hopeful() && search_effort >= kPatience && gap_of(incumbent) >= kHopefulGap;
-  credit_ += is_hopeful_ ? MarginalGain::most_due(effort) : gain_.due(effort);
+  is_hopeful_ = improvement_.is_hopeful() &&
+                search_effort >= context_.settings.plans_draft_patience &&
+                gap_of(incumbent) >= in_percent(context_.settings.plans_draft_gap);
+  credit_ += is_hopeful_ ? gain_.most_due(effort) : gain_.due(effort);
   seen_effort_ = search_effort;
   seen_lower_ = incumbent.lower();
   seen_upper_ = incumbent.upper();

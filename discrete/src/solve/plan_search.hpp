@@ -30,6 +30,7 @@ struct PlanSearchContext {
   PrimalSearch::Part part = PrimalSearch::Part::all;  ///< Of the search for a first plan.
   Incumbent& incumbent;
   LimitMonitor& limits;
+  const Settings& settings;
 };
 
 /// Looks for a plan of any cost.

@@ -63,7 +63,7 @@ void search_side_by_side(const Instance& instance, const SolveOptions& options, 
     search(instance, own_options, tuner(own_options), own, get_distances,
            worker == 0 ? proof : other);
   };
-  const solve::Pace pace{tuner(options).round, kLag};
+  const solve::Pace pace{tuner(options).settings.grid_round, kLag};
   solve::Portfolio<Plan, Message>(options, account, pace, role_of, search_as).run(desk);
 }
 

@@ -71,7 +71,7 @@ class Search final : private sat::YieldPoint {
     }
     plans_.emplace(PlanSearchContext{instance_, distances, chosen_ ? *chosen_ : instance_,
                                      std::move(first_distances), options_.objective, options_.seed,
-                                     part, incumbent_, limits_});
+                                     part, incumbent_, limits_, tuning_.settings});
     if (!options_.initial_plan) {
       enter(Phase::first_plan);
       if (role_ == Role::all)
@@ -180,8 +180,8 @@ class Search final : private sat::YieldPoint {
   }
 
   [[nodiscard]] sat::SearchEnd search_costs_of(Run& run, std::vector<Raise>* raises) {
-    const sat::CostSearchContext context{run.engine(), run.problem(), incumbent_,
-                                         limits_,      *this,         raises};
+    const sat::CostSearchContext context{run.engine(), run.problem(),    incumbent_, limits_,
+                                         *this,        tuning_.settings, raises};
     const CostSearch by_default =
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
     if (options_.objective == Objective::sum_of_costs &&

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "quadrille/core/settings.hpp"
 #include "quadrille/discrete/plan_improver.hpp"
 
 namespace quadrille::discrete {
@@ -16,13 +17,14 @@ namespace quadrille::discrete {
 /// a dear one.
 class SecondChance {
  public:
-  /// `instance` outlives the object. `first` is a valid plan of it.
+  /// `instance` and `settings` outlive the object. `first` is a valid plan of the instance.
   SecondChance(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-               Objective objective, Plan first, std::uint32_t seed)
+               Objective objective, Plan first, std::uint32_t seed, const Settings& settings)
       : instance_(instance),
         distances_(std::move(distances)),
         objective_(objective),
         first_(std::move(first)),
+        settings_(settings),
         seed_(seed) {}
 
   /// To be told of the incumbent: the effort for it so far, its cost, and how much of that is not
@@ -45,6 +47,7 @@ class SecondChance {
   const std::shared_ptr<const GoalDistances> distances_;
   const Objective objective_;
   const Plan first_;
+  const Settings& settings_;
   std::uint32_t seed_;
 
   // Of the incumbent, when it was looked at last.

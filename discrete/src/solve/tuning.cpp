@@ -6,13 +6,10 @@
 namespace quadrille::discrete {
 namespace {
 
-/// Measured: from this number of agents on chronological backtracking is the better way.
-constexpr std::size_t kManyAgents = 175;
-
 /// Whether the search for the least cost also looks for plans from above. The MDD model would have
 /// to grow for plans far above the lower bound.
 bool searches_from_above(const SolveOptions& options) noexcept {
-  return options.system == System::dpll && options.first_plan &&
+  return options.settings.above_share > 0 && options.system == System::dpll && options.first_plan &&
          options.objective == Objective::sum_of_costs &&
          options.cost_search.value_or(CostSearch::core_guided) == CostSearch::core_guided;
 }
@@ -20,23 +17,25 @@ bool searches_from_above(const SolveOptions& options) noexcept {
 }  // namespace
 
 Features features_of(const Instance& instance) {
-  return {is_open(instance.graph()), instance.num_agents() >= kManyAgents};
+  return {is_open(instance.graph()), instance.num_agents()};
 }
 
 /// Measured: on open maps the search from above closes most of the gap; elsewhere it takes time
 /// from the cores.
 Tuning choose_tuning(const Features& features, const SolveOptions& options) {
   Tuning tuning;
+  Settings& settings = tuning.settings = options.settings;
   if (options.system != System::dpll) return tuning;
-  tuning.chronological = options.lazy.chronological.value_or(features.has_many_agents);
+  const auto num_agents = static_cast<std::int64_t>(features.num_agents);
+  tuning.chronological =
+      options.lazy.chronological.value_or(num_agents >= settings.lazy_chronological_agents);
   tuning.bump_reasons = !features.is_open;
-  if (features.is_open) tuning.explicit_paths = {1, 16};
-  sat::CoreGuidedOptions& cores = tuning.cores;
-  cores.from_above = searches_from_above(options);
-  cores.raise_cores = true;
+  tuning.explicit_paths = {settings.explicit_variables, settings.explicit_lemmas};
+  tuning.cores = {searches_from_above(options), settings.core_most_lift > 1};
   if (features.is_open) {
-    cores.descent_share = 3;
-    cores.candidates_within = 3;
+    if (settings.explicit_variables > 0) tuning.explicit_paths = {1, settings.explicit_lemmas_open};
+    settings.above_share = settings.above_share_open;
+    settings.above_candidates_within = settings.above_candidates_within_open;
   }
   return tuning;
 }

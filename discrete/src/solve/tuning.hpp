@@ -14,27 +14,25 @@ namespace quadrille::discrete {
 /// What the settings of a search depend on.
 struct Features {
   bool is_open = false;  ///< See model/open_maps.hpp.
-  bool has_many_agents = false;
+  std::size_t num_agents = 0;
 };
 [[nodiscard]] Features features_of(const Instance& instance);
 
-/// All settings that users do not choose.
+/// What one search is set to: what depends on the instance is chosen.
 struct Tuning {
   bool chronological = true;
   bool bump_reasons = true;  ///< Of CaDiCaL.
   ExplicitPaths::Price explicit_paths;
   sat::CoreGuidedOptions cores;
-  std::int64_t round = 500'000;  ///< Of a portfolio, in steps of the search: some 0.5 s. 1 or more.
+  Settings settings;
 };
-/// The table of settings.
 [[nodiscard]] Tuning choose_tuning(const Features& features, const SolveOptions& options);
 
 /// Chooses the settings of one search; those of a portfolio have options of their own.
 using Tuner = std::function<Tuning(const SolveOptions& options)>;
 [[nodiscard]] Tuner tuner_for(const Instance& instance);
 
-/// As `solve`, with settings that are chosen by `tuner`. Its values have to be in the ranges of
-/// quadrille/sat/cost_search.hpp.
+/// As `solve`, with settings that are chosen by `tuner`, in their ranges.
 [[nodiscard]] Result<SolveOutcome> solve_tuned(const Instance& instance,
                                                const SolveOptions& options, const Tuner& tuner);
 

@@ -10,12 +10,8 @@
 namespace quadrille::sat {
 namespace {
 
-/// Of the engine, for one candidate; those near the lower bound are refuted by three on average.
-constexpr std::int64_t kCandidateConflicts = 1000;
 /// Of the offline solver between two yield points: less than a second.
 constexpr std::int64_t kOfflineSlice = 8000;
-/// Conflicts of the offline solver for each of the slice.
-constexpr std::int64_t kOfflineShare = 16;
 
 }  // namespace
 
@@ -23,7 +19,7 @@ Outcome CandidateSearch::advance(Slice slice) {
   QUADRILLE_REQUIRE(slice.conflicts.has_value(), "the slice has an end");
   Bounds& bounds = context_.bounds;
   LimitMonitor& limits = context_.limits;
-  std::int64_t left = kOfflineShare * *slice.conflicts;
+  std::int64_t left = context_.settings.above_offline_share * *slice.conflicts;
   while (left > 0 && !limits.exhausted_now()) {
     const auto best = bounds.upper();
     if (*best <= bounds.lower()) break;
@@ -43,7 +39,8 @@ Outcome CandidateSearch::advance(Slice slice) {
       break;
     }
     if (verdict == Verdict::sat) {
-      const Verdict answer = find_plan(context_, caps_of_candidate(), kCandidateConflicts);
+      const Verdict answer =
+          find_plan(context_, caps_of_candidate(), context_.settings.above_candidate_conflicts);
       if (answer == Verdict::unsat) {
         std::vector<Lit> core = context_.engine.core();
         if (core.empty()) return Outcome::exhausted;

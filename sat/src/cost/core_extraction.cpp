@@ -8,19 +8,6 @@
 #include "cost/plan_query.hpp"
 
 namespace quadrille::sat {
-namespace {
-
-/// So many passes in a row that are no better than the best one are the last. Measured: where
-/// passes gain anything, one that does not is soon followed by one that does.
-constexpr int kPassesWithoutGain = 2;
-/// In later passes a core is hard after this part (one in kLaterPassShare) of the conflicts that
-/// make it hard in the first one: what was learned makes all cores but the last ones easy.
-constexpr std::int64_t kLaterPassShare = 4;
-/// Of one core.
-constexpr Cost kMaxLift = 1024;
-
-}  // namespace
-
 CoreExtraction::CoreExtraction(const CostSearchContext& context, const CoreGuidedOptions& options,
                                Statistics& statistics)
     : context_(context), options_(options), statistics_(statistics), minimiser_(context) {}
@@ -59,14 +46,19 @@ Outcome CoreExtraction::advance(Slice slice) {
 Cost CoreExtraction::max_lift() const {
   if (!options_.raise_cores) return 1;
   const auto best = context_.bounds.upper();
-  return best ? std::min(*best - relaxation_->bound(), kMaxLift) : kMaxLift;
+  const Cost most = context_.settings.core_most_lift;
+  return best ? std::min(*best - relaxation_->bound(), most) : most;
 }
 
 Verdict CoreExtraction::solve(Slice slice) {
   const std::int64_t before = context_.limits.conflicts();
-  if (in_passes())
-    slice.conflicts = pass_ == 0 ? options_.first_turn
-                                 : std::max<std::int64_t>(1, options_.first_turn / kLaterPassShare);
+  const Settings& settings = context_.settings;
+  if (in_passes()) {
+    slice.conflicts = settings.core_turn;
+    if (pass_ > 0)
+      slice.conflicts =
+          std::max<std::int64_t>(1, settings.core_turn / settings.core_later_turn_part);
+  }
   const Verdict verdict = find_plan(context_, relaxation_->assumptions(), slice.conflicts);
   conflicts_ += context_.limits.conflicts() - before;
   return verdict;
@@ -92,7 +84,8 @@ bool CoreExtraction::end_pass() {
   passes_without_gain_ = is_best ? 0 : passes_without_gain_ + 1;
   if (relaxation_) relaxation_->retire();
   ++pass_;
-  if (passes_without_gain_ == kPassesWithoutGain) pass_ = options_.passes;
+  const Settings& settings = context_.settings;
+  if (passes_without_gain_ == settings.core_vain_passes) pass_ = settings.core_passes;
   if (in_passes()) return start_pass();
   relaxation_ = std::move(best_relaxation_);
   return true;

@@ -30,7 +30,7 @@ class CoreExtraction final : public Strategy {
   [[nodiscard]] const Relaxation& relaxation() const noexcept { return *relaxation_; }
 
  private:
-  [[nodiscard]] bool in_passes() const noexcept { return pass_ < options_.passes; }
+  [[nodiscard]] bool in_passes() const noexcept { return pass_ < context_.settings.core_passes; }
   /// Asks for a plan that violates nothing.
   [[nodiscard]] Verdict solve(Slice slice);
   [[nodiscard]] Cost max_lift() const;
@@ -42,7 +42,7 @@ class CoreExtraction final : public Strategy {
   Statistics& statistics_;
   CoreMinimiser minimiser_;
   std::unique_ptr<Relaxation> relaxation_, best_relaxation_;
-  int pass_ = 0, passes_without_gain_ = 0;
+  std::int64_t pass_ = 0, passes_without_gain_ = 0;
   std::int64_t conflicts_ = 0;  // of `solve`
   std::int64_t pass_begin_ = 0, best_conflicts_ = 0;
 };

@@ -36,14 +36,15 @@ SearchEnd search_by_cores(CostSearchContext context, const CoreGuidedOptions& op
   if (!options.from_above) return end_of(cores.advance({}));
 
   std::optional<SearchFromAbove> above;
-  std::int64_t conflicts = options.first_turn;
+  const Settings& settings = context.settings;
+  std::int64_t conflicts = settings.core_turn;
   while (true) {
-    const std::int64_t from_below = above ? conflicts : options.head_start * conflicts;
+    const std::int64_t from_below = above ? conflicts : settings.core_head_start * conflicts;
     Outcome outcome = cores.advance({from_below});
     if (outcome == Outcome::working) {
-      if (!above) above.emplace(context, options.candidates_within);
+      if (!above) above.emplace(context);
       above->rebase(cores.relaxation());
-      outcome = above->advance({options.descent_share * conflicts});
+      outcome = above->advance({settings.above_share * conflicts});
     }
     if (outcome != Outcome::working) {
       if (above) above->add_statistics(statistics);

@@ -5,25 +5,11 @@
 #include <iterator>
 
 namespace quadrille::sat {
-namespace {
-
-/// Of one try; longer ones seldom succeed. Measured: without any, room-64-64-8 with 70 agents takes
-/// five times as long.
-constexpr SolveBudget kTryBudget{60, 1000};
-/// Conflicts that make cores smaller may exceed those of the search by this number; so may those
-/// that raise them.
-constexpr std::int64_t kFreeConflicts = 200;
-/// Likewise, in steps of the engine. Where paths are long and have much time, a try without any
-/// conflict can take a second. Measured, against conflicts alone: maze-32-32-4 with 35 agents 3.7
-/// instead of 7.5 s, and bounds after 10 s of crowded mazes and rooms are higher.
-constexpr std::int64_t kFreeEffort = 2'000'000;
-
-}  // namespace
-
 bool CoreMinimiser::may_spend(const Spent& spent, const Spent& other, std::int64_t searched) const {
   const std::int64_t effort = context_.engine.effort() - spent.effort - other.effort;
-  return spent.conflicts <= searched + kFreeConflicts && spent.effort <= effort + kFreeEffort &&
-         !context_.limits.exhausted();
+  const Settings& settings = context_.settings;
+  return spent.conflicts <= searched + settings.core_free_conflicts &&
+         spent.effort <= effort + settings.core_free_effort && !context_.limits.exhausted();
 }
 
 std::vector<Lit> CoreMinimiser::minimise(std::vector<Lit> core, std::int64_t searched) {
@@ -75,7 +61,10 @@ Cost CoreMinimiser::raise(Relaxation& relaxation, std::vector<Lit>& core, Cost m
 Verdict CoreMinimiser::solve_part(const std::vector<Lit>& part, Spent& spent) {
   context_.problem.on_solve(false);
   const Spent before{context_.limits.conflicts(), context_.engine.effort()};
-  const Verdict verdict = context_.engine.solve(part, context_.limits, kTryBudget);
+  const Settings& settings = context_.settings;
+  const SolveBudget budget{static_cast<int>(settings.core_try_conflicts),
+                           static_cast<int>(settings.core_try_decisions)};
+  const Verdict verdict = context_.engine.solve(part, context_.limits, budget);
   spent.conflicts += context_.limits.conflicts() - before.conflicts;
   spent.effort += context_.engine.effort() - before.effort;
   context_.yield_point.yield();

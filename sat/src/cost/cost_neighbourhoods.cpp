@@ -8,34 +8,23 @@
 #include "cost/plan_query.hpp"
 
 namespace quadrille::sat {
-namespace {
-
-/// Of one neighbourhood. Measured: 100 and 1000 are slower.
-constexpr std::int64_t kConflicts = 200;
-/// So many neighbourhoods without a cheaper plan end a slice; fewer if candidates come next.
-constexpr int kPatience = 64, kShortPatience = 32;
-
-}  // namespace
-
-CostNeighbourhoods::CostNeighbourhoods(const CostSearchContext& context, ExcessCounter& counter,
-                                       Cost close)
-    : context_(context),
-      counter_(counter),
-      close_(close),
-      num_free_(context.problem.num_agents() / 5 + 1) {}
+CostNeighbourhoods::CostNeighbourhoods(const CostSearchContext& context, ExcessCounter& counter)
+    : context_(context), counter_(counter), num_free_(context.problem.num_agents() / 5 + 1) {}
 
 Outcome CostNeighbourhoods::advance(Slice slice) {
   Bounds& bounds = context_.bounds;
   LimitMonitor& limits = context_.limits;
+  const Settings& settings = context_.settings;
   const std::int64_t end = slice.conflicts ? limits.conflicts() + *slice.conflicts
                                            : std::numeric_limits<std::int64_t>::max();
   std::vector<AgentId> agents;
   for (const AgentId i : IdRange<AgentId>(context_.problem.num_agents())) agents.push_back(i);
-  int failures = 0;
+  std::int64_t failures = 0;
   while (limits.conflicts() < end && !limits.exhausted_now()) {
     const auto best = bounds.upper();
     if (!best || *best <= bounds.lower() || *best > counter_.largest()) break;
-    if (failures >= (*best - bounds.lower() <= close_ ? kShortPatience : kPatience)) break;
+    const bool are_candidates_next = *best - bounds.lower() <= settings.above_candidates_within;
+    if (failures >= settings.above_patience / (are_candidates_next ? 2 : 1)) break;
     random_.shuffle_front(agents, agents.size());
     std::vector<Lit> assumptions;
     for (std::size_t at = num_free_; at < agents.size(); ++at)
@@ -45,7 +34,8 @@ Outcome CostNeighbourhoods::advance(Slice slice) {
     const Lit not_cheaper = counter_.above(*best - 1);
     assumptions.push_back(~not_cheaper);
     const Verdict verdict =
-        find_plan(context_, assumptions, std::min(kConflicts, end - limits.conflicts()));
+        find_plan(context_, assumptions,
+                  std::min(settings.above_neighbourhood_conflicts, end - limits.conflicts()));
     failures = verdict == Verdict::sat ? 0 : failures + 1;
     if (verdict == Verdict::unsat) {
       const std::vector<Lit> core = context_.engine.core();

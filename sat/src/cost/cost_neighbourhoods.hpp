@@ -14,9 +14,8 @@ namespace quadrille::sat {
 /// cost in the incumbent, and the sum has to fall.
 class CostNeighbourhoods final : public Strategy {
  public:
-  /// All outlive it. `patience`: neighbourhoods without a cheaper plan that end a slice; fewer when
-  /// the incumbent is within `close` of the lower bound.
-  CostNeighbourhoods(const CostSearchContext& context, ExcessCounter& counter, Cost close);
+  /// Both outlive it.
+  CostNeighbourhoods(const CostSearchContext& context, ExcessCounter& counter);
 
   /// `found` never: a plan that proves to be optimal closes the bounds.
   [[nodiscard]] Outcome advance(Slice slice) override;
@@ -24,7 +23,6 @@ class CostNeighbourhoods final : public Strategy {
  private:
   const CostSearchContext context_;
   ExcessCounter& counter_;
-  const Cost close_;
   Random random_{1};
   std::size_t num_free_;  // agents of a neighbourhood that may cost anything
 };

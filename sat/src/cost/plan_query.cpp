@@ -5,23 +5,16 @@
 #include <limits>
 
 namespace quadrille::sat {
-namespace {
-
-/// Elementary steps, about a second: each slice begins with a restart of the solver. Measured:
-/// slices of 200'000 make proofs up to twice as long.
-constexpr std::int64_t kSlice = 800'000;
-
-}  // namespace
-
 Verdict find_plan(const CostSearchContext& context, std::span<const Lit> assumptions,
                   std::optional<std::int64_t> conflicts) {
   LimitMonitor& limits = context.limits;
+  const std::int64_t slice = context.settings.question_slice;
   const std::int64_t end = limits.conflicts() + conflicts.value_or(0);
   context.problem.on_solve(true);
   while (true) {
     SolveBudget budget;
-    budget.effort = kSlice;
-    const std::int64_t slice_end = context.engine.effort() + kSlice;
+    budget.effort = slice;
+    const std::int64_t slice_end = context.engine.effort() + slice;
     if (conflicts)
       budget.conflicts = static_cast<int>(
           std::clamp<std::int64_t>(end - limits.conflicts(), 1, std::numeric_limits<int>::max()));

@@ -6,17 +6,11 @@
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::sat {
-namespace {
-
-/// What the cores leave open is counted anew when they have raised the bound by this.
-constexpr Cost kRebaseAfter = 8;
-
-}  // namespace
-
 void SearchFromAbove::rebase(const Relaxation& relaxation) {
-  if (parts_ && relaxation.bound() < parts_->counter.base() + kRebaseAfter) return;
+  if (parts_ && relaxation.bound() < parts_->counter.base() + context_.settings.above_rebase)
+    return;
   if (parts_) parts_->counter.retire();
-  parts_ = std::make_unique<Parts>(context_, offline_, relaxation, candidates_within_);
+  parts_ = std::make_unique<Parts>(context_, offline_, relaxation);
   relaxation.note_excess(parts_->counter.proof_number());
 }
 
@@ -26,7 +20,7 @@ Outcome SearchFromAbove::advance(Slice slice) {
   if (const Outcome outcome = parts_->neighbourhoods.advance(slice); outcome != Outcome::working)
     return outcome;
   const auto best = context_.bounds.upper();
-  if (best && *best - context_.bounds.lower() <= candidates_within_ &&
+  if (best && *best - context_.bounds.lower() <= context_.settings.above_candidates_within &&
       *best <= parts_->counter.largest())
     return parts_->candidates.advance(slice);
   return parts_->sum_descent.advance(

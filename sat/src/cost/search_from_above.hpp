@@ -20,8 +20,8 @@ namespace quadrille::sat {
 class SearchFromAbove final : public Strategy {
  public:
   /// All outlive it; the relaxation is what the cores have come to, see `rebase`.
-  SearchFromAbove(const CostSearchContext& context, Cost candidates_within)
-      : context_(context), candidates_within_(candidates_within), offline_(context.engine) {}
+  explicit SearchFromAbove(const CostSearchContext& context)
+      : context_(context), offline_(context.engine) {}
 
   /// To be called before each slice: counts from `relaxation` when that has come much farther than
   /// what it counts from now.
@@ -32,10 +32,9 @@ class SearchFromAbove final : public Strategy {
  private:
   /// What shares a counter.
   struct Parts {
-    Parts(const CostSearchContext& context, OfflineSolver& offline, const Relaxation& relaxation,
-          Cost close)
+    Parts(const CostSearchContext& context, OfflineSolver& offline, const Relaxation& relaxation)
         : counter(context.engine, relaxation.bound(), relaxation.num_softs(), relaxation.excess()),
-          neighbourhoods(context, counter, close),
+          neighbourhoods(context, counter),
           sum_descent(context, counter),
           candidates(context, offline, counter) {}
     ExcessCounter counter;
@@ -45,7 +44,6 @@ class SearchFromAbove final : public Strategy {
   };
 
   const CostSearchContext context_;
-  const Cost candidates_within_;
   OfflineSolver offline_;
   std::unique_ptr<Parts> parts_;
 };

@@ -6,12 +6,13 @@
 namespace quadrille::discrete {
 namespace {
 
+const Settings kSettings;
 constexpr std::int64_t kSearch = 1'000'000, kPlans = 100'000;
 constexpr double kOpen = 50, kNearlyClosed = 0.5;  // per cent
 
 /// What is due for a second or so of the search, after turns in which both gained so much.
 std::int64_t due_after(int turns, Cost gain_of_search, Cost gain_of_plans, double gap_percent) {
-  MarginalGain gain;
+  MarginalGain gain(kSettings);
   for (int turn = 0; turn < turns; ++turn) {
     gain.count_search(kSearch, gain_of_search);
     gain.count_plans(kPlans, gain_of_plans, gap_percent);
@@ -45,7 +46,7 @@ TEST(MarginalGain, NothingIsGainedByNobody) {
 
 TEST(MarginalGain, CloseToTheEndTheProofHasPriority) {
   EXPECT_LE(due_after(100, 0, 100, kNearlyClosed), due_after(0, 0, 0, kOpen));
-  MarginalGain gain;
+  MarginalGain gain(kSettings);
   for (int turn = 0; turn < 100; ++turn) gain.count_plans(kPlans, 100, kOpen);
   const std::int64_t before = gain.due(kSearch);
   gain.count_plans(kPlans, 100, kNearlyClosed);
@@ -53,7 +54,7 @@ TEST(MarginalGain, CloseToTheEndTheProofHasPriority) {
 }
 
 TEST(MarginalGain, WhatIsLongAgoIsForgotten) {
-  MarginalGain gain;
+  MarginalGain gain(kSettings);
   gain.count_search(kSearch, 1'000'000);
   for (int turn = 0; turn < 100; ++turn) {
     gain.count_search(kSearch, 0);

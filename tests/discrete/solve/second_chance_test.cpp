@@ -22,7 +22,9 @@ class SecondChanceTest : public testing::Test {
   Plan first_ = searched(instance_).plan();
   Cost cost_ = first_.cost(Objective::sum_of_costs);
   LimitMonitor limits_{Limits{}};
-  SecondChance chance_{instance_, distances_of(instance_), Objective::sum_of_costs, first_, 0};
+  Settings settings_;
+  SecondChance chance_{instance_, distances_of(instance_), Objective::sum_of_costs, first_, 0,
+                       settings_};
 
   /// Until it is over. The cheapest plan.
   std::optional<Plan> finish(Cost cost) {

@@ -125,9 +125,9 @@ SolveOutcome solve_from_above(const Instance& instance, const SolveOptions& opti
   const Tuner tuner = [&](const SolveOptions& of_search) {
     Tuning tuning = choose_tuning(features_of(instance), of_search);
     tuning.cores.from_above = true;
-    tuning.cores.first_turn = 1;
-    tuning.cores.passes = 1;
-    tuning.cores.head_start = 1;
+    tuning.settings.core_turn = 1;
+    tuning.settings.core_passes = 1;
+    tuning.settings.core_head_start = 1;
     return tuning;
   };
   return solve_tuned(instance, options, tuner).value();

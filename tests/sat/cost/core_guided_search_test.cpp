@@ -156,14 +156,15 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t shar
   CoreGuidedOptions options;
   options.from_above = share > 0;
   if (share > 0 && has_plan) problem.take_costliest();
-  options.first_turn = 1;
-  options.passes = passes;
-  options.descent_share = std::max<std::int64_t>(1, share);
-  options.head_start = head_start;
+  Settings settings;
+  settings.core_turn = 1;
+  settings.core_passes = passes;
+  settings.above_share = std::max<std::int64_t>(1, share);
+  settings.core_head_start = head_start;
   options.raise_cores = raise_cores;
   WatchedBounds watch(problem);
   const SearchEnd end =
-      search_by_cores({engine, problem, problem, limits, watch}, options, statistics);
+      search_by_cores({engine, problem, problem, limits, watch, settings}, options, statistics);
   const bool found = end == SearchEnd::found;
   EXPECT_TRUE(found || problem.are_closed()) << "the search ends with a proof";
   return {found ? problem.accepted() : problem.upper().value_or(-1), problem.lower(),
@@ -242,7 +243,7 @@ TEST(CoreGuidedSearch, LongDelaysTakeFewCores) {
   CoreGuidedOptions options;
   options.raise_cores = true;
   WatchedBounds watch(problem);
-  EXPECT_EQ(search_by_cores({engine, problem, problem, limits, watch}, options, statistics),
+  EXPECT_EQ(search_by_cores({engine, problem, problem, limits, watch, {}}, options, statistics),
             SearchEnd::found);
   EXPECT_EQ(problem.accepted(), 170 + 45 + 33);
   EXPECT_EQ(problem.lower(), 170 + 45 + 33);
@@ -296,7 +297,7 @@ Agents first_core(const std::vector<Agents>& parts) {
   add({0, 1, 2, 3, 4, 5}, {});
   Statistics statistics;
   WatchedBounds watch(problem);
-  EXPECT_EQ(search_by_cores({engine, problem, problem, limits, watch}, {}, statistics),
+  EXPECT_EQ(search_by_cores({engine, problem, problem, limits, watch, {}}, {}, statistics),
             SearchEnd::found);
   EXPECT_EQ(problem.accepted(), 1) << "of the agent in both parts";
   return observer.cores.at(0);

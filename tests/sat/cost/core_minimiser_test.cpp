@@ -41,6 +41,8 @@ class NoBounds final : public Bounds {
   void offer_accepted() override {}
 };
 
+const Settings kSettings;
+
 class Nobody final : public YieldPoint {
  public:
   void yield() override { ++num_yields; }
@@ -61,7 +63,7 @@ class CoreMinimiserTest : public testing::Test {
       }
   }
   std::vector<std::size_t> minimise(std::int64_t searched = 1000) {
-    CoreMinimiser minimiser({engine, problem, bounds, limits, nobody});
+    CoreMinimiser minimiser({engine, problem, bounds, limits, nobody, kSettings});
     std::vector<std::size_t> found;
     for (const Lit lit : minimiser.minimise(assumptions, searched))
       found.push_back(static_cast<std::size_t>(
@@ -110,7 +112,7 @@ int tries_with(std::int64_t steps_of_theory) {
   for (std::size_t a = 0; a < lits.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       engine.add_clause({why::Vertex{}, std::vector<Lit>{~lits[a], ~lits[b]}, {}, false});
-  CoreMinimiser minimiser({engine, problem, bounds, limits, nobody});
+  CoreMinimiser minimiser({engine, problem, bounds, limits, nobody, kSettings});
   for (int round = 0; round < 40; ++round)
     EXPECT_GE(minimiser.minimise({lits[0], lits[1]}, 1'000'000).size(), 2u);
   return problem.num_solves;
@@ -161,7 +163,7 @@ TEST_F(CoreMinimiserTest, WhatIsLeftIsACoreAndMinimal) {
         });
       });
     };
-    CoreMinimiser minimiser({fresh, problem, bounds, limits, nobody});
+    CoreMinimiser minimiser({fresh, problem, bounds, limits, nobody, kSettings});
     const std::vector<Lit> core = minimiser.minimise(lits, 1000);
     ASSERT_TRUE(is_core(core)) << round;
     for (std::size_t at = 0; at < core.size(); ++at) {

@@ -15,6 +15,7 @@
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/progress.hpp"
 #include "quadrille/core/result.hpp"
+#include "quadrille/core/settings.hpp"
 #include "quadrille/core/statistics.hpp"
 
 QUADRILLE_API_BEGIN
@@ -34,6 +35,7 @@ struct Choices {
   /// With several threads, exchange at once and take the proof that comes first in time. Otherwise
   /// all goes by steps, so that the answer is always the same.
   bool race = false;
+  Settings settings;  ///< For measurements; in their ranges.
 
   static constexpr std::uint32_t kMaxSeed = 2'000'000'000;
 };

@@ -7,6 +7,7 @@
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
+#include "quadrille/core/settings.hpp"
 #include "quadrille/core/statistics.hpp"
 #include "quadrille/sat/bounds.hpp"
 #include "quadrille/sat/cost_problem.hpp"
@@ -34,6 +35,7 @@ struct CostSearchContext {
   Bounds& bounds;
   LimitMonitor& limits;
   YieldPoint& yield_point;
+  const Settings& settings;
   /// Unless null, becomes the list of what raised the lower bound, whatever ends the search; no
   /// bystanders are named. Other bounds, such as those from above, are not in it.
   std::vector<Raise>* raises = nullptr;
@@ -50,29 +52,13 @@ enum class SearchEnd {
 /// et al. 2016, ECAI; Surynek 2019, IJCAI). Never ends by itself if no plan exists.
 [[nodiscard]] SearchEnd search_upwards(CostSearchContext context);
 
-/// Of the core-guided search. The defaults are those of a search from below alone.
+/// Of the core-guided search: what a problem allows. The numbers are settings.
 struct CoreGuidedOptions {
   /// Look for plans from above too, once cores take long. Only for problems that need no growth,
   /// with an engine that records its clauses for this search alone.
   bool from_above = false;
   /// Try to raise the bound by more than one for a core. Only for problems that need no growth.
-  /// Measured: mazes with corridors that are one cell wide take a tenth of the time.
   bool raise_cores = false;
-  std::int64_t first_turn = 8000;  ///< Conflicts that make a core hard, 1 .. 2^31 - 1.
-  /// How often at most cores are extracted from the start: again when a core is hard, with all that
-  /// was learned, which makes for smaller ones; two times in a row without gain are the last. At
-  /// least 1. Measured: 2 to 6 make little difference, one is up to four times as slow.
-  int passes = 3;
-  /// How many times as long as `first_turn` the first slice after the passes is: cores alone often
-  /// come to the end in it. At least 1. Measured, 4 to 8 against 1: random-32-32-10 with 180 agents
-  /// 12 instead of 25 s, random-32-32-20 with 100 agents 11 to 25 instead of 22 s, no difference
-  /// elsewhere.
-  std::int64_t head_start = 6;
-  /// So many conflicts from above for each one from below. At least 1.
-  std::int64_t descent_share = 1;
-  /// How close the incumbent has to be to the lower bound before an offline solver, without the
-  /// theory, chooses costs for the engine to look at; 0: never.
-  Cost candidates_within = 8;
 };
 
 /// Finds a plan of least sum of costs from below: assumes that nobody costs more than its share of
