@@ -4,8 +4,8 @@
 // Boost's headers would warn of each other.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <algorithm>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
+// Whole: from Boost 1.77 on the index alone lacks what it needs of the rest.
+#include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <cstdint>
 #include <utility>

@@ -5,10 +5,8 @@
 #define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <algorithm>
 #include <array>
-#include <boost/geometry/algorithms/covered_by.hpp>
-#include <boost/geometry/algorithms/equals.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
+// Whole: from Boost 1.77 on the index alone lacks what it needs of the rest.
+#include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/iterator/function_output_iterator.hpp>
 #include <charconv>
