@@ -172,7 +172,9 @@ Instance read_json(const std::string& file) {
   const std::string text = read_file(file);
   try {
     const Json root = parse_json(text);
-    root.only({"quadrille", "version", "grid", "graph", "agents"});
+    root.only({"quadrille", "version", "now", "grid", "graph", "agents"});
+    // Costs and the times of certificates count from there.
+    if (const Json* now = root.find("now")) static_cast<void>(now->number(0, 1'000'000'000));
     if (root.at("quadrille").text() != "instance" || root.at("version").number(1, 1) != 1 ||
         (root.find("grid") != nullptr && root.find("graph") != nullptr))
       throw BadInput("no instance of version 1, on a grid or on a graph");

@@ -62,11 +62,11 @@ class Simulator {
     delays_.pause_chance = arguments.chance.value_or(delays_.pause_chance);
     delays_.slowness = arguments.slowness.value_or(delays_.slowness);
     delays_.longest_pause = whole(arguments.longest.value_or(3));
-    for (const auto& moves : c.order.moves)
-      if (!moves.empty()) {
-        plan_makespan_ = std::max(plan_makespan_, moves.back().end);
-        plan_cost_ += moves.back().end;
-      }
+    for (const AgentId agent : IdRange<AgentId>(c.order.num_agents())) {
+      const Ticks cost = c.order.end(agent) - c.order.now;
+      plan_makespan_ = std::max(plan_makespan_, cost);
+      plan_cost_ += cost;
+    }
     if (!c.has_timesteps)
       period_ = arguments.period ? whole(*arguments.period)
                                  : std::max(Ticks{1}, plan_makespan_ / kPeriods);

@@ -89,6 +89,7 @@ std::string result_json(const discrete::Instance* instance, const SolveArguments
       proof = {{"none", outcome.no_certificate}};
     json.add("proof", proof);
   }
+  if (outcome.plan && outcome.plan->now > 0) json.add("now", outcome.plan->now);
   if (arguments.history) add_history(json, notes.history);
   return json.finish(
       outcome.statistics, options.seed, options_json(arguments),

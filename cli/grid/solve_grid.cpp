@@ -66,6 +66,9 @@ std::string settle(SolveArguments& arguments) {
   return "";
 }
 
+/// For what takes a plan where there is none.
+discrete::Plan no_paths(const discrete::Instance& instance) { return {{}, instance.now()}; }
+
 /// The parts of solve_and_deliver.
 class GridSolve {
  public:
@@ -115,7 +118,7 @@ class GridSolve {
     return result_json(&instance(), arguments_, outcome, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
-    return view::page(instance(), outcome.plan.value_or(discrete::Plan{}),
+    return view::page(instance(), outcome.plan.value_or(no_paths(instance())),
                       page_options(input_.source, objective(), outcome));
   }
   [[nodiscard]] Result<std::string> drawing(const discrete::Plan& plan) const {
@@ -155,7 +158,7 @@ class GridSolve {
       if (!limits) return std::nullopt;
       std::vector<discrete::Agent> kept;
       for (const AgentId i : agents) kept.push_back(instance().agents()[i]);
-      const auto part = discrete::Instance::make(instance().shared_graph(), std::move(kept));
+      const auto part = instance().with_agents(std::move(kept));
       discrete::SolveOptions options;
       options.objective = objective();
       options.seed = arguments_.options.seed;
@@ -182,8 +185,9 @@ Result<input::GridInput> read_input(SolveArguments& arguments) {
   auto error = read_given_plans(arguments, input->instance, arguments.options, read);
   if (!error) error = check_picture_agents(arguments.picture, input->instance.num_agents());
   if (!error && !arguments.plan.empty()) {
-    // Some formats need a grid; that must not come out after the search.
-    const auto text = GridSolve(arguments, *input, {}).plan_text({});
+    // Some formats need a grid, or a plan that begins at 0; that must not come out after the
+    // search.
+    const auto text = GridSolve(arguments, *input, {}).plan_text(no_paths(input->instance));
     if (!text) error = text.error();
   }
   if (error) return *std::move(error);

@@ -90,15 +90,17 @@ Json duration(double time) {
 }
 Json header(double time) { return {{"stamp", duration(time)}, {"frame_id", "map"}}; }
 
+// A trajectory begins when its header says, and its times count from there.
 Json multidof(AgentId agent, const std::vector<Sample>& samples) {
+  const double begin = samples.front().time;
   Json points = Json::array();
   for (const Sample& s : samples)
     points.push_back(
         {{"transforms", {{{"translation", point(s.x, s.y, s.z)}, {"rotation", no_rotation()}}}},
          {"velocities", {{{"linear", point(s.vx, s.vy, s.vz)}, {"angular", point(0, 0, 0)}}}},
          {"accelerations", Json::array()},
-         {"time_from_start", duration(s.time)}});
-  return {{"header", header(0)},
+         {"time_from_start", duration(s.time - begin)}});
+  return {{"header", header(begin)},
           {"joint_names", {fmt::format("agent{}", agent.value())}},
           {"points", points}};
 }
@@ -109,7 +111,7 @@ Json nav_path(const std::vector<Sample>& samples) {
     poses.push_back(
         {{"header", header(s.time)},
          {"pose", {{"position", point(s.x, s.y, s.z)}, {"orientation", no_rotation()}}}});
-  return {{"header", header(0)}, {"poses", poses}};
+  return {{"header", header(samples.front().time)}, {"poses", poses}};
 }
 
 Json order_message(const Instance& instance, AgentId agent, const Path& path,

@@ -170,9 +170,7 @@ class RoadmapSolve {
       if (!limits) return std::nullopt;
       std::vector<continuous::Agent> kept;
       for (const AgentId i : agents) kept.push_back(instance().agent(i));
-      const auto part =
-          continuous::Instance::make(instance().shared_roadmap(), std::move(kept),
-                                     instance().resolution(), {}, instance().obstacles());
+      const auto part = instance().with_agents(std::move(kept));
       SolveOptions options;
       options.objective = objective();
       options.seed = options_.seed;

@@ -166,7 +166,8 @@ void ClearanceWatch::add(std::span<const Ticks> before, std::span<const Ticks> a
 void ConflictWatch::add(std::span<const Ticks> before, std::span<const Ticks> after) {
   std::multimap<VertexId, AgentId> was, is;
   const auto place = [&](std::size_t i, Ticks clock) {
-    return discrete::position(plan_.paths[AgentId(i)], static_cast<Timestep>(clock.value()));
+    return discrete::position(plan_.paths[AgentId(i)],
+                              static_cast<Timestep>(clock.value() - plan_.now));
   };
   const auto meet = [&](AgentId i, AgentId j) {
     contacts_.emplace(std::min(i, j), std::max(i, j));

@@ -32,6 +32,7 @@ struct Kind {
 class Finder {
  public:
   Finder(const Instance& instance, const continuous::Plan& plan) : instance_(instance) {
+    result_.now = instance.now();
     result_.moves.resize(plan.paths.size());
     for (const AgentId agent : instance.agent_ids()) add_moves(agent, plan.paths[agent]);
   }

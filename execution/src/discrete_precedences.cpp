@@ -21,14 +21,14 @@ struct Visit {
 };
 
 /// The moves of a path, and what it visits.
-std::vector<TimedMove> moves_of(AgentId agent, const discrete::Path& path,
+std::vector<TimedMove> moves_of(AgentId agent, const discrete::Path& path, Timestep now,
                                 std::vector<Visit>& visits) {
   std::vector<TimedMove> moves;
-  Visit visit{path.front(), agent, 0, std::nullopt, std::nullopt};
+  Visit visit{path.front(), agent, Ticks(std::int64_t{now}), std::nullopt, std::nullopt};
   for (std::size_t t = 0; t + 1 < path.size(); ++t) {
     if (path[t] == path[t + 1]) continue;
     const MoveId move{agent, static_cast<std::uint32_t>(moves.size())};
-    const Ticks begin(static_cast<std::int64_t>(t));
+    const Ticks begin(now + static_cast<std::int64_t>(t));
     moves.push_back({path[t], path[t + 1], begin, begin + 1});
     visit.out = move;
     visits.push_back(visit);
@@ -44,9 +44,10 @@ Result<Precedences> precedences(const discrete::Instance& instance, const discre
   const auto report = discrete::verify(instance, plan);
   if (!report.valid()) return Error{ErrorCode::invalid_plan, report.violations.front().message, {}};
   Precedences result;
+  result.now = Ticks(std::int64_t{plan.now});
   std::vector<Visit> visits;
   for (const AgentId agent : instance.agent_ids())
-    result.moves.push_back(moves_of(agent, plan.paths[agent], visits));
+    result.moves.push_back(moves_of(agent, plan.paths[agent], plan.now, visits));
   std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {
     return std::tie(a.vertex, a.arrive) < std::tie(b.vertex, b.arrive);
   });

@@ -23,17 +23,18 @@ class Simulation {
   Simulation(const Precedences& order, const Delays& delays, Rule rule, Ticks period)
       : order_(order), delays_(delays), rule_(rule), period_(period), executor_(order) {
     const std::size_t count = order.num_agents();
-    clocks_.assign(count, 0);
-    targets_.assign(count, 0);
-    wanted_.assign(count, 0);
+    clocks_.assign(count, order.now);
+    targets_.assign(count, order.now);
+    wanted_.assign(count, order.now);
     agents_.resize(count);
-    result_.finish.assign(count, 0);
+    result_.now = order.now;
+    result_.finish.assign(count, order.now);
     result_.held.assign(count, 0);
   }
 
   SimulationResult run(const Watch& watch) {
     bool goes_on = true;
-    for (Ticks now = period_; goes_on; now += period_) {
+    for (Ticks now = order_.now + period_; goes_on; now += period_) {
       goes_on = false;
       for (const AgentId agent : IdRange<AgentId>(agents_.size())) ask(agent, goes_on);
       targets_ = wanted_;
@@ -151,14 +152,14 @@ Delays draw_delays(const Precedences& order, const DelayOptions& options, std::u
 }
 
 Ticks SimulationResult::makespan() const {
-  Ticks latest = 0;
+  Ticks latest = now;
   for (const Ticks tick : finish) latest = std::max(latest, tick);
-  return latest;
+  return latest - now;
 }
 
 Ticks SimulationResult::sum_of_costs() const {
   Ticks sum = 0;
-  for (const Ticks tick : finish) sum += tick;
+  for (const Ticks tick : finish) sum += tick - now;
   return sum;
 }
 

@@ -119,7 +119,7 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
       return invalid(name + "is of a group that the roadmap does not have");
     agent.group = *entry.spec.group;
   }
-  if (entry.under_way && entry.release > Seconds(0))
+  if (entry.under_way && entry.release > begin_)
     return invalid(name + "is under way, and cannot be released later");
   const auto release = time_to_units(entry.release, true, resolution);
   if (!release)
@@ -190,6 +190,13 @@ Result<std::vector<continuous::MovingObstacle>> Fleet::obstacles_in_units() cons
   return obstacles;
 }
 
+Result<continuous::Ticks> Fleet::begin_in_units() const {
+  const auto now = continuous::quantise_time(begin_.value(), roadmap_.unit_sizes());
+  if (now) return *now;
+  return out_of_range("the fleet begins at " + to_string(begin_) +
+                      ", which is negative, or too late");
+}
+
 continuous::Words Fleet::words() const {
   return {[this](AgentId id) { return "'" + name(id) + "'"; },
           [this](std::size_t o) { return "'" + obstacle_name(o) + "'"; },
@@ -201,6 +208,9 @@ continuous::Words Fleet::words() const {
 
 Result<Fleet::Parts> Fleet::parts() const {
   Parts parts;
+  const auto now = begin_in_units();
+  if (!now) return now.error();
+  parts.now = *now;
   auto agents = this->agents();
   if (!agents) return agents.error();
   auto roads = put_under_way(*agents, parts.off);
@@ -217,10 +227,10 @@ Result<continuous::Instance> Fleet::instance() const {
   const auto parts = this->parts();
   if (!parts) return parts.error();
   auto instance = continuous::Instance::make(parts->roads, parts->agents, roadmap_.unit_sizes(), {},
-                                             parts->obstacles);
+                                             parts->obstacles, parts->now);
   if (instance) return instance;
   Error error = continuous::in_words(instance.error(), parts->roads, parts->agents,
-                                     roadmap_.unit_sizes(), parts->obstacles, words());
+                                     roadmap_.unit_sizes(), parts->obstacles, parts->now, words());
   if (error.code == ErrorCode::no_plan) error.message += PlaceRounding(*this).doubt_about_refusal();
   return error;
 }

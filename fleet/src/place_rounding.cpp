@@ -40,7 +40,7 @@ PlaceRounding::Smaller PlaceRounding::smaller(const Fleet::Parts& parts,
 Result<continuous::Instance> PlaceRounding::make(const Fleet::Parts& parts,
                                                  const Smaller& smaller) const {
   return continuous::Instance::make(parts.roads, smaller.agents, fleet_.roadmap().unit_sizes(), {},
-                                    parts.obstacles);
+                                    parts.obstacles, parts.now);
 }
 
 std::string PlaceRounding::say(const Smaller& smaller, bool is_sure) const {

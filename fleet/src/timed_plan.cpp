@@ -12,7 +12,7 @@
 
 namespace quadrille::fleet {
 
-/// The last stop that has begun; the first one before time 0.
+/// The last stop that has begun; the first one before the plan begins.
 std::size_t TimedPath::stop_at(Seconds time) const {
   const auto later = std::upper_bound(stops_.begin() + 1, stops_.end(), time,
                                       [](Seconds t, const Stop& stop) { return t < stop.arrive; });
@@ -37,7 +37,9 @@ Point TimedPath::at(Seconds time) const { return sample(stop_at(time), time).pos
 
 Velocity TimedPath::velocity(Seconds time) const { return sample(stop_at(time), time).velocity; }
 
-std::vector<Sample> TimedPath::samples(Hertz rate) const { return samples(rate, cost()); }
+std::vector<Sample> TimedPath::samples(Hertz rate) const {
+  return samples(rate, stops_.back().arrive);
+}
 
 std::vector<Sample> TimedPath::samples(Hertz rate, Seconds until) const {
   QUADRILLE_REQUIRE(rate.value() > 0 && std::isfinite(rate.value()), "a positive rate");
@@ -45,8 +47,8 @@ std::vector<Sample> TimedPath::samples(Hertz rate, Seconds until) const {
   std::vector<Sample> samples;
   std::size_t stop = 0;
   for (std::size_t k = 0;; ++k) {
-    // A quotient, not a sum: 0.3 s at 10 Hz is the same number as the 0.3 s of a stop.
-    const Seconds time(static_cast<double>(k) / rate.value());
+    // A quotient, not a sum of many: 0.3 s at 10 Hz is the same number as the 0.3 s of a stop.
+    const Seconds time = stops_.front().arrive + Seconds(static_cast<double>(k) / rate.value());
     while (stop + 1 < stops_.size() && stops_[stop + 1].arrive <= time) ++stop;
     samples.push_back(sample(stop, time));
     if (time >= until) return samples;
@@ -88,11 +90,13 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
                                   state.instance.agent(i).speed)
               .value()
               .value());
-      const auto left = static_cast<double>(plan.paths[i][1].arrive.value());
+      const auto left =
+          static_cast<double>((plan.paths[i][1].arrive - plan.paths[i][0].arrive).value());
       path.under_way_ = UnderWay{begin->from, begin->to, (whole - left) / whole};
     }
     // There is a way to the goal: the plan takes one.
     const Cost free = continuous::as_cost(continuous::free_cost(state.instance, i).value());
+    path.cost_ = seconds(cost);
     path.free_cost_ = seconds(free);
     path.delay_ = seconds(cost - free);
     all_delays += cost - free;

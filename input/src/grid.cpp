@@ -95,7 +95,7 @@ Result<GridInput> load_grid_input(const InputOptions& options) {
   if (options.agents) {
     std::vector<discrete::Agent> agents(instance->agents().begin(), instance->agents().end());
     agents.resize(static_cast<std::size_t>(*options.agents));
-    instance = discrete::Instance::make(instance->shared_graph(), std::move(agents));
+    instance = instance->with_agents(std::move(agents));
     names.agents.resize(static_cast<std::size_t>(*options.agents));
   }
   return GridInput{

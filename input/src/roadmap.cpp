@@ -109,8 +109,7 @@ Result<RoadmapInput> read_instance(const InputOptions& input) {
   if (input.agents) {
     std::vector<continuous::Agent> agents(instance->agents().begin(), instance->agents().end());
     agents.resize(static_cast<std::size_t>(*input.agents));
-    instance = Instance::make(instance->shared_roadmap(), std::move(agents), instance->resolution(),
-                              {}, instance->obstacles());
+    instance = instance->with_agents(std::move(agents));
     names.agents.resize(static_cast<std::size_t>(*input.agents));
   }
   const std::size_t count = instance->num_agents();

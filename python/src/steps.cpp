@@ -330,8 +330,12 @@ void bind_steps(py::module_& module) {
              return sets;
            })
       .def("has_goal_sets", &Instance::has_goal_sets)
-      .def("plan", [](const Instance& instance,
-                      const Ints& paths) { return plan_of(instance.graph(), paths); })
+      .def("plan",
+           [](const Instance& instance, const Ints& paths) {
+             Plan plan = plan_of(instance.graph(), paths);
+             plan.now = instance.now();
+             return plan;
+           })
       .def("solve", &solve_steps)
       .def("verify", &verify_steps)
       .def("read_plan", &read_plan)

@@ -232,7 +232,8 @@ TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& 
     obstacles.push_back(obstacle_of(obstacle.cast<py::tuple>(), resolution, obstacles.size()));
   auto instance = Instance::make(roads, agents, resolution, {}, obstacles);
   if (instance) return TimedInstance(std::move(instance).value());
-  Error error = continuous::in_words(instance.error(), roads, agents, resolution, obstacles, words);
+  Error error =
+      continuous::in_words(instance.error(), roads, agents, resolution, obstacles, 0, words);
   if (error.code != ErrorCode::no_plan) raise(error);
   return {std::move(error), TimedParts{roads, std::move(agents), resolution, std::move(obstacles)}};
 }

@@ -173,8 +173,8 @@ export function updateControls(state) {
   const time = element("time", HTMLInputElement);
   writeAttribute(time, "max", String(scene.end));
   time.value = String(player.time);
-  time.setAttribute("aria-valuetext", `${state.show(player.time)} of ${state.show(scene.end)}`);
-  element("clock", HTMLElement).textContent = `${state.show(player.time)} / ${state.show(scene.end)}`;
+  time.setAttribute("aria-valuetext", `${state.showMoment(player.time)} of ${state.showMoment(scene.end)}`);
+  element("clock", HTMLElement).textContent = `${state.showMoment(player.time)} / ${state.showMoment(scene.end)}`;
   element("speed", HTMLSelectElement).value = String(player.speed);
   /** @type {[string, boolean][]} */
   const pressed = [

@@ -22,7 +22,7 @@ export function readLink(hash) {
  * @returns {string}
  */
 export function linkOf(state) {
-  const time = Number((state.player.time * state.scene.unit).toPrecision(12));
+  const time = Number(((state.scene.now + state.player.time) * state.scene.unit).toPrecision(12));
   return `#t=${time}` + (state.selected === null ? "" : `&a=${state.selected}`);
 }
 
@@ -34,7 +34,7 @@ export function followLink(state) {
   const { time, agent } = readLink(window.location.hash);
   if (time !== null) {
     state.player.pause();
-    state.player.seek(time / state.scene.unit);
+    state.player.seek(time / state.scene.unit - state.scene.now);
   }
   if (agent !== null) state.select(agent);
   state.changed();

@@ -122,7 +122,7 @@ export class Panel {
     element("violations-title", HTMLElement).textContent = `Violations (${violations.length})`;
     const inOrder = [...violations].sort((a, b) => a.time - b.time);
     this.fill("violations", "violation-list", inOrder.map((violation) => ({
-      text: `${state.show(violation.time)}  ${violation.kind}: ${violation.message}`,
+      text: `${state.showMoment(violation.time)}  ${violation.kind}: ${violation.message}`,
       time: violation.time, agents: violation.agents,
     })));
   }
@@ -132,7 +132,7 @@ export class Panel {
     if (!state.scene.continuous) return;
     const { lengthUnit } = state.scene;
     this.fill("nearest", "nearest-list", state.scene.nearest.map(({ agents, gap, time }) => ({
-      text: `${showGap(gap * lengthUnit)}  agents ${agents[0]} and ${agents[1]} at ${state.show(time)}`,
+      text: `${showGap(gap * lengthUnit)}  agents ${agents[0]} and ${agents[1]} at ${state.showMoment(time)}`,
       time, agents: [...agents],
     })));
   }

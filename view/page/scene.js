@@ -55,6 +55,7 @@
  * @property {number | null} lowerBound
  * @property {number} sumOfCosts
  * @property {number} makespan
+ * @property {number} now         when the plan begins; all other times count from there
  * @property {Cells | null} cells
  * @property {Point[]} places     vertices of a roadmap or graph
  * @property {number[]} links     pairs of places
@@ -94,6 +95,7 @@ export function readScene(text) {
     lengthUnit: Number(data.lengthUnit),
     end: 0, objective: String(data.objective), status: data.status ?? null,
     lowerBound: data.lowerBound ?? null, sumOfCosts: data.sumOfCosts, makespan: data.makespan,
+    now: data.now ?? 0,
     cells: data.cells ? readCells(data.cells) : null,
     places: pairs(data.places ?? []), links: data.links ?? [], oneWay: data.oneWay ?? [],
     hiddenLinks: data.hiddenLinks ?? 0, bodies, agents,

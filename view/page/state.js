@@ -56,13 +56,22 @@ export class State {
   }
 
   /**
-   * A time as the user counts it.
+   * A stretch of time as the user counts it.
    * @param {number} time
    * @returns {string}
    */
   show(time) {
     const value = time * this.scene.unit;
     return String(Number(value.toFixed(Math.abs(value) < 10 ? 4 : 2)));
+  }
+
+  /**
+   * A moment likewise.
+   * @param {number} time
+   * @returns {string}
+   */
+  showMoment(time) {
+    return this.show(this.scene.now + time);
   }
 
   changed() {

@@ -113,6 +113,7 @@ void add_report(const continuous::VerifyReport& report, Scene& scene) {
 Scene make_scene(const continuous::Instance& instance, const continuous::Plan& plan,
                  const continuous::GridRoadmap* grid) {
   Scene scene;
+  scene.now = instance.now().value();
   scene.is_continuous = true;
   scene.time_unit = instance.resolution().time;
   scene.length_unit = instance.resolution().length;
@@ -135,7 +136,7 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
     SceneAgent agent{task.start.index(), goal.index(), body->second, {}, {}, {}, task.leaves};
     if (const auto alone = continuous::free_cost(instance, i)) agent.free_cost = alone->value();
     if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.roadmap(), plan.paths[i]);
-    if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive;
+    if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive - scene.now;
     scene.agents.push_back(std::move(agent));
   }
   for (const continuous::MovingObstacle& obstacle : instance.obstacles()) {
@@ -146,6 +147,7 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
     scene.obstacles.push_back(std::move(shown));
   }
   add_report(verify(instance, plan, kMostNearest), scene);
+  count_from_now(scene);
   return scene;
 }
 

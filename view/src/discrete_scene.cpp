@@ -13,6 +13,8 @@ std::string name_of(Violation::Kind kind) {
   switch (kind) {
     case Violation::Kind::path_count:
       return "number of paths";
+    case Violation::Kind::bad_time:
+      return "wrong beginning";
     case Violation::Kind::empty_path:
       return "empty path";
     case Violation::Kind::bad_vertex:
@@ -37,11 +39,12 @@ bool is_move(Violation::Kind kind) {
 }
 
 /// One stop per stay, up to the first vertex that the graph does not have.
-std::vector<SceneStop> stops_of(const discrete::Graph& graph, const discrete::Path& path) {
+std::vector<SceneStop> stops_of(const discrete::Graph& graph, const discrete::Path& path,
+                                Timestep now) {
   std::vector<SceneStop> stops;
   for (std::size_t t = 0; t < path.size(); ++t) {
     const std::size_t place = path[t].index();
-    const auto time = static_cast<std::int64_t>(t);
+    const auto time = now + static_cast<std::int64_t>(t);
     if (place >= graph.num_vertices()) break;
     if (!stops.empty() && stops.back().place == place)
       stops.back().depart = time;
@@ -78,6 +81,7 @@ void add_map(const discrete::Graph& graph, Scene& scene) {
 
 Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan) {
   Scene scene;
+  scene.now = instance.now();
   add_map(instance.graph(), scene);
   for (const AgentId i : instance.agent_ids()) {
     const discrete::Agent& task = instance.agents()[i];
@@ -86,8 +90,9 @@ Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan)
     SceneAgent agent{task.start.index(), goal.index(), 0, {}, {}, {}};
     const Timestep alone = distances_to_nearest(instance.graph(), task.goals)[task.start];
     if (alone != discrete::kUnreachable) agent.free_cost = alone;
-    if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.graph(), plan.paths[i]);
-    if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive;
+    if (i.index() < plan.paths.size())
+      agent.stops = stops_of(instance.graph(), plan.paths[i], plan.now);
+    if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive - scene.now;
     scene.agents.push_back(std::move(agent));
   }
   const discrete::VerifyReport report = verify(instance, plan);
@@ -98,6 +103,7 @@ Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan)
         {name_of(violation.kind), violation.message, violation.agent.index(),
          violation.other ? std::optional(violation.other->index()) : std::nullopt,
          violation.timestep + (is_move(violation.kind) ? 0.5 : 0)});
+  count_from_now(scene);
   return scene;
 }
 

@@ -45,10 +45,11 @@ class TimeAxis {
   void draw(Svg& svg) const {
     const double bottom = kTop + height_;
     const double step = tick_step(end_ * scene_.time_unit);
+    const double now = static_cast<double>(scene_.now) * scene_.time_unit;
     for (int k = 0; k * step <= end_ * scene_.time_unit * (1 + 1e-9); ++k) {
       const double at = x(k * step / scene_.time_unit);
       svg.line({{at, kTop}, {at, bottom + 4}}, stroke(kLine, 0.75));
-      svg.text({at, bottom + 17}, "middle", 12, short_number(k * step), fill(kInk));
+      svg.text({at, bottom + 17}, "middle", 12, short_number(now + k * step), fill(kInk));
     }
     svg.text({(kLeft + kWidth - kRight) / 2, bottom + 34}, "middle", 12,
              scene_.is_continuous ? "time" : "timestep", fill(kFaint));

@@ -29,10 +29,10 @@ void add_sites(const Attribution& attribution, const LineOf& line, Scene& scene)
                    [](const auto* a, const auto* b) { return a->num_lemmas > b->num_lemmas; });
   if (sites.size() > kMostSites) sites.resize(kMostSites);
   for (const CollisionSite* site : sites) {
-    SceneSite added{site->first.index(), site->second.index(), {line(site->place)},
-                    site->begin,         std::nullopt,         site->num_lemmas};
+    SceneSite added{site->first.index(),     site->second.index(), {line(site->place)},
+                    site->begin - scene.now, std::nullopt,         site->num_lemmas};
     if (site->other) added.lines.push_back(line(*site->other));
-    if (site->end != CollisionSite::kForever) added.end = site->end;
+    if (site->end != CollisionSite::kForever) added.end = site->end - scene.now;
     scene.sites.push_back(std::move(added));
   }
 }
@@ -58,11 +58,12 @@ void add_precedences_of(const Instance& instance, const Plan& plan, Scene& scene
   if (!scene.violations.empty() || moves > kMostMoves) return;
   const auto found = execution::precedences(instance, plan);
   if (!found || found->list.size() > kMostPrecedences) return;
+  const auto time = [&scene](execution::Ticks ticks) { return ticks.value() - scene.now; };
   for (const execution::Precedence& precedence : found->list) {
     const auto &leader = found->at(precedence.leader), &follower = found->at(precedence.follower);
-    scene.precedences.push_back({precedence.leader.agent.index(), leader.begin.value(),
-                                 leader.end.value(), precedence.follower.agent.index(),
-                                 follower.begin.value(), follower.end.value(),
+    scene.precedences.push_back({precedence.leader.agent.index(), time(leader.begin),
+                                 time(leader.end), precedence.follower.agent.index(),
+                                 time(follower.begin), time(follower.end),
                                  precedence.slack.value()});
   }
 }

@@ -5,6 +5,20 @@
 
 namespace quadrille::view {
 
+void count_from_now(Scene& scene) {
+  const auto shift = [now = scene.now](auto& stops) {
+    for (auto& stop : stops) {
+      stop.arrive -= now;
+      stop.depart -= now;
+    }
+  };
+  for (SceneAgent& agent : scene.agents) shift(agent.stops);
+  for (SceneObstacle& obstacle : scene.obstacles) shift(obstacle.stops);
+  for (SceneViolation& violation : scene.violations)
+    violation.time -= static_cast<double>(scene.now);
+  for (Nearness& near : scene.nearest) near.time -= static_cast<double>(scene.now);
+}
+
 Position position_at(const Scene& scene, const SceneAgent& agent, double time) {
   const std::vector<SceneStop>& stops = agent.stops;
   const auto after = std::upper_bound(

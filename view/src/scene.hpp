@@ -99,8 +99,10 @@ struct ScenePrecedence {
   std::int64_t slack;
 };
 
-/// All that pictures show, in either domain. Times are in timesteps or ticks.
+/// All that pictures show, in either domain. Times are in timesteps or ticks, and count from `now`:
+/// pictures begin at 0, and add `now` where they tell a time.
 struct Scene {
+  std::int64_t now = 0;  ///< When instance and plan begin.
   bool is_continuous = false;
   bool has_layout = true;  ///< Positions are those of the input.
   bool y_up = false;
@@ -137,6 +139,9 @@ void add_attribution(const Attribution& attribution, Scene& scene);  ///< On a r
 void add_precedences(const discrete::Instance& instance, const discrete::Plan& plan, Scene& scene);
 void add_precedences(const continuous::Instance& instance, const continuous::Plan& plan,
                      Scene& scene);
+
+/// Makes absolute times those of a scene.
+void count_from_now(Scene& scene);
 
 /// Where the path is at a time. Requires a path.
 [[nodiscard]] Position position_at(const Scene& scene, const SceneAgent& agent, double time);

@@ -52,7 +52,7 @@ char letter_of(Position from, Position to) {
 
 /// The path as letters, which takes few bytes; null if it needs more than moves between cells.
 Json moves_of(const Scene& scene, const SceneAgent& agent) {
-  if (scene.is_continuous || !scene.cells) return nullptr;
+  if (scene.is_continuous || !scene.cells || agent.stops.front().arrive != 0) return nullptr;
   RunLength moves;
   for (std::size_t k = 0; k < agent.stops.size(); ++k) {
     const SceneStop& stop = agent.stops[k];
@@ -231,6 +231,7 @@ std::string scene_json(const Scene& scene, const PageOptions& options) {
   json["hasLayout"] = scene.has_layout;
   json["yUp"] = scene.y_up;
   json["heights"] = scene.has_heights;
+  if (scene.now != 0) json["now"] = scene.now;
   json["unit"] = scene.time_unit;
   json["lengthUnit"] = scene.length_unit;
   json["objective"] = to_string(options.objective);

@@ -27,23 +27,24 @@ class InstanceReader {
   explicit InstanceReader(const Document& document) : document_(document), check_(document) {}
 
   Result<Instance> run(text::Names* names) {
-    std::optional<Node> kind, version, resolution, roadmap, agents, obstacles, groups;
+    std::optional<Node> kind, version, resolution, now, roadmap, agents, obstacles, groups;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"resolution", &resolution, false},
+                                          {"now", &now, false},
                                           {"roadmap", &roadmap},
                                           {"agents", &agents},
                                           {"obstacles", &obstacles, false},
                                           {"group_names", &groups, false}}) ||
         !read_version(*kind, *version) ||
         (resolution && !read_resolution(document_, check_, *resolution, resolution_)) ||
-        !read_roadmap(*roadmap) || !read_agents(*agents) ||
+        (now && !read_time(*now, now_)) || !read_roadmap(*roadmap) || !read_agents(*agents) ||
         (obstacles && !read_obstacles(*obstacles)) || (groups && !read_group_names(*groups)))
       return check_.error();
     auto made = Roadmap::make(std::move(positions_), std::move(edges_));
     if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
     auto instance = Instance::make(std::move(made).value(), std::move(agents_), resolution_,
-                                   places_, std::move(obstacles_));
+                                   places_, std::move(obstacles_), now_);
     if (!instance && instance.error().where.file.empty())
       return document_.error(obstacles ? *obstacles : *roadmap, instance.error().code,
                              instance.error().message);
@@ -365,6 +366,7 @@ class InstanceReader {
   const Document& document_;
   text::Checker check_;
   Resolution resolution_;
+  Ticks now_ = 0;
   std::size_t num_coordinates_ = 0;  // of a point; 0: there was none yet
   std::vector<Point> positions_;
   std::vector<Edge> edges_;

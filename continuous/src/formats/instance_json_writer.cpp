@@ -98,8 +98,9 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   const Resolution& resolution = instance.resolution();
   const auto number = [&](auto units) { return json_number(in_input_units(units, resolution)); };
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
-      << ",\n  \"resolution\": " << resolution_json(resolution)
-      << ",\n  \"roadmap\": {\n    \"vertices\": [";
+      << ",\n  \"resolution\": " << resolution_json(resolution);
+  if (instance.now() > 0) out << ",\n  \"now\": " << number(instance.now());
+  out << ",\n  \"roadmap\": {\n    \"vertices\": [";
   const char* separator = "\n";
   for (const Point& point : instance.roadmap().positions()) {
     out << separator << "      " << point_json(point, instance.is_flat(), resolution);

@@ -24,7 +24,7 @@ std::optional<Ticks> free_cost(const Instance& instance, AgentId agent) {
   };
   const VertexId start = instance.agent(agent).start;
   if (goals.contains(start)) return Ticks{0};
-  reach(start, instance.agent(agent).release);
+  reach(start, std::max(Ticks{0}, instance.agent(agent).release - instance.now()));
   while (!open.empty()) {
     const auto [tick, v] = open.top();
     open.pop();

@@ -5,11 +5,11 @@
 #include <optional>
 #include <variant>
 
+#include "model/obstacle_leg.hpp"
 #include "model/place_of_rest.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/geometry/body_index.hpp"
-#include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -22,12 +22,13 @@ Error no_plan(const std::string& message) { return {ErrorCode::no_plan, message,
 class Finder {
  public:
   Finder(const std::shared_ptr<const Roadmap>& roads, const std::vector<Agent>& agents,
-         const Resolution& resolution, const std::vector<MovingObstacle>& obstacles,
+         const Resolution& resolution, const std::vector<MovingObstacle>& obstacles, Ticks now,
          const Words& words)
       : roads_(roads),
         agents_(agents),
         resolution_(resolution),
         obstacles_(obstacles),
+        now_(now),
         words_(words) {}
 
   [[nodiscard]] std::optional<Error> find() const {
@@ -57,6 +58,7 @@ class Finder {
   const std::vector<Agent>& agents_;
   const Resolution& resolution_;
   const std::vector<MovingObstacle>& obstacles_;
+  const Ticks now_;
   const Words& words_;
 };
 
@@ -112,10 +114,9 @@ std::optional<Error> Finder::find_obstacle() const {
     const MovingObstacle& obstacle = obstacles_[o];
     if (geometry::enclosing_radius(obstacle.body) > geometry::kMaxLength)
       return out_of_range(words_.obstacle(o) + " is too large");
-    if (obstacle.path.empty() || obstacle.path.front().arrive > 0) continue;
+    if (obstacle.path.empty()) continue;
     for (std::size_t i = 0; i < agents_.size(); ++i)
-      if (geometry::bodies_overlap(agents_[i].body, roads_->position(agents_[i].start),
-                                   obstacle.body, obstacle.path.front().at))
+      if (is_in_the_way(obstacle, now_, agents_[i].body, roads_->position(agents_[i].start)))
         return no_plan(words_.obstacle(o) + " is at the start of " + name(i) + " at " +
                        words_.vertex(agents_[i].start));
   }
@@ -124,7 +125,9 @@ std::optional<Error> Finder::find_obstacle() const {
 
 // What stands in the way of an agent that is alone.
 std::optional<Error> Finder::find_alone(std::size_t i) const {
-  const auto make = [&](const Agent& one) { return Instance::make(roads_, {one}, resolution_); };
+  const auto make = [&](const Agent& one) {
+    return Instance::make(roads_, {one}, resolution_, {}, {}, now_);
+  };
   const auto alone = make(agents_[i]);
   if (alone || alone.error().code != ErrorCode::no_plan) return std::nullopt;
   Agent patient = agents_[i];
@@ -135,16 +138,16 @@ std::optional<Error> Finder::find_alone(std::size_t i) const {
         name(i) + " cannot get from " + words_.vertex(agents_[i].start) + " to " +
         (agents_[i].goals.is_single() ? words_.vertex(agents_[i].goal()) : "any of its goals"));
   return no_plan(name(i) + " cannot arrive before " +
-                 words_.time(free_cost(*late, AgentId(0)).value()) + ", and its deadline is " +
-                 words_.time(*agents_[i].deadline));
+                 words_.time(now_ + free_cost(*late, AgentId(0)).value()) +
+                 ", and its deadline is " + words_.time(*agents_[i].deadline));
 }
 
 }  // namespace
 
 Error in_words(const Error& error, const std::shared_ptr<const Roadmap>& roadmap,
                const std::vector<Agent>& agents, const Resolution& resolution,
-               const std::vector<MovingObstacle>& obstacles, const Words& words) {
-  return Finder(roadmap, agents, resolution, obstacles, words).find().value_or(error);
+               const std::vector<MovingObstacle>& obstacles, Ticks now, const Words& words) {
+  return Finder(roadmap, agents, resolution, obstacles, now, words).find().value_or(error);
 }
 
 }  // namespace quadrille::continuous

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/body_numbers.hpp"
+#include "model/obstacle_leg.hpp"
 #include "model/place_of_rest.hpp"
 #include "model/reachability.hpp"
 #include "quadrille/continuous/free_cost.hpp"
@@ -84,15 +85,15 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
 }
 
 /// Nobody else may be where an agent is in the middle of a move, and it goes on one way.
-std::optional<Error> check_under_way(const Roadmap& roadmap, const Agent& agent,
-                                     std::size_t index) {
+std::optional<Error> check_under_way(const Roadmap& roadmap, const Agent& agent, std::size_t index,
+                                     Ticks now) {
   if (!agent.under_way) return std::nullopt;
   const auto out = roadmap.out_edges(agent.start);
   if (!roadmap.in_edges(agent.start).empty() || out.size() != 1 ||
       !roadmap.edge(out.front()).open_to.contains(agent.group) || agent.goals.contains(agent.start))
     return invalid(name(index) + " is under way at vertex " + std::to_string(agent.start.index()) +
                    ", to which no edge may lead, and from which one has to lead on");
-  if (agent.release > 0)
+  if (agent.release > now)
     return invalid(name(index) + " is under way, and cannot be released later");
   return std::nullopt;
 }
@@ -159,31 +160,52 @@ std::optional<Error> check_obstacle(const MovingObstacle& obstacle, std::size_t 
   return std::nullopt;
 }
 
+/// The first agent at whose start an obstacle is at `now`.
+std::optional<std::size_t> find_blocked(const Roadmap& roadmap, const std::vector<Agent>& agents,
+                                        const geometry::BodyIndex& starts,
+                                        const MovingObstacle& obstacle, Ticks now) {
+  const auto leg = leg_at(obstacle, now);
+  if (!leg) return std::nullopt;
+  if (!leg->is_moving) return starts.first_overlap(obstacle.body, obstacle.path[leg->stop].at);
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    if (is_in_the_way(obstacle, now, agents[i].body, roadmap.position(agents[i].start))) return i;
+  return std::nullopt;
+}
+
+/// `is_new`: each obstacle is to be looked at alone, too.
 std::optional<Error> check_obstacles(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                     const std::vector<MovingObstacle>& obstacles, bool is_flat) {
+                                     const std::vector<MovingObstacle>& obstacles, bool is_flat,
+                                     Ticks now, bool is_new) {
   geometry::BodyIndex starts;
   for (std::size_t i = 0; !obstacles.empty() && i < agents.size(); ++i)
     starts.add(i, agents[i].body, roadmap.position(agents[i].start));
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    if (auto error = check_obstacle(obstacles[o], o)) return error;
+    if (is_new)
+      if (auto error = check_obstacle(obstacles[o], o)) return error;
     if (!is_flat)
       if (auto error = check_flat(obstacles[o].body, "obstacle " + std::to_string(o))) return error;
-    const MovingObstacle::Stop& first = obstacles[o].path.front();
-    if (first.arrive > 0) continue;
-    if (const auto i = starts.first_overlap(obstacles[o].body, first.at))
+    if (const auto i = find_blocked(roadmap, agents, starts, obstacles[o], now))
       return no_plan("obstacle " + std::to_string(o) + " is at the start of " + name(*i));
   }
   return std::nullopt;
 }
 
+std::optional<Error> refuse_now(Ticks now) {
+  if (0 <= now && now <= geometry::kMaxDuration) return std::nullopt;
+  return Error{ErrorCode::out_of_range,
+               "the instance begins at tick " + std::to_string(now.value()) + ", not 0 .. " +
+                   std::to_string(geometry::kMaxDuration.value()),
+               {}};
+}
+
 /// What is wrong with the agents; then `at` is the one to blame.
 std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                               bool is_flat, std::size_t& at) {
+                               bool is_flat, Ticks now, std::size_t& at) {
   for (at = 0; at < agents.size(); ++at) {
     if (auto error = check(roadmap, agents, at)) return error;
     if (!is_flat)
       if (auto error = check_flat(agents[at].body, name(at))) return error;
-    if (auto error = check_under_way(roadmap, agents[at], at)) return error;
+    if (auto error = check_under_way(roadmap, agents[at], at, now)) return error;
   }
   const auto start = [](const Agent& agent) { return &agent.start; };
   if (auto error = check_apart(roadmap, agents, start, "starts", at)) return error;
@@ -196,7 +218,7 @@ std::optional<Error> check_deadlines(const Instance& instance, std::size_t& at) 
   for (const AgentId i : instance.agent_ids()) {
     const Agent& agent = instance.agent(i);
     if (!agent.deadline) continue;
-    const Ticks arrival = free_cost(instance, i).value();
+    const Ticks arrival = instance.now() + free_cost(instance, i).value();
     if (arrival <= *agent.deadline) continue;
     at = i.index();
     const auto when = [&](Ticks time) {
@@ -239,21 +261,43 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std
 
 Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vector<Agent> agents,
                                 Resolution resolution, std::span<const SourcePlace> places,
-                                std::vector<MovingObstacle> obstacles) {
+                                std::vector<MovingObstacle> obstacles, Ticks now) {
+  return build(std::move(roadmap), std::move(agents), resolution, places, std::move(obstacles), now,
+               true);
+}
+
+Result<Instance> Instance::make(Roadmap roadmap, std::vector<Agent> agents, Resolution resolution,
+                                std::span<const SourcePlace> places,
+                                std::vector<MovingObstacle> obstacles, Ticks now) {
+  return make(std::make_shared<const Roadmap>(std::move(roadmap)), std::move(agents), resolution,
+              places, std::move(obstacles), now);
+}
+
+Result<Instance> Instance::with_agents(std::vector<Agent> agents) const {
+  return build(roadmap_, std::move(agents), resolution_, {}, obstacles_, now_, false);
+}
+
+Result<Instance> Instance::build(std::shared_ptr<const Roadmap> roadmap, std::vector<Agent> agents,
+                                 Resolution resolution, std::span<const SourcePlace> places,
+                                 std::vector<MovingObstacle> obstacles, Ticks now,
+                                 bool has_new_obstacles) {
   QUADRILLE_REQUIRE(roadmap != nullptr, "an instance has a roadmap");
   QUADRILLE_REQUIRE(places.empty() || places.size() == agents.size(), "one place per agent");
   if (!resolution.is_valid())
     return Error{ErrorCode::out_of_range, "the resolution has to be positive and finite", {}};
+  if (auto error = refuse_now(now)) return *error;
   const bool is_flat = are_flat(*roadmap, obstacles);
   std::size_t at = 0;
-  if (auto error = check_all(*roadmap, agents, is_flat, at)) {
+  if (auto error = check_all(*roadmap, agents, is_flat, now, at)) {
     if (!places.empty()) error->where = places[at];
     return *error;
   }
 
-  if (auto error = check_obstacles(*roadmap, agents, obstacles, is_flat)) return *error;
+  if (auto error = check_obstacles(*roadmap, agents, obstacles, is_flat, now, has_new_obstacles))
+    return *error;
 
   Instance instance;
+  instance.now_ = now;
   instance.is_flat_ = is_flat;
   std::map<Speed, std::size_t> speeds;
   std::map<std::tuple<std::vector<Length>, Speed, std::size_t>, ClassId> classes;
@@ -295,13 +339,6 @@ Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vec
     return *error;
   }
   return instance;
-}
-
-Result<Instance> Instance::make(Roadmap roadmap, std::vector<Agent> agents, Resolution resolution,
-                                std::span<const SourcePlace> places,
-                                std::vector<MovingObstacle> obstacles) {
-  return make(std::make_shared<const Roadmap>(std::move(roadmap)), std::move(agents), resolution,
-              places, std::move(obstacles));
 }
 
 }  // namespace quadrille::continuous

@@ -25,11 +25,13 @@ std::string find_fault(const Instance& instance, AgentId i, const Path& path) {
   if (!std::all_of(path.begin(), path.end(), is_known)) return "names a vertex that is none";
   if (path.front().vertex != agent.start) return "does not begin at its start";
   if (!agent.goals.contains(path.back().vertex)) return "does not end at its goal";
-  if (path.front().arrive != 0) return "does not begin at tick 0";
+  if (path.front().arrive != instance.now())
+    return "does not begin at tick " + std::to_string(instance.now().value());
   if (path.back().depart != path.back().arrive || path.back().arrive > kMaxTick)
     return "does not end with an arrival in time";
   if (agent.deadline && path.back().arrive > *agent.deadline) return "misses its deadline";
-  if (agent.under_way && path.front().depart > 0) return "stops in the middle of a move";
+  if (agent.under_way && path.front().depart > instance.now())
+    return "stops in the middle of a move";
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (path[k].depart < path[k].arrive) return "departs before it arrives";
     if (k + 1 == path.size()) break;

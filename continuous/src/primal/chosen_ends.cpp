@@ -94,8 +94,7 @@ std::optional<Instance> with_chosen_ends(Scene& scene) {
     agents.push_back(instance.agent(i));
     agents.back().goals = choice.end(i);
   }
-  auto made = Instance::make(instance.shared_roadmap(), std::move(agents), instance.resolution(),
-                             {}, instance.obstacles());
+  auto made = instance.with_agents(std::move(agents));
   if (!made) return std::nullopt;
   return std::move(made).value();
 }

@@ -26,13 +26,16 @@ Error no_member(MemberId member) { return invalid("there is no " + name(member))
 
 struct Session::Parts {
   Parts(std::shared_ptr<const Roadmap> the_roadmap, Resolution the_resolution,
-        std::vector<MovingObstacle> the_obstacles)
+        std::vector<MovingObstacle> the_obstacles, Ticks the_begin)
       : roadmap(std::move(the_roadmap)),
         resolution(the_resolution),
         obstacles(std::move(the_obstacles)),
+        begin(the_begin),
         store(roadmap),
         lemmas(roadmap) {}
 
+  /// Of an instance that begins at 0.
+  [[nodiscard]] Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options);
   [[nodiscard]] std::optional<Error> refuse(const Agent& agent) const;
   [[nodiscard]] std::optional<Ticks> duration(const Edge& edge, const Agent& agent) const;
   /// The roadmap as it is now, and the agents with their starts on it.
@@ -41,8 +44,10 @@ struct Session::Parts {
   std::shared_ptr<const Roadmap> roadmap;
   Resolution resolution;
   std::vector<MovingObstacle> obstacles;
+  Ticks begin;  // Instance::now
   std::size_t num_added = 0;
   Situation now;
+  // What is learned is in the times of searches, which count from `begin`.
   SceneStore store;
   BoundCache bounds;
   LemmaStore lemmas;
@@ -86,9 +91,9 @@ std::shared_ptr<const Roadmap> Session::Parts::roads(std::vector<Agent>& agents)
 }
 
 Session::Session(std::shared_ptr<const Roadmap> roadmap, Resolution resolution,
-                 std::vector<MovingObstacle> obstacles) {
+                 std::vector<MovingObstacle> obstacles, Ticks now) {
   QUADRILLE_REQUIRE(roadmap != nullptr, "a session has a roadmap");
-  parts_ = std::make_unique<Parts>(std::move(roadmap), resolution, std::move(obstacles));
+  parts_ = std::make_unique<Parts>(std::move(roadmap), resolution, std::move(obstacles), now);
 }
 
 Session::~Session() = default;
@@ -166,23 +171,29 @@ Result<Instance> Session::instance() const {
   std::vector<Agent> agents;
   auto roads = parts_->roads(agents);
   return Instance::make(std::move(roads), std::move(agents), parts_->resolution, {},
-                        parts_->obstacles);
+                        parts_->obstacles, parts_->begin);
 }
 
 Result<SolveOutcome> Session::solve(const SolveOptions& options) {
   const auto instance = this->instance();
   if (!instance) return instance.error();
-  parts_->store.adopt(*instance);
+  return search_from_0(*instance, options,
+                       [this](const Instance& from_0, const SolveOptions& asked) {
+                         return parts_->solve(from_0, asked);
+                       });
+}
+
+Result<SolveOutcome> Session::Parts::solve(const Instance& instance, const SolveOptions& options) {
+  store.adopt(instance);
   std::optional<Learned> learned;
-  const WarmStart warm{&parts_->store, parts_->bounds.bounds(parts_->now, options.objective),
-                       parts_->bounds.drafts(parts_->now, *instance),
-                       parts_->lemmas.learned(parts_->now), &learned};
+  const WarmStart warm{&store, bounds.bounds(now, options.objective), bounds.drafts(now, instance),
+                       lemmas.learned(now), &learned};
   SolveOptions traced = options;
   traced.explain = options.explain || options.threads == 1;
-  auto outcome = continuous::solve(*instance, traced, warm);
+  auto outcome = solve_from_0(instance, traced, warm);
   if (!outcome) return outcome;
-  parts_->bounds.add(parts_->now, options.objective, *outcome);
-  if (learned && !outcome->internal_error) parts_->lemmas.put(parts_->now, *std::move(learned));
+  bounds.add(now, options.objective, *outcome);
+  if (learned && !outcome->internal_error) lemmas.put(now, *std::move(learned));
   if (!options.explain) outcome->attribution.reset();
   return outcome;
 }

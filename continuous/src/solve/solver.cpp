@@ -3,14 +3,35 @@
 
 #include <memory>
 
+#include "model/since_now.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/solve/frame.hpp"
+#include "quadrille/solve/time_origin.hpp"
 #include "solve/phases.hpp"
 #include "solve/warm_start.hpp"
 
 namespace quadrille::continuous {
 namespace {
+
+/// What solve::search_from_0 asks for.
+class Border {
+ public:
+  explicit Border(const Instance& instance) : instance_(instance) {}
+
+  [[nodiscard]] bool begins_at_0() const { return instance_.now() == 0; }
+  [[nodiscard]] const Instance& instance() const { return instance_; }
+  [[nodiscard]] Instance since_now() const { return continuous::since_now(instance_); }
+  [[nodiscard]] VerifyReport verify(const Plan& plan) const {
+    return continuous::verify(instance_, plan);
+  }
+  void enter(Plan& plan) const { shift(plan, -instance_.now()); }
+  void leave(Plan& plan) const { shift(plan, instance_.now()); }
+  [[nodiscard]] Cost now() const { return as_cost(instance_.now()); }
+
+ private:
+  const Instance& instance_;
+};
 
 /// What solve::Frame asks for.
 class Domain {
@@ -19,7 +40,9 @@ class Domain {
   using Outcome = SolveOutcome;
 
   Domain(const Instance& instance, const SolveOptions& options, const WarmStart& warm)
-      : instance_(instance), options_(options), warm_(warm) {}
+      : instance_(instance), options_(options), warm_(warm) {
+    QUADRILLE_REQUIRE(instance.now() == 0, "searches begin at 0");
+  }
 
   [[nodiscard]] VerifyReport verify(const Plan& plan) const {
     return continuous::verify(instance_, plan);
@@ -61,11 +84,18 @@ std::optional<System> parse_system(std::string_view text) noexcept {
 }
 
 Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {
-  return solve(instance, options, WarmStart{});
+  return search_from_0(instance, options, [](const Instance& from_0, const SolveOptions& asked) {
+    return solve_from_0(from_0, asked, WarmStart{});
+  });
 }
 
-Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options,
-                           const WarmStart& warm) {
+Result<SolveOutcome> search_from_0(const Instance& instance, const SolveOptions& options,
+                                   const SearchFrom0& search) {
+  return solve::search_from_0(Border(instance), options, search);
+}
+
+Result<SolveOutcome> solve_from_0(const Instance& instance, const SolveOptions& options,
+                                  const WarmStart& warm) {
   Domain domain(instance, options, warm);
   return solve::Frame<Domain>(domain, options).solve();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -37,8 +38,15 @@ struct WarmStart {
   std::optional<Learned>* learned_after = nullptr;
 };
 
-/// As continuous::solve, with what is known already.
-[[nodiscard]] Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options,
-                                         const WarmStart& warm);
+/// A solve of an instance that begins at 0; see solve::search_from_0.
+using SearchFrom0 = std::function<Result<SolveOutcome>(const Instance&, const SolveOptions&)>;
+/// The border between the times of users and those of searches.
+[[nodiscard]] Result<SolveOutcome> search_from_0(const Instance& instance,
+                                                 const SolveOptions& options,
+                                                 const SearchFrom0& search);
+
+/// As continuous::solve, with what is known already. Requires that the instance begins at 0.
+[[nodiscard]] Result<SolveOutcome> solve_from_0(const Instance& instance,
+                                                const SolveOptions& options, const WarmStart& warm);
 
 }  // namespace quadrille::continuous

@@ -41,7 +41,7 @@ class PathCheck {
       good = fail(Kind::too_late, path.back().arrive,
                   "arrives at its goal at time " + time(path.back().arrive) +
                       ", after its deadline at time " + time(*agent.deadline));
-    if (agent.under_way && path.front().depart > 0)
+    if (agent.under_way && path.front().depart > instance_.now())
       good = fail(Kind::waits, path.front().arrive,
                   "stops at vertex " + std::to_string(path.front().vertex.index()) +
                       ", where it is in the middle of a move");
@@ -75,7 +75,8 @@ class PathCheck {
                         ": that goes back in time, or on for too long");
       now = stop.depart;
     }
-    if (path.front().arrive != 0) good = fail(Kind::bad_time, 0, "is nowhere at time 0");
+    if (path.front().arrive != instance_.now())
+      good = fail(Kind::bad_time, instance_.now(), "is nowhere at time " + time(instance_.now()));
     if (path.back().depart != path.back().arrive)
       good = fail(Kind::bad_time, path.back().depart, "departs from its last stop");
     return good;

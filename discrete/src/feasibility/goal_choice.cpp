@@ -101,7 +101,7 @@ Instance with_goals(const Instance& instance, const std::vector<VertexId>& goals
   std::vector<Agent> agents;
   for (const AgentId i : instance.agent_ids())
     agents.push_back({instance.agents()[i].start, goals[i.index()]});
-  return Instance::make(instance.shared_graph(), std::move(agents)).value();
+  return instance.with_agents(std::move(agents)).value();
 }
 
 Feasibility crowded(const std::vector<AgentId>& agents) {

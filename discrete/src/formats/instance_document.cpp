@@ -68,8 +68,15 @@ bool read_place(Checker& checker, const Document& document, const Graph& graph, 
   return true;
 }
 
-Result<Instance> make_instance(Checker& checker, Graph graph,
-                               const std::vector<PlacedTask>& tasks) {
+bool read_now(Checker& checker, Document::Node node, Timestep& now) {
+  std::int64_t number = 0;
+  if (!checker.integer(node, 0, kMaxNow, number)) return false;
+  now = static_cast<Timestep>(number);
+  return true;
+}
+
+Result<Instance> make_instance(Checker& checker, Graph graph, const std::vector<PlacedTask>& tasks,
+                               Timestep now) {
   const auto start = [](const Agent& agent) { return &agent.start; };
   const auto only_goal = [](const Agent& agent) {
     return agent.goals.is_single() ? agent.goals.vertices().data() : nullptr;
@@ -80,7 +87,7 @@ Result<Instance> make_instance(Checker& checker, Graph graph,
   std::vector<Agent> plain;
   plain.reserve(tasks.size());
   for (const PlacedTask& placed : tasks) plain.push_back(placed.task);
-  return Instance::make(std::move(graph), std::move(plain));
+  return Instance::make(std::move(graph), std::move(plain), now);
 }
 
 }  // namespace quadrille::discrete

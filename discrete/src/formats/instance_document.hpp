@@ -38,9 +38,13 @@ struct PlacedTask {
   Document::Node goal;  ///< Or all of them.
 };
 
+/// The timestep at which an instance or a plan begins.
+bool read_now(Checker& checker, Document::Node node, Timestep& now);
+
 /// The instance of these tasks. Errors (invalid_instance): two equal starts, or two equal goals of
 /// agents that have no other one, at the later of the two places.
 [[nodiscard]] Result<Instance> make_instance(Checker& checker, Graph graph,
-                                             const std::vector<PlacedTask>& tasks);
+                                             const std::vector<PlacedTask>& tasks,
+                                             Timestep now = 0);
 
 }  // namespace quadrille::discrete

@@ -26,13 +26,14 @@ class JsonInstanceReader {
       : document_(document), check_(document), most_vertices_(most_vertices) {}
 
   Result<Instance> run(text::Names* names) {
-    std::optional<Node> kind, version, graph, grid, agents;
+    std::optional<Node> kind, version, now, graph, grid, agents;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
+                                          {"now", &now, false},
                                           {"graph", &graph, false},
                                           {"grid", &grid, false},
                                           {"agents", &agents}}) ||
-        !read_version(*kind, *version))
+        !read_version(*kind, *version) || (now && !read_now(check_, *now, now_)))
       return check_.error();
     if (graph.has_value() == grid.has_value()) {
       check_.fail(Document::kRoot, "expected either 'graph' or 'grid'");
@@ -41,7 +42,7 @@ class JsonInstanceReader {
     if (graph ? !read_graph(*graph) : !read_grid(*grid)) return check_.error();
     std::vector<PlacedTask> tasks;
     if (!read_agents(*agents, tasks)) return check_.error();
-    auto instance = make_instance(check_, std::move(*graph_), tasks);
+    auto instance = make_instance(check_, std::move(*graph_), tasks, now_);
     if (instance && names != nullptr) *names = std::move(names_);
     return instance;
   }
@@ -159,6 +160,7 @@ class JsonInstanceReader {
   const Document& document_;
   Checker check_;
   const std::size_t most_vertices_;
+  Timestep now_ = 0;
   std::optional<Graph> graph_;
   text::Names names_;
 };
@@ -208,6 +210,7 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
                                          const Instance& instance, const text::Names& names) {
   const Graph& graph = instance.graph();
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion << ",\n";
+  if (instance.now() > 0) out << "  \"now\": " << instance.now() << ",\n";
   if (graph.layout())
     write_grid(out, *graph.layout());
   else

@@ -129,6 +129,11 @@ std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& f
     return Error{ErrorCode::invalid_instance,
                  "this YAML format has one goal for each agent, not a set of several",
                  {file, 0}};
+  if (instance.now() != 0)
+    return Error{ErrorCode::invalid_instance,
+                 "instances of this YAML format begin at timestep 0, and this one at " +
+                     std::to_string(instance.now()),
+                 {file, 0}};
   const GridLayout& grid = *instance.graph().layout();
   const auto pair = [](Cell c) {
     return "[" + std::to_string(c.x) + ", " + std::to_string(c.y) + "]";

@@ -7,6 +7,7 @@
 
 #include "formats/plan_codecs.hpp"
 #include "formats/text_input.hpp"
+#include "quadrille/discrete/instance.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -19,6 +20,20 @@ Error no_grid(PlanFormat format, const std::string& file) {
   return {ErrorCode::invalid_plan,
           "the plan format " + std::string(to_string(format)) + " needs a grid",
           {file, 0}};
+}
+
+/// The other formats, and who reads them, count from 0.
+std::optional<Error> refuse_now(Timestep now, PlanFormat format, const std::string& file) {
+  if (now < 0 || now > kMaxNow)
+    return Error{ErrorCode::invalid_plan,
+                 "the plan begins at timestep " + std::to_string(now) + ", not 0 .. " +
+                     std::to_string(kMaxNow),
+                 {file, 0}};
+  if (now == 0 || format == PlanFormat::json) return std::nullopt;
+  return Error{ErrorCode::invalid_plan,
+               "plans of the format " + std::string(to_string(format)) +
+                   " begin at timestep 0, and this one at " + std::to_string(now),
+               {file, 0}};
 }
 
 }  // namespace
@@ -91,6 +106,7 @@ Result<PlanFile> read_plan(const std::filesystem::path& path, const Graph& graph
 std::optional<Error> write_plan(std::ostream& out, const std::string& file, const Graph& graph,
                                 const Plan& plan, PlanFormat format) {
   if (needs_grid(format) && !graph.layout()) return no_grid(format, file);
+  if (auto error = refuse_now(plan.now, format, file)) return error;
   for (std::size_t i = 0; i < plan.paths.size(); ++i) {
     const Path& path = plan.paths[AgentId(i)];
     const std::string agent = "the path of agent " + std::to_string(i);

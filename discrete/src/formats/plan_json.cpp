@@ -18,8 +18,10 @@ class JsonPlanReader {
       : document_(document), check_(document), header_(document, check_), graph_(graph) {}
 
   Result<PlanFile> run() {
+    std::optional<Node> now;
     Node paths = Document::kRoot;
-    if (!header_.read({}, file_.stated) || !read_costs() || !header_.plan(paths) ||
+    if (!header_.read({{"now", &now, false}}, file_.stated) ||
+        (now && !read_now(check_, *now, file_.plan.now)) || !read_costs() || !header_.plan(paths) ||
         !read_paths(paths) || !header_.agents(file_.plan.paths.size()))
       return check_.error();
     return std::move(file_);
@@ -95,8 +97,9 @@ std::string plan_to_json(const Graph& graph, const Plan& plan) {
 }
 
 void write_json_plan(std::ostream& out, const Graph& graph, const Plan& plan) {
-  out << "{\n  \"quadrille\": \"plan\",\n  \"version\": " << text::kPlanJsonVersion
-      << ",\n  \"objective\": \"" << to_string(Objective::sum_of_costs)
+  out << "{\n  \"quadrille\": \"plan\",\n  \"version\": " << text::kPlanJsonVersion;
+  if (plan.now > 0) out << ",\n  \"now\": " << plan.now;
+  out << ",\n  \"objective\": \"" << to_string(Objective::sum_of_costs)
       << "\",\n  \"cost\": " << plan.cost(Objective::sum_of_costs) << ",\n  \"plan\": [";
   bool first = true;
   for (const Path& path : plan.paths) {

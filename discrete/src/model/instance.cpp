@@ -44,16 +44,28 @@ std::optional<Error> find_foreign(const Graph& graph, const std::vector<Agent>& 
   return std::nullopt;
 }
 
+std::optional<Error> refuse_now(Timestep now) {
+  if (0 <= now && now <= kMaxNow) return std::nullopt;
+  return Error{ErrorCode::out_of_range,
+               "the instance begins at timestep " + std::to_string(now) + ", not 0 .. " +
+                   std::to_string(kMaxNow),
+               {}};
+}
+
 }  // namespace
 
-Instance::Instance(std::shared_ptr<const Graph> graph, IdVector<AgentId, Agent> agents)
+Instance::Instance(std::shared_ptr<const Graph> graph, IdVector<AgentId, Agent> agents,
+                   Timestep now)
     : graph_(std::move(graph)),
       agents_(std::move(agents)),
+      now_(now),
       has_goal_sets_(std::any_of(agents_.begin(), agents_.end(),
                                  [](const Agent& agent) { return !agent.goals.is_single(); })) {}
 
-Result<Instance> Instance::make(std::shared_ptr<const Graph> graph, std::vector<Agent> agents) {
+Result<Instance> Instance::make(std::shared_ptr<const Graph> graph, std::vector<Agent> agents,
+                                Timestep now) {
   QUADRILLE_REQUIRE(graph != nullptr, "an instance has a graph");
+  if (auto error = refuse_now(now)) return *error;
   if (auto error = find_foreign(*graph, agents)) return *error;
   const auto start = [](const Agent& agent) { return &agent.start; };
   const auto only_goal = [](const Agent& agent) {
@@ -61,11 +73,22 @@ Result<Instance> Instance::make(std::shared_ptr<const Graph> graph, std::vector<
   };
   if (auto error = find_shared(*graph, agents, start, "start")) return *error;
   if (auto error = find_shared(*graph, agents, only_goal, "goal")) return *error;
-  return Instance(std::move(graph), IdVector<AgentId, Agent>(std::move(agents)));
+  return Instance(std::move(graph), IdVector<AgentId, Agent>(std::move(agents)), now);
 }
 
-Result<Instance> Instance::make(Graph graph, std::vector<Agent> agents) {
-  return make(std::make_shared<const Graph>(std::move(graph)), std::move(agents));
+Result<Instance> Instance::make(Graph graph, std::vector<Agent> agents, Timestep now) {
+  return make(std::make_shared<const Graph>(std::move(graph)), std::move(agents), now);
+}
+
+Result<Instance> Instance::with_agents(std::vector<Agent> agents) const {
+  return make(graph_, std::move(agents), now_);
+}
+
+Result<Instance> Instance::with_now(Timestep now) const {
+  if (auto error = refuse_now(now)) return *error;
+  Instance same = *this;
+  same.now_ = now;
+  return same;
 }
 
 }  // namespace quadrille::discrete

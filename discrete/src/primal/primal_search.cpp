@@ -159,6 +159,7 @@ void PrimalSearch::Impl::offer(Plan plan, std::string_view origin) {
   if (plan_ && cost >= cost_) return;
   if (!plan_) origin_ = origin;
   plan_ = std::move(plan);
+  plan_->now = instance_.now();
   cost_ = cost;
   state_ = State::found;
 }

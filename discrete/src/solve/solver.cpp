@@ -13,6 +13,7 @@
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "quadrille/solve/frame.hpp"
+#include "quadrille/solve/time_origin.hpp"
 #include "solve/portfolio.hpp"
 
 namespace quadrille::discrete {
@@ -52,6 +53,25 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   return std::nullopt;
 }
 
+/// What solve::search_from_0 asks for.
+class Border {
+ public:
+  explicit Border(const Instance& instance) : instance_(instance) {}
+
+  [[nodiscard]] bool begins_at_0() const { return instance_.now() == 0; }
+  [[nodiscard]] const Instance& instance() const { return instance_; }
+  [[nodiscard]] Instance since_now() const { return instance_.with_now(0).value(); }
+  [[nodiscard]] VerifyReport verify(const Plan& plan) const {
+    return discrete::verify(instance_, plan);
+  }
+  static void enter(Plan& plan) { plan.now = 0; }
+  void leave(Plan& plan) const { plan.now = instance_.now(); }
+  [[nodiscard]] Cost now() const { return instance_.now(); }
+
+ private:
+  const Instance& instance_;
+};
+
 /// What solve::Frame asks for.
 class Domain {
  public:
@@ -59,7 +79,9 @@ class Domain {
   using Outcome = SolveOutcome;
 
   Domain(const Instance& instance, const SolveOptions& options, const Tuner& tuner)
-      : instance_(instance), options_(options), tuner_(tuner) {}
+      : instance_(instance), options_(options), tuner_(tuner) {
+    QUADRILLE_REQUIRE(instance.now() == 0, "searches begin at 0");
+  }
 
   [[nodiscard]] VerifyReport verify(const Plan& plan) const {
     return discrete::verify(instance_, plan);
@@ -127,10 +149,13 @@ class Domain {
 Result<SolveOutcome> solve_tuned(const Instance& instance, const SolveOptions& options,
                                  const Tuner& tuner) {
   if (auto error = check_options(instance, options)) return *std::move(error);
-  Domain domain(instance, options, tuner);
-  auto outcome = solve::Frame<Domain>(domain, options).solve();
-  if (outcome && options.proof) domain.certify(outcome.value());
-  return outcome;
+  const auto search = [&](const Instance& from_0, const SolveOptions& asked) {
+    Domain domain(from_0, asked, tuner);
+    auto outcome = solve::Frame<Domain>(domain, asked).solve();
+    if (outcome && asked.proof) domain.certify(outcome.value());
+    return outcome;
+  };
+  return solve::search_from_0(Border(instance), options, search);
 }
 
 Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {

@@ -19,7 +19,7 @@ std::optional<GridPoint> grid_point(const Graph& graph, const Position& position
 }
 
 Position TimedPath::at(double time) const {
-  // The last stop that has begun; the first one before time 0.
+  // The last stop that has begun; the first one before the plan begins.
   const auto later = std::upper_bound(stops_.begin() + 1, stops_.end(), time,
                                       [](double t, const Stop& stop) { return t < stop.arrive; });
   const Stop& stop = *std::prev(later);
@@ -29,7 +29,7 @@ Position TimedPath::at(double time) const {
 }
 
 std::vector<Sample> TimedPath::samples(double rate) const {
-  return samples(rate, static_cast<double>(cost()));
+  return samples(rate, stops_.back().arrive);
 }
 
 std::vector<Sample> TimedPath::samples(double rate, double until) const {
@@ -37,7 +37,7 @@ std::vector<Sample> TimedPath::samples(double rate, double until) const {
   QUADRILLE_REQUIRE(std::isfinite(until), "an end");
   std::vector<Sample> samples;
   for (std::size_t k = 0;; ++k) {
-    const double time = static_cast<double>(k) / rate;
+    const double time = stops_.front().arrive + static_cast<double>(k) / rate;
     samples.push_back({time, at(time)});
     if (time >= until) return samples;
   }
@@ -60,7 +60,7 @@ Result<TimedPlan> TimedPlan::make(const Instance& instance, const Plan& plan) {
     const auto end = static_cast<std::size_t>(arrival(path));
     TimedPath made;
     for (std::size_t t = 0; t <= end; ++t) {
-      const auto step = static_cast<Timestep>(t);
+      const Timestep step = plan.now + static_cast<Timestep>(t);
       if (t == 0 || path[t] != path[t - 1]) made.stops_.push_back({path[t], step, step});
       made.stops_.back().depart = step;
     }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -50,12 +51,17 @@ class Replay {
     return exists(v) ? vertex_name(graph_, v) : "vertex " + std::to_string(v.value());
   }
   static std::string name(std::uint32_t agent) { return "agent " + std::to_string(agent); }
-  static std::string when(Timestep t) { return " at timestep " + std::to_string(t); }
+  /// Of the timestep `t` after the plan's beginning, as the plan counts; no plan is too broken.
+  Timestep absolute(Timestep t) const {
+    constexpr std::int64_t most = std::numeric_limits<Timestep>::max();
+    return static_cast<Timestep>(std::min(std::int64_t{plan_.now} + t, most));
+  }
+  std::string when(Timestep t) const { return " at timestep " + std::to_string(absolute(t)); }
 
   void add(Violation::Kind kind, std::uint32_t agent, VertexId vertex, Timestep t,
            std::string message) {
     report_.violations.push_back(
-        {kind, AgentId(agent), std::nullopt, vertex, t, std::move(message)});
+        {kind, AgentId(agent), std::nullopt, vertex, absolute(t), std::move(message)});
   }
 
   /// Everything about single agents that needs no clock, and who takes part in the replay.
@@ -65,6 +71,10 @@ class Replay {
       add(Violation::Kind::path_count, 0, VertexId(), 0,
           "the plan has " + std::to_string(paths) + " paths for " + std::to_string(agents) +
               " agents");
+    if (plan_.now != instance_.now())
+      add(Violation::Kind::bad_time, 0, VertexId(), 0,
+          "the plan begins" + when(0) + ", and the instance at timestep " +
+              std::to_string(instance_.now()));
     for (std::uint32_t i = 0; i < std::min(agents, paths); ++i) {
       if (path(i).empty()) {
         add(Violation::Kind::empty_path, i, VertexId(), 0, name(i) + " has an empty path");
@@ -123,7 +133,7 @@ class Replay {
   void add_pair(Violation::Kind kind, std::uint32_t a, std::uint32_t b, VertexId vertex, Timestep t,
                 const std::string& what) {
     report_.violations.push_back(
-        {kind, AgentId(a), AgentId(b), vertex, t,
+        {kind, AgentId(a), AgentId(b), vertex, absolute(t),
          "agents " + std::to_string(a) + " and " + std::to_string(b) + what});
   }
 
@@ -169,7 +179,7 @@ class Replay {
   void add_swap(std::uint32_t a, std::uint32_t b, VertexId from, VertexId to, Timestep t) {
     add_pair(Violation::Kind::swap, a, b, from, t,
              " swap " + place(from) + " and " + place(to) + " between timesteps " +
-                 std::to_string(t) + " and " + std::to_string(t + 1));
+                 std::to_string(absolute(t)) + " and " + std::to_string(absolute(t + 1)));
   }
 
   /// Parks the agents whose path ends before timestep t.
@@ -201,6 +211,8 @@ std::string_view to_string(Violation::Kind kind) noexcept {
   switch (kind) {
     case Violation::Kind::path_count:
       return "path-count";
+    case Violation::Kind::bad_time:
+      return "bad-time";
     case Violation::Kind::empty_path:
       return "empty-path";
     case Violation::Kind::bad_vertex:

@@ -24,11 +24,12 @@ struct Words {
 };
 
 /// What Instance::make says of these parts, in the words of who gave them: agents, vertices and
-/// moments are called what they are called there. `error`: the error that it gave, which is the
-/// answer if there is nothing better to say.
+/// moments are called what they are called there. `now`: as in Instance::make. `error`: the error
+/// that it gave, which is the answer if there is nothing better to say.
 [[nodiscard]] Error in_words(const Error& error, const std::shared_ptr<const Roadmap>& roadmap,
                              const std::vector<Agent>& agents, const Resolution& resolution,
-                             const std::vector<MovingObstacle>& obstacles, const Words& words);
+                             const std::vector<MovingObstacle>& obstacles, Ticks now,
+                             const Words& words);
 
 }  // namespace quadrille::continuous
 

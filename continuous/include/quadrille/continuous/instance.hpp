@@ -35,17 +35,17 @@ struct Agent {
   Body body = Disc{};
   Speed speed = kUnitSpeed;
   GroupId group = {};  ///< It may use the edges that are open to this one.
-  /// It begins no move before this tick. At its start it is from tick 0 on all the same, and its
-  /// cost counts from there.
+  /// It begins no move before this tick. At its start it is from Instance::now on all the same, and
+  /// its cost counts from there.
   Ticks release = 0;
   /// It arrives at its goal for the last time by this tick.
   std::optional<Ticks> deadline = {};
   /// It vanishes when it arrives at its goal, where the goals of others may be, too. Otherwise it
   /// stays there for ever.
   bool leaves = false;
-  /// At tick 0 it is moving: its start is a place in the middle of a move, and it goes on at once.
-  /// The start is a vertex of its own, without edges that lead there and with one that leads on,
-  /// whose duration is what is left of the move. It has no release.
+  /// At Instance::now it is moving: its start is a place in the middle of a move, where it is then,
+  /// and it goes on at once. The start is a vertex of its own, without edges that lead there and
+  /// with one that leads on, whose duration is what is left of the move. It has no release.
   bool under_way = false;
 
   /// Requires that there is one goal only.
@@ -65,7 +65,7 @@ struct MovingObstacle {
   };
   Body body = Disc{};
   /// From each stop to the next it goes straight and at constant speed. It is nowhere before the
-  /// first arrival.
+  /// first arrival. Of what lies before Instance::now only where it is then matters.
   std::vector<Stop> path;
   /// It vanishes at its last departure. Otherwise it stays at its last stop for ever.
   bool leaves = false;
@@ -76,31 +76,37 @@ struct MovingObstacle {
 using ClassId = StrongId<struct ClassTag>;
 
 /// A MAPF_R instance: a roadmap and one body with a task per agent, all in whole ticks and length
-/// units. Agents wait at vertices only, a whole number of ticks, move along edges at constant
-/// speed, and stay at a goal for ever. Two agents collide when the interiors of their bodies
-/// meet; touching is allowed. Immutable; cheap to copy (the roadmap is shared).
+/// units. All times are absolute. The agents are at their starts at the tick `now`, 0 if nothing
+/// else is said, where their plans begin and from where costs count. Agents wait at vertices only,
+/// a whole number of ticks, move along edges at constant speed, and stay at a goal for ever. Two
+/// agents collide when the interiors of their bodies meet; touching is allowed. Immutable; cheap to
+/// copy (the roadmap is shared).
 class Instance {
  public:
   /// Durations that the roadmap does not give are length / speed, rounded to the nearest tick.
   /// Errors: out_of_range for a radius outside [1, geometry::kMaxLength], a polygon with a corner
   /// further than that from the agent's position, a speed outside [1, kMaxSpeed], a group outside
-  /// [0, kMaxGroups), a release or a deadline outside [0, geometry::kMaxDuration], a duration
-  /// outside [1, geometry::kMaxDuration], a resolution that is not positive and finite, likewise
-  /// for bodies, places and times of obstacles; invalid_instance for vertices that do not exist,
-  /// agents without a goal, agents that are under way but not at a place of their own, or released
-  /// later, obstacles without stops, whose times go back, or that vanish when they appear, and
-  /// polygons in an instance that is not flat; no_plan for overlapping starts, also with an
-  /// obstacle at tick 0, overlapping goals (interiors) of agents that stay there and have no other
-  /// one, and agents that can reach no goal, or none by the deadline. Agents are named by index.
-  /// `places`: where each agent comes from, for errors about it; none, or one per agent.
+  /// [0, kMaxGroups), `now`, a release or a deadline outside [0, geometry::kMaxDuration], a
+  /// duration outside [1, geometry::kMaxDuration], a resolution that is not positive and finite,
+  /// likewise for bodies, places and times of obstacles; invalid_instance for vertices that do not
+  /// exist, agents without a goal, agents that are under way but not at a place of their own, or
+  /// released after `now`, obstacles without stops, whose times go back, or that vanish when they
+  /// appear, and polygons in an instance that is not flat; no_plan for overlapping starts, also
+  /// with an obstacle at `now`, overlapping goals (interiors) of agents that stay there and have no
+  /// other one, and agents that can reach no goal, or none by the deadline. Agents are named by
+  /// index. `places`: where each agent comes from, for errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents, Resolution resolution = {},
                                              std::span<const SourcePlace> places = {},
-                                             std::vector<MovingObstacle> obstacles = {});
+                                             std::vector<MovingObstacle> obstacles = {},
+                                             Ticks now = 0);
   [[nodiscard]] static Result<Instance> make(Roadmap roadmap, std::vector<Agent> agents,
                                              Resolution resolution = {},
                                              std::span<const SourcePlace> places = {},
-                                             std::vector<MovingObstacle> obstacles = {});
+                                             std::vector<MovingObstacle> obstacles = {},
+                                             Ticks now = 0);
+  /// The same with other agents. Errors as those of `make`.
+  [[nodiscard]] Result<Instance> with_agents(std::vector<Agent> agents) const;
 
   [[nodiscard]] const Roadmap& roadmap() const noexcept { return *roadmap_; }
   [[nodiscard]] std::shared_ptr<const Roadmap> shared_roadmap() const noexcept { return roadmap_; }
@@ -111,6 +117,8 @@ class Instance {
   }
   [[nodiscard]] const IdVector<AgentId, Agent>& agents() const noexcept { return agents_; }
   [[nodiscard]] const Agent& agent(AgentId i) const { return agents_[i]; }
+  /// When all agents are at their starts.
+  [[nodiscard]] Ticks now() const noexcept { return now_; }
   /// Some agent has more than one goal.
   [[nodiscard]] bool has_goal_sets() const noexcept { return has_goal_sets_; }
 
@@ -159,10 +167,18 @@ class Instance {
     std::shared_ptr<const Ways> ways = {};  // null: all edges
   };
   Instance() = default;
+  /// `make`. Obstacles that are not new are those of an instance.
+  [[nodiscard]] static Result<Instance> build(std::shared_ptr<const Roadmap> roadmap,
+                                              std::vector<Agent> agents, Resolution resolution,
+                                              std::span<const SourcePlace> places,
+                                              std::vector<MovingObstacle> obstacles, Ticks now,
+                                              bool has_new_obstacles);
+  friend Instance since_now(const Instance& instance);  // model/since_now.hpp
 
   std::shared_ptr<const Roadmap> roadmap_;
   IdVector<AgentId, Agent> agents_;
   std::vector<MovingObstacle> obstacles_;
+  Ticks now_ = 0;
   bool is_flat_ = true;
   bool has_goal_sets_ = false;
   Resolution resolution_;

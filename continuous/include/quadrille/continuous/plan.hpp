@@ -25,8 +25,8 @@ struct Stop {
 };
 
 /// Where one agent is: it moves from each stop to the next, from its departure to the next arrival.
-/// The first arrival is at tick 0. The last stop is for ever, unless the agent leaves; its `depart`
-/// equals its `arrive`.
+/// Times are absolute: the first arrival is at the instance's `now`. The last stop is for ever,
+/// unless the agent leaves; its `depart` equals its `arrive`.
 using Path = std::vector<Stop>;
 
 /// One path per agent.
@@ -35,14 +35,14 @@ struct Plan {
   friend bool operator==(const Plan&, const Plan&) = default;
 };
 
-/// A time as a cost: that of a path that arrives then.
+/// A time since the beginning of a path as a cost: that of a path that arrives then.
 [[nodiscard]] constexpr Cost as_cost(Ticks ticks) noexcept { return ticks.value(); }
-/// When a path of this cost arrives.
+/// When a path of this cost arrives, since its beginning.
 [[nodiscard]] constexpr Ticks as_ticks(Cost cost) noexcept { return Ticks(cost); }
 
-/// When the path arrives at its last stop; 0 for an empty path.
+/// How long after its beginning the path arrives at its last stop; 0 for an empty path.
 [[nodiscard]] inline Cost cost(const Path& path) {
-  return path.empty() ? 0 : as_cost(path.back().arrive);
+  return path.empty() ? 0 : as_cost(path.back().arrive - path.front().arrive);
 }
 /// Sum or maximum of the costs of the paths, none of which is negative. A sum that does not fit is
 /// the largest Cost.

@@ -29,9 +29,9 @@ using MemberId = StrongId<struct MemberTag>;
 /// searches have come to, the last 16 answers, and up to 3,000 lemmas and as many cores.
 class Session {
  public:
-  /// Requires a roadmap. The rest is as in Instance::make.
+  /// Requires a roadmap. The rest is as in Instance::make; `now` stays what it is.
   explicit Session(std::shared_ptr<const Roadmap> roadmap, Resolution resolution = {},
-                   std::vector<MovingObstacle> obstacles = {});
+                   std::vector<MovingObstacle> obstacles = {}, Ticks now = 0);
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;

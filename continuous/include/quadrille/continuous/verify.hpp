@@ -22,14 +22,14 @@ struct Violation {
     path_count,    ///< Not one path per agent.
     empty_path,    ///< A path without stops.
     bad_vertex,    ///< A vertex that the roadmap does not have.
-    bad_time,      ///< Not from tick 0 on, or later than supported, or a departure before arrival.
+    bad_time,      ///< Not from `now` on, later than supported, or a departure before arrival.
     wrong_start,   ///< The path begins elsewhere.
     wrong_goal,    ///< The path ends elsewhere.
     not_adjacent,  ///< A move along no edge.
     too_early,     ///< A move that begins before the agent's release.
     too_late,      ///< An arrival after the agent's deadline.
     closed_edge,   ///< A move along an edge that is not open to the agent's group.
-    waits,         ///< An agent that is under way at tick 0 and stops there.
+    waits,         ///< An agent that is under way at `now` and stops there.
     duration,      ///< A move that takes longer or shorter than its edge does.
     collision,     ///< The interiors of two agents' bodies meet.
     obstacle,      ///< Those of an agent and of a moving obstacle meet.
@@ -61,17 +61,17 @@ struct VerifyReport {
   /// the same time: as many as were asked for, least first, then by agent, then other. For the
   /// reader's information: collisions are decided in exact arithmetic.
   std::vector<Clearance> clearances;
-  Cost sum_of_costs = 0;  ///< Meaningful when there are no violations.
-  Cost makespan = 0;
+  /// Meaningful when there are no violations. From the instance's `now`.
+  Cost sum_of_costs = 0, makespan = 0;
   [[nodiscard]] bool valid() const noexcept { return violations.empty(); }
 };
 
 inline constexpr std::size_t kAllClearances = std::numeric_limits<std::size_t>::max();
 
-/// Replays a plan over all time, goal stays included. Shares no code with the search or with
-/// geometry/: a plan that passes is a plan. Takes any plan, however broken. Where few are near each
-/// other at a time, time is proportional to moves times the logarithm of the number of agents.
-/// `kAllClearances` takes time and memory for each pair of agents.
+/// Replays a plan from `now` on over all time, goal stays included. Shares no code with the search
+/// or with geometry/: a plan that passes is a plan. Takes any plan, however broken. Where few are
+/// near each other at a time, time is proportional to moves times the logarithm of the number of
+/// agents. `kAllClearances` takes time and memory for each pair of agents.
 [[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan,
                                   std::size_t num_clearances = 1);
 

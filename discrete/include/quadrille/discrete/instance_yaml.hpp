@@ -28,7 +28,7 @@ namespace quadrille::discrete {
 [[nodiscard]] Result<Instance> read_instance_yaml(const std::filesystem::path& path,
                                                   std::size_t most_vertices = SIZE_MAX);
 /// Writes that YAML with agents named agent0, agent1, ... Errors: io; invalid_instance if the graph
-/// is no grid.
+/// is no grid, if an agent has several goals, or if the instance begins later than at 0.
 [[nodiscard]] std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& file,
                                                        const Instance& instance,
                                                        const text::Names& names = {});

@@ -51,14 +51,15 @@ struct PlanFile {
 
 /// Writes a plan, with its costs where the format has a place for them. Reading it back gives an
 /// equal plan; visualizer and only visualizer extends all paths to the longest one. Errors: io;
-/// invalid_plan if a path is empty, a vertex does not belong to the graph, or the format needs a
-/// grid.
+/// invalid_plan if a path is empty, a vertex does not belong to the graph, the format needs a grid,
+/// or the plan begins later than at 0, which json alone can say, or not at 0 .. kMaxNow.
 [[nodiscard]] std::optional<Error> write_plan(std::ostream& out, const std::string& file,
                                               const Graph& graph, const Plan& plan,
                                               PlanFormat format);
 
 /// The value of the key `plan` in this project's JSON, on one line: per agent a list of `[x, y]`
-/// (vertex numbers on graphs that are no grids), one per timestep. Requires vertices of the graph.
+/// (vertex numbers on graphs that are no grids), one per timestep from Plan::now on, which a key of
+/// its own, `now`, says unless it is 0. Requires vertices of the graph.
 [[nodiscard]] std::string plan_to_json(const Graph& graph, const Plan& plan);
 
 }  // namespace quadrille::discrete

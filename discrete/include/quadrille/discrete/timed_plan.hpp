@@ -11,7 +11,8 @@
 #include "quadrille/discrete/plan.hpp"
 
 // Plans as those who carry them out ask about them; quadrille/fleet/timed_plan.hpp has the same
-// names for robots in continuous time. Times are in timesteps, between which agents move steadily.
+// names for robots in continuous time. Times are in timesteps, between which agents move steadily,
+// and absolute: a plan begins at Plan::now. Costs count from there.
 
 QUADRILLE_API_BEGIN
 
@@ -62,17 +63,20 @@ class TimedPath {
   /// At least one; the last one is the goal, for ever.
   [[nodiscard]] const std::vector<Stop>& stops() const noexcept { return stops_; }
 
-  /// Where the agent is: at its start before time 0, at its goal after the end. O(log stops).
+  /// Where the agent is: at its start before the plan begins, at its goal after the end.
+  /// O(log stops).
   [[nodiscard]] Position at(double time) const;
-  /// At 0, 1/rate, 2/rate, ... up to the first such moment at which the agent has arrived for good.
-  /// `rate`: samples per timestep. Requires a positive one.
+  /// At the plan's beginning and 1/rate, 2/rate, ... later, up to the first such moment at which
+  /// the agent has arrived for good. `rate`: samples per timestep. Requires a positive one.
   [[nodiscard]] std::vector<Sample> samples(double rate) const;
   /// The same up to the first such moment not before `until`, wherever the agent is then.
   [[nodiscard]] std::vector<Sample> samples(double rate, double until) const;
 
   [[nodiscard]] std::vector<Wait> waits() const;
-  /// When it arrives at its goal for good.
-  [[nodiscard]] Cost cost() const noexcept { return stops_.back().arrive; }
+  /// Timesteps from the plan's beginning until it arrives at its goal for good.
+  [[nodiscard]] Cost cost() const noexcept {
+    return Cost{stops_.back().arrive} - stops_.front().arrive;
+  }
   /// What that would be without the other agents.
   [[nodiscard]] Cost free_cost() const noexcept { return free_cost_; }
   /// The difference: waits and detours.

@@ -18,6 +18,7 @@ namespace quadrille::discrete {
 struct Violation {
   enum class Kind {
     path_count,    ///< Not one path per agent.
+    bad_time,      ///< The plan does not begin when the instance does.
     empty_path,    ///< A path without vertices.
     bad_vertex,    ///< A vertex that the graph does not have.
     wrong_start,   ///< The path begins elsewhere.
@@ -30,8 +31,8 @@ struct Violation {
   AgentId agent;
   std::optional<AgentId> other;  ///< For vertex and swap; larger than `agent`.
   VertexId vertex;               ///< Of `agent`, at `timestep`.
-  Timestep timestep = 0;
-  std::string message;  ///< One sentence that names agents, place and timestep.
+  Timestep timestep = 0;         ///< Absolute, as the instance counts.
+  std::string message;           ///< One sentence that names agents, place and timestep.
 };
 
 [[nodiscard]] std::string_view to_string(
@@ -41,8 +42,8 @@ struct VerifyReport {
   /// which its path does so; in a crowd, with one of the others instead of with each of them.
   /// Agents that already stay at the end of their paths are named only with agents that arrive.
   std::vector<Violation> violations;
-  Cost sum_of_costs = 0;  ///< Meaningful when there are no violations.
-  Cost makespan = 0;
+  /// Meaningful when there are no violations. From the instance's `now`.
+  Cost sum_of_costs = 0, makespan = 0;
   [[nodiscard]] bool valid() const noexcept { return violations.empty(); }
 };
 

@@ -15,8 +15,9 @@ QUADRILLE_API_BEGIN
 namespace quadrille::execution {
 
 /// Says which agents may go on, whatever has held up whom. The caller keeps a clock per agent: the
-/// time of the plan that the agent has got to, in ticks (rounded down) or timesteps, which never
-/// goes back. An agent that has arrived keeps its clock at the end of its last move, or later.
+/// time of the plan that the agent has got to, in ticks (rounded down) or timesteps, which begins
+/// at Precedences::now and never goes back. An agent that has arrived keeps its clock at the end of
+/// its last move, or later.
 ///
 /// There are three rules, for three kinds of systems; all keep agents from colliding as long as no
 /// clock passes what it was allowed:

@@ -18,7 +18,7 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::execution {
 
-/// Time of a plan: ticks in the continuous domain, timesteps in the discrete one.
+/// Time of a plan: ticks in the continuous domain, timesteps in the discrete one; absolute.
 using geometry::Ticks;
 
 /// One move of one agent's path: from a vertex to another one. Waits are what lies between moves.
@@ -51,6 +51,7 @@ struct Precedence {
 
 /// The order in which the agents of a plan pass the places that they share, whatever delays them.
 struct Precedences {
+  Ticks now = 0;  ///< When the plan begins, with all clocks at this time.
   IdVector<AgentId, std::vector<TimedMove>> moves;  ///< In order; empty for an agent that stays.
   /// By follower, then leader; each pair of moves at most once, and of two leading moves of one
   /// agent for the same follower only those that the other one does not imply.
@@ -59,9 +60,9 @@ struct Precedences {
   [[nodiscard]] std::size_t num_agents() const noexcept { return moves.size(); }
   /// Requires a move of the plan.
   [[nodiscard]] const TimedMove& at(const MoveId& id) const { return moves[id.agent][id.move]; }
-  /// When the agent ends its last move; 0 if it has none.
+  /// When the agent ends its last move; `now` if it has none.
   [[nodiscard]] Ticks end(AgentId agent) const {
-    return moves[agent].empty() ? Ticks{0} : moves[agent].back().end;
+    return moves[agent].empty() ? now : moves[agent].back().end;
   }
   /// Whether the follower may begin its move in the plan before the leader has ended its own.
   [[nodiscard]] bool overlaps(const Precedence& precedence) const {

@@ -50,9 +50,10 @@ using Delays = IdVector<AgentId, AgentDelay>;
 
 struct SimulationResult {
   bool all_arrived = false;         ///< If not, the others wait for each other for ever.
+  Ticks now = 0;                    ///< When the plan begins.
   IdVector<AgentId, Ticks> finish;  ///< When it arrived; meaningless for one that did not.
   IdVector<AgentId, Ticks> held;    ///< How long it could have gone on and was not allowed to.
-  /// Meaningful if all have arrived.
+  /// From `now` on. Meaningful if all have arrived.
   [[nodiscard]] Ticks makespan() const;
   [[nodiscard]] Ticks sum_of_costs() const;
 };

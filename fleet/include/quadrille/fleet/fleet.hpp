@@ -90,16 +90,16 @@ class Robot {
   Robot from(VertexId start) const;  // NOLINT: part of a chain
   /// Where it is at this time when it follows the path: at a vertex, or in the middle of a move.
   /// For planning again while robots are under way, as often as there is need, also within one
-  /// move. Before time 0 it is where the path begins, after the end where it ends. Requires a path
-  /// whose vertices the roadmap has, and a finite time.
+  /// move. Before its first stop it is where the path begins, after the end where it ends. Requires
+  /// a path whose vertices the roadmap has, and a finite time.
   Robot from(const TimedPath& path, Seconds time) const;  // NOLINT: part of a chain
-  /// Instead: at time 0 it is in the middle of a move, of which `fraction` lies behind it, 0 .. 1,
-  /// and it finishes the move, without a stop; also if the lane has been closed meanwhile. What
-  /// lies behind is rounded down to whole steps of time, and at least one step is left: it is never
-  /// taken to be further than it is, but for that last step. Its place follows from that, and is
-  /// rounded to the resolution. Requires two vertices of the roadmap. `from` may also be the place
-  /// in the middle of a move to `to` where this robot begins until now: then `fraction` is one of
-  /// what was left of the move, so that it must not be told twice.
+  /// Instead: when all begins, Fleet::begins_at, it is in the middle of a move, of which `fraction`
+  /// lies behind it, 0 .. 1, and it finishes the move, without a stop; also if the lane has been
+  /// closed meanwhile. What lies behind is rounded down to whole steps of time, and at least one
+  /// step is left: it is never taken to be further than it is, but for that last step. Its place
+  /// follows from that, and is rounded to the resolution. Requires two vertices of the roadmap.
+  /// `from` may also be the place in the middle of a move to `to` where this robot begins until
+  /// now: then `fraction` is one of what was left of the move, so that it must not be told twice.
   Robot from_edge(VertexId from, VertexId to, double fraction) const;  // NOLINT: part of a chain
   /// Where it goes, and stays. Requires a vertex of the roadmap.
   Robot to(VertexId goal) const { return to_any({goal}); }  // NOLINT: part of a chain
@@ -130,6 +130,12 @@ class Robot {
 class Fleet {
  public:
   explicit Fleet(Roadmap roadmap) : roadmap_(std::move(roadmap)) {}
+
+  /// When all begin, as the clock of releases, deadlines, obstacles and plans says, rounded to the
+  /// nearest multiple of the resolution; 0 s if nothing else is said. Robots are at their starts
+  /// then, and what plans cost counts from there.
+  void begins_at(Seconds time) { begin_ = time; }
+  [[nodiscard]] Seconds begin() const noexcept { return begin_; }
 
   /// Another robot. Whether it makes sense is checked by `instance`.
   Robot robot(RobotSpec spec);
@@ -203,6 +209,7 @@ class Fleet {
     Roads roads;
     std::vector<continuous::MovingObstacle> obstacles;
     std::vector<double> off;
+    continuous::Ticks now = 0;
   };
   [[nodiscard]] Result<Parts> parts() const;
   [[nodiscard]] Result<std::vector<continuous::Agent>> agents() const;
@@ -210,11 +217,13 @@ class Fleet {
   [[nodiscard]] Result<Roads> put_under_way(std::vector<continuous::Agent>& agents,
                                             std::vector<double>& off) const;
   [[nodiscard]] Result<std::vector<continuous::MovingObstacle>> obstacles_in_units() const;
+  [[nodiscard]] Result<continuous::Ticks> begin_in_units() const;
   [[nodiscard]] continuous::Words words() const;
 
   Roadmap roadmap_;
   IdVector<AgentId, Entry> robots_;
   std::vector<MovingObstacle> obstacles_;
+  Seconds begin_ = {};
 };
 
 }  // namespace quadrille::fleet

@@ -62,19 +62,20 @@ class TimedPath {
   /// begins at a vertex.
   [[nodiscard]] const std::optional<UnderWay>& under_way() const noexcept { return under_way_; }
 
-  /// Where the robot is: at its start before time 0, at its goal after the end. O(log stops).
+  /// Where the robot is: at its start before the plan begins, at its goal after the end.
+  /// O(log stops).
   [[nodiscard]] Point at(Seconds time) const;
   /// How fast it goes in which direction; at the moment in which that changes, what comes after it.
   [[nodiscard]] Velocity velocity(Seconds time) const;
-  /// At 0, 1/rate, 2/rate, ... up to the first such moment at which the robot has arrived for good.
-  /// Requires a positive rate. Linear in stops and samples.
+  /// When the plan begins and 1/rate, 2/rate, ... later, up to the first such moment at which the
+  /// robot has arrived for good. Requires a positive rate. Linear in stops and samples.
   [[nodiscard]] std::vector<Sample> samples(Hertz rate) const;
   /// The same up to the first such moment not before `until`, wherever the robot is then.
   [[nodiscard]] std::vector<Sample> samples(Hertz rate, Seconds until) const;
 
   [[nodiscard]] std::vector<Wait> waits() const;
-  /// When it arrives at its goal for good.
-  [[nodiscard]] Seconds cost() const noexcept { return stops_.back().arrive; }
+  /// How long it takes, from the plan's beginning, until it arrives at its goal for good.
+  [[nodiscard]] Seconds cost() const noexcept { return cost_; }
   /// What that would be without the other robots.
   [[nodiscard]] Seconds free_cost() const noexcept { return free_cost_; }
   /// The difference: waits and detours.
@@ -89,7 +90,7 @@ class TimedPath {
   std::string name_;
   std::vector<Stop> stops_;
   std::optional<UnderWay> under_way_;
-  Seconds free_cost_, delay_;
+  Seconds cost_, free_cost_, delay_;
 };
 
 /// What all robots do. A plan that has been verified. Cheap to copy.
