@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "export.hpp"
+#include "hints.hpp"
 #include "records.hpp"
 
 namespace quadrille_check {
@@ -90,23 +91,8 @@ class LratExport {
     out << name;
     for (const Int lit : clause) out << ' ' << lit;
     out << " 0";
-    std::map<Int, bool> value;
-    for (const Int lit : clause) value[std::abs(lit)] = lit < 0;
-    for (const Int hint : hints) {
-      Ints open;
-      bool is_true = false;
-      for (const Int lit : literals_.at(hint)) {
-        const auto known = value.find(std::abs(lit));
-        if (known == value.end())
-          open.push_back(lit);
-        else
-          is_true = is_true || known->second == (lit > 0);
-      }
-      if (is_true || open.size() > 1) continue;
-      out << ' ' << number.at(hint);
-      if (open.empty()) break;
-      value[std::abs(open[0])] = open[0] > 0;
-    }
+    for (const UsedHint& used : used_hints(clause, hints, literals_))
+      out << ' ' << number.at(used.clause);
     out << " 0\n";
   }
 

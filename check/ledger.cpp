@@ -37,7 +37,6 @@ void Ledger::pay(const std::vector<Int>& clause, Int node) {
   require(!clause.empty(), "a core without units");
   for (const Int lit : clause) close(lit);
   ++lower_;
-  ++num_steps_;
   if (node != -1) open(node, clause);
 }
 

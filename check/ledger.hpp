@@ -38,7 +38,14 @@ class Ledger {
   [[nodiscard]] Int bound(const std::optional<std::vector<Int>>& clause, bool is_makespan) const;
 
   [[nodiscard]] Int lower() const { return lower_; }
-  [[nodiscard]] Int num_steps() const { return num_steps_; }
+  /// What plans cost by which the excess is more, if it was counted.
+  [[nodiscard]] Int excess_base() const { return excess_base_; }
+  /// What agents cost at least when each is alone.
+  [[nodiscard]] Int free_cost(int agent) const {
+    return free_costs_[static_cast<std::size_t>(agent)];
+  }
+  [[nodiscard]] Int free_sum() const { return free_sum_; }
+  [[nodiscard]] Int free_makespan() const { return free_makespan_; }
 
  private:
   using Unit = std::pair<Int, Int>;  // agent and cost, or node and number
@@ -52,7 +59,7 @@ class Ledger {
   const Meanings& meanings_;
   std::vector<Int> free_costs_;
   Int free_sum_ = 0, free_makespan_ = 0;
-  Int lower_ = 0, num_steps_ = 0;
+  Int lower_ = 0;
   std::set<Unit> closed_costs_, closed_numbers_;
   std::map<Int, Int> opened_;  // by node: of how many literals
   std::optional<Int> excess_;

@@ -29,6 +29,8 @@ constexpr const char* kHelp =
     "  --print             write the certificate as text to standard output; checks nothing\n"
     "  --export-lrat A.cnf A.lrat\n"
     "                      write the propositional part for checkers of LRAT proofs\n"
+    "  --export-pb A.opb A.pbp\n"
+    "                      write the proof of the bound for checkers of pseudo-Boolean proofs\n"
     "  --help              print this\n"
     "\n"
     "Exit codes: 0 verified, 1 rejected, 64 wrong command line, 65 the instance cannot be read or "
@@ -38,7 +40,7 @@ constexpr const char* kHelp =
 struct Arguments {
   std::map<std::string, std::string> values;
   bool prints = false;
-  std::string cnf, lrat, certificate;
+  std::string cnf, lrat, opb, pbp, certificate;
 
   [[nodiscard]] bool has(const char* option) const { return values.count(option) != 0; }
   [[nodiscard]] std::string get(const char* option, const char* otherwise = "") const {
@@ -64,6 +66,9 @@ Arguments parse(const std::vector<std::string>& words) {
     } else if (word == "--export-lrat") {
       arguments.cnf = next();
       arguments.lrat = next();
+    } else if (word == "--export-pb") {
+      arguments.opb = next();
+      arguments.pbp = next();
     } else if (word == "--map" || word == "--scen" || word == "--agents" || word == "--instance" ||
                word == "--objective" || word == "--passable" || word == "--blocked") {
       if (!arguments.values.emplace(word, next()).second)
@@ -131,7 +136,10 @@ int check(const Arguments& arguments, const std::string& content) {
   } catch (const Rejected& rejected) {
     throw Rejected("record " + std::to_string(reader.number()) + ": " + rejected.what());
   }
-  if (!arguments.cnf.empty() && !export_lrat(content, arguments.cnf, arguments.lrat)) {
+  const bool are_written =
+      (arguments.cnf.empty() || export_lrat(content, arguments.cnf, arguments.lrat)) &&
+      (arguments.opb.empty() || export_pb(content, checker, arguments.opb, arguments.pbp));
+  if (!are_written) {
     std::cerr << "quadrille-check: an export cannot be written\n";
     return kOutput;
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "check/cases.hpp"
 #include "check/support.hpp"
 #include "quadrille/discrete/solver.hpp"
 #include "solve/tuning.hpp"
@@ -28,54 +29,10 @@ using quadrille_check::support::Interpretation;
 using quadrille_check::support::places;
 using quadrille_check::support::records_of;
 using quadrille_check::support::text_of;
+using support::Case;
+using support::draw;
 using support::joint_search;
-
-/// Passes, retired counters, searches from above and candidates occur on small instances, too.
-struct Pace {
-  std::int64_t first_turn = 0;  ///< 0: as usual.
-  Cost candidates_within = 8;
-};
-
-SolveOutcome solve_at(const Instance& instance, const SolveOptions& options, const Pace& pace) {
-  const Tuner usual = tuner_for(instance);
-  return solve_tuned(instance, options,
-                     [&](const SolveOptions& of_one) {
-                       Tuning tuning = usual(of_one);
-                       if (pace.first_turn == 0) return tuning;
-                       tuning.settings.core_turn = pace.first_turn;
-                       tuning.settings.core_head_start = 1;
-                       tuning.settings.above_candidates_within = pace.candidates_within;
-                       return tuning;
-                     })
-      .value();
-}
-
-struct Case {
-  Instance instance;
-  SolveOptions options;
-  Pace pace;
-};
-
-Instance draw_instance(Random& random) {
-  if (random.percent(25)) return support::random_graph(random, 9, 4);
-  return support::random_grid(random, {2, 5, 40, 2, 5});
-}
-
-Case draw(std::uint64_t seed) {
-  Random random(seed);
-  Case drawn{draw_instance(random), {}, {}};
-  drawn.options.proof = true;
-  drawn.options.seed = static_cast<std::uint32_t>(random.below(3));
-  if (random.percent(25)) drawn.options.objective = Objective::makespan;
-  if (random.percent(20)) drawn.options.cost_search = CostSearch::iterative;
-  drawn.options.first_plan = random.percent(70);
-  drawn.options.lazy.forbid_first = random.percent(20);
-  if (random.percent(30)) drawn.options.lazy.chronological = random.percent(50);
-  if (random.percent(60))
-    drawn.pace = {static_cast<std::int64_t>(random.between(1, 60)),
-                  static_cast<Cost>(random.pick(std::vector<int>{0, 3, 20}))};
-  return drawn;
-}
+using support::solve_at;
 
 /// Of the certificate's clauses, those that are false in a plan.
 std::string find_false_clause(const quadrille_check::Instance& instance,
