@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "infeasible.hpp"
+
 namespace quadrille_check {
 
 Checker::Checker(const Instance& instance)
@@ -17,7 +19,8 @@ Checker::Checker(const Instance& instance)
 void Checker::check(const Record& record) {
   if (record.tag == 'i') return check_head(record);
   require(is_makespan_.has_value(), "the head comes first");
-  require(!claim_ || record.tag == 'p', "nothing but the plan comes after the claim");
+  require(!is_infeasible_ && (!claim_ || record.tag == 'p'),
+          "nothing but the plan comes after the claim");
   const auto value = [&](std::size_t k) {
     require(k < record.values.size(), "the record is too short");
     return record.values[k];
@@ -45,6 +48,11 @@ void Checker::check(const Record& record) {
       return check_claim(record);
     case 'p':
       return add_path(record);
+    case 'z':
+      require(quadrille_check::is_infeasible(instance_, record.values),
+              "the agents could come to their goals for all that is said");
+      is_infeasible_ = true;
+      return;
     default:
       throw Rejected("no such record");
   }
@@ -73,6 +81,9 @@ void Checker::check_axiom(const Record& record) {
       break;
     case 2:
       holds = is_same_place(meanings_, clause);
+      break;
+    case 3:
+      holds = is_swap(meanings_, clause);
       break;
     case 4:
       holds = is_rectangle(instance_, meanings_, clause, parameters);
@@ -123,8 +134,9 @@ void Checker::add_path(const Record& record) {
 }
 
 Verdict Checker::verdict() const {
+  if (is_infeasible_) return {*is_makespan_, true, 0, std::nullopt};
   require(claim_.has_value(), "there is no claim");
-  Verdict verdict{*is_makespan_, *claim_, std::nullopt};
+  Verdict verdict{*is_makespan_, false, *claim_, std::nullopt};
   const auto is_missing = [](const auto& path) { return path.empty(); };
   const auto missing = std::count_if(paths_.begin(), paths_.end(), is_missing);
   if (missing == static_cast<std::ptrdiff_t>(paths_.size()) && !paths_.empty()) return verdict;

@@ -19,8 +19,9 @@ namespace quadrille_check {
 /// What a certificate proves.
 struct Verdict {
   bool is_makespan = false;
-  Int bound = 0;            ///< No plan costs less.
-  std::optional<Int> cost;  ///< Of the plan in the file.
+  bool is_infeasible = false;  ///< There is no plan; what follows means nothing then.
+  Int bound = 0;               ///< No plan costs less.
+  std::optional<Int> cost;     ///< Of the plan in the file.
 };
 
 /// Checks a certificate record by record.
@@ -53,6 +54,7 @@ class Checker {
   Clauses clauses_;
   std::optional<bool> is_makespan_;
   std::optional<Int> claim_;
+  bool is_infeasible_ = false;
   std::vector<std::vector<int>> paths_;
 };
 

@@ -22,7 +22,7 @@ namespace quadrille_check {
 /// for each open unit that is true in P.
 class Ledger {
  public:
-  /// Both outlive it. Throws BadInput if an agent has no way to its goal.
+  /// Both outlive it. An agent without a way to its goal costs kFar, as good as any number.
   Ledger(const Instance& instance, const Meanings& meanings);
 
   /// The clause, which is true in all plans, is one of open units: at least one is true, and as

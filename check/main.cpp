@@ -114,6 +114,7 @@ int print(const std::string& content) {
 }
 
 std::string text_of(const Verdict& verdict) {
+  if (verdict.is_infeasible) return "verified: infeasible";
   const std::string objective = verdict.is_makespan ? "makespan" : "sum of costs";
   if (verdict.cost == verdict.bound)
     return "verified: optimal, " + objective + " " + std::to_string(verdict.bound);

@@ -62,6 +62,8 @@ class OneAgent {
 
 /// Rule 2: two agents are in one place at one time, or use one edge at one time.
 [[nodiscard]] bool is_same_place(const Meanings& meanings, Clause clause);
+/// Rule 3: two agents swap places.
+[[nodiscard]] bool is_swap(const Meanings& meanings, Clause clause);
 /// Rule 4: two agents cross a rectangle, one from side to side, one from top to bottom, without
 /// delay. Parameters: x0 y0 x1 y1 T a b.
 [[nodiscard]] bool is_rectangle(const Instance& instance, const Meanings& meanings, Clause clause,

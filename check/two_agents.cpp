@@ -37,6 +37,20 @@ bool is_same_place(const Meanings& meanings, Clause clause) {
          x->time == y->time && std::minmax(x->from, x->to) == std::minmax(y->from, y->to);
 }
 
+bool is_swap(const Meanings& meanings, Clause clause) {
+  if (clause.size() != 4) return false;
+  Presence at[4];
+  for (std::size_t k = 0; k < 4; ++k) at[k] = presence(meanings, clause[k]);
+  std::sort(at, at + 4, [](const Presence& a, const Presence& b) {
+    return std::pair(a.agent, a.time) < std::pair(b.agent, b.time);
+  });
+  const auto& [from, to, other_from, other_to] = at;
+  return from.place >= 0 && other_from.place >= 0 && from.agent == to.agent &&
+         other_from.agent == other_to.agent && from.agent != other_from.agent &&
+         to.time == from.time + 1 && other_from.time == from.time && other_to.time == to.time &&
+         from.place != to.place && to.place == other_from.place && other_to.place == from.place;
+}
+
 bool is_rectangle(const Instance& instance, const Meanings& meanings, Clause clause,
                   std::span<const Int> parameters) {
   if (parameters.size() != 7 || !instance.is_grid()) return false;

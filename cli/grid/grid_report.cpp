@@ -84,7 +84,8 @@ std::string result_json(const discrete::Instance* instance, const SolveArguments
   if (options.proof) {
     Json proof(nullptr);
     if (outcome.certificate)
-      proof = {{"claim", outcome.certificate->claim}, {"bytes", outcome.certificate->bytes.size()}};
+      proof = {{"claim", or_null(outcome.certificate->claim)},
+               {"bytes", outcome.certificate->bytes.size()}};
     else if (!outcome.no_certificate.empty())
       proof = {{"none", outcome.no_certificate}};
     json.add("proof", proof);

@@ -49,8 +49,6 @@ std::string settle(SolveArguments& arguments) {
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
   if (options.race && options.threads == 1) return "--race needs --threads";
   options.proof = !arguments.proof.empty();
-  if (options.proof && options.threads > 1) return "--proof needs one thread";
-  if (options.proof && options.system != System::dpll) return "--proof needs --system dpll";
   if (options.explain && options.threads > 1) return "--explain needs one thread";
   if (options.explain && options.system != System::dpll) return "--explain needs --system dpll";
   if (arguments.known_bound) {
@@ -132,8 +130,11 @@ class GridSolve {
                                      const discrete::VerifyReport& replay) const {
     std::string text = describe_outcome(objective(), outcome, replay);
     if (outcome.certificate)
-      text += fmt::format("proof      no plan costs less than {}, {} bytes\n",
-                          outcome.certificate->claim, outcome.certificate->bytes.size());
+      text += fmt::format("proof      no plan{}, {} bytes\n",
+                          outcome.certificate->claim
+                              ? fmt::format(" costs less than {}", *outcome.certificate->claim)
+                              : "",
+                          outcome.certificate->bytes.size());
     if (!outcome.no_certificate.empty())
       text += fmt::format("proof      none: {}\n", outcome.no_certificate);
     if (outcome.attribution)

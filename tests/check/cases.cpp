@@ -31,6 +31,18 @@ Instance draw_instance(Random& random) {
   return random_grid(random, {2, 5, 40, 2, 5});
 }
 
+/// Half of them: dpll.
+void draw_system(Random& random, SolveOptions& options) {
+  using Kind = CheckSchedule::Kind;
+  if (random.percent(50)) return;
+  options.system = random.pick(
+      std::vector{System::dpll_mdd, System::smt_cbs, System::mdd_sat, System::dpll_mdd});
+  if (random.percent(50)) options.cost_search = CostSearch::core_guided;
+  if (random.percent(30)) options.mdd.growth = MddGrowth::full;
+  options.mdd.check.kind = random.pick(std::vector{Kind::watch, Kind::propagate, Kind::fractions});
+  if (options.mdd.check.kind == Kind::fractions) options.mdd.check.fractions = {{1, 2}, {3, 4}};
+}
+
 }  // namespace
 
 Case draw(std::uint64_t seed) {
@@ -46,7 +58,17 @@ Case draw(std::uint64_t seed) {
   if (random.percent(60))
     drawn.pace = {static_cast<std::int64_t>(random.between(1, 60)),
                   static_cast<Cost>(random.pick(std::vector<int>{0, 3, 20}))};
+  draw_system(random, drawn.options);
+  if (random.percent(10)) drawn.options.threads = static_cast<std::size_t>(random.between(2, 5));
   return drawn;
+}
+
+Instance draw_crowded(std::uint64_t seed) {
+  Random random(seed);
+  const Instance drawn = random_graph(random, random.percent(50) ? 6 : 12, 1);
+  const std::size_t size = drawn.graph().num_vertices();
+  const std::size_t num_free = random.percent(40) ? 0 : random.below(size);
+  return random_tasks(random, drawn.graph(), size - num_free);
 }
 
 }  // namespace quadrille::discrete::support

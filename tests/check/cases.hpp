@@ -21,6 +21,8 @@ struct Case {
   Pace pace;
 };
 [[nodiscard]] Case draw(std::uint64_t seed);
+/// Most of them have no plan, for all reasons that there are.
+[[nodiscard]] Instance draw_crowded(std::uint64_t seed);
 
 [[nodiscard]] SolveOutcome solve_at(const Instance& instance, const SolveOptions& options,
                                     const Pace& pace);

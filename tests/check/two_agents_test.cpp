@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -34,6 +35,24 @@ TEST(Rules, TwoAgentsAreInOnePlace) {
   EXPECT_FALSE(accepts(kLane, "f 1 0 2 2 3 4\nf 2 1 2 2 3 4\na 2 | 1 2\n"));  // at different times
   EXPECT_FALSE(accepts(kLane, "f 1 0 1 2 3 5\nf 2 1 1 3 2 6\na 2 | 1 2\n"));
   EXPECT_FALSE(accepts(kLane, "f 1 0 1 2 3 5\nf 2 1 0 2 5\na 2 | 1 2\n"));
+}
+
+TEST(Rules, TwoAgentsSwap) {
+  const auto swap = [](const char* meanings, const char* clause = "-1 -2 -3 -4") {
+    return accepts(kLane, std::string(meanings) + "a 3 | " + clause + "\n");
+  };
+  EXPECT_TRUE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 1 3 3\nx 4 1 2 4\n"));
+  EXPECT_TRUE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 1 3 3\nx 4 1 2 4\n", "-3 -2 -4 -1"));
+  EXPECT_TRUE(swap("f 1 0 0 2 3\nx 2 0 3 4\nx 3 1 3 3\nx 4 1 2 4\n", "1 -2 -3 -4"));
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 1 3 3\nx 4 1 2 4\n", "-1 -2 -3"));
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 1 3 3\nx 4 1 2 4\n", "-1 -2 -3 4"));
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 1 3 3\nx 4 1 3 4\n"));  // that is a meeting
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 1 3 4\nx 4 1 2 5\n"));  // later
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 3 5\nx 3 1 3 3\nx 4 1 2 5\n"));  // in two steps
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 1 2 3\nx 4 1 3 4\n"));  // side by side
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 0 3 3\nx 4 0 2 4\n"));  // one agent
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 2 4\nx 3 1 2 3\nx 4 1 2 4\n"));  // nobody moves
+  EXPECT_FALSE(swap("x 1 0 2 3\nx 2 0 3 4\nx 3 1 3 3\nx 4 1 4 4\n"));
 }
 
 // Agent 0 crosses from x 1 to x 2, agent 1 from y 1 to y 2; cell (1, 1) at time 2.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/solver.hpp"
 #include "quadrille/sat/certificate.hpp"
@@ -19,6 +20,9 @@ struct ProofDraft {
 /// A certificate for the proof's claim, with the plan if there is one.
 [[nodiscard]] Certificate certify(const Instance& instance, Objective objective,
                                   const sat::TrimmedProof& proof, const std::optional<Plan>& plan);
+/// A certificate that there is no plan.
+[[nodiscard]] Certificate certify_infeasible(const Instance& instance, Objective objective,
+                                             const Invariant& invariant);
 /// A proof that rests on nothing but what agents cost at least when each is alone, which is `bound`
 /// or more.
 [[nodiscard]] sat::TrimmedProof free_proof(Cost bound);

@@ -4,19 +4,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "certificate/place_number.hpp"
+#include "certificate/records.hpp"
 
 namespace quadrille::discrete {
-namespace {
 
 using sat::CertificateWriter;
 namespace why = sat::why;
-
-constexpr int kOneAgent = 1, kSamePlace = 2, kRectangle = 4, kCorridor = 5;
-
-std::int64_t number(AgentId agent) { return static_cast<std::int64_t>(agent.value()); }
-
-}  // namespace
 
 std::int64_t LazyMeanings::place(VertexId v) const {
   return place_number(model_.instance().graph(), v);
@@ -38,20 +31,16 @@ bool LazyMeanings::declare(int variable, CertificateWriter& writer) const {
       return true;
     case Kind::own: {
       const Visit visit = model_.visit(meaning);
-      writer.record('x', {variable, number(meaning.agent), place(visit.vertex), visit.timestep});
+      writer.record('x',
+                    {variable, agent_number(meaning.agent), place(visit.vertex), visit.timestep});
       return true;
     }
   }
   return false;
 }
 
-void LazyMeanings::declare_cost(int variable, AgentId agent, Cost cost,
-                                CertificateWriter& writer) const {
-  writer.record('c', {variable, number(agent), cost});
-}
-
 void LazyMeanings::declare_usage(int variable, const Obstacle& o, CertificateWriter& writer) const {
-  const std::int64_t agent = number(o.agent);
+  const std::int64_t agent = agent_number(o.agent);
   switch (o.kind) {
     case Obstacle::Kind::point:
       return writer.record('f', {variable, agent, 0, place(o.vertex), o.first});
@@ -75,23 +64,19 @@ void LazyMeanings::declare_usage(int variable, const Obstacle& o, CertificateWri
 
 sat::ProofMeanings::Rule LazyMeanings::rule_of(const sat::Why& reason,
                                                std::span<const sat::Lit>) const {
-  if (const auto* path = std::get_if<why::Path>(&reason)) return {kOneAgent, {number(path->agent)}};
+  if (const auto* path = std::get_if<why::Path>(&reason)) return one_agent_rule(path->agent);
   if (const auto* path = std::get_if<why::ExplicitPath>(&reason))
-    return {kOneAgent, {number(path->agent)}};
-  if (const auto* order = std::get_if<why::Order>(&reason)) return order_rule(order->agent);
+    return one_agent_rule(path->agent);
+  if (const auto* order = std::get_if<why::Order>(&reason)) return one_agent_rule(order->agent);
   if (std::holds_alternative<why::Vertex>(reason) || std::holds_alternative<why::Edge>(reason))
-    return {kSamePlace, {}};
+    return {kSamePlaceRule, {}};
   if (const auto* r = std::get_if<why::Rectangle>(&reason))
-    return {kRectangle,
-            {r->from_x, r->from_y, r->to_x, r->to_y, r->begin, number(r->horizontal),
-             number(r->vertical)}};
+    return {kRectangleRule,
+            {r->from_x, r->from_y, r->to_x, r->to_y, r->begin, agent_number(r->horizontal),
+             agent_number(r->vertical)}};
   if (const auto* corridor = std::get_if<why::Corridor>(&reason))
-    return {kCorridor, {place(corridor->inside)}};
+    return {kCorridorRule, {place(corridor->inside)}};
   return {};
-}
-
-sat::ProofMeanings::Rule LazyMeanings::order_rule(AgentId agent) const {
-  return {kOneAgent, {number(agent)}};
 }
 
 sat::Lit LazyMeanings::cost_above(AgentId agent, Cost cost) const {

@@ -15,9 +15,6 @@ class LazyMeanings final : public sat::ProofMeanings {
   [[nodiscard]] bool declare(int variable, sat::CertificateWriter& writer) const override;
   [[nodiscard]] Rule rule_of(const sat::Why& why, std::span<const sat::Lit> clause) const override;
   [[nodiscard]] sat::Lit cost_above(AgentId agent, Cost cost) const override;
-  void declare_cost(int variable, AgentId agent, Cost cost,
-                    sat::CertificateWriter& writer) const override;
-  [[nodiscard]] Rule order_rule(AgentId agent) const override;
 
  private:
   void declare_usage(int variable, const Obstacle& obstacle, sat::CertificateWriter& writer) const;

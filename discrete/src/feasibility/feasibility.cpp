@@ -51,10 +51,22 @@ Arrangement arrange(const Instance& instance, const ComponentNumbering& numberin
 }
 
 Feasibility as_answer(const Component& component, Obstruction obstruction) {
-  Feasibility answer{false, std::move(obstruction.reason)};
+  Feasibility answer;
+  answer.feasible = false;
+  answer.reason = std::move(obstruction.reason);
   for (const Local agent : obstruction.agents) answer.agents.push_back(component.agents[agent]);
+  answer.invariant.kind = obstruction.kind;
+  answer.invariant.agent = answer.agents.front();
   std::sort(answer.agents.begin(), answer.agents.end());
-  for (const Local v : obstruction.vertices) answer.vertices.push_back(component.vertices[v]);
+  const auto as_vertices = [&](const std::vector<Local>& locals) {
+    std::vector<VertexId> vertices;
+    for (const Local v : locals) vertices.push_back(component.vertices[v]);
+    return vertices;
+  };
+  answer.vertices = as_vertices(obstruction.vertices);
+  answer.invariant.vertices =
+      obstruction.invariant.empty() ? answer.vertices : as_vertices(obstruction.invariant);
+  if (obstruction.beyond != kNone) answer.invariant.beyond = component.vertices[obstruction.beyond];
   return answer;
 }
 
@@ -77,7 +89,9 @@ Feasibility check_feasibility(const Instance& instance) {
                   vertex_name(graph, goal) + ": no way leads there from its start " +
                   vertex_name(graph, start),
               {agent},
-              {start, goal}};
+              {start, goal},
+              true,
+              {Invariant::Kind::component, agent}};
     components[index].agents.push_back(agent);
   }
   for (const Component& component : components) {

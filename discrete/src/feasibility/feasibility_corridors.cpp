@@ -173,6 +173,9 @@ Obstruction Corridors::obstruction(const Corridor& corridor, Local a, Local b) c
   std::vector<Local> vertices;
   for_each_vertex(corridor, [&](Local v) { vertices.push_back(v); });
   const Local first = vertices.front(), last = vertices.back();
+  // Of one vertex that is a fork below a rich block, the others are on the other side.
+  Local beyond = kNone;
+  if (first == last) beyond = first == corridor.lower ? corridor.upper : corridor.lower;
   std::string where = " at " + component_.name_of(first);
   if (first != last)
     where =
@@ -182,7 +185,10 @@ Obstruction Corridors::obstruction(const Corridor& corridor, Local a, Local b) c
               ": that takes " + std::to_string(corridor.length + 1) +
               " free vertices, and the component has " + std::to_string(num_free_),
           {a, b},
-          std::move(vertices)};
+          std::move(vertices),
+          Invariant::Kind::corridor,
+          {},
+          beyond};
 }
 
 }  // namespace

@@ -53,6 +53,15 @@ bool is_odd(std::span<const Local> vertices, const Arrangement& start, const Arr
   return odd;
 }
 
+/// One that every way between vertices of two blocks uses: that above the lower block, if one is
+/// below the other.
+std::vector<Local> bridge_between(const Component& component, Local a, Local b) {
+  const Local block = component.block[a];
+  const bool is_below = b >= block && b < component.subtree_end[block];
+  const Local lower = is_below ? component.block[b] : block;
+  return {lower, component.parent[lower]};
+}
+
 /// All vertices, block after block, in increasing order inside each block.
 std::vector<Local> sorted_by_block(const Component& component) {
   std::vector<Local> order(component.size());
@@ -75,7 +84,9 @@ std::optional<Obstruction> check_full(const Component& component, const Arrangem
               ": their component has no free vertex, so that agents can only rotate along cycles, "
               "and no chain of cycles leads there",
           {agent},
-          {from, to}};
+          {from, to},
+          Invariant::Kind::bridge,
+          bridge_between(component, from, to)};
   }
   const std::vector<BlockShape> shapes = find_shapes(component);
   const std::vector<Local> order = sorted_by_block(component);
@@ -100,7 +111,9 @@ std::optional<Obstruction> check_full(const Component& component, const Arrangem
               "length, so that exchanging only two agents, or any other odd permutation, is "
               "impossible",
           {start.agent_at[agent]},
-          {vertices.begin(), vertices.end()}};
+          {vertices.begin(), vertices.end()},
+          Invariant::Kind::parity,
+          {}};
     }
   }
   return std::nullopt;

@@ -39,7 +39,9 @@ std::optional<Obstruction> check_path(const Component& component, const Arrangem
                          component.name_of(start.vertex_of[std::min(*a, *b)]) +
                          " is a corridor without junctions",
                      {*a, *b},
-                     std::move(path)};
+                     std::move(path),
+                     Invariant::Kind::corridor,
+                     {}};
 }
 
 std::optional<Obstruction> check_cycle(const Component& component, std::span<const Local> cycle,
@@ -60,7 +62,9 @@ std::optional<Obstruction> check_cycle(const Component& component, std::span<con
                          component.name_of(start.vertex_of[std::min(*a, *b)]) +
                          ", on which the cyclic order never changes",
                      {*a, *b, fixed},
-                     {cycle.begin(), cycle.end()}};
+                     {cycle.begin(), cycle.end()},
+                     Invariant::Kind::cycle,
+                     {}};
 }
 
 }  // namespace quadrille::discrete::feasibility

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/component.hpp"
+#include "quadrille/discrete/feasibility.hpp"
 
 /// The parts of check_feasibility. docs/feasibility.md has the theorems they rest on.
 namespace quadrille::discrete::feasibility {
@@ -34,6 +35,9 @@ struct Obstruction {
   std::string reason;
   std::vector<Local> agents;
   std::vector<Local> vertices;  ///< Where they are in each other's way.
+  Invariant::Kind kind;
+  std::vector<Local> invariant;  ///< Its vertices, where these are others.
+  Local beyond = kNone;          ///< See Invariant.
 };
 
 /// Each of these returns why `goal` cannot be reached from `start`, or nullopt if it can.

@@ -22,23 +22,14 @@ LazyProblem::LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theo
         const AgentId agent(input);
         return model_.cost_above(agent, model_.distances(agent).free_cost() + k - 1, writer_);
       }) {
-  note_delays(engine.proof());
-  for (const AgentId i : model.instance().agent_ids())
+  std::vector<Cost> free_costs;
+  for (const AgentId i : model.instance().agent_ids()) {
+    free_costs.push_back(free_cost(i));
     lower_bound_ = objective == Objective::sum_of_costs ? lower_bound_ + free_cost(i)
                                                         : std::max(lower_bound_, free_cost(i));
-}
-
-void LazyProblem::note_delays(sat::ProofLog* proof) const {
-  if (proof == nullptr) return;
-  std::vector<sat::ProofItem> items;
-  for (const AgentId i : model_.instance().agent_ids()) {
-    sat::ProofItem item;
-    item.kind = sat::ProofItem::Kind::agent;
-    item.agent = i;
-    item.base = free_cost(i);
-    items.push_back(item);
   }
-  proof->set_inputs(total_delay_.proof_number(), std::move(items));
+  if (engine.proof() != nullptr)
+    engine.proof()->set_inputs_beyond(total_delay_.proof_number(), free_costs);
 }
 
 // Every agent gets a cap: what the bound leaves to it alone.

@@ -38,8 +38,6 @@ class LazyProblem final : public sat::CostProblem {
   [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
 
  private:
-  void note_delays(sat::ProofLog* proof) const;
-
   LazyModel& model_;
   LazyTheory& theory_;
   const Objective objective_;

@@ -60,13 +60,17 @@ Lit MddModel::delay_at_least(AgentId agent, Timestep delay) {
   return lit;
 }
 
+Lit MddModel::find_delay(AgentId agent, Timestep delay) const {
+  const auto& delays = agents_[agent].delays;
+  const auto found = delays.find(delay);
+  return found == delays.end() ? Lit() : found->second;
+}
+
 Lit MddModel::arrival_after(AgentId agent, Timestep t) const {
   const Timestep delay = t + 1 - mdd(agent).distance();
   if (delay < 1) return {};
   if (objective_ == Objective::makespan && delay <= cap(agent) + 1) return {};
-  const auto& delays = agents_[agent].delays;
-  const auto found = delays.find(delay);
-  return found == delays.end() ? Lit() : found->second;
+  return find_delay(agent, delay);
 }
 
 // Called for each new X(v,t): the resident may have come to rest without a variable that says so.

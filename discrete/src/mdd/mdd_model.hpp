@@ -56,6 +56,8 @@ class MddModel {
   }
   /// C(agent, delay), made if need be. Requires delay >= 1. Not during solve.
   [[nodiscard]] sat::Lit delay_at_least(AgentId agent, Timestep delay);
+  /// C(agent, delay), invalid if nobody asked for it so far.
+  [[nodiscard]] sat::Lit find_delay(AgentId agent, Timestep delay) const;
   /// A literal "the agent arrives after `t`" if the clauses about its rest at the goal need one: if
   /// t is not before its earliest arrival, and it can be at rest without an X(i, goal, t), or the
   /// objective charges it for arriving late. Otherwise invalid: being there is all that matters.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "quadrille/sat/proof_log.hpp"
+
 namespace quadrille::discrete {
 
 using sat::Lit;
@@ -19,13 +21,17 @@ MddProblem::MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* th
                return model.delay_at_least(AgentId(input), static_cast<Timestep>(k));
              }),
       wanted_cap_(model.instance().num_agents(), 0) {
+  std::vector<Cost> free_costs;
   for (const AgentId i : model.instance().agent_ids()) {
     const Cost distance = model.mdd(i).distance();
+    free_costs.push_back(distance);
     if (model.objective() == Objective::sum_of_costs)
       lower_bound_ += distance;
     else
       lower_bound_ = std::max(lower_bound_, distance);
   }
+  if (engine.proof() != nullptr)
+    engine.proof()->set_inputs_beyond(total_.proof_number(), free_costs);
 }
 
 Timestep MddProblem::allowed_delay(AgentId agent, Cost bound) const {

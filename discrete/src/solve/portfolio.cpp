@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "solve/portfolio.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "quadrille/discrete/goal_distances.hpp"
 #include "solve/search.hpp"
@@ -57,14 +60,18 @@ void search_side_by_side(const Instance& instance, const SolveOptions& options, 
     if (!options.first_plan || is_second_missing || worker > 1) return Role::all;
     return worker == 0 ? Role::bound : Role::plans;
   };
+  std::vector<ProofDraft> proofs(std::max<std::size_t>(1, options.threads));
   const auto search_as = [&](std::size_t worker, const Desk& own) {
     const SolveOptions own_options = options_of(instance, options, tuner, worker);
-    ProofDraft other;
-    search(instance, own_options, tuner(own_options), own, get_distances,
-           worker == 0 ? proof : other);
+    search(instance, own_options, tuner(own_options), own, get_distances, proofs[worker]);
   };
   const solve::Pace pace{tuner(options).settings.grid_round, kLag};
   solve::Portfolio<Plan, Message>(options, account, pace, role_of, search_as).run(desk);
+  for (ProofDraft& draft : proofs) {
+    if (proof.fault.empty()) proof.fault = std::move(draft.fault);
+    if (draft.proof && (!proof.proof || draft.proof->claim > proof.proof->claim))
+      proof.proof = std::move(draft.proof);
+  }
 }
 
 }  // namespace quadrille::discrete

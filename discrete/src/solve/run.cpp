@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "certificate/lazy_meanings.hpp"
+#include "certificate/mdd_meanings.hpp"
 #include "lazy/collision_sites.hpp"
 #include "lazy/lazy_auditor.hpp"
 #include "lazy/lazy_model.hpp"
@@ -19,8 +20,10 @@
 namespace quadrille::discrete {
 namespace {
 
+/// With a log of the proof, which is made if one is wanted.
 sat::EngineOptions engine_options(const SolveOptions& options, const Tuning& tuning,
-                                  sat::ClauseObserver* observer) {
+                                  sat::ClauseObserver* observer,
+                                  std::optional<sat::ProofLog>& log) {
   sat::EngineOptions engine_options;
   engine_options.seed = options.seed;
   // Usages are negated variables.
@@ -29,6 +32,11 @@ sat::EngineOptions engine_options(const SolveOptions& options, const Tuning& tun
   engine_options.bump_reasons = tuning.bump_reasons;
   engine_options.keep_clauses = tuning.cores.from_above;
   engine_options.observer = observer;
+  if (options.proof) {
+    log.emplace(observer);
+    engine_options.observer = engine_options.proof = &*log;
+    engine_options.derivations = &*log;
+  }
   return engine_options;
 }
 
@@ -43,7 +51,7 @@ class MddRun final : public Run {
       auditor_ =
           std::make_unique<LemmaAuditor>(model_, options.debug.audit, options.debug.known_plan);
     engine_ = std::make_unique<sat::Engine>(theory_.get(),
-                                            engine_options(options, tuning, auditor_.get()));
+                                            engine_options(options, tuning, auditor_.get(), log_));
   }
 
   bool prepare(std::shared_ptr<const GoalDistances>, LimitMonitor& limits) override {
@@ -63,6 +71,10 @@ class MddRun final : public Run {
   std::optional<std::string> complaint() const override {
     return auditor_ ? auditor_->complaint() : std::nullopt;
   }
+  Result<sat::TrimmedProof> proof() const override {
+    return sat::trim_proof(*log_, MddMeanings(model_), engine_->num_variables(),
+                           problem_->lower_bound());
+  }
 
  private:
   MddGrowth growth_;
@@ -70,6 +82,7 @@ class MddRun final : public Run {
   std::unique_ptr<CollisionTheory> theory_;
   std::unique_ptr<EagerCollisions> eager_;
   std::unique_ptr<LemmaAuditor> auditor_;
+  std::optional<sat::ProofLog> log_;
   std::unique_ptr<sat::Engine> engine_;
   std::unique_ptr<MddProblem> problem_;
 };
@@ -91,13 +104,8 @@ class LazyRun final : public Run {
       recorder_.emplace(*model_, instance_.num_agents(), observer);
       observer = &*recorder_;
     }
-    sat::EngineOptions engine_options = discrete::engine_options(options_, tuning_, observer);
-    if (options_.proof) {
-      log_.emplace(observer);
-      engine_options.observer = engine_options.proof = &*log_;
-      engine_options.derivations = &*log_;
-    }
-    engine_ = std::make_unique<sat::Engine>(theory_.get(), engine_options);
+    engine_ = std::make_unique<sat::Engine>(theory_.get(),
+                                            engine_options(options_, tuning_, observer, log_));
     problem_ = std::make_unique<LazyProblem>(*model_, *engine_, *theory_, options_.objective);
     return true;
   }
@@ -137,10 +145,6 @@ class LazyRun final : public Run {
 };
 
 }  // namespace
-
-Result<sat::TrimmedProof> Run::proof() const {
-  return Error{ErrorCode::internal, "no certificate: the system keeps no proof", {}};
-}
 
 std::unique_ptr<Run> make_run(const Instance& instance, const SolveOptions& options,
                               const Tuning& tuning) {

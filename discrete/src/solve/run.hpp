@@ -37,7 +37,7 @@ class Run {
   [[nodiscard]] virtual std::int64_t num_rejected() const = 0;
   [[nodiscard]] virtual std::optional<std::string> complaint() const = 0;
   /// What its lower bound rests on. Requires SolveOptions::proof. Errors: internal.
-  [[nodiscard]] virtual Result<sat::TrimmedProof> proof() const;
+  [[nodiscard]] virtual Result<sat::TrimmedProof> proof() const = 0;
   /// Adds the raises, with their bystanders, and the sites. Requires SolveOptions::explain.
   virtual void explain(std::vector<Raise> /*raises*/, Attribution& /*attribution*/) const {}
 };

@@ -43,10 +43,6 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return refuse(ErrorCode::out_of_range,
                   "the system " + std::string(to_string(options.system)) +
                       " knows one goal for each agent; sets of several need the system dpll");
-  if (options.proof && options.system != System::dpll)
-    return refuse(ErrorCode::out_of_range, "a certificate needs the system dpll");
-  if (options.proof && options.threads > 1)
-    return refuse(ErrorCode::out_of_range, "a certificate needs one thread");
   if (options.proof && instance.has_goal_sets())
     return refuse(ErrorCode::out_of_range,
                   "a certificate knows one goal for each agent, not sets of several");
@@ -106,6 +102,7 @@ class Domain {
                                   ? choose_goals(instance_, &limits).feasibility
                                   : check_feasibility(instance_);
     if (!feasibility.feasible) {
+      invariant_ = std::move(feasibility.invariant);
       known.infeasible =
           solve::Infeasibility{std::move(feasibility.reason), std::move(feasibility.agents),
                                std::move(feasibility.vertices)};
@@ -120,7 +117,7 @@ class Domain {
   /// Into the outcome, which is complete otherwise.
   void certify(SolveOutcome& outcome) {
     if (outcome.status == Status::infeasible) {
-      outcome.no_certificate = "infeasible answers have none yet";
+      outcome.certificate = certify_infeasible(instance_, options_.objective, invariant_);
     } else if (outcome.internal_error || !proof_.fault.empty()) {
       outcome.no_certificate =
           proof_.fault.empty() ? outcome.internal_error->message : std::move(proof_.fault);
@@ -141,6 +138,7 @@ class Domain {
   const SolveOptions& options_;
   const Tuner& tuner_;
   ProofDraft proof_;
+  Invariant invariant_;
   std::optional<Cost> floor_;  // what agents cost when each is alone
 };
 

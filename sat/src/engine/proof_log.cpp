@@ -206,6 +206,16 @@ void ProofLog::set_inputs(int sum, std::vector<ProofItem> inputs) {
   sums_[static_cast<std::size_t>(sum) - 1].inputs = std::move(inputs);
 }
 
+void ProofLog::set_inputs_beyond(int sum, std::span<const Cost> costs) {
+  std::vector<ProofItem> items(costs.size());
+  for (std::size_t at = 0; at < costs.size(); ++at) {
+    items[at].kind = ProofItem::Kind::agent;
+    items[at].agent = AgentId(at);
+    items[at].base = costs[at];
+  }
+  set_inputs(sum, std::move(items));
+}
+
 void ProofLog::set_output(int sum, std::size_t item, int k, Lit lit) {
   outputs_[lit.variable()] = {sum, item, k};
   literals_[{sum, item, k}] = lit;

@@ -25,7 +25,7 @@ CertificateWriter::ClauseNumber CertificateWriter::axiom(int rule, Integers para
   put_signed(rule);
   put_signed(static_cast<std::int64_t>(parameters.size()));
   for (const std::int64_t value : parameters) put_signed(value);
-  for (const Lit lit : clause) put_signed(lit.dimacs());
+  for (const Lit lit : clause) put_signed(number(lit));
   return ++num_clauses_;
 }
 
@@ -35,7 +35,7 @@ CertificateWriter::ClauseNumber CertificateWriter::derived(std::span<const Lit> 
   text_.push_back('l');
   put(1 + clause.size() + hints.size());
   put_signed(static_cast<std::int64_t>(clause.size()));
-  for (const Lit lit : clause) put_signed(lit.dimacs());
+  for (const Lit lit : clause) put_signed(number(lit));
   for (const ClauseNumber hint : hints) put_signed(num_clauses_ - hint);
   return num_clauses_;
 }

@@ -71,7 +71,7 @@ void CounterNodes::prepare_leaf(const ProofItem& item) {
 
 void CounterNodes::write_leaf(std::int64_t number, const ProofItem& item) {
   if (item.kind == ProofItem::Kind::literal)
-    return writer_.record('n', {number, 0, item.literal.dimacs()});
+    return writer_.record('n', {number, 0, writer_.number(item.literal)});
   if (item.kind == ProofItem::Kind::agent)
     return writer_.record('n',
                           {number, 1, static_cast<std::int64_t>(item.agent.value()), item.base});
@@ -89,7 +89,7 @@ Lit CounterNodes::cost_above(AgentId agent, Cost cost) {
   const auto [made, is_new] = new_costs_.try_emplace({agent, cost});
   if (is_new) {
     const int variable = ++num_variables_;
-    meanings_.declare_cost(variable, agent, cost, writer_);
+    ProofMeanings::declare_cost(variable, agent, cost, writer_);
     declared_.insert(variable);
     made->second = ~Lit::from_dimacs(variable);
   }

@@ -154,7 +154,7 @@ class Trimmer {
       const std::vector<Lit> order{~high, low};
       ProofMeanings::Rule rule;
       if (soft.kind == ProofItem::Kind::agent)
-        rule = meanings_.order_rule(soft.agent);
+        rule = ProofMeanings::one_agent_rule(soft.agent);
       else
         rule.number = nodes_.rule_of(order);
       hints.push_back(writer_.axiom(rule.number, rule.parameters, order));

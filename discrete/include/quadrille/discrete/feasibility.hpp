@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,25 @@
 QUADRILLE_API_BEGIN
 
 namespace quadrille::discrete {
+
+/// Something that no move of the agents changes, and that differs between starts and goals
+/// (docs/feasibility.md). For certificates.
+struct Invariant {
+  enum class Kind {
+    none,
+    component,  ///< In which component the agent is.
+    bridge,     ///< On which side of a bridge, its two vertices, it is; no vertex is free.
+    cycle,      ///< The cyclic order of agents on a cycle, its vertices in order.
+    parity,     ///< That of the permutation of a block, its vertices, all of whose cycles are odd.
+    corridor,   ///< The agent's place in a long corridor or on a path, its vertices in order.
+  };
+  Kind kind = Kind::none;
+  std::optional<AgentId> agent = {};  ///< Of component, bridge and corridor.
+  std::vector<VertexId> vertices = {};
+  /// Of a corridor of one vertex: a vertex on one side of it, which is a component of what is left
+  /// without it. Absent: all else is on the other side.
+  std::optional<VertexId> beyond = {};
+};
 
 /// Whether any plan exists, of whatever cost.
 struct Feasibility {
@@ -26,6 +46,8 @@ struct Feasibility {
   /// False: some agents have several goals, there are too many choices to try them all, and those
   /// that were tried have no plan. Then `feasible` is true.
   bool is_decided = true;
+  /// Why there is none, for programs. None when feasible, and where agents have several goals.
+  Invariant invariant = {};
 };
 
 /// Decides whether an instance has a plan. Exact in both directions; docs/feasibility.md has the

@@ -101,22 +101,22 @@ struct SolveOptions : Request<Plan> {
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan.
   bool first_plan = true;
-  /// Keep all that the lower bound follows from, for SolveOutcome::certificate. For dpll, with one
-  /// thread. The search is the same. Takes 1 to 3 MB of memory per second.
+  /// Keep all that the lower bound follows from, for SolveOutcome::certificate. Not with goal sets.
+  /// The search is the same. Takes 1 to 3 MB of memory per second and thread.
   bool proof = false;
 };
 
-/// That no plan costs less than `claim`, in a form that the program quadrille-check checks; with
-/// the plan, if there is one. docs/certificates.md.
+/// That no plan costs less than `claim`, or that there is none, in a form that the program
+/// quadrille-check checks; with the plan, if there is one. docs/certificates.md.
 struct Certificate {
-  Cost claim = 0;
-  std::string bytes;  ///< A file's content, binary.
+  std::optional<Cost> claim;  ///< Absent: there is no plan.
+  std::string bytes;          ///< A file's content, binary.
 };
 
 /// Infeasible: see Feasibility. `explain` is for dpll.
 struct SolveOutcome : Outcome<Plan> {
-  /// With `proof`, for every status but infeasible. Its claim is the lower bound, or less where
-  /// that rests on `known_lower_bound`, or where memory ran out in the search.
+  /// With `proof`. Its claim is the lower bound, or less where that rests on `known_lower_bound`,
+  /// or where memory ran out in the search.
   std::optional<Certificate> certificate;
   /// With `proof`: why there is none. Else empty.
   std::string no_certificate;

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "quadrille/core/export.hpp"
@@ -25,6 +26,13 @@ class CertificateWriter {
   /// Of a clause, in the order of the records, from 1.
   using ClauseNumber = std::int64_t;
 
+  /// From now on: the certificate's variable of this number means the opposite of the solver's.
+  void negate(int variable) { negated_.insert(variable); }
+  /// The certificate's literal.
+  [[nodiscard]] std::int64_t number(Lit lit) const {
+    return negated_.count(lit.variable()) == 0 ? lit.dimacs() : -lit.dimacs();
+  }
+
   void record(char tag, Integers values);
   void record(char tag, std::initializer_list<std::int64_t> values) {
     record(tag, Integers(values.begin(), values.size()));
@@ -42,6 +50,7 @@ class CertificateWriter {
   void put_signed(std::int64_t value);
 
   std::string text_;
+  std::unordered_set<int> negated_;
   ClauseNumber num_clauses_ = 0;
 };
 
@@ -59,11 +68,17 @@ class ProofMeanings {
   [[nodiscard]] virtual Rule rule_of(const Why& why, std::span<const Lit> clause) const = 0;
   /// The literal "the agent costs more than `cost`"; invalid if nobody asked for it so far.
   [[nodiscard]] virtual Lit cost_above(AgentId agent, Cost cost) const = 0;
-  /// Writes that a variable means: the agent costs at most `cost`.
-  virtual void declare_cost(int variable, AgentId agent, Cost cost,
-                            CertificateWriter& writer) const = 0;
-  /// The rule by which "costs more than this" implies "costs more than that" for one agent.
-  [[nodiscard]] virtual Rule order_rule(AgentId agent) const = 0;
+
+  // The same in all domains.
+  [[nodiscard]] static std::int64_t agent_number(AgentId agent) {
+    return static_cast<std::int64_t>(agent.value());
+  }
+  /// Writes that a variable of the certificate means: the agent costs at most `cost`.
+  static void declare_cost(int variable, AgentId agent, Cost cost, CertificateWriter& writer) {
+    writer.record('c', {variable, agent_number(agent), cost});
+  }
+  /// That no walk of the agent makes the clause false.
+  [[nodiscard]] static Rule one_agent_rule(AgentId agent) { return {1, {agent_number(agent)}}; }
 };
 
 /// The records of a certificate, without head and plan.

@@ -67,6 +67,8 @@ class ProofLog final : public PassingObserver, public DerivationObserver {
   [[nodiscard]] int add_sum(std::size_t num_inputs,
                             std::vector<std::pair<std::size_t, std::size_t>> adders);
   void set_inputs(int sum, std::vector<ProofItem> inputs);
+  /// Its inputs are by how much agents cost more than this, one after the other.
+  void set_inputs_beyond(int sum, std::span<const Cost> costs);
   /// `lit` is true if the item is at least `k`.
   void set_output(int sum, std::size_t item, int k, Lit lit);
   /// The next core's counter.

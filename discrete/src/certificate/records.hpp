@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
+// What the certificates of all systems have in common: docs/certificates.md.
 #pragma once
 
 #include <cstdint>
 
+#include "quadrille/core/ids.hpp"
 #include "quadrille/discrete/graph.hpp"
 
 namespace quadrille::discrete {
+
+inline constexpr int kSamePlaceRule = 2, kSwapRule = 3, kRectangleRule = 4, kCorridorRule = 5;
 
 /// How certificates call a vertex: on grids the number of its cell, row by row, blocked ones
 /// counted; on other graphs the vertex's own number.
