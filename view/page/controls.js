@@ -173,8 +173,9 @@ export function updateControls(state) {
   const time = element("time", HTMLInputElement);
   writeAttribute(time, "max", String(scene.end));
   time.value = String(player.time);
-  time.setAttribute("aria-valuetext", `${state.showMoment(player.time)} of ${state.showMoment(scene.end)}`);
-  element("clock", HTMLElement).textContent = `${state.showMoment(player.time)} / ${state.showMoment(scene.end)}`;
+  const now = state.showMoment(player.time), end = state.showMoment(scene.end);
+  time.setAttribute("aria-valuetext", `${now} of ${end}`);
+  element("clock", HTMLElement).textContent = `${now} / ${end}`;
   element("speed", HTMLSelectElement).value = String(player.speed);
   /** @type {[string, boolean][]} */
   const pressed = [

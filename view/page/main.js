@@ -79,7 +79,8 @@ class Page {
     const { state } = this;
     if (state.player.playing) return;
     const agent = state.agent();
-    const text = `Time ${state.showMoment(state.player.time)}` + (agent === null ? "" : `, agent ${agent.index}`);
+    const time = state.showMoment(state.player.time);
+    const text = `Time ${time}` + (agent === null ? "" : `, agent ${agent.index}`);
     if (text === this.said) return;
     this.said = text;
     this.live.textContent = text;

@@ -16,7 +16,7 @@ bool ContinuousTheory::check_complete(std::span<const sat::Lit> assignment, Form
   on_assign(assignment);
   lazy::CheckWriter writer(target, nullptr);
   check_paths(writer);
-  return !writer.has_written();
+  return !writer.has_excluded();
 }
 
 }  // namespace quadrille::continuous

@@ -294,7 +294,7 @@ void PathTheory<D>::explain_bound(AgentId i, const Cheapest& found, Cost bound,
 template <Domain D>
 void PathTheory<D>::check_paths(CheckWriter& writer) {
   for (bool is_first = true;; is_first = false) {
-    if (!replan_all(writer) || writer.has_written()) return;
+    if (!replan_all(writer) || writer.has_excluded()) return;
     ++num_checks_;
     if (limits_.exhausted_now()) return writer.stop();
     if (is_first) domain_.before_conflicts(trail_);
@@ -306,7 +306,7 @@ void PathTheory<D>::check_paths(CheckWriter& writer) {
       exclude(conflict, writer);
     }
     notice_obstacles(writer);
-    if (writer.has_written()) return;
+    if (writer.has_excluded()) return;
     if (!trail_.any_violated([&](AgentId i) { return takes_part(i); }))
       throw InternalError{"clauses that were written before do not exclude a collision"};
   }

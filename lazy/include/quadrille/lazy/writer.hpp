@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/sat/engine.hpp"
@@ -40,7 +42,7 @@ class ContextWriter final : public FormulaWriter {
   sat::TheoryContext& context_;
 };
 
-/// Passes on what a check writes, and knows whether that is anything.
+/// Passes on what a check writes, and knows what that says of the assignment.
 class CheckWriter final : public FormulaWriter {
  public:
   /// `context`: of the solve that is running; null between solves.
@@ -48,11 +50,11 @@ class CheckWriter final : public FormulaWriter {
       : target_(target), context_(context) {}
 
   [[nodiscard]] sat::Lit new_lit() override {
-    has_written_ = true;
+    has_excluded_ = true;
     return target_.new_lit();
   }
   void add(const sat::Lemma& lemma) override {
-    has_written_ = true;
+    has_excluded_ = has_excluded_ || !is_satisfied(lemma);
     target_.add(lemma);
   }
   /// A limit is met: ends the solve soon, or throws LimitReached between solves.
@@ -61,13 +63,20 @@ class CheckWriter final : public FormulaWriter {
     context_->stop();
   }
 
-  /// Anything was written.
-  [[nodiscard]] bool has_written() const noexcept { return has_written_; }
+  /// The assignment cannot stay as it is: because of a clause of which no literal is true, or of a
+  /// literal that has no value yet. Between solves: anything was written.
+  [[nodiscard]] bool has_excluded() const noexcept { return has_excluded_; }
 
  private:
+  [[nodiscard]] bool is_satisfied(const sat::Lemma& lemma) const {
+    return context_ != nullptr &&
+           std::any_of(lemma.clause.begin(), lemma.clause.end(),
+                       [&](sat::Lit lit) { return context_->value(lit) == sat::Truth::is_true; });
+  }
+
   FormulaWriter& target_;
   sat::TheoryContext* const context_;
-  bool has_written_ = false;
+  bool has_excluded_ = false;
 };
 
 }  // namespace quadrille::lazy
