@@ -47,14 +47,17 @@ class Fleet(Generic[P]):
         group: On roadmaps: the name of a group for all agents, or n entries, None without one. An agent
             may use the edges that are open to all, and those that are reserved for its group.
         release: On roadmaps: the agent begins no move before this time, a number or float[n] in your
-            unit of time. At its start it is from the beginning all the same, in the way of others,
-            and its cost counts from there. Default 0.
+            unit of time. At its start it is from ``now`` on all the same, in the way of others, and
+            its cost counts from there. Default 0.
         deadline: On roadmaps: a plan in which the agent arrives for good later is none; a number or n
             entries, None or NaN: whenever (default). All times are rounded to the nearest tick.
         leaves: On roadmaps: whether the agent vanishes when it arrives, instead of staying at its
             goal; a truth value or bool[n]. Default false.
         obstacles: On roadmaps: ``Obstacle`` s, of which agents keep clear.
         names: n names for the agents, which plans and tables show; default "0", "1", ...
+        now: When the agents are at their starts: a timestep, 0 to 1,000,000,000, on roadmaps a time in
+            your unit, rounded to the nearest tick. All times, those of plans too, are those of the
+            same clock; costs count from ``now``. Default 0.
 
     Raises:
         InputError: for places that do not exist or are blocked, two agents with the same start or
@@ -78,6 +81,7 @@ class Fleet(Generic[P]):
         goals: Any,
         *,
         names: Optional[Sequence[str]] = None,
+        now: int = 0,
     ) -> None: ...
 
     @overload
@@ -96,6 +100,7 @@ class Fleet(Generic[P]):
         leaves: Optional[npt.ArrayLike] = None,
         obstacles: Sequence[Obstacle] = (),
         names: Optional[Sequence[str]] = None,
+        now: float = 0,
     ) -> None: ...
 
     def __init__(
@@ -113,6 +118,7 @@ class Fleet(Generic[P]):
         leaves: Optional[npt.ArrayLike] = None,
         obstacles: Sequence[Obstacle] = (),
         names: Optional[Sequence[str]] = None,
+        now: float = 0,
     ) -> None:
         instance: Union[_core.StepInstance, _core.TimedInstance]
         called = [] if names is None else [repr(str(name)) for name in names]
@@ -137,6 +143,7 @@ class Fleet(Generic[P]):
                     leaves=flags(False if leaves is None else leaves, "leaves", n),
                     under_way=under_way,
                     obstacles=[obstacle._given() for obstacle in obstacles],
+                    now=float(doubles(now, "now", ())),
                 ),
                 dict(
                     agent=lambda i: called[i] if i < len(called) else f"agent {i}",
@@ -153,7 +160,9 @@ class Fleet(Generic[P]):
             begin = ints(starts, "starts", shape)
             end, num_goals = _goal_sets(goals, shape)
             _check_lengths(len(begin), len(num_goals))
-            instance = _core.StepInstance(graph._graph, begin, end, num_goals, called)
+            instance = _core.StepInstance(
+                graph._graph, begin, end, num_goals, called, int(ints(now, "now", ()))
+            )
         self._setup(graph, instance, names)
 
     def _setup(
@@ -200,6 +209,11 @@ class Fleet(Generic[P]):
         """What the agents are called."""
         self._require_parts()
         return list(self._names)
+
+    @property
+    def now(self) -> float:
+        """When the agents are at their starts: int, a timestep, or float in your unit of time."""
+        return self._instance.now
 
     @property
     def starts(self) -> npt.NDArray[np.int32]:

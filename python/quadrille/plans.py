@@ -38,13 +38,19 @@ class Plan:
         return self._plan.num_agents
 
     @property
+    def now(self) -> float:
+        """When all paths begin: int, a timestep, or float in your unit of time."""
+        raise NotImplementedError
+
+    @property
     def costs(self) -> npt.NDArray[Any]:
-        """Per agent when it arrives for good: int64[n] in timesteps, float64[n] in your unit of time."""
+        """Per agent how long after ``now`` it arrives for good: int64[n] in timesteps, float64[n] in your
+        unit of time."""
         raise NotImplementedError
 
     @property
     def makespan(self) -> float:
-        """When the last agent arrives."""
+        """How long after ``now`` the last agent arrives."""
         return cast(float, self.costs.max(initial=0).item())
 
     @property
@@ -59,8 +65,8 @@ class Plan:
         """Where everybody is, ``hz`` times per timestep or unit of time.
 
         Returns:
-            float64[n, T, 2], (x, y) at times 0, 1 / hz, ... up to the makespan; on a roadmap with
-            heights float64[n, T, 3]. On a grid a move takes one timestep, evenly.
+            float64[n, T, 2], (x, y) at ``now`` and 1 / hz, 2 / hz, ... later, up to the makespan; on a
+            roadmap with heights float64[n, T, 3]. On a grid a move takes one timestep, evenly.
 
         Raises:
             ValueError: for a rate that is not positive, and on graphs without coordinates.
@@ -68,7 +74,7 @@ class Plan:
         if not 0 < hz < float("inf"):
             raise ValueError(f"hz: a rate is positive, not {hz}")
         # Half a millionth more, so that rounding does not cost the last moment.
-        moments = np.arange(int(np.floor(self.makespan * hz + 5e-7)) + 1) / hz
+        moments = self.now + np.arange(int(np.floor(self.makespan * hz + 5e-7)) + 1) / hz
         places = np.empty((len(self), len(moments), self._dimensions))
         for agent in range(len(self)):
             times, xy = self._timeline(agent)
@@ -208,9 +214,10 @@ class StepPath:
 
     name: str
     places: npt.NDArray[np.int32]
-    """int32[T, 2], cells (x, y), on grids; int32[T], vertices, on graphs. As long as the plan's."""
+    """int32[T, 2], cells (x, y), on grids; int32[T], vertices, on graphs, from the plan's ``now`` on. As
+    long as the plan's."""
     cost: int
-    """Timestep of its last arrival."""
+    """Timesteps until its last arrival, from the plan's ``now``."""
 
 
 class StepPlan(Plan):
@@ -221,8 +228,9 @@ class StepPlan(Plan):
 
     @property
     def paths(self) -> npt.NDArray[np.int32]:
-        """int32[n, T, 2], cells (x, y), on grids; int32[n, T], vertices, on graphs. T - 1 is the
-        makespan: agents stay in their last place. Read-only; made once."""
+        """int32[n, T, 2], cells (x, y), on grids; int32[n, T], vertices, on graphs, at the timesteps
+        ``now``, ``now`` + 1, ... T - 1 is the makespan: agents stay in their last place. Read-only;
+        made once."""
         if self._paths is None:
             self._paths = self._plan.paths(self._graph)
         return self._paths
@@ -230,6 +238,10 @@ class StepPlan(Plan):
     @property
     def _graph(self) -> _core.StepGraph:
         return cast("Union[Grid, Graph]", self._fleet.graph)._graph
+
+    @property
+    def now(self) -> int:
+        return self._plan.now
 
     @property
     def costs(self) -> npt.NDArray[np.int64]:
@@ -246,15 +258,16 @@ class StepPlan(Plan):
         if not self._graph.is_grid:
             raise ValueError("the vertices of a graph have no coordinates")
         xy = self.paths[agent].astype(np.float64)
-        return np.arange(len(xy), dtype=np.float64), xy
+        return self.now + np.arange(len(xy), dtype=np.float64), xy
 
     def _columns(self) -> dict[str, Any]:
         """One row per agent and timestep up to its arrival: agent, t, and x and y or vertex."""
         lengths = self.costs + 1
         agent = np.repeat(np.arange(len(self)), lengths)
-        t = np.concatenate([np.arange(length) for length in lengths] or [np.arange(0)])
-        columns: dict[str, Any] = {"agent": np.array(self._fleet._names, dtype=object)[agent], "t": t}
-        places = self.paths[agent, t]
+        since = np.concatenate([np.arange(length) for length in lengths] or [np.arange(0)])
+        names = np.array(self._fleet._names, dtype=object)
+        columns: dict[str, Any] = {"agent": names[agent], "t": self.now + since}
+        places = self.paths[agent, since]
         if places.ndim == 2:
             columns.update(x=places[:, 0], y=places[:, 1])
         else:
@@ -279,7 +292,7 @@ class StepPlan(Plan):
         return _core.step_picture(instance, self._plan, kind, title, agents)
 
     def _content(self) -> list[bytes]:
-        return [np.array(self.paths.shape).tobytes(), self.paths.tobytes()]
+        return [np.array([self.now, *self.paths.shape]).tobytes(), self.paths.tobytes()]
 
     def __repr__(self) -> str:
         return f"<quadrille.StepPlan of {len(self)} agents, makespan {self.makespan}>"
@@ -306,7 +319,7 @@ class TimedPath:
     """Structured [k]: (vertex, arrive, depart) in whole ticks, which is what the proof is about.
     Read-only, and not a copy: it keeps the plan alive."""
     cost: float
-    """When it arrives at its last stop."""
+    """How long after its first arrival, the plan's ``now``, it arrives at its last stop."""
 
 
 class TimedPlan(Plan):
@@ -331,6 +344,10 @@ class TimedPlan(Plan):
         return STOP if self._dimensions == 2 else STOP_IN_SPACE
 
     @property
+    def now(self) -> float:
+        return self._fleet.now
+
+    @property
     def costs(self) -> npt.NDArray[np.float64]:
         fleet = self._fleet
         return np.array([fleet._cost(cost) for cost in listed(self._plan.costs())], dtype=np.float64)
@@ -349,7 +366,7 @@ class TimedPlan(Plan):
         for axis, name in enumerate(self._axes):
             stops[name] = xy[:, axis]
         stops["arrive"], stops["depart"] = self._plan.times(agent, self._roadmap.resolution)
-        cost = float(stops["arrive"][-1])
+        cost = self._fleet._cost(int(ticks["arrive"][-1] - ticks["arrive"][0]))
         return TimedPath(self._fleet._names[agent], stops, ticks, cost)
 
     def start_at(self, agent: int, time: float) -> Any:

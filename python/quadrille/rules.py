@@ -50,8 +50,8 @@ class Obstacle:
 
 @dataclass(frozen=True)
 class Underway:
-    """Instead of a start: at time 0 the agent is in the middle of the move from ``source`` to ``target``
-    and finishes it, without a stop, also if there is no such edge any more."""
+    """Instead of a start: when the fleet begins the agent is in the middle of the move from ``source`` to
+    ``target`` and finishes it, without a stop, also if there is no such edge any more."""
 
     source: Any
     """Vertex, or its name."""

@@ -135,10 +135,13 @@ void refuse_shared(const Graph& graph, const std::vector<Goals>& ends, const std
 }
 
 /// `goals`: those of the first agent, then those of the next one; `num_goals`: how many each has.
-/// `names`: what agents are called in messages, or none.
+/// `names`: what agents are called in messages, or none. `now`: as in Instance::make.
 Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, const Ints& goals,
                      const std::vector<std::size_t>& num_goals,
-                     const std::vector<std::string>& names) {
+                     const std::vector<std::string>& names, std::int64_t now) {
+  if (now < 0 || now > discrete::kMaxNow)
+    refuse("now: the fleet begins at timestep " + std::to_string(now) + ", not 0 .. " +
+           std::to_string(discrete::kMaxNow));
   std::vector<discrete::Agent> agents;
   const std::size_t size = place_size(*graph);
   const std::int64_t* goal = goals.data();
@@ -151,7 +154,7 @@ Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, co
     if (set.empty()) refuse(agent + " has no goal");
     agents.push_back({start, Goals(std::move(set))});
   }
-  auto instance = Instance::make(graph, agents);
+  auto instance = Instance::make(graph, agents, static_cast<Timestep>(now));
   if (!instance && names.size() == agents.size()) {
     std::vector<Goals> begins, ends;
     for (const discrete::Agent& agent : agents) {
@@ -292,6 +295,7 @@ void bind_steps(py::module_& module) {
       .def("edges", &edges_of);
   py::class_<Plan>(module, "StepPlan")
       .def_property_readonly("num_agents", [](const Plan& plan) { return plan.paths.size(); })
+      .def_readonly("now", &Plan::now)
       .def("costs",
            [](const Plan& plan) {
              auto costs = new_array<std::int64_t>({plan.paths.size()});
@@ -304,6 +308,7 @@ void bind_steps(py::module_& module) {
   py::class_<Instance>(module, "StepInstance")
       .def(py::init(&instance_of))
       .def_property_readonly("num_agents", &Instance::num_agents)
+      .def_property_readonly("now", &Instance::now)
       .def_property_readonly("graph",
                              [](const Instance& instance) {
                                // Nobody on this side can change it.

@@ -198,6 +198,10 @@ void bind_timed(py::module_& module) {
                              })
       .def_property_readonly("num_agents",
                              [](const TimedInstance& self) { return self.agents().size(); })
+      .def_property_readonly("now",
+                             [](const TimedInstance& self) {
+                               return continuous::in_input_units(self.now(), self.resolution());
+                             })
       .def_property_readonly("resolution",
                              [](const TimedInstance& self) {
                                const Resolution& resolution = self.resolution();

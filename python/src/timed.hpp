@@ -38,6 +38,7 @@ struct TimedParts {
   std::vector<continuous::Agent> agents;
   continuous::Resolution resolution;
   std::vector<continuous::MovingObstacle> obstacles;
+  continuous::Ticks now;
 };
 
 /// An instance in continuous time, and the grid that its roadmap comes from, if any: logs name its
@@ -72,6 +73,7 @@ class TimedInstance {
   [[nodiscard]] const std::vector<continuous::MovingObstacle>& obstacles() const {
     return parts_ ? parts_->obstacles : instance().obstacles();
   }
+  [[nodiscard]] continuous::Ticks now() const { return parts_ ? parts_->now : instance().now(); }
   [[nodiscard]] const continuous::GridRoadmap* grid_or_null() const {
     return grid_ ? &*grid_ : nullptr;
   }
@@ -85,7 +87,8 @@ class TimedInstance {
 
 /// Starts and goals are vertices, the goals of the first agent, then those of the next one;
 /// `num_goals`: how many each has; a body is a radius, or float64[k, 2], the corners of a polygon.
-/// `rules`: what rules_of gives, and `under_way`: [(agent, from, to, fraction)], instead of starts.
+/// `rules`: what rules_of gives, `now`: when all begins, and `under_way`: [(agent, from, to,
+/// fraction)], instead of starts.
 /// `called`: "agent" and "vertex", functions from a number to what it is called in messages.
 TimedInstance instance_of(const std::shared_ptr<continuous::Roadmap>& roadmap, const Sizes& sizes,
                           const Ints& starts, const Ints& goals,

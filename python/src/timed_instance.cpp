@@ -230,12 +230,15 @@ TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& 
   std::vector<continuous::MovingObstacle> obstacles;
   for (const py::handle obstacle : rules["obstacles"].cast<py::list>())
     obstacles.push_back(obstacle_of(obstacle.cast<py::tuple>(), resolution, obstacles.size()));
-  auto instance = Instance::make(roads, agents, resolution, {}, obstacles);
+  const auto now = moment_of(rules["now"].cast<double>(), resolution, "now: the fleet begins");
+  if (!now) refuse("now: the time at which the fleet begins is not a number");
+  auto instance = Instance::make(roads, agents, resolution, {}, obstacles, *now);
   if (instance) return TimedInstance(std::move(instance).value());
   Error error =
-      continuous::in_words(instance.error(), roads, agents, resolution, obstacles, 0, words);
+      continuous::in_words(instance.error(), roads, agents, resolution, obstacles, *now, words);
   if (error.code != ErrorCode::no_plan) raise(error);
-  return {std::move(error), TimedParts{roads, std::move(agents), resolution, std::move(obstacles)}};
+  return {std::move(error),
+          TimedParts{roads, std::move(agents), resolution, std::move(obstacles), *now}};
 }
 
 py::array starts_of(const TimedInstance& self) {

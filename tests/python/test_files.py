@@ -21,7 +21,8 @@ def renamed(fleet, rng):
     names = rng.sample(NAMES, len(fleet)) if rng.random() < 0.8 else None
     graph = fleet.graph
     if not isinstance(graph, q.Roadmap):
-        return q.Fleet(graph, fleet.starts, fleet.goals, names=names)
+        now = rng.choice([0, 0, 1, 10**9])
+        return q.Fleet(graph, fleet.starts, fleet.goals, names=names, now=now)
     nodes = rng.sample(NODES, graph.num_vertices) if rng.random() < 0.7 else None
     groups = dict(zip(graph.groups, rng.sample(NAMES, len(graph.groups))))
     if rng.random() < 0.3:
@@ -48,6 +49,7 @@ def renamed(fleet, rng):
         deadline=fleet.deadlines,
         leaves=fleet.leaves,
         names=names,
+        now=fleet.now,
     )
 
 
@@ -75,7 +77,7 @@ def random_named_fleet(seed):
 
 def same(fleet, again):
     assert type(again.graph) is type(fleet.graph)
-    assert again.names == fleet.names
+    assert again.names == fleet.names and again.now == fleet.now
     assert np.array_equal(fleet.starts, again.starts) and np.array_equal(fleet.goals, again.goals)
     if isinstance(fleet.graph, q.Roadmap):
         count = fleet.graph.num_vertices  # without the places of agents that are under way
@@ -95,6 +97,8 @@ def same(fleet, again):
 
 def formats_of(fleet):
     """(format or None, ending) of plans."""
+    if fleet.now > 0:
+        return [(None, ".json"), (None, ""), ("json", ".txt")]
     if isinstance(fleet.graph, q.Roadmap):
         return [(None, ".json"), (None, ".xml"), (None, ""), ("json", ".txt"), ("ccbs", ""), ("ccbs", ".json")]
     found = [(None, ".json"), (None, ".yaml"), (None, ".yml"), (None, ""), ("yaml", ".json"), ("json", ".csv")]
@@ -109,7 +113,7 @@ def test_what_is_saved_is_read(tmp_path):
             continue
         rng = random.Random(seed)
         ways = [(None, ".json"), (None, ""), ("json", ".dat")]
-        if isinstance(fleet.graph, q.Grid):
+        if isinstance(fleet.graph, q.Grid) and fleet.now == 0:
             ways += [(None, ".yaml"), (None, ".yml"), ("yaml", ".dat"), ("json", ".yaml"), ("yaml", ".json")]
         format, ending = rng.choice(ways)
         file = tmp_path / f"i{ending}"

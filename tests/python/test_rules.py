@@ -53,6 +53,7 @@ def random_fleet(seed):
             deadline=[rng.choice([None, rng.uniform(4, 20)]) for _ in range(n)],
             leaves=[rng.random() < 0.3 for _ in range(n)],
             obstacles=[obstacle] if rng.random() < 0.5 else [],
+            now=rng.choice([0, 0, rng.uniform(0, 3)]),
         )
     )
 
@@ -66,7 +67,7 @@ def test_files_keep_the_rules_and_the_program_gives_the_same_answers(tmp_path):
     solved = 0
     for seed, fleet in saved_fleets(random_fleet, 60, tmp_path / "i.json"):
         again = q.read(tmp_path / "i.json")
-        for rule in ("releases", "deadlines", "leaves", "under_way", "starts"):
+        for rule in ("releases", "deadlines", "leaves", "under_way", "starts", "now"):
             assert np.array_equal(getattr(fleet, rule), getattr(again, rule), equal_nan=rule == "deadlines"), rule
         assert again.groups == fleet.groups and again.graph.groups == fleet.graph.groups
         assert again.graph.only[: len(fleet.graph.only)] == fleet.graph.only
@@ -81,7 +82,8 @@ def test_files_keep_the_rules_and_the_program_gives_the_same_answers(tmp_path):
         solved += 1
         assert ours.plan.verify()
         known = ~np.isnan(fleet.deadlines)
-        assert (ours.plan.costs[known] <= fleet.deadlines[known] + 0.005).all()
+        assert ours.plan.now == fleet.now
+        assert (fleet.now + ours.plan.costs[known] <= fleet.deadlines[known] + 0.005).all()
         for path, release in zip(ours.plan, fleet.releases):
             assert len(path.stops) == 1 or path.stops["depart"][0] >= release
     assert solved > 10 or scaled(60) < 60
