@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "checker.hpp"
-#include "export.hpp"
+#include "exports/export.hpp"
+#include "rules/checker.hpp"
 
 namespace quadrille_check {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What quadrille-check exports is checked by programs of its own, and each claim is refuted.
-#include "export.hpp"
+#include "exports/export.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

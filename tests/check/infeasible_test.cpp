@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Certificates of instances without a plan: each is verified, and no instance with a plan has one.
-#include "infeasible.hpp"
+#include "rules/infeasible.hpp"
 
 #include <gtest/gtest.h>
 

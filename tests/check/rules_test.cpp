@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The checker's rules, with neighbours that are false: against enumeration where that is possible.
-#include "rules.hpp"
+#include "rules/rules.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "checker.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
+#include "rules/checker.hpp"
 
 namespace quadrille_check::support {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "check/support.hpp"
-#include "rules.hpp"
+#include "rules/rules.hpp"
 #include "support/environment.hpp"
 #include "support/random.hpp"
 

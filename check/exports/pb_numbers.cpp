@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pb_numbers.hpp"
+#include "exports/pb_numbers.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -5,9 +5,9 @@
 #include <optional>
 #include <set>
 
-#include "export.hpp"
-#include "hints.hpp"
-#include "pb_numbers.hpp"
+#include "exports/export.hpp"
+#include "exports/hints.hpp"
+#include "exports/pb_numbers.hpp"
 
 namespace quadrille_check {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "basics.hpp"
-#include "instance.hpp"
-#include "records.hpp"
+#include "read/basics.hpp"
+#include "read/instance.hpp"
+#include "read/records.hpp"
 
 namespace quadrille_check {
 

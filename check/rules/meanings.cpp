@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "meanings.hpp"
+#include "rules/meanings.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ledger.hpp"
+#include "rules/ledger.hpp"
 
 #include <algorithm>
 

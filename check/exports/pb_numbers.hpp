@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "basics.hpp"
-#include "meanings.hpp"
+#include "read/basics.hpp"
+#include "rules/meanings.hpp"
 
 namespace quadrille_check {
 

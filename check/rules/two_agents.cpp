@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "rules.hpp"
+#include "rules/rules.hpp"
 
 namespace quadrille_check {
 namespace {

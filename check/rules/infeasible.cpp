@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "infeasible.hpp"
+#include "rules/infeasible.hpp"
 
 #include <algorithm>
 #include <utility>

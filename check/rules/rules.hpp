@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "instance.hpp"
-#include "meanings.hpp"
+#include "read/instance.hpp"
+#include "rules/meanings.hpp"
 
 namespace quadrille_check {
 

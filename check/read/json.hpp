@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "basics.hpp"
+#include "read/basics.hpp"
 
 namespace quadrille_check {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "basics.hpp"
-#include "instance.hpp"
-#include "meanings.hpp"
+#include "read/basics.hpp"
+#include "read/instance.hpp"
+#include "rules/meanings.hpp"
 
 namespace quadrille_check {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "basics.hpp"
+#include "read/basics.hpp"
 
 namespace quadrille_check {
 

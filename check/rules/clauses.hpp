@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "basics.hpp"
+#include "read/basics.hpp"
 
 namespace quadrille_check {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "clauses.hpp"
+#include "rules/clauses.hpp"
 
 #include <cstdlib>
 #include <utility>

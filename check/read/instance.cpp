@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "instance.hpp"
+#include "read/instance.hpp"
 
 #include <algorithm>
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "basics.hpp"
+#include "read/basics.hpp"
 
 namespace quadrille_check {
 

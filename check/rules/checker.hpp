@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "clauses.hpp"
-#include "instance.hpp"
-#include "ledger.hpp"
-#include "meanings.hpp"
-#include "records.hpp"
-#include "rules.hpp"
+#include "read/instance.hpp"
+#include "read/records.hpp"
+#include "rules/clauses.hpp"
+#include "rules/ledger.hpp"
+#include "rules/meanings.hpp"
+#include "rules/rules.hpp"
 
 namespace quadrille_check {
 

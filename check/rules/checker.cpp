@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "checker.hpp"
+#include "rules/checker.hpp"
 
 #include <algorithm>
 #include <unordered_map>
 
-#include "infeasible.hpp"
+#include "rules/infeasible.hpp"
 
 namespace quadrille_check {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "records.hpp"
+#include "read/records.hpp"
 
 #include <charconv>
 #include <sstream>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "checker.hpp"
+#include "rules/checker.hpp"
 
 namespace quadrille_check {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "instance.hpp"
+#include "read/instance.hpp"
 
 namespace quadrille_check {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hints.hpp"
+#include "exports/hints.hpp"
 
 #include <cstdlib>
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <vector>
 
-#include "export.hpp"
-#include "hints.hpp"
-#include "records.hpp"
+#include "exports/export.hpp"
+#include "exports/hints.hpp"
+#include "read/records.hpp"
 
 namespace quadrille_check {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "rules.hpp"
+#include "rules/rules.hpp"
 
 namespace quadrille_check {
 

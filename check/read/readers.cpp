@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "instance.hpp"
-#include "json.hpp"
+#include "read/instance.hpp"
+#include "read/json.hpp"
 
 namespace quadrille_check {
 namespace {

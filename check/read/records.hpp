@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "basics.hpp"
+#include "read/basics.hpp"
 
 namespace quadrille_check {
 
