@@ -10,7 +10,7 @@ namespace {
 
 constexpr SettingInfo kTable[] = {
 #define QUADRILLE_SETTING(name, value, least, most, unit, meaning, basis) \
-  {#name, &Settings::name, least, most, unit, meaning, basis},
+  {#name, &Settings::name, least, most, unit, meaning},
 #include "quadrille/core/settings_table.inc"
 #undef QUADRILLE_SETTING
 };
@@ -20,7 +20,8 @@ std::optional<Error> check(const SettingInfo& info, std::int64_t value) {
   return Error{ErrorCode::out_of_range,
                "the setting " + std::string(info.name) + " is " + std::to_string(value) +
                    ", it must be from " + std::to_string(info.least) + " to " +
-                   std::to_string(info.most),
+                   std::to_string(info.most) + ": " + std::string(info.unit) + " " +
+                   std::string(info.meaning),
                {}};
 }
 

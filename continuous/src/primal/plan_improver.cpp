@@ -7,6 +7,7 @@
 #include "quadrille/continuous/verify.hpp"
 
 namespace quadrille::continuous {
+
 PlanImprover::PlanImprover(Scene& scene, Plan plan)
     : scene_(scene),
       plan_(std::move(plan)),

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 namespace quadrille::discrete {
+
 void MarginalGain::add(Lately& side, std::int64_t effort, Cost gain) const {
   side.effort += effort;
   side.gain += gain;

@@ -6,10 +6,10 @@
 namespace quadrille::discrete {
 namespace {
 
-/// Whether the search for the least cost also looks for plans from above. The MDD model would have
-/// to grow for plans far above the lower bound.
-bool searches_from_above(const SolveOptions& options) noexcept {
-  return options.settings.above_share > 0 && options.system == System::dpll && options.first_plan &&
+/// Whether the search for the least cost may look for plans from above, too. The MDD model would
+/// have to grow for plans far above the lower bound.
+bool may_search_from_above(const SolveOptions& options) noexcept {
+  return options.system == System::dpll && options.first_plan &&
          options.objective == Objective::sum_of_costs &&
          options.cost_search.value_or(CostSearch::core_guided) == CostSearch::core_guided;
 }
@@ -31,12 +31,13 @@ Tuning choose_tuning(const Features& features, const SolveOptions& options) {
       options.lazy.chronological.value_or(num_agents >= settings.lazy_chronological_agents);
   tuning.bump_reasons = !features.is_open;
   tuning.explicit_paths = {settings.explicit_variables, settings.explicit_lemmas};
-  tuning.cores = {searches_from_above(options), settings.core_most_lift > 1};
   if (features.is_open) {
     if (settings.explicit_variables > 0) tuning.explicit_paths = {1, settings.explicit_lemmas_open};
     settings.above_share = settings.above_share_open;
     settings.above_candidates_within = settings.above_candidates_within_open;
   }
+  tuning.cores = {settings.above_share > 0 && may_search_from_above(options),
+                  settings.core_most_lift > 1};
   return tuning;
 }
 

@@ -8,6 +8,7 @@
 #include "cost/plan_query.hpp"
 
 namespace quadrille::sat {
+
 CoreExtraction::CoreExtraction(const CostSearchContext& context, const CoreGuidedOptions& options,
                                Statistics& statistics)
     : context_(context), options_(options), statistics_(statistics), minimiser_(context) {}

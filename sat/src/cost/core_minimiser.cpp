@@ -5,6 +5,7 @@
 #include <iterator>
 
 namespace quadrille::sat {
+
 bool CoreMinimiser::may_spend(const Spent& spent, const Spent& other, std::int64_t searched) const {
   const std::int64_t effort = context_.engine.effort() - spent.effort - other.effort;
   const Settings& settings = context_.settings;

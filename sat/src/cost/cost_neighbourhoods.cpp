@@ -8,6 +8,7 @@
 #include "cost/plan_query.hpp"
 
 namespace quadrille::sat {
+
 CostNeighbourhoods::CostNeighbourhoods(const CostSearchContext& context, ExcessCounter& counter)
     : context_(context), counter_(counter), num_free_(context.problem.num_agents() / 5 + 1) {}
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace quadrille::sat {
+
 Verdict find_plan(const CostSearchContext& context, std::span<const Lit> assumptions,
                   std::optional<std::int64_t> conflicts) {
   LimitMonitor& limits = context.limits;

@@ -6,6 +6,7 @@
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::sat {
+
 void SearchFromAbove::rebase(const Relaxation& relaxation) {
   if (parts_ && relaxation.bound() < parts_->counter.base() + context_.settings.above_rebase)
     return;

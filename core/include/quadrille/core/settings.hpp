@@ -29,8 +29,7 @@ struct SettingInfo {
   std::int64_t Settings::*value;
   std::int64_t least, most;  ///< Both included.
   std::string_view unit;
-  std::string_view meaning;  ///< Begins after the number and its unit.
-  std::string_view basis;    ///< What was measured; empty: nothing.
+  std::string_view meaning;  ///< Goes on after the number and its unit.
 };
 [[nodiscard]] std::span<const SettingInfo> settings_table() noexcept;
 
