@@ -163,6 +163,22 @@ TEST(Certificate, DoesNotProveWhatTheUserClaims) {
   EXPECT_GT(claims, 0);
 }
 
+// Times and costs of certificates count from the moment at which the instance begins.
+TEST(Certificate, IsThatOfTheInstanceBegunAt0) {
+  for (std::uint64_t seed = 2000; seed < 2000 + scaled(100); ++seed) {
+    SCOPED_TRACE(seed);
+    const Case c = draw(seed);
+    const Instance later = c.instance.with_now(1'000'000 + static_cast<Timestep>(seed)).value();
+    const SolveOutcome a = solve_at(c.instance, c.options, c.pace);
+    const SolveOutcome b = solve_at(later, c.options, c.pace);
+    ASSERT_EQ(a.status, b.status);
+    ASSERT_TRUE(b.certificate);
+    EXPECT_EQ(a.certificate->claim, b.certificate->claim);
+    EXPECT_EQ(a.certificate->bytes, b.certificate->bytes);
+    EXPECT_TRUE(ask(checked(later), b.certificate->bytes).is_verified);
+  }
+}
+
 TEST(Certificate, KnowsOneGoalForEachAgent) {
   Random random(1);
   const Instance sets = support::with_more_goals(random, draw(0).instance);

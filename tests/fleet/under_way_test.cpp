@@ -48,6 +48,29 @@ void put(Robot robot, const TimedPath& path, Seconds time) {
   robot.from_edge(last.vertex, next->vertex, (time - last.depart) / (next->arrive - last.depart));
 }
 
+// One clock for the fleet, its plans and those that are made again: costs count from the beginning.
+TEST(UnderWay, PlansAgainOnOneClock) {
+  Corridor c;
+  c.fleet.begins_at(100_s);
+  EXPECT_EQ(c.fleet.begin(), 100_s);
+  const TimedPlan first = c.plan();
+  EXPECT_EQ(first[c.robot].stops().front().arrive, 100_s);
+  EXPECT_EQ(first[c.robot].stops().back().arrive, 105_s);
+  EXPECT_EQ(first[c.robot].cost(), 5_s);
+  EXPECT_EQ(first[c.robot].samples(1_Hz).back().time, 105_s);
+  c.fleet[c.robot].from(first[c.robot], 102_s);
+  c.fleet.begins_at(102_s);
+  const TimedPlan second = c.plan();
+  EXPECT_EQ(second[c.robot].stops().front().arrive, 102_s);
+  EXPECT_EQ(second[c.robot].stops().back().arrive, 105_s);
+  EXPECT_EQ(second[c.robot].cost(), 3_s);
+  // What is asked is on the same clock.
+  c.fleet[c.robot].deadline(104_s);
+  EXPECT_THAT(c.fleet.instance().error().message, HasSubstr("cannot arrive before 105"));
+  c.fleet.begins_at(-1_s);
+  EXPECT_EQ(c.fleet.instance().error().code, ErrorCode::out_of_range);
+}
+
 TEST(UnderWay, PlansAgainTwiceWithinOneMoveByHand) {
   Corridor c;
   put(c.fleet[c.robot], c.plan()[c.robot], 1_s);
