@@ -9,6 +9,7 @@
 #include <string>
 
 #include "continuous/support/random_instance.hpp"
+#include "faults/instances.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/discrete/solver.hpp"
@@ -104,6 +105,21 @@ TEST(Settings, ChangeNoAnswerOnRoadmaps) {
     expect_same_answers(continuous::test::random_instance(seed, shape), options, random);
     if (testing::Test::HasFatalFailure()) return;
   }
+}
+
+// Only the second thread draws costs around the last ones; what it finds changes what the first one
+// does.
+TEST(Settings, ReachTheSecondThreadOnRoadmaps) {
+  const continuous::Instance instance = discs(60, 20, 4);
+  const auto decisions = [&](std::int64_t kept_percent) {
+    continuous::SolveOptions options;
+    options.threads = 2;
+    options.joint_work = options.route_work = 0;
+    options.limits.conflicts = 4000;
+    options.settings.cover_kept_percent = kept_percent;
+    return solve(instance, options).value().statistics.decisions;
+  };
+  EXPECT_NE(decisions(0), decisions(85));
 }
 
 }  // namespace
