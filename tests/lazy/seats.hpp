@@ -144,7 +144,9 @@ class SeatDomain {
     writer.add({sat::why::Vertex{}, clause, {}, false});
     return {a, b};
   }
-  [[nodiscard]] std::int64_t effort(std::int64_t num_assigned) const { return num_assigned; }
+  [[nodiscard]] Effort effort(std::int64_t num_assigned) const {
+    return Effort::nanoseconds(num_assigned);
+  }
 
   int num_explained = 0, num_partings = 0;
 

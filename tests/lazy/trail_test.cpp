@@ -17,7 +17,7 @@
 namespace quadrille::lazy {
 namespace {
 
-using sat::Effort;
+using sat::Extent;
 using sat::Lemma;
 using sat::Lit;
 using sat::Theory;
@@ -101,7 +101,7 @@ class Checked final : public Theory {
     count_.restored += current_paths() == before ? 0 : 1;
     compare();
   }
-  void check(Effort, TheoryContext&) override {
+  void check(Extent, TheoryContext&) override {
     if (obstacles_.size() < 60 && random_.percent(30)) make_obstacle();
     if (random_.percent(70)) notice();
     if (random_.percent(70)) mend();

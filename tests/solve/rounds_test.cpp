@@ -19,6 +19,7 @@ namespace quadrille::solve {
 namespace {
 
 constexpr std::int64_t kRound = 1000;
+constexpr Effort kLength = Effort::nanoseconds(kRound);
 
 /// The largest bound and the cheapest plan, if there is one.
 struct News {
@@ -58,7 +59,8 @@ void run(Rounds<News>& rounds, std::vector<Worker>& workers, std::uint64_t seed)
       Random random(seed * 100 + w);
       for (const std::int64_t effort : workers[w].efforts) {
         std::this_thread::sleep_for(std::chrono::microseconds(random.below(300)));
-        const auto news = rounds.arrive(w, effort, [&] { return bound_of(effort); });
+        const auto news =
+            rounds.arrive(w, Effort::nanoseconds(effort), [&] { return bound_of(effort); });
         workers[w].heard.push_back(news ? news->lower : -1);
       }
       rounds.end(w, false, bound_of(0));
@@ -78,7 +80,7 @@ void expect_that_speeds_do_not_matter(std::int64_t lag) {
     }
     std::vector<std::vector<Worker>> runs(3, drawn);
     for (std::size_t k = 0; k < runs.size(); ++k) {
-      Rounds<News> rounds(drawn.size(), kRound, false, lag);
+      Rounds<News> rounds(drawn.size(), kLength, false, lag);
       run(rounds, runs[k], k);
       for (std::size_t w = 0; w < drawn.size(); ++w) ASSERT_EQ(runs[k][w].heard, runs[0][w].heard);
     }
@@ -92,7 +94,7 @@ TEST(Rounds, WhatIsHeardDependsOnEffortsAndNotOnSpeeds) {
 TEST(Rounds, TheFirstNewsOfTheSameRoundOrLaterAreHeard) {
   std::vector<Worker> workers{{{kRound, 3 * kRound, 3 * kRound + 1, 4 * kRound}, {}},
                               {{kRound + 7, 2 * kRound, 7 * kRound}, {}}};
-  Rounds<News> rounds(2, kRound, false);
+  Rounds<News> rounds(2, kLength, false);
   run(rounds, workers, 3);
   const std::vector<Cost> first{kRound + 7, 7 * kRound, -1, 7 * kRound},
       second{kRound, 3 * kRound, 0};
@@ -103,9 +105,10 @@ TEST(Rounds, TheFirstNewsOfTheSameRoundOrLaterAreHeard) {
 TEST(Rounds, WithALagNewsAreOlderAndNobodyWaitsAsLong) {
   constexpr std::int64_t kLag = 2;
   const Cost lag = kLag * kRound;
-  Rounds<News> rounds(2, kRound, false, kLag);
+  Rounds<News> rounds(2, kLength, false, kLag);
   const auto arrive = [&](std::size_t worker, std::int64_t effort) {
-    const auto news = rounds.arrive(worker, effort, [&] { return bound_of(effort); });
+    const auto news =
+        rounds.arrive(worker, Effort::nanoseconds(effort), [&] { return bound_of(effort); });
     return news ? news->lower : -1;
   };
   {
@@ -118,17 +121,18 @@ TEST(Rounds, WithALagNewsAreOlderAndNobodyWaitsAsLong) {
 }
 
 TEST(Rounds, TheFirstOnesAreShort) {
-  Rounds<News> rounds(1, 320, false);
+  Rounds<News> rounds(1, Effort::nanoseconds(320), false);
   std::vector<std::int64_t> ends;
   for (std::int64_t effort = 0; effort < 1000; ++effort)
-    if (rounds.arrive(0, effort, [] { return News(); })) ends.push_back(effort);
+    if (rounds.arrive(0, Effort::nanoseconds(effort), [] { return News(); }))
+      ends.push_back(effort);
   EXPECT_EQ(ends, (std::vector<std::int64_t>{0, 10, 20, 40, 80, 160, 320, 640, 960}));
 }
 
 TEST(Rounds, NewsAreMerged) {
-  Rounds<News> rounds(4, kRound, true);
+  Rounds<News> rounds(4, kLength, true);
   const auto tell = [&](std::size_t worker, News news) {
-    return rounds.arrive(worker, kRound, [&] { return std::move(news); });
+    return rounds.arrive(worker, kLength, [&] { return std::move(news); });
   };
   static_cast<void>(tell(1, bound_of(5)));
   static_cast<void>(tell(2, plan_of(9)));
@@ -144,14 +148,15 @@ TEST(Rounds, NewsAreMerged) {
 
 TEST(Rounds, TheProofOfTheEarliestRoundWins) {
   for (const bool race : {false, true}) {
-    Rounds<News> rounds(2, kRound, race);
+    Rounds<News> rounds(2, kLength, race);
     {
       const std::jthread slow([&] {
-        static_cast<void>(rounds.arrive(0, kRound, [] { return News(); }));
+        static_cast<void>(rounds.arrive(0, kLength, [] { return News(); }));
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
         rounds.end(0, true, {});  // In round 1.
       });
-      static_cast<void>(rounds.arrive(1, 2 * kRound - 1, [] { return News(); }));
+      static_cast<void>(
+          rounds.arrive(1, Effort::nanoseconds(2 * kRound - 1), [] { return News(); }));
       rounds.end(1, true, {});  // In round 1, too: only the order of workers decides.
     }
     EXPECT_TRUE(rounds.over());
@@ -160,9 +165,9 @@ TEST(Rounds, TheProofOfTheEarliestRoundWins) {
 }
 
 TEST(Rounds, WhoIsLeftAloneIsTold) {
-  Rounds<News> rounds(2, kRound, false);
+  Rounds<News> rounds(2, kLength, false);
   rounds.end(1, false, bound_of(6));
-  const auto heard = rounds.arrive(0, kRound, [] { return News(); });
+  const auto heard = rounds.arrive(0, kLength, [] { return News(); });
   ASSERT_TRUE(heard);
   EXPECT_TRUE(heard->others_ended);
   EXPECT_EQ(heard->lower, 6);
@@ -170,12 +175,12 @@ TEST(Rounds, WhoIsLeftAloneIsTold) {
 }
 
 TEST(Rounds, CancelWakesWhoWaits) {
-  Rounds<News> rounds(2, kRound, false);
+  Rounds<News> rounds(2, kLength, false);
   const std::jthread other([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     rounds.cancel();
   });
-  EXPECT_TRUE(rounds.arrive(0, kRound, [] { return News(); }));
+  EXPECT_TRUE(rounds.arrive(0, kLength, [] { return News(); }));
   EXPECT_TRUE(rounds.over());
   EXPECT_EQ(rounds.winner(), std::nullopt);
 }

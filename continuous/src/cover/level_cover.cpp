@@ -79,7 +79,7 @@ std::vector<LevelCover::Group> LevelCover::make_groups() const {
   return groups;
 }
 
-bool LevelCover::solve(LimitMonitor& limits, std::int64_t most_effort) {
+bool LevelCover::solve(LimitMonitor& limits, Effort most_effort) {
   std::vector<Group> groups = make_groups();
   // A tree of a group serves any group that contains it: others' cores and costs only add to its
   // bounds. Of several, the one with the most work in it is kept.
@@ -116,7 +116,7 @@ Cost LevelCover::price(const Group& group, const IdVector<AgentId, Cost>& costs)
 }
 
 // Best first. Leaves are never dropped because of a good solution: later cores may exclude it.
-bool LevelCover::solve(Group& group, LimitMonitor& limits, std::int64_t most_effort) {
+bool LevelCover::solve(Group& group, LimitMonitor& limits, Effort most_effort) {
   const auto is_later = [](const CoverLeaf& a, const CoverLeaf& b) { return a.bound > b.bound; };
   const auto push = [&](CoverLeaf leaf) {
     group.open.push_back(std::move(leaf));
@@ -125,7 +125,7 @@ bool LevelCover::solve(Group& group, LimitMonitor& limits, std::int64_t most_eff
   program_.set_cores(group.table, group.numbers);
   program_.set_sums(group.sums);
   group.cost = price(group, group.best);
-  const std::int64_t last = effort() + most_effort;
+  const Effort last = effort() + most_effort;
   while (true) {
     QUADRILLE_REQUIRE(!group.open.empty(), "raising every level hits all cores");
     if (group.open.front().bound >= group.cost || effort() >= last) return true;

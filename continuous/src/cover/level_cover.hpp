@@ -7,6 +7,7 @@
 
 #include "cover/cover_shares.hpp"
 #include "cover/leaf_program.hpp"
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/limits.hpp"
 
@@ -27,14 +28,14 @@ class LevelCover {
   void add(LevelCore core);
   [[nodiscard]] std::size_t num_cores() const noexcept { return cores_.size(); }
 
-  /// Elementary steps of a call of solve at most, for each group of agents: about ten seconds. A
-  /// net: no call is known that takes as much.
-  static constexpr std::int64_t kMostEffort = 4'000'000'000;
+  /// Of a call of solve at most, for each group of agents. A net: no call is known that takes as
+  /// much.
+  static constexpr Effort kMostEffort = Effort::microseconds(5'000'000);
 
   /// Finds costs of least sum, or some that hit all cores, as cheap as were found with
-  /// `most_effort` steps; the next call goes on from there. False if `limits` ended that early: the
+  /// `most_effort`; the next call goes on from there. False if `limits` ended that early: the
   /// costs are as before then.
-  [[nodiscard]] bool solve(LimitMonitor& limits, std::int64_t most_effort = kMostEffort);
+  [[nodiscard]] bool solve(LimitMonitor& limits, Effort most_effort = kMostEffort);
   /// Of the last call of solve that returned true; at first the free costs.
   [[nodiscard]] const IdVector<AgentId, Cost>& costs() const noexcept { return costs_; }
   /// No costs that hit all cores of that call have a smaller sum; their own, if they are exact.
@@ -51,8 +52,10 @@ class LevelCover {
   [[nodiscard]] std::vector<CoverShare> shares() const;
 
   [[nodiscard]] std::int64_t num_programs() const noexcept { return num_programs_; }
-  /// Elementary steps of all linear programs so far.
-  [[nodiscard]] std::int64_t effort() const noexcept { return program_.effort(); }
+  /// Of all linear programs so far.
+  [[nodiscard]] Effort effort() const noexcept {
+    return program_.effort() * Effort::nanoseconds(5) / 4;
+  }
 
  private:
   struct Group {
@@ -72,7 +75,7 @@ class LevelCover {
 
   [[nodiscard]] AgentId root(AgentId i) const;
   [[nodiscard]] std::vector<Group> make_groups() const;
-  [[nodiscard]] bool solve(Group& group, LimitMonitor& limits, std::int64_t most_effort);
+  [[nodiscard]] bool solve(Group& group, LimitMonitor& limits, Effort most_effort);
   /// Solves the leaf's linear program. False: the leaf contains no solution.
   [[nodiscard]] bool relax(Group& group, CoverLeaf& leaf);
   [[nodiscard]] Cost price(const Group& group, const IdVector<AgentId, Cost>& costs) const;

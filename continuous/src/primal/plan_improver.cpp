@@ -37,13 +37,13 @@ void PlanImprover::restart_from(Plan plan) {
 bool PlanImprover::pays() const {
   constexpr Cost kSmallPart = 200, kGainedPart = 10;
   const Settings& settings = scene_.settings();
-  return !is_done() && effort() < settings.improve_patience + last_gain_ &&
-         (effort() < settings.improve_long_work || excess() > cost_ / kSmallPart ||
-          turn_gain_ >= excess() / kGainedPart);
+  return !is_done() && effort() < Effort::microseconds(settings.improve_patience) + last_gain_ &&
+         (effort() < Effort::microseconds(settings.improve_long_work) ||
+          excess() > cost_ / kSmallPart || turn_gain_ >= excess() / kGainedPart);
 }
 
-bool PlanImprover::improve(std::int64_t more_effort) {
-  const std::int64_t enough = effort() + more_effort;
+bool PlanImprover::improve(Effort more_effort) {
+  const Effort enough = effort() + more_effort;
   turn_gain_ = 0;
   if (is_done()) return false;
   const Instance& instance = scene_.instance();
@@ -127,7 +127,7 @@ std::vector<AgentId> PlanImprover::choose() {
   for (const AgentId j : instance.agent_ids()) {
     if (j == late) continue;
     others.push_back(j);
-    effort_ += static_cast<std::int64_t>(steps.size() + agents_[j].steps.size());
+    num_compared_ += static_cast<std::int64_t>(steps.size() + agents_[j].steps.size());
     if (first_encounter(scene_, late, steps, j, agents_[j].steps)) in_way.push_back(j);
   }
   for (std::vector<AgentId>* group : {&in_way, &others})

@@ -13,8 +13,8 @@ using sat::Verdict;
 
 namespace {
 
-/// Elementary steps, a fifth of a second: each slice begins with a restart of the solver.
-constexpr std::int64_t kSlice = 4'000'000;
+/// Each slice begins with a restart of the solver.
+constexpr Effort kSlice = Effort::microseconds(200'000);
 
 }  // namespace
 
@@ -87,7 +87,7 @@ Verdict CostProblem::solve_in_slices(const std::vector<Lit>& assumptions, LimitM
     if (is_sliced && budget.conflicts)
       slice.conflicts = static_cast<int>(
           std::clamp<std::int64_t>(end - limits.conflicts(), 1, std::numeric_limits<int>::max()));
-    const std::int64_t slice_end = engine_.effort() + kSlice;
+    const Effort slice_end = engine_.effort() + kSlice;
     const Verdict verdict = engine_.solve(assumptions, limits, slice);
     const bool is_over = verdict != Verdict::unknown || !is_sliced ||
                          engine_.effort() < slice_end ||

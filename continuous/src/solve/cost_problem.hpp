@@ -69,7 +69,7 @@ class CostProblem {
   void take_core(const std::vector<Level>& core);
 
   /// The engine's elementary steps so far.
-  [[nodiscard]] std::int64_t effort() const { return engine_.effort(); }
+  [[nodiscard]] Effort effort() const { return engine_.effort(); }
   [[nodiscard]] Model& model() noexcept { return model_; }
 
  private:

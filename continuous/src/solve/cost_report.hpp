@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/effort.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "solve/desk.hpp"
 
@@ -26,8 +27,8 @@ class Correspondent {
   [[nodiscard]] virtual Message report(const CostReport& report) = 0;
   /// One of the levels is reached in every plan that is cheaper than the one reported last.
   virtual void report_core(const LevelCore& core) = 0;
-  /// Elementary steps of work that no engine has counted.
-  virtual void add_effort(std::int64_t steps) = 0;
+  /// That no engine has counted.
+  virtual void add_effort(Effort effort) = 0;
 };
 
 }  // namespace quadrille::continuous

@@ -38,6 +38,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     const bool in_search = options_.system == System::dpll;
     sat::EngineOptions engine_options;
     engine_options.seed = options_.seed;
+    engine_options.effort_of_conflict = Effort::microseconds(15);
     engine_options.observer = auditor ? &*auditor : nullptr;
     std::optional<lazy::Recorder> recorder;
     if (options_.explain) {
@@ -125,8 +126,8 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     if (exchange_.has_others() && !options_.debug.audit)
       cores_.push_back(std::make_shared<const LevelCore>(core));
   }
-  void add_effort(std::int64_t steps) override {
-    effort_ += steps;
+  void add_effort(Effort effort) override {
+    effort_ += effort;
     exchange();
   }
 
@@ -137,7 +138,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
   }
 
   void exchange() {
-    const std::int64_t effort = effort_ + (engine_ != nullptr ? engine_->effort() : 0);
+    const Effort effort = effort_ + (engine_ != nullptr ? engine_->effort() : Effort());
     const auto heard = exchange_.arrive(effort, [this] { return message(); });
     if (!heard) return;
     known_.raise(heard->lower);
@@ -176,7 +177,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
   solve::Pulse<Plan>& pulse_;
   Exchange& exchange_;
   const sat::Engine* engine_ = nullptr;
-  std::int64_t effort_ = 0;  // besides the engine's
+  Effort effort_;  // besides the engine's
   std::vector<std::shared_ptr<const LevelCore>> cores_;
   std::vector<LevelCore> learned_cores_;  // to be left
   Message heard_;                         // and not yet passed on to the search

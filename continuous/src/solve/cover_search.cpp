@@ -118,18 +118,16 @@ class CoverSearch {
   }
 
   /// A search for plans or for covers takes time that no engine has counted.
-  template <class Work>
-  void count(const Work& worker, std::int64_t steps_of_one, std::int64_t& seen) {
-    const std::int64_t effort = worker.effort();
-    context_.correspondent.add_effort((effort - seen) / steps_of_one);
-    seen += (effort - seen) / steps_of_one * steps_of_one;
+  void count(Effort effort, Effort& seen) {
+    context_.correspondent.add_effort(effort - seen);
+    seen = effort;
   }
 
   bool solve_cover() {
-    const std::int64_t before = cover_.effort();
+    const Effort before = cover_.effort();
     const bool is_solved = cover_.solve(limits_);
-    next_cover_ = problem_.effort() + (cover_.effort() - before) / settings_.cover_step_of_search;
-    count(cover_, settings_.cover_step_of_search, seen_cover_effort_);
+    next_cover_ = problem_.effort() + cover_.effort() - before;
+    count(cover_.effort(), seen_cover_effort_);
     return is_solved;
   }
 
@@ -140,20 +138,20 @@ class CoverSearch {
   bool improve_at_first() {
     do {
       if (is_closed()) return true;
-      const std::int64_t least = settings_.cover_first_plan_effort;
-      improve(std::clamp(improver_ ? improver_->effort() / 4 : 0, least, 8 * least));
+      const Effort least = Effort::microseconds(settings_.cover_first_plan_effort);
+      improve(std::clamp(improver_ ? improver_->effort() / 4 : Effort(), least, 8 * least));
     } while (improver_ && improver_->pays() && !limits_.exhausted_now());
     return false;
   }
 
-  void improve(std::int64_t effort) {
+  void improve(Effort effort) {
     if (!report_.plan) return;
     if (!improver_)
       improver_.emplace(problem_.model().scene(), *report_.plan);
     else if (cost(*report_.plan, kSum) < improver_->cost())
       improver_->restart_from(*report_.plan);
     if (improver_->improve(effort)) report_.plan = improver_->plan();
-    count(*improver_, settings_.cover_plan_step_of_search, seen_plan_effort_);
+    count(improver_->effort(), seen_plan_effort_);
   }
 
   /// Finds cores of costs that need not be the cheapest: drawn ones, beside a search that covers
@@ -190,8 +188,9 @@ class CoverSearch {
   /// which that refuted something are searched then: others would delay what is needed.
   Verdict ask() {
     asked_ = towards_plan();
-    const sat::SolveBudget budget{
-        static_cast<int>(settings_.cover_inner_conflicts), {}, settings_.cover_inner_effort};
+    const sat::SolveBudget budget{static_cast<int>(settings_.cover_inner_conflicts),
+                                  {},
+                                  Effort::microseconds(settings_.cover_inner_effort)};
     const Question inner{
         .below = above(asked_), .budget = budget, .search = Question::Search::quick};
     if (settings_.cover_inner_conflicts > 0 && asked_ != cover_.costs() &&
@@ -224,7 +223,7 @@ class CoverSearch {
   bool look_for_plan() {
     const std::int64_t cores = context_.statistics.cores;
     next_turn_ = cores + std::max<std::int64_t>(cores / 4, 1);
-    improve(settings_.cover_plan_effort);
+    improve(Effort::microseconds(settings_.cover_plan_effort));
     if (report_.plan) return is_closed();
     const Verdict verdict =
         problem_.solve({.budget = conflicts(settings_.cover_next_conflicts)}, limits_);
@@ -300,7 +299,7 @@ class CoverSearch {
 
   /// A question for each candidate. True if that ended the search.
   bool try_candidates() {
-    improve(settings_.cover_mend_effort);
+    improve(Effort::microseconds(settings_.cover_mend_effort));
     for (const Core& candidate : context_.candidates) {
       if (is_closed() || limits_.exhausted()) return true;
       const bool is_hit = std::any_of(candidate.begin(), candidate.end(), [&](const Level& level) {
@@ -341,9 +340,9 @@ class CoverSearch {
   bool has_new_cores_ = false;  // that came from others
   std::int64_t next_improvement_ = kNever;
   std::int64_t next_turn_ = 30;
-  std::int64_t next_cover_ = 0;                                // the problem's effort
-  IdVector<AgentId, Cost> asked_;                              // costs of the last question
-  std::int64_t seen_plan_effort_ = 0, seen_cover_effort_ = 0;  // that were told
+  Effort next_cover_;                            // the problem's
+  IdVector<AgentId, Cost> asked_;                // costs of the last question
+  Effort seen_plan_effort_, seen_cover_effort_;  // that were told
 };
 
 }  // namespace

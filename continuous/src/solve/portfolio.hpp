@@ -14,7 +14,7 @@ namespace quadrille::continuous {
 /// longer than a round, and others would wait for them. Measured on eight hard rows, mean wall
 /// time: without lag 7 s, with 4 rounds 4.3 s, with 8 rounds 4.7 s, without any waiting 4.0 s; one
 /// thread 5.2 s.
-inline constexpr solve::Pace kUsualPace{2'000'000, 4};
+inline constexpr solve::Pace kUsualPace{Effort::microseconds(100'000), 4};
 
 /// One search as by search_costs, or with options.threads several in threads of their own: the
 /// first one with `scene` and `warm` raises the bound; the second one makes the plan cheaper, and

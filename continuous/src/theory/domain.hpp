@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "quadrille/core/effort.hpp"
 #include "quadrille/lazy/theory.hpp"
 #include "theory/current_paths.hpp"
 #include "theory/encounters.hpp"
@@ -73,11 +74,12 @@ class ContinuousDomain {
                                   FormulaWriter& writer);
 
   [[nodiscard]] PairLemmas& pair_lemmas() noexcept { return pair_lemmas_; }
-  /// In steps of some 50 ns on every map. The weights are a least-squares fit to 48 runs on six
-  /// maps: edges and visits 50 ns, steps of pairs 27 ns, literals 150 ns.
-  [[nodiscard]] std::int64_t effort(std::int64_t num_assigned) const noexcept {
-    return search_.effort() + finder_.effort() + pair_lemmas_.effort() / 2 + 3 * num_assigned +
-           100 * meetings_.num_comparisons();
+  /// A least-squares fit to 48 runs on six maps: edges and visits 50 ns, steps of pairs 27 ns,
+  /// literals 150 ns.
+  [[nodiscard]] Effort effort(std::int64_t num_assigned) const noexcept {
+    return search_.effort() + effort_of_paths(finder_.effort()) + pair_lemmas_.effort() +
+           num_assigned * Effort::nanoseconds(150) +
+           meetings_.num_comparisons() * Effort::microseconds(5);
   }
 
  private:

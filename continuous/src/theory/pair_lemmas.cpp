@@ -7,7 +7,7 @@ namespace quadrille::continuous {
 namespace {
 
 /// What can still be multiplied.
-constexpr std::int64_t kMostSteps = std::int64_t{1} << 40;
+constexpr Effort kMost = Effort::nanoseconds(std::int64_t{1} << 45);
 /// Of the move by which caps are raised at most.
 constexpr std::int64_t kSmallPart = 64;
 
@@ -39,13 +39,15 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   if (has_choice(i.agent) || has_choice(j.agent)) return false;
   if (++record.count < std::max(record.next_try, settings_.pair_first_try)) return false;
   if (i.cap >= kAnyCost || j.cap >= kAnyCost) return false;
-  if (wasted_ > settings_.pair_waste + path_effort_ / settings_.pair_path_steps) return false;
-  if (record.steps == 0) record.steps = settings_.pair_steps;
-  steps_ = record.steps;
+  if (wasted_ >
+      Effort::microseconds(settings_.pair_waste) + path_effort_ / settings_.pair_path_part)
+    return false;
+  if (record.effort == Effort()) record.effort = Effort::microseconds(settings_.pair_effort);
+  most_ = record.effort;
   search_.set_width(kForever);
-  const std::int64_t before = search_.effort();
+  const Effort before = search_effort();
   const bool is_added = try_pair(record, i, j, writer);
-  if (!is_added) wasted_ += search_.effort() - before;
+  if (!is_added) wasted_ += search_effort() - before;
   record.is_proven = is_added;
   const std::pair caps{i.cap, j.cap};
   if (!is_added || record.refuted == caps)
@@ -53,7 +55,7 @@ bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWri
   else
     record.next_try = record.count + 2;
   if (is_added) record.refuted = caps;
-  if (!is_added) record.steps = std::min(settings_.pair_more_steps * record.steps, kMostSteps);
+  if (!is_added) record.effort = std::min(settings_.pair_more * record.effort, kMost);
   return is_added;
 }
 
@@ -81,17 +83,17 @@ bool PairLemmas::try_pair(Record& record, const Party& i, const Party& j, Formul
 }
 
 bool PairLemmas::is_refuted(const Party& i, const Party& j) {
-  const std::int64_t before = search_.effort();
-  const bool is_refuted = search_.refuted_raise(searched(i), searched(j), 0, steps_) > 0;
-  if (is_refuted) refutation_ = search_.effort() - before;
+  const Effort before = search_effort();
+  const bool is_refuted = search_.refuted_raise(searched(i), searched(j), 0, most_ / kStep) > 0;
+  if (is_refuted) refutation_ = search_effort() - before;
   return is_refuted;
 }
 
 bool PairLemmas::refute(const Party& i, const Party& j) {
   while (true) {
-    const std::int64_t before = search_.effort();
+    const Effort before = search_effort();
     if (is_refuted(i, j)) return true;
-    const bool is_long = search_.effort() - before >= steps_ / settings_.pair_half_part;
+    const bool is_long = search_effort() - before >= most_ / settings_.pair_half_part;
     if (is_long || search_.width() <= passing_time(i.agent, j.agent)) return false;
     search_.set_width(search_.width() / 2);
   }
@@ -111,8 +113,9 @@ Ticks PairLemmas::passing_time(AgentId i, AgentId j) {
   return std::max(least, Ticks{1});
 }
 
-std::int64_t PairLemmas::steps_for_more() const {
-  return std::max(std::min(settings_.pair_raise_share * steps_, settings_.pair_raise_steps),
+Effort PairLemmas::effort_for_more() const {
+  return std::max(std::min(settings_.pair_raise_share * most_,
+                           Effort::microseconds(settings_.pair_raise_effort)),
                   settings_.pair_raise_share * refutation_);
 }
 
@@ -127,8 +130,9 @@ void PairLemmas::load(const Party& party, AgentId other, std::size_t side) {
 }
 
 void PairLemmas::reduce(const Party& i, const Party& j) {
-  const std::int64_t last = search_.effort() + steps_for_more();
-  steps_ = std::max({steps_, settings_.pair_test_steps, settings_.pair_test_share * refutation_});
+  const Effort last = search_effort() + effort_for_more();
+  most_ = std::max({most_, Effort::microseconds(settings_.pair_test_effort),
+                    settings_.pair_test_share * refutation_});
   struct Slot {
     std::size_t side, slot;
   };
@@ -140,7 +144,7 @@ void PairLemmas::reduce(const Party& i, const Party& j) {
   };
   for (std::size_t chunk = std::max<std::size_t>(slots.size() / 2, 1); !slots.empty(); chunk /= 2) {
     for (std::size_t at = 0; at < slots.size();) {
-      if (search_.effort() > last) return;
+      if (search_effort() > last) return;
       const std::size_t end = std::min(at + chunk, slots.size());
       enable(at, end, false);
       if (refute(i, j)) {
@@ -172,7 +176,7 @@ void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other,
   if (is_second) search_.swap_bans();
   const Ticks most = max_raise(party.agent);
   const auto refuted = [&](Ticks tried) {
-    return search_.refuted_raise(party, other, tried, steps_for_more());
+    return search_.refuted_raise(party, other, tried, effort_for_more() / kStep);
   };
   Ticks tried = most / settings_.pair_first_raise;
   Ticks raise = refuted(tried);

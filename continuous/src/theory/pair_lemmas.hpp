@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pairs/pair_search.hpp"
+#include "quadrille/core/effort.hpp"
 #include "theory/model.hpp"
 
 namespace quadrille::continuous {
@@ -36,12 +37,12 @@ class PairLemmas {
   /// `i.active`: only these. True as above.
   bool note_explanation(const Party& i, const Party& j, FormulaWriter& writer);
 
-  /// To be told how many steps all path searches have made: searches of pairs that refute nothing
-  /// make at most a part of that, besides some to begin with.
-  void set_path_effort(std::int64_t steps) noexcept { path_effort_ = steps; }
-  /// Steps that all searches of pairs have made, their looks at geometry among them.
-  [[nodiscard]] std::int64_t effort() const noexcept {
-    return search_.effort() + search_.num_looks() / 4;
+  /// To be told what all path searches have taken: searches of pairs that refute nothing take at
+  /// most a part of that, besides some to begin with.
+  void set_path_effort(Effort effort) noexcept { path_effort_ = effort; }
+  /// Of all searches of pairs, their looks at geometry among them.
+  [[nodiscard]] Effort effort() const noexcept {
+    return search_effort() + search_.num_looks() * kStep / 4;
   }
 
  private:
@@ -50,16 +51,19 @@ class PairLemmas {
     std::int64_t next_try = 0;
     bool is_proven = false;                        // the last search refuted something
     std::optional<std::pair<Cost, Cost>> refuted;  // caps, the last time
-    std::int64_t steps = 0;                        // of one search; 0: it has not been tried
+    Effort effort;                                 // of one search; none: it has not been tried
     std::vector<std::pair<Cost, Cost>> open;  // caps that other agents have to join in to refute
   };
+  /// Of a search of a pair.
+  static constexpr Effort kStep = Effort::nanoseconds(25);
+  [[nodiscard]] Effort search_effort() const noexcept { return search_.effort() * kStep; }
   /// With a cap that is not after the deadline.
   [[nodiscard]] Party in_time(Party party) const;
   bool note(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
   /// The searches know of one goal for each agent.
   [[nodiscard]] bool has_choice(AgentId i) const;
   bool try_pair(Record& record, const Party& i, const Party& j, FormulaWriter& writer);
-  /// Within `steps_`.
+  /// Within `most_`.
   [[nodiscard]] bool is_refuted(const Party& i, const Party& j);
   /// The same, with shorter and shorter intervals as long as that takes little.
   [[nodiscard]] bool refute(const Party& i, const Party& j);
@@ -67,7 +71,7 @@ class PairLemmas {
   /// least 1.
   [[nodiscard]] Ticks passing_time(AgentId i, AgentId j);
   /// What may be spent to make more of a refutation.
-  [[nodiscard]] std::int64_t steps_for_more() const;
+  [[nodiscard]] Effort effort_for_more() const;
   /// Makes obstacles that the two do not owe to each other slots of the search.
   void load(const Party& party, AgentId other, std::size_t side);
   /// Switches slots off as long as the caps are refuted, and it does not take too long.
@@ -82,10 +86,10 @@ class PairLemmas {
   Scope scope_ = Scope::all;
   PairSearch search_;
   std::map<std::pair<AgentId, AgentId>, Record> collisions_, explanations_;
-  std::int64_t path_effort_ = 0;
-  std::int64_t wasted_ = 0;            // steps of searches that refuted nothing
-  std::int64_t steps_ = 0;             // of the next search at most
-  std::int64_t refutation_ = 0;        // steps of the last search that refuted
+  Effort path_effort_;
+  Effort wasted_;                      // for searches that refuted nothing
+  Effort most_;                        // for the next search
+  Effort refutation_;                  // of the last search that refuted
   std::vector<ObstacleId> loaded_[2];  // by side, slot
 };
 

@@ -6,11 +6,17 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/core/effort.hpp"
 #include "quadrille/lazy/cheapest.hpp"
 #include "theory/explanation.hpp"
 #include "theory/model.hpp"
 
 namespace quadrille::continuous {
+
+/// What steps of a PathFinder, edges and visits, take.
+[[nodiscard]] constexpr Effort effort_of_paths(std::int64_t steps) {
+  return steps * Effort::nanoseconds(50);
+}
 
 /// Searches for paths of one agent that obey the bans of some of its obstacles, and says why there
 /// is no cheaper one.
@@ -23,8 +29,8 @@ class PathSearch {
   /// A cheapest path that obeys the bans of the obstacles and arrives before `bound`.
   [[nodiscard]] Cheapest find(AgentId agent, std::span<const ObstacleId> obstacles, Cost bound);
 
-  /// States that all searches have visited.
-  [[nodiscard]] std::int64_t effort() const noexcept { return finder_.effort(); }
+  /// What all searches have taken.
+  [[nodiscard]] Effort effort() const noexcept { return effort_of_paths(finder_.effort()); }
 
  private:
   friend Cheapest;

@@ -3,12 +3,12 @@
 
 namespace quadrille::continuous {
 
-void ContinuousTheory::check(sat::Effort effort, sat::TheoryContext& context) {
+void ContinuousTheory::check(sat::Extent extent, sat::TheoryContext& context) {
   using Mode = Question::Mode;
   if (question_.mode == Mode::never ||
-      (question_.mode == Mode::complete && effort == sat::Effort::partial))
+      (question_.mode == Mode::complete && extent == sat::Extent::partial))
     return;
-  PathTheory::check(effort, context);
+  PathTheory::check(extent, context);
 }
 
 bool ContinuousTheory::check_complete(std::span<const sat::Lit> assignment, FormulaWriter& target) {

@@ -39,7 +39,7 @@ class ContinuousTheory final : public lazy::PathTheory<ContinuousDomain> {
   /// clauses that exclude it were written. Throws LimitReached.
   [[nodiscard]] bool check_complete(std::span<const sat::Lit> assignment, FormulaWriter& target);
 
-  void check(sat::Effort effort, sat::TheoryContext& context) override;
+  void check(sat::Extent extent, sat::TheoryContext& context) override;
 
  private:
   Question question_;

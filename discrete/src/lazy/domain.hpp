@@ -13,6 +13,7 @@
 #include "lazy/path_search.hpp"
 #include "lazy/separation.hpp"
 #include "paths/path_index.hpp"
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/lazy/theory.hpp"
 
@@ -68,8 +69,8 @@ class DiscreteDomain {
     return {paths_, trail, search_, limits_};
   }
   [[nodiscard]] const PartDecisions& decisions() const noexcept { return decisions_; }
-  [[nodiscard]] std::int64_t effort(std::int64_t /*num_assigned*/) const noexcept {
-    return search_.effort();
+  [[nodiscard]] Effort effort(std::int64_t /*num_assigned*/) const noexcept {
+    return search_.effort() * Effort::nanoseconds(1250);
   }
 
  private:

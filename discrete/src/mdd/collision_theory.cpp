@@ -30,7 +30,7 @@ void CollisionTheory::on_extended() {
 }
 
 void CollisionTheory::on_assign(std::span<const Lit> newly_true) {
-  effort_ += static_cast<std::int64_t>(newly_true.size());
+  num_announced_ += static_cast<std::int64_t>(newly_true.size());
   stack_.insert(stack_.end(), newly_true.begin(), newly_true.end());
 }
 
@@ -65,8 +65,8 @@ bool CollisionTheory::is_due(const sat::TheoryContext& context) {
   return due;
 }
 
-void CollisionTheory::check(sat::Effort effort, sat::TheoryContext& context) {
-  if (effort == sat::Effort::full) {
+void CollisionTheory::check(sat::Extent extent, sat::TheoryContext& context) {
+  if (extent == sat::Extent::full) {
     ++num_checks_;
     check_paths(context);
   } else if (is_due(context)) {

@@ -8,6 +8,7 @@
 #include "mdd/cell_table.hpp"
 #include "mdd/collisions.hpp"
 #include "mdd/mdd_model.hpp"
+#include "quadrille/core/effort.hpp"
 #include "quadrille/discrete/solver.hpp"
 #include "quadrille/sat/theory.hpp"
 
@@ -26,14 +27,16 @@ class CollisionTheory final : public sat::Theory {
 
   /// To be called before a solve after the model was extended.
   void on_extended();
-  /// Two steps for each literal that was announced.
-  [[nodiscard]] std::int64_t effort() const noexcept override { return 2 * effort_; }
+  /// For each literal that was announced.
+  [[nodiscard]] Effort effort() const noexcept override {
+    return num_announced_ * Effort::nanoseconds(2500);
+  }
   /// Times the consistency of an assignment was looked at.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
 
   void on_assign(std::span<const sat::Lit> newly_true) override;
   void on_retract(std::size_t kept) override;
-  void check(sat::Effort effort, sat::TheoryContext& context) override;
+  void check(sat::Extent extent, sat::TheoryContext& context) override;
   sat::Lemma explain(sat::Lit implied, std::vector<sat::Lit>& clause) override;
 
  private:
@@ -64,7 +67,7 @@ class CollisionTheory final : public sat::Theory {
   std::array<sat::Usage, 2> reason_usages_;  // of the last explanation
   std::size_t stages_done_ = 0;
   std::size_t num_variables_ = 1;
-  std::int64_t num_checks_ = 0, effort_ = 0;
+  std::int64_t num_checks_ = 0, num_announced_ = 0;
 };
 
 }  // namespace quadrille::discrete

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/settings.hpp"
 
@@ -10,35 +11,29 @@ namespace quadrille::discrete {
 
 /// How much effort the strategies for plans get beside the search: more and more while they close
 /// the gap faster than the search does, less and less while they do not. The marginal gain of both
-/// is what they took off the gap lately, per step. Counts only, no clocks.
+/// is what they took off the gap lately, per effort. Counts only, no clocks.
 class MarginalGain {
  public:
   /// `settings` outlive it.
   explicit MarginalGain(const Settings& settings) : settings_(settings) {}
 
-  /// The search did `effort` steps and took `gain` off the gap.
-  void count_search(std::int64_t effort, Cost gain) {
-    add(search_, settings_.plans_step_of_search * effort, gain);
-  }
+  /// The search took `gain` off the gap with `effort`.
+  void count_search(Effort effort, Cost gain) { add(search_, effort, gain); }
   /// As well for plans; decides on the share from now on. `gap_percent`: what is left.
-  void count_plans(std::int64_t effort, Cost gain, double gap_percent);
+  void count_plans(Effort effort, Cost gain, double gap_percent);
 
-  /// Steps for plans that are due for `search_effort` steps of the search.
-  [[nodiscard]] std::int64_t due(std::int64_t search_effort) const {
-    return search_effort * settings_.plans_step_of_search * share_ / kUnit;
-  }
+  /// What plans get for `effort` of the search.
+  [[nodiscard]] Effort due(Effort effort) const { return share_ * effort / kUnit; }
   /// As much as it can be: for what shows its gain in the end only.
-  [[nodiscard]] std::int64_t most_due(std::int64_t search_effort) const {
-    return search_effort * settings_.plans_step_of_search * kLargest / kUnit;
-  }
+  [[nodiscard]] static Effort most_due(Effort effort) { return kLargest * effort / kUnit; }
 
  private:
   /// Sums that forget.
   struct Lately {
-    std::int64_t effort = 0;
+    Effort effort = {};
     Cost gain = 0;
   };
-  void add(Lately& side, std::int64_t effort, Cost gain) const;
+  void add(Lately& side, Effort effort, Cost gain) const;
 
   static constexpr std::int64_t kUnit = 256, kLeast = 1, kFirst = 8, kLargest = 1792;
 

@@ -9,7 +9,8 @@ namespace quadrille::discrete {
 namespace {
 
 /// Of a search for a first plan, and the least of improvement.
-constexpr std::int64_t kFirstSlice = 200'000, kLeastSlice = 20'000;
+constexpr Effort kFirstSlice = Effort::microseconds(62'500),
+                 kLeastSlice = Effort::microseconds(6'250);
 /// Improvement of a first plan is looked at when all paths could have been made so many times.
 constexpr std::int64_t kFirstLook = 32;
 
@@ -40,7 +41,9 @@ PlanSearchContext for_improvement(PlanSearchContext context) {
 sat::Outcome FirstPlan::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
   // Long plans are not copied for nothing.
-  if (search_ && search_->advance(*slice.effort, context_.limits) == PrimalSearch::State::found &&
+  if (search_ &&
+      search_->advance(steps_of_plans(*slice.effort), context_.limits) ==
+          PrimalSearch::State::found &&
       (!told_ || search_->cost() < *told_)) {
     context_.incumbent.offer(search_->plan(), search_->origin());
     told_ = search_->cost();
@@ -62,7 +65,7 @@ void PlanImprovement::offer_draft(const std::function<Plan()>& draft) {
 sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
   Incumbent& incumbent = context_.incumbent;
-  effort_ = 0;
+  effort_ = {};
   if (!improver_) {
     second_chance_.emplace(context_.instance, context_.distances, context_.objective,
                            incumbent.plan(), context_.seed, context_.settings);
@@ -71,7 +74,7 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   } else if (*incumbent.upper() < improver_->cost()) {
     improver_->restart_from(incumbent.plan());
   }
-  const std::int64_t effort =
+  const Effort effort =
       is_at_first_draft() ? *slice.effort / context_.settings.plans_draft_share : *slice.effort;
   if (has_second_chance())
     take_second_chance(effort);
@@ -89,25 +92,26 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
 }
 
 /// What it takes may be more: neighbourhoods are not cut short.
-bool PlanImprovement::improve(PlanImprover& improver, std::int64_t effort) {
+bool PlanImprovement::improve(PlanImprover& improver, Effort effort) {
   const std::int64_t before = improver.effort();
-  const bool is_better = improver.improve(effort, context_.limits);
-  effort_ += improver.effort() - before;
+  const bool is_better = improver.improve(steps_of_plans(effort), context_.limits);
+  effort_ += effort_of_plans(improver.effort() - before);
   return is_better;
 }
 
-void PlanImprovement::take_second_chance(std::int64_t effort) {
+void PlanImprovement::take_second_chance(Effort effort) {
   Incumbent& incumbent = context_.incumbent;
   const std::int64_t before = second_chance_->effort();
-  if (const auto plan = second_chance_->advance(effort, context_.limits, *incumbent.upper()))
+  if (const auto plan =
+          second_chance_->advance(steps_of_plans(effort), context_.limits, *incumbent.upper()))
     incumbent.offer(*plan, kImproved);
-  effort_ += second_chance_->effort() - before;
+  effort_ += effort_of_plans(second_chance_->effort() - before);
 }
 
-void PlanImprovement::improve_draft(std::int64_t effort) {
+void PlanImprovement::improve_draft(Effort effort) {
   const std::int64_t before = repair_.effort();
-  const bool is_plan = repair_.advance(effort, context_.limits);
-  effort_ += repair_.effort() - before;
+  const bool is_plan = repair_.advance(steps_of_plans(effort), context_.limits);
+  effort_ += effort_of_plans(repair_.effort() - before);
   if (!is_plan) return;
   if (rival_)
     rival_->restart_from(repair_.plan());
@@ -128,8 +132,8 @@ PlanSearch::PlanSearch(const PlanSearchContext& context)
   std::int64_t steps = 0;
   for (const AgentId i : context.instance.agent_ids())
     steps += (*context.distances)(i, context.instance.agents()[i].start);
-  long_slice_ = std::max(kLeastSlice, steps);
-  next_look_ = kFirstLook * steps;
+  long_slice_ = std::max(kLeastSlice, effort_of_plans(steps));
+  next_look_ = kFirstLook * effort_of_plans(steps);
 }
 
 bool PlanSearch::start() {
@@ -142,18 +146,19 @@ bool PlanSearch::start() {
 }
 
 bool PlanSearch::is_first_plan_due() const {
-  return !first_plan_.is_over() && (first_plan_.effort() < context_.settings.plans_first_effort ||
-                                    first_plan_.is_worth_waiting_for());
+  return !first_plan_.is_over() &&
+         (first_plan_.effort() < most_first_effort() || first_plan_.is_worth_waiting_for());
 }
 
 /// One slice.
 void PlanSearch::improve_first_plan() {
   const Settings& settings = context_.settings;
+  const Effort most = Effort::microseconds(settings.plans_first_improvement);
   const Incumbent& incumbent = context_.incumbent;
   const auto is_dear = [&] {
     // It begins with all paths at once.
     return context_.objective == Objective::sum_of_costs && incumbent.upper() &&
-           *incumbent.upper() <= settings.plans_first_improvement &&
+           effort_of_plans(*incumbent.upper()) <= most &&
            gap_of(incumbent) >= in_percent(settings.plans_large_gap);
   };
   is_improvement_due_ = is_dear();
@@ -164,7 +169,7 @@ void PlanSearch::improve_first_plan() {
   gain_.count_plans(improvement_.effort(), gain, gap_of(incumbent));
   effort_ += improvement_.effort();
   gain_since_look_ += gain;
-  is_improvement_due_ = is_dear() && effort_ < settings.plans_first_improvement;
+  is_improvement_due_ = is_dear() && effort_ < most;
   if (effort_ < next_look_) return;
   const Cost gap = *incumbent.upper() - incumbent.lower();
   if (settings.plans_little * gain_since_look_ < gap) is_improvement_due_ = false;
@@ -172,12 +177,12 @@ void PlanSearch::improve_first_plan() {
   gain_since_look_ = 0;
 }
 
-void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>& draft,
+void PlanSearch::advance(Effort search_effort, const std::function<Plan()>& draft,
                          const std::function<void()>& after_slice) {
   count_search(search_effort);
   // As long as one path of everybody, so that there are several neighbourhoods in it; short where
   // turns would be rare.
-  const std::int64_t slice = credit_ >= long_slice_ ? long_slice_ : kLeastSlice;
+  const Effort slice = credit_ >= long_slice_ ? long_slice_ : kLeastSlice;
   if (credit_ < slice) return;
   const Incumbent& incumbent = context_.incumbent;
   const double small_gap = in_percent(context_.settings.plans_small_gap);
@@ -185,24 +190,24 @@ void PlanSearch::advance(std::int64_t search_effort, const std::function<Plan()>
                                      ? is_helper(context_) && gap_of(incumbent) < small_gap
                                      : first_plan_.is_over();
   if (has_nothing_to_do) {
-    credit_ = 0;
+    credit_ = {};
     return;
   }
-  const std::int64_t credit = credit_;
+  const Effort credit = credit_;
   const std::optional<Cost> first = incumbent.upper();
   Cost gain = 0;
   if (first && draft) improvement_.offer_draft(draft);
   while (credit_ >= slice && !incumbent.are_closed() && !context_.limits.exhausted()) {
-    std::int64_t spent = 0;
+    Effort spent;
     if (const std::optional<Cost> before = incumbent.upper()) {
       static_cast<void>(improvement_.advance({.effort = slice}));
       gain += *before - *incumbent.upper();
       spent = std::max(slice, improvement_.effort());
       credit_ -= spent;
       // What is left was for the draft.
-      if (is_hopeful_ && !improvement_.is_hopeful()) credit_ = std::min<std::int64_t>(credit_, 0);
+      if (is_hopeful_ && !improvement_.is_hopeful()) credit_ = std::min(credit_, Effort());
     } else {
-      const std::int64_t before_it = first_plan_.effort();
+      const Effort before_it = first_plan_.effort();
       static_cast<void>(first_plan_.advance({.effort = slice}));
       spent = std::max(slice, first_plan_.effort() - before_it);
       credit_ -= spent;
@@ -223,15 +228,13 @@ void PlanSearch::begin() {
     static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
 }
 
-std::int64_t PlanSearch::work(const std::function<Plan()>& draft) {
-  const std::int64_t before = first_plan_.effort();
-  const bool is_due = !context_.incumbent.upper() ||
-                      before < context_.settings.plans_first_effort ||
+Effort PlanSearch::work(const std::function<Plan()>& draft) {
+  const Effort before = first_plan_.effort();
+  const bool is_due = !context_.incumbent.upper() || before < most_first_effort() ||
                       first_plan_.is_worth_waiting_for();
   if (!first_plan_.is_over() && is_due) {
     static_cast<void>(first_plan_.advance({.effort = kFirstSlice}));
-    return std::max(kFirstSlice, first_plan_.effort() - before) /
-           context_.settings.plans_first_step_of_search;
+    return std::max(kFirstSlice, first_plan_.effort() - before);
   }
   if (!context_.incumbent.upper()) return kFirstSlice;  // until another search finds a plan
   improvement_.offer_draft(draft);
@@ -239,14 +242,14 @@ std::int64_t PlanSearch::work(const std::function<Plan()>& draft) {
   return std::max(long_slice_, improvement_.effort());
 }
 
-void PlanSearch::count_search(std::int64_t search_effort) {
+void PlanSearch::count_search(Effort search_effort) {
   const Incumbent& incumbent = context_.incumbent;
-  const std::int64_t effort = search_effort - seen_effort_;
+  const Effort effort = search_effort - seen_effort_;
   Cost gain = incumbent.lower() - seen_lower_;
   if (seen_upper_) gain += *seen_upper_ - *incumbent.upper();
   gain_.count_search(effort, gain);
   is_hopeful_ = improvement_.is_hopeful() &&
-                search_effort >= context_.settings.plans_draft_patience &&
+                search_effort >= Effort::microseconds(context_.settings.plans_draft_patience) &&
                 gap_of(incumbent) >= in_percent(context_.settings.plans_draft_gap);
   credit_ += is_hopeful_ ? gain_.most_due(effort) : gain_.due(effort);
   seen_effort_ = search_effort;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "neighbourhoods/draft_repair.hpp"
+#include "quadrille/core/effort.hpp"
 #include "quadrille/discrete/plan_improver.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/sat/strategy.hpp"
@@ -16,6 +17,15 @@
 #include "solve/second_chance.hpp"
 
 namespace quadrille::discrete {
+
+/// What steps of those that make plans take, and how many there are in an effort. Measured: 200 to
+/// 600 ns each, a quarter of one of the search for the bound.
+[[nodiscard]] constexpr Effort effort_of_plans(std::int64_t steps) {
+  return steps * Effort::nanoseconds(625) / 2;
+}
+[[nodiscard]] constexpr std::int64_t steps_of_plans(Effort effort) {
+  return 2 * effort / Effort::nanoseconds(625);
+}
 
 /// What the strategies that look for plans work with. All outlive them.
 struct PlanSearchContext {
@@ -52,7 +62,9 @@ class FirstPlan final : public sat::Strategy {
     return search_ && search_->is_worth_waiting_for();
   }
   /// Of all slices; a slice may take more than it is given, because guides are not cut.
-  [[nodiscard]] std::int64_t effort() const noexcept { return search_ ? search_->effort() : 0; }
+  [[nodiscard]] Effort effort() const noexcept {
+    return search_ ? effort_of_plans(search_->effort()) : Effort();
+  }
 
  private:
   const PlanSearchContext context_;
@@ -89,24 +101,23 @@ class PlanImprovement final : public sat::Strategy {
     return is_at_first_draft() || has_second_chance();
   }
   /// Of the last slice, in all.
-  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+  [[nodiscard]] Effort effort() const noexcept { return effort_; }
 
  private:
-  bool improve(PlanImprover& improver, std::int64_t effort);
-  void take_second_chance(std::int64_t effort);
-  void improve_draft(std::int64_t effort);
+  bool improve(PlanImprover& improver, Effort effort);
+  void take_second_chance(Effort effort);
+  void improve_draft(Effort effort);
 
   const PlanSearchContext context_;
   DraftRepair repair_;
   std::optional<PlanImprover> improver_, rival_;
   std::optional<SecondChance> second_chance_;
   std::int64_t num_drafts_ = 0;
-  std::int64_t effort_ = 0;
+  Effort effort_;
 };
 
 /// The schedule of both beside a search that raises the lower bound: as much effort as their
-/// marginal gain deserves. Slices, and what the search did since the last one, are counted in
-/// elementary steps, never by clocks, so that all stays deterministic.
+/// marginal gain deserves.
 class PlanSearch {
  public:
   explicit PlanSearch(const PlanSearchContext& context);
@@ -115,40 +126,43 @@ class PlanSearch {
   /// false: there is a plan that gains little any more, or it is hard to find and others should
   /// have their turn.
   [[nodiscard]] bool start();
-  /// To be called often with the steps of the search so far. `draft` tells the paths that the
+  /// To be called often with the effort of the search so far. `draft` tells the paths that the
   /// search had at last, see Run::draft; null: they are for another one. `after_slice`, unless
   /// null, is called again and again.
-  void advance(std::int64_t search_effort, const std::function<Plan()>& draft,
+  void advance(Effort search_effort, const std::function<Plan()>& draft,
                const std::function<void()>& after_slice);
   /// What others told has made the incumbent cheaper by `less`: nobody here gained that. 0 for the
   /// first incumbent.
   void hear(Cost less);
-  /// Steps for plans so far, first ones not counted.
-  [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
+  /// For plans so far, first ones not counted.
+  [[nodiscard]] Effort effort() const noexcept { return effort_; }
   /// Instead of both, where a search in another thread has all the time that it needs. First the
   /// guided searches, to the end.
   void begin();
-  /// Then looks for plans for a while. `draft` as above. Returns the steps of a search that it
-  /// counts for.
-  std::int64_t work(const std::function<Plan()>& draft);
+  /// Then looks for plans for a while. `draft` as above. Returns the effort, or what it counts for
+  /// if there was nothing to do.
+  Effort work(const std::function<Plan()>& draft);
 
  private:
-  void count_search(std::int64_t search_effort);
+  void count_search(Effort search_effort);
   [[nodiscard]] bool is_first_plan_due() const;
+  [[nodiscard]] Effort most_first_effort() const {
+    return Effort::microseconds(context_.settings.plans_first_effort);
+  }
   void improve_first_plan();
 
   const PlanSearchContext context_;
   FirstPlan first_plan_;
   PlanImprovement improvement_;
   MarginalGain gain_;
-  std::int64_t long_slice_;
-  std::int64_t credit_ = 0;       // steps for plans that are due
-  std::int64_t seen_effort_ = 0;  // of the search, counted
-  std::int64_t effort_ = 0;
+  Effort long_slice_;
+  Effort credit_;       // for plans that is due
+  Effort seen_effort_;  // of the search, counted
+  Effort effort_;
   bool is_hopeful_ = false;  // credit is for the first draft
   // Of the improvement before the search.
   bool is_improvement_due_ = true;
-  std::int64_t next_look_ = 0;
+  Effort next_look_;
   Cost gain_since_look_ = 0;
   Cost seen_lower_ = 0;
   std::optional<Cost> seen_upper_;

@@ -65,7 +65,7 @@ void search_side_by_side(const Instance& instance, const SolveOptions& options, 
     const SolveOptions own_options = options_of(instance, options, tuner, worker);
     search(instance, own_options, tuner(own_options), own, get_distances, proofs[worker]);
   };
-  const solve::Pace pace{tuner(options).settings.grid_round, kLag};
+  const solve::Pace pace{Effort::microseconds(tuner(options).settings.grid_round), kLag};
   solve::Portfolio<Plan, Message>(options, account, pace, role_of, search_as).run(desk);
   for (ProofDraft& draft : proofs) {
     if (proof.fault.empty()) proof.fault = std::move(draft.fault);

@@ -79,7 +79,7 @@ class Search final : private sat::YieldPoint {
       else
         plans_->begin();
     }
-    exchange(0);
+    exchange({});
     if (role_ == Role::plans)
       consider_stop();
     else
@@ -88,7 +88,7 @@ class Search final : private sat::YieldPoint {
 
   /// Makes plans for as long as somebody else works on the bound.
   void look_for_plans() {
-    std::int64_t effort = 0;
+    Effort effort;
     while (!limits_.exhausted_now() && !others_ended_) {
       effort += plans_->work([this] { return draft_ ? *std::exchange(draft_, nullptr) : Plan(); });
       exchange(effort);
@@ -98,7 +98,7 @@ class Search final : private sat::YieldPoint {
   }
 
   /// The search's own bound stays its own, because it follows from its cores.
-  void exchange(std::int64_t effort) {
+  void exchange(Effort effort) {
     const auto heard = exchange_.arrive(effort, [this] { return message(); });
     if (!heard) return;
     heard_lower_ = std::max(heard_lower_, heard->lower);
@@ -152,12 +152,12 @@ class Search final : private sat::YieldPoint {
   }
 
   void exchange_while_searching() {
-    exchange(run_->engine().effort() + (plans_ ? plans_->effort() : 0));
+    exchange(run_->engine().effort() + (plans_ ? plans_->effort() : Effort()));
   }
 
   /// Beside one whose role they are, plans are made where that gains more than the bound does;
   /// drafts are left to it.
-  void make_plans(std::int64_t search_effort) {
+  void make_plans(Effort search_effort) {
     std::function<Plan()> draft;
     if (role_ == Role::all) draft = [this] { return run_->draft(); };
     std::function<void()> after_slice;

@@ -7,10 +7,11 @@
 namespace quadrille::sat {
 
 bool CoreMinimiser::may_spend(const Spent& spent, const Spent& other, std::int64_t searched) const {
-  const std::int64_t effort = context_.engine.effort() - spent.effort - other.effort;
+  const Effort effort = context_.engine.effort() - spent.effort - other.effort;
   const Settings& settings = context_.settings;
   return spent.conflicts <= searched + settings.core_free_conflicts &&
-         spent.effort <= effort + settings.core_free_effort && !context_.limits.exhausted();
+         spent.effort <= effort + Effort::microseconds(settings.core_free_effort) &&
+         !context_.limits.exhausted();
 }
 
 std::vector<Lit> CoreMinimiser::minimise(std::vector<Lit> core, std::int64_t searched) {

@@ -30,7 +30,8 @@ class CoreMinimiser {
  private:
   /// What the engine has done for one purpose.
   struct Spent {
-    std::int64_t conflicts = 0, effort = 0;
+    std::int64_t conflicts = 0;
+    Effort effort = {};
   };
   /// Whether `spent` is within its budget, and no limit is met. `other`: for the other purpose.
   [[nodiscard]] bool may_spend(const Spent& spent, const Spent& other, std::int64_t searched) const;

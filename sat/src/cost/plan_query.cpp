@@ -9,13 +9,13 @@ namespace quadrille::sat {
 Verdict find_plan(const CostSearchContext& context, std::span<const Lit> assumptions,
                   std::optional<std::int64_t> conflicts) {
   LimitMonitor& limits = context.limits;
-  const std::int64_t slice = context.settings.question_slice;
+  const Effort slice = Effort::microseconds(context.settings.question_slice);
   const std::int64_t end = limits.conflicts() + conflicts.value_or(0);
   context.problem.on_solve(true);
   while (true) {
     SolveBudget budget;
     budget.effort = slice;
-    const std::int64_t slice_end = context.engine.effort() + slice;
+    const Effort slice_end = context.engine.effort() + slice;
     if (conflicts)
       budget.conflicts = static_cast<int>(
           std::clamp<std::int64_t>(end - limits.conflicts(), 1, std::numeric_limits<int>::max()));

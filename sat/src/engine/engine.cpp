@@ -5,7 +5,6 @@
 
 #include <cadical.hpp>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -96,7 +95,7 @@ class NoTheory final : public Theory {
  public:
   void on_assign(std::span<const Lit>) override {}
   void on_retract(std::size_t) override {}
-  void check(Effort, TheoryContext&) override {}
+  void check(Extent, TheoryContext&) override {}
   Lemma explain(Lit, std::vector<Lit>&) override {
     QUADRILLE_REQUIRE(false, "nothing was propagated");
     return {};
@@ -105,10 +104,6 @@ class NoTheory final : public Theory {
 
 }  // namespace
 
-/// Elementary steps that a conflict is worth, besides those of the theory.
-constexpr std::int64_t kEffortOfConflict = 300;
-constexpr std::int64_t kNoEnd = std::numeric_limits<std::int64_t>::max();
-
 class Engine::Impl final : public CaDiCaL::ExternalPropagator,
                            public CaDiCaL::Terminator,
                            public CaDiCaL::Learner {
@@ -116,6 +111,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   Impl(Theory* theory, const EngineOptions& options)
       : observed_(theory != nullptr),
         keeps_clauses_(options.keep_clauses),
+        effort_of_conflict_(options.effort_of_conflict),
         observer_(options.observer),
         theory_(theory != nullptr ? *theory : no_theory_),
         host_(theory_,
@@ -170,7 +166,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
                       "no earlier call has thrown an exception");
     ++num_solves_;
     limits_ = &limits;
-    last_effort_ = budget.effort ? effort() + *budget.effort : kNoEnd;
+    last_effort_ = budget.effort ? effort() + *budget.effort : Effort::most();
     has_paused_ = false;
     host_.begin_solve();
     assumptions_.assign(assumptions.begin(), assumptions.end());
@@ -207,7 +203,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   }
 
   int num_variables() const { return num_variables_; }
-  std::int64_t effort() const { return kEffortOfConflict * num_conflicts_ + theory_.effort(); }
+  Effort effort() const { return num_conflicts_ * effort_of_conflict_ + theory_.effort(); }
 
   std::vector<Lit> take_clauses() {
     QUADRILLE_REQUIRE(keeps_clauses_, "the engine keeps its clauses");
@@ -372,6 +368,7 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
 
   NoTheory no_theory_;
   const bool observed_, keeps_clauses_;
+  const Effort effort_of_conflict_;
   ClauseObserver* const observer_;
   Border border_;
   Theory& theory_;
@@ -382,8 +379,8 @@ class Engine::Impl final : public CaDiCaL::ExternalPropagator,
   std::unique_ptr<DerivationTracer<DerivationReceiver>> derivation_tracer_;
   LimitMonitor* limits_ = nullptr;
   int num_variables_ = 0;
-  std::int64_t last_effort_ = kNoEnd;  // of the running solve
-  bool has_paused_ = false;            // the running solve has come to its last effort
+  Effort last_effort_ = Effort::most();  // of the running solve
+  bool has_paused_ = false;              // the running solve has come to its last effort
   bool is_bare_reason_told_ = false;
   std::vector<Lit> assumptions_, failed_, kept_, learned_;
   std::vector<bool> model_;
@@ -406,7 +403,7 @@ Verdict Engine::solve(std::span<const Lit> assumptions, LimitMonitor& limits,
 bool Engine::model_value(Lit lit) const { return impl_->model_value(lit); }
 std::vector<Lit> Engine::core() const { return impl_->failed(); }
 int Engine::num_variables() const { return impl_->num_variables(); }
-std::int64_t Engine::effort() const { return impl_->effort(); }
+Effort Engine::effort() const { return impl_->effort(); }
 std::vector<Lit> Engine::take_clauses() { return impl_->take_clauses(); }
 void Engine::add_statistics(Statistics& statistics) const { impl_->add_statistics(statistics); }
 

@@ -73,14 +73,14 @@ bool TheoryHost::check_found_model() {
   ++models_checked_;
   made_variable_ = false;
   consulted_ = stack_.size();
-  theory_.check(Effort::full, *this);
+  theory_.check(Extent::full, *this);
   return queue_head_ == queue_.size() && !made_variable_;
 }
 
 void TheoryHost::consult() {
   if (consulted_ == stack_.size() || queue_head_ < queue_.size()) return;
   consulted_ = stack_.size();
-  theory_.check(Effort::partial, *this);
+  theory_.check(Extent::partial, *this);
 }
 
 int TheoryHost::propagate() {

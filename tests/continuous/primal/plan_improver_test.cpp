@@ -17,7 +17,7 @@
 namespace quadrille::continuous::test {
 namespace {
 
-constexpr std::int64_t kEffort = 3'000;
+constexpr Effort kEffort = Effort::microseconds(75), kTurn = Effort::microseconds(2500);
 
 TEST(PlanImprover, StaysAboveTheOptimum) {
   int cheaper = 0, optimal = 0, count = 0;
@@ -78,13 +78,13 @@ TEST(PlanImprover, GoesOnFromAnyPlan) {
     for (const Plan& plan : plans) {
       improver.restart_from(plan);
       ASSERT_EQ(improver.plan(), plan);
-      const std::int64_t before = improver.effort();
-      const bool is_better = improver.improve(500);
+      const Effort before = improver.effort(), slice = Effort::nanoseconds(12'500);
+      const bool is_better = improver.improve(slice);
       ASSERT_EQ(is_better, improver.cost() < cost(plan, Objective::sum_of_costs));
       ASSERT_EQ(improver.cost(), cost(improver.plan(), Objective::sum_of_costs));
       ASSERT_TRUE(verify(instance, improver.plan()).valid());
       if (!improver.is_done()) {
-        ASSERT_GE(improver.effort(), before + 500);
+        ASSERT_GE(improver.effort(), before + slice);
       }
     }
   }
@@ -100,10 +100,10 @@ TEST(PlanImprover, StopsWhenItPaysNoMore) {
       Scene scene(instance, limits);
       PlanImprover improver(scene, plan);
       bool is_better = false;
-      while (improver.pays()) is_better |= improver.improve(100'000);
+      while (improver.pays()) is_better |= improver.improve(kTurn);
       EXPECT_EQ(is_better, improver.cost() < cost(plan, Objective::sum_of_costs));
-      EXPECT_LT(improver.effort(), 20'000'000);
-      EXPECT_FALSE(improver.improve(100'000)) << "much was tried in vain";
+      EXPECT_LT(improver.effort(), 200 * kTurn);
+      EXPECT_FALSE(improver.improve(kTurn)) << "much was tried in vain";
       results.push_back(improver.plan());
     }
     EXPECT_EQ(results[0], results[1]);
@@ -116,7 +116,7 @@ TEST(PlanImprover, KeepsAValidPlanWhereverItIsCut) {
   int num_cut = 0;
   at_each_look(instance, 200, 3, [&](Scene& scene, LimitMonitor& limits) {
     PlanImprover improver(scene, plan);
-    while (improver.pays() && !limits.exhausted()) static_cast<void>(improver.improve(100'000));
+    while (improver.pays() && !limits.exhausted()) static_cast<void>(improver.improve(kTurn));
     ASSERT_TRUE(verify(instance, improver.plan()).valid());
     ASSERT_LE(improver.cost(), cost(plan, Objective::sum_of_costs));
     ++num_cut;

@@ -139,14 +139,14 @@ class JudgedTheory final : public sat::Theory {
     ADD_FAILURE() << "asked for the reason of something that was never propagated";
     return theory_.explain(implied, clause);
   }
-  void check(sat::Effort effort, sat::TheoryContext& context) override {
+  void check(sat::Extent extent, sat::TheoryContext& context) override {
     support::RecordingContext said(context);
     const std::vector<TimedPath> before = paths();
     const std::vector<sat::Lit> open = open_bounds();
     theory_.ask(question_);  // forgets what was accepted
-    theory_.check(effort, said);
+    theory_.check(extent, said);
     const Situation now(model_, stack_);
-    if (effort == sat::Effort::full) {
+    if (extent == sat::Extent::full) {
       judge_full(said, now);
     } else if (question_.mode == ContinuousTheory::Question::Mode::complete) {
       EXPECT_TRUE(said.lemmas.empty() && !said.made_literal);

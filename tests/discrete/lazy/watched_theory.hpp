@@ -54,13 +54,13 @@ class WatchedTheory final : public sat::Theory {
     ADD_FAILURE() << "asked for the reason of something that was never propagated";
     return theory_.explain(implied, clause);
   }
-  void check(sat::Effort effort, sat::TheoryContext& context) override {
+  void check(sat::Extent extent, sat::TheoryContext& context) override {
     RecordingContext said(context);
     std::vector<Path> before;
     for (const AgentId i : model_.instance().agent_ids()) before.push_back(theory_.path(i));
-    theory_.check(effort, said);
+    theory_.check(extent, said);
     const Situation now(model_, stack_);
-    if (effort == sat::Effort::partial) {
+    if (extent == sat::Extent::partial) {
       judge_partial(said, now);
       for (const AgentId i : model_.instance().agent_ids())
         if (theory_.path(i) != before[i.index()]) expect_bound_told(i, said, now);
@@ -145,7 +145,7 @@ class WatchedTheory final : public sat::Theory {
     if (!stack_.empty()) fresh.on_assign(stack_);
     RecordingContext said(context);
     said.is_trial = true;
-    fresh.check(sat::Effort::partial, said);
+    fresh.check(sat::Extent::partial, said);
     EXPECT_EQ(has_conflict(said, now), !has_all_paths(now));
     if (has_conflict(said, now)) return;
     expect_good_paths(fresh, now);

@@ -83,24 +83,24 @@ class CoreMinimiserTest : public testing::Test {
   std::vector<Lit> assumptions;
 };
 
-/// Takes part in the search, and says that it takes so many steps whenever it is asked.
+/// Takes part in the search, and says that it takes so much whenever it is asked.
 class SlowTheory final : public Theory {
  public:
-  explicit SlowTheory(std::int64_t steps) : steps_(steps) {}
+  explicit SlowTheory(Effort each) : each_(each) {}
   void on_assign(std::span<const Lit>) override {}
   void on_retract(std::size_t) override {}
-  void check(Effort, TheoryContext&) override { effort_ += steps_; }
+  void check(Extent, TheoryContext&) override { effort_ += each_; }
   Lemma explain(Lit, std::vector<Lit>&) override { return {}; }
-  std::int64_t effort() const noexcept override { return effort_; }
+  Effort effort() const noexcept override { return effort_; }
 
  private:
-  const std::int64_t steps_;
-  std::int64_t effort_ = 0;
+  const Effort each_;
+  Effort effort_;
 };
 
 /// Tries to make a core smaller of which all but one literal can be dropped, one after the other.
-int tries_with(std::int64_t steps_of_theory) {
-  SlowTheory theory(steps_of_theory);
+int tries_with(Effort of_theory) {
+  SlowTheory theory(of_theory);
   Engine engine(&theory);
   NoProblem problem;
   NoBounds bounds;
@@ -119,9 +119,9 @@ int tries_with(std::int64_t steps_of_theory) {
 }
 
 TEST(CoreMinimiserBudget, WhatTheTheoryTakesCounts) {
-  EXPECT_EQ(tries_with(0), 80);
-  const int few = tries_with(1'000'000);
-  EXPECT_GE(few, 1) << "some steps are free";
+  EXPECT_EQ(tries_with({}), 80);
+  const int few = tries_with(Effort::microseconds(1'250'000));
+  EXPECT_GE(few, 1) << "some are free";
   EXPECT_LE(few, 10);
 }
 

@@ -39,8 +39,8 @@ class ExactlySum final : public Theory {
   }
   void on_retract(std::size_t kept) override { stack_.resize(kept); }
 
-  void check(Effort effort, TheoryContext& context) override {
-    if (effort == Effort::partial && style_ == Style::complete) return;
+  void check(Extent extent, TheoryContext& context) override {
+    if (extent == Extent::partial && style_ == Style::complete) return;
     std::vector<Lit> yes, no;
     for (const Lit lit : lits_) {
       if (context.value(lit) == Truth::is_true) yes.push_back(lit);
@@ -204,7 +204,7 @@ TEST(Engine, PausesWithTheSearchsStackWhenEffortIsUsedUp) {
   struct Silent final : Theory {
     void on_assign(std::span<const Lit> newly_true) override { stack += newly_true.size(); }
     void on_retract(std::size_t kept) override { stack = kept; }
-    void check(Effort, TheoryContext&) override {}
+    void check(Extent, TheoryContext&) override {}
     Lemma explain(Lit, Clause&) override { return {why::Path{}, {}, {}, false}; }
     void on_pause() override {
       ++pauses;
@@ -217,7 +217,7 @@ TEST(Engine, PausesWithTheSearchsStackWhenEffortIsUsedUp) {
   add_pigeons(engine, 10);
   LimitMonitor unlimited{Limits{}};
   SolveBudget budget;
-  budget.effort = 5000;
+  budget.effort = Effort::microseconds(6250);
   for (int k = 1; k <= 20; ++k) {
     ASSERT_EQ(engine.solve({}, unlimited, budget), Verdict::unknown);
     EXPECT_EQ(theory.pauses, k);
@@ -305,9 +305,9 @@ class Throwing final : public Theory, public ClauseObserver {
     if (calls_left_ > 0) count();  // an engine goes back to the start before it ends
     inner_.on_retract(kept);
   }
-  void check(Effort effort, TheoryContext& context) override {
+  void check(Extent extent, TheoryContext& context) override {
     count();
-    inner_.check(effort, context);
+    inner_.check(extent, context);
   }
   Lit decide(TheoryContext& context) override {
     count();

@@ -32,7 +32,7 @@ class NoNeighbours final : public Theory {
     ASSERT_LT(kept, stack.size());
     stack.resize(kept);
   }
-  void check(Effort, TheoryContext& context) override {
+  void check(Extent, TheoryContext& context) override {
     EXPECT_EQ(context.num_assigned(), stack.size());
     for (const Lit a : stack) {
       EXPECT_EQ(context.value(a), Truth::is_true);

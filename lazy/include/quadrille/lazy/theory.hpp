@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/internal_error.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/lazy/path_cache.hpp"
@@ -49,7 +50,7 @@ concept Domain = TrailPaths<typename D::Paths> &&
     requires(D& domain, const D& known, AgentId i, Cost cost, const typename D::Paths::Path& path,
              const typename D::Conflict& conflict, ObstacleTrail<typename D::Paths>& trail,
              const std::vector<ObstacleId>& obstacles, FormulaWriter& writer,
-             const Explanation& explanation, std::int64_t steps) {
+             const Explanation& explanation, std::int64_t num_assigned) {
   typename D::Plan;
   { domain.paths() } -> std::same_as<typename D::Paths&>;
   { domain.vocabulary() } -> std::convertible_to<Vocabulary&>;
@@ -62,7 +63,7 @@ concept Domain = TrailPaths<typename D::Paths> &&
   domain.on_obstacles(writer);
   { known.plan() } -> std::same_as<typename D::Plan>;
   { D::hint(path) } -> std::same_as<std::optional<ObstacleId>*>;
-  { known.effort(steps) } -> std::same_as<std::int64_t>;
+  { known.effort(num_assigned) } -> std::same_as<Effort>;
   { D::kAbsentWithoutCap } -> std::convertible_to<bool>;
   { D::kSearchesToCap } -> std::convertible_to<bool>;
 };
@@ -85,15 +86,15 @@ class PathTheory : public sat::Theory {
   [[nodiscard]] const std::optional<typename D::Plan>& accepted() const noexcept {
     return accepted_;
   }
-  [[nodiscard]] std::int64_t effort() const noexcept final { return domain_.effort(num_assigned_); }
+  [[nodiscard]] Effort effort() const noexcept final { return domain_.effort(num_assigned_); }
 
   void on_assign(std::span<const sat::Lit> newly_true) override;
   void on_retract(std::size_t kept) override { trail_.retract(kept); }
-  void check(sat::Effort effort, sat::TheoryContext& context) override {
+  void check(sat::Extent extent, sat::TheoryContext& context) override {
     ContextWriter target(context);
     CheckWriter writer(target, &context);
     trail_.notice(domain_.obstacles());
-    if (effort == sat::Effort::partial)
+    if (extent == sat::Extent::partial)
       static_cast<void>(replan_all(writer));
     else
       check_paths(writer);

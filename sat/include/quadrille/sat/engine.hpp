@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/statistics.hpp"
@@ -30,6 +31,8 @@ struct EngineOptions {
   bool chronological = true;
   /// Let the variables that implied those of a learned clause count as active, too.
   bool bump_reasons = true;
+  /// What a conflict takes, besides the work of the theory: the more, the larger the formulas.
+  Effort effort_of_conflict = Effort::microseconds(375);
   bool inprocessing = false;  ///< Let the solver rewrite the formula between conflicts.
   bool keep_clauses = false;  ///< For Engine::take_clauses.
   /// Hears every clause; null: nobody. Must outlive the engine.
@@ -46,8 +49,7 @@ struct EngineOptions {
 struct SolveBudget {
   std::optional<int> conflicts = std::nullopt;
   std::optional<int> decisions = std::nullopt;
-  std::optional<std::int64_t> effort =
-      std::nullopt;  ///< See Engine::effort; ends the solve soon after that.
+  std::optional<Effort> effort = std::nullopt;  ///< Ends the solve soon after that.
 };
 
 /// The DPLL(MAPF) engine: an incremental SAT solver that consults a theory while it searches.
@@ -80,9 +82,8 @@ class Engine {
   /// in the order in which they were given; empty if the clauses alone are unsatisfiable.
   [[nodiscard]] std::vector<Lit> core() const;
 
-  /// What the engine and its theory have done so far, in elementary steps of less than a
-  /// microsecond each: slices that are counted in them are the same in each run.
-  [[nodiscard]] std::int64_t effort() const;
+  /// Of the engine and its theory so far.
+  [[nodiscard]] Effort effort() const;
   /// Variables so far: 1 to this number.
   [[nodiscard]] int num_variables() const;
   /// All clauses that the engine was given since the last call, lemmas of the theory included, each

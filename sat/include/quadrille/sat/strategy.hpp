@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/export.hpp"
 
 QUADRILLE_API_BEGIN
@@ -13,7 +14,7 @@ namespace quadrille::sat {
 /// How long a strategy may go on: one of both, or, if both are absent, until the limits are met.
 struct Slice {
   std::optional<std::int64_t> conflicts = std::nullopt;  ///< Of those that ask an engine.
-  std::optional<std::int64_t> effort = std::nullopt;     ///< Of those that work on plans: steps.
+  std::optional<Effort> effort = std::nullopt;           ///< Of those that work on plans.
 };
 
 /// What a strategy came to.

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/sat/lemma.hpp"
 #include "quadrille/sat/lit.hpp"
@@ -15,7 +15,7 @@ QUADRILLE_API_BEGIN
 namespace quadrille::sat {
 
 /// How much a theory is asked to find.
-enum class Effort {
+enum class Extent {
   partial,  ///< Some literals are assigned; any lemma is welcome, none is owed.
   full,     ///< Every literal is assigned: silence claims that the assignment obeys the theory.
 };
@@ -61,9 +61,9 @@ class Theory {
   virtual void on_assign(std::span<const Lit> newly_true) = 0;
   /// Keeps the first `kept` literals of the stack.
   virtual void on_retract(std::size_t kept) = 0;
-  /// Looks for violations of the theory under the literals on the stack. With Effort::full, at
+  /// Looks for violations of the theory under the literals on the stack. With Extent::full, at
   /// least one lemma that is false, or no complaint about this assignment at all.
-  virtual void check(Effort effort, TheoryContext& context) = 0;
+  virtual void check(Extent extent, TheoryContext& context) = 0;
   /// The literal to assume next, unassigned; no literal: the solver chooses. May add lemmas and
   /// literals; lemmas reach the solver after the decision.
   [[nodiscard]] virtual Lit decide(TheoryContext& /*context*/) { return {}; }
@@ -75,8 +75,8 @@ class Theory {
   /// The running solve ends soon because its effort is used up: called once then. The stack is
   /// still that of the search, for the last time: what comes next is a retraction.
   virtual void on_pause() {}
-  /// Elementary steps so far, of less than a microsecond each. The same in each run.
-  [[nodiscard]] virtual std::int64_t effort() const { return 0; }
+  /// Of all calls so far. The same in each run.
+  [[nodiscard]] virtual Effort effort() const { return {}; }
 };
 
 }  // namespace quadrille::sat

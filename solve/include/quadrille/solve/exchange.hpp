@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/ids.hpp"
 
 namespace quadrille::solve {
@@ -49,9 +50,9 @@ class Exchange {
   [[nodiscard]] virtual bool has_others() const { return false; }
   [[nodiscard]] virtual std::size_t worker() const { return 0; }
   [[nodiscard]] virtual Role role() const { return Role::all; }
-  /// Called now and then with the elementary steps of the search so far. May wait. At the end of a
+  /// Called now and then with the effort of the search so far. May wait. At the end of a
   /// round: `tell()` is told to the others, and what they told comes back.
-  [[nodiscard]] virtual std::optional<Message> arrive(std::int64_t /*effort*/,
+  [[nodiscard]] virtual std::optional<Message> arrive(Effort /*effort*/,
                                                       const std::function<Message()>& /*tell*/) {
     return std::nullopt;
   }

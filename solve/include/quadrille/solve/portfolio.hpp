@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "quadrille/core/effort.hpp"
 #include "quadrille/core/request.hpp"
 #include "quadrille/solve/exchange.hpp"
 #include "quadrille/solve/knowledge.hpp"
@@ -28,10 +29,10 @@ struct Desk {
   Exchange<Message>& exchange;
 };
 
-/// How often searches exchange what they know, see Rounds: elementary steps between two exchanges,
-/// and by how many rounds messages are old, so that searches wait less for each other.
+/// How often searches exchange what they know, see Rounds: the effort between two exchanges, and
+/// by how many rounds messages are old, so that searches wait less for each other.
 struct Pace {
-  std::int64_t round;
+  Effort round;
   std::int64_t lag;
 };
 
@@ -43,7 +44,7 @@ class RoundsExchange final : public Exchange<Message> {
   [[nodiscard]] bool has_others() const override { return true; }
   [[nodiscard]] std::size_t worker() const override { return worker_; }
   [[nodiscard]] Role role() const override { return role_; }
-  [[nodiscard]] std::optional<Message> arrive(std::int64_t effort,
+  [[nodiscard]] std::optional<Message> arrive(Effort effort,
                                               const std::function<Message()>& tell) override {
     return rounds_.arrive(worker_, effort, tell);
   }

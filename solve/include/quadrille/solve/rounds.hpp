@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "quadrille/core/effort.hpp"
+
 namespace quadrille::solve {
 
 /// Searches in threads of their own that go through rounds of equal effort together, exchange what
@@ -27,18 +29,18 @@ namespace quadrille::solve {
 template <class Message>
 class Rounds {
  public:
-  /// The first round ends when a worker arrives at all. Then one takes `length` steps; at first a
+  /// The first round ends when a worker arrives at all. Then one takes `length`; at first a
   /// thirty-second of it and twice as many again and again, because easy instances are over soon.
   /// With `race` nobody waits, and what is heard is what is known at the time. With a `lag` workers
-  /// wait less for each other, and messages are older. Requires length >= 1, lag >= 0.
-  Rounds(std::size_t num_workers, std::int64_t length, bool race, std::int64_t lag = 0)
+  /// wait less for each other, and messages are older. Requires length > 0, lag >= 0.
+  Rounds(std::size_t num_workers, Effort length, bool race, std::int64_t lag = 0)
       : length_(length), race_(race), lag_(lag), workers_(num_workers) {}
 
   [[nodiscard]] std::size_t num_workers() const noexcept { return workers_.size(); }
 
-  /// A worker has done `effort` steps in all. Within a round this returns nullopt at once; at the
+  /// A worker has done `effort` in all. Within a round this returns nullopt at once; at the
   /// end of one it publishes `tell()`, waits for the others and returns what they told, merged.
-  [[nodiscard]] std::optional<Message> arrive(std::size_t worker, std::int64_t effort,
+  [[nodiscard]] std::optional<Message> arrive(std::size_t worker, Effort effort,
                                               const std::function<Message()>& tell) {
     Worker& me = workers_[worker];
     const std::int64_t round = round_of(effort);
@@ -96,9 +98,10 @@ class Rounds {
   };
 
   /// Rounds end at length / 32, length / 16, ..., length, 2 length, 3 length, ...
-  [[nodiscard]] std::int64_t round_of(std::int64_t effort) const {
+  [[nodiscard]] std::int64_t round_of(Effort effort) const {
     if (effort >= length_) return 1 + kDoublings + effort / length_;
-    const auto part = static_cast<std::uint64_t>((effort << kDoublings) / length_);
+    const auto part =
+        static_cast<std::uint64_t>((std::int64_t{1} << kDoublings) * effort / length_);
     return 1 + static_cast<std::int64_t>(std::bit_width(part));
   }
 
@@ -155,7 +158,7 @@ class Rounds {
     return heard;
   }
 
-  const std::int64_t length_;
+  const Effort length_;
   const bool race_;
   const std::int64_t lag_;
   std::mutex mutex_;
