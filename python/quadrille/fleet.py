@@ -143,7 +143,7 @@ class Fleet(Generic[P]):
                     leaves=flags(False if leaves is None else leaves, "leaves", n),
                     under_way=under_way,
                     obstacles=[obstacle._given() for obstacle in obstacles],
-                    now=float(doubles(now, "now", ())),
+                    now=doubles(now, "now", ()).item(),
                 ),
                 dict(
                     agent=lambda i: called[i] if i < len(called) else f"agent {i}",
@@ -161,7 +161,7 @@ class Fleet(Generic[P]):
             end, num_goals = _goal_sets(goals, shape)
             _check_lengths(len(begin), len(num_goals))
             instance = _core.StepInstance(
-                graph._graph, begin, end, num_goals, called, int(ints(now, "now", ()))
+                graph._graph, begin, end, num_goals, called, ints(now, "now", ()).item()
             )
         self._setup(graph, instance, names)
 

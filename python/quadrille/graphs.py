@@ -268,7 +268,7 @@ class Roadmap:
 
     def _vertex(self, place: Any, what: str) -> int:
         if self._nodes is None:
-            return int(ints(place, what, ()))
+            return ints(place, what, ()).item()
         try:
             return self._number[place]
         except (KeyError, TypeError):  # no vertex, or nothing that can be a name
