@@ -127,7 +127,8 @@ std::vector<LevelCore> drawn_cores(unsigned seed, std::size_t num_agents, Cost s
 // Doubles know 10^12 ticks to a ten-thousandth of a tick at best, linear programs to some hundred
 // ticks; bounds have to be exact all the same, or leaves are split for ever that should be closed.
 TEST(LevelCover, TakesAsFewProgramsWhereTicksAreFine) {
-  constexpr std::int64_t many_steps = 20'000'000;  // of each call; all calls take about 40,000
+  // Of each call; all calls take about 50.
+  constexpr Effort much = Effort::microseconds(25'000);
   LimitMonitor limits({});
   std::int64_t coarse_programs = 0, fine_programs = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
@@ -139,7 +140,7 @@ TEST(LevelCover, TakesAsFewProgramsWhereTicksAreFine) {
       for (const LevelCore& core : drawn_cores(seed, num_agents, step)) {
         cores.push_back(core);
         cover.add(core);
-        ASSERT_TRUE(cover.solve(limits, many_steps));
+        ASSERT_TRUE(cover.solve(limits, much));
         ASSERT_TRUE(cover.is_exact());
         for (const LevelCore& c : cores) ASSERT_TRUE(hit(cover.costs(), c));
         ASSERT_EQ(cover.total(),
@@ -156,7 +157,7 @@ TEST(LevelCover, TakesAsFewProgramsWhereTicksAreFine) {
   EXPECT_LE(2 * fine_programs, 3 * coarse_programs);
 }
 
-// With however few steps at a time: bounds on both sides, and at last the least sum.
+// With however little effort at a time: bounds on both sides, and at last the least sum.
 TEST(LevelCover, GoesOnWhereItGaveUp) {
   LimitMonitor limits({});
   int num_open = 0;
@@ -173,7 +174,7 @@ TEST(LevelCover, GoesOnWhereItGaveUp) {
         least_by_cores(std::vector<Cost>(num_agents, 3), cores, std::numeric_limits<Cost>::max());
     Cost last = 0;
     for (int calls = 0; calls < 10'000; ++calls) {
-      ASSERT_TRUE(cover.solve(limits, 1));
+      ASSERT_TRUE(cover.solve(limits, Effort::nanoseconds(1)));
       Cost sum = 0;
       for (const Cost cost : cover.costs()) sum += cost;
       for (const LevelCore& core : cores) ASSERT_TRUE(hit(cover.costs().items(), core));

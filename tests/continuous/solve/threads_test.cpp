@@ -122,8 +122,9 @@ TEST(ContinuousThreads, FindWhatOneThreadFinds) {
       if (random.below(2) == 0) options.debug.known_plan = c.truth.plan;
       num_known += options.debug.known_plan && !options.debug.audit ? 1 : 0;
       Start start(c.instance, options);
-      const solve::Pace pace{static_cast<std::int64_t>(100 + random.below(20'000)),
-                             static_cast<std::int64_t>(random.below(4))};
+      const solve::Pace pace{
+          Effort::microseconds(5 + static_cast<std::int64_t>(random.below(1000))),
+          static_cast<std::int64_t>(random.below(4))};
       const Settlement settled = start.search(pace);
       ASSERT_FALSE(settled.error) << settled.error->message;
       ASSERT_EQ(settled.status, Status::optimal);
@@ -150,7 +151,7 @@ TEST(ContinuousThreads, FiveRunsGiveTheSameAnswer) {
     std::optional<Status> first_status;
     for (int run = 0; run < 5; ++run) {
       Start start(instance, options);
-      const Status status = start.search({5000, 2}).status;
+      const Status status = start.search({Effort::microseconds(250), 2}).status;
       const Knowledge& known = start.known;
       ASSERT_TRUE(known.plan);
       ASSERT_TRUE(verify(instance, *known.plan).valid());
@@ -176,7 +177,7 @@ class Prompter final : public Exchange {
       : role_(role), silence_(silence), message_(std::move(message)) {}
   bool has_others() const override { return true; }
   Role role() const override { return role_; }
-  std::optional<Message> arrive(std::int64_t, const std::function<Message()>& tell) override {
+  std::optional<Message> arrive(Effort, const std::function<Message()>& tell) override {
     const Message told = tell();
     lower_ = std::max(lower_, told.lower);
     if (++num_calls_ < silence_) return Message();

@@ -87,7 +87,7 @@ class Prompter final : public solve::Exchange<Message> {
       : role_(role), silence_(silence), message_(std::move(message)) {}
   bool has_others() const override { return true; }
   Role role() const override { return role_; }
-  std::optional<Message> arrive(std::int64_t, const std::function<Message()>& tell) override {
+  std::optional<Message> arrive(Effort, const std::function<Message()>& tell) override {
     const Message told = tell();
     lower_ = std::max(lower_, told.lower);
     if (++num_calls_ < silence_) return Message();
