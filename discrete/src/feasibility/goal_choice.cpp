@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/breadth_first.hpp"
+#include "feasibility/goal_reach.hpp"
+#include "quadrille/solve/assignment.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -21,44 +22,25 @@ class GoalMatching {
  public:
   static constexpr std::size_t kNobody = SIZE_MAX;
 
-  explicit GoalMatching(const Instance& instance)
+  GoalMatching(const Instance& instance, const GoalReach& reach)
       : instance_(instance),
-        near_(instance.num_agents()),
         owner_(instance.graph().num_vertices(), kNobody),
         seen_(instance.graph().num_vertices(), 0),
-        asker_(instance.graph().num_vertices()) {}
-
-  /// False if a limit was met.
-  bool rank_goals(LimitMonitor* limits) {
-    BreadthFirst search(instance_.graph());
-    for (const AgentId i : instance_.agent_ids()) {
-      const Agent& task = instance_.agents()[i];
-      if (!search.run(task.start, limits)) return false;
-      std::vector<std::pair<Timestep, VertexId>> ranked;
-      for (const VertexId goal : task.goals.vertices())
-        if (const Timestep d = search.distances()[goal.index()]; d != kUnreachable)
-          ranked.emplace_back(d, goal);
-      std::sort(ranked.begin(), ranked.end());
-      for (const auto& [d, goal] : ranked) near_[i].push_back(goal);
+        asker_(instance.graph().num_vertices()) {
+    for (const std::vector<solve::Reach>& own : reach.agents) {
+      std::vector<VertexId> near;
+      for (const solve::Reach& to : own) near.push_back(reach.goals[to.goal]);
+      near_.push_back(std::move(near));
     }
-    return true;
   }
 
   /// Agents that can only end at fewer goals than they are; empty if all have a goal of their own.
-  /// After Kuhn, "The Hungarian method for the assignment problem", Naval Research Logistics 1955:
-  /// augmenting paths, found breadth first.
+  /// Augmenting paths, found breadth first.
   [[nodiscard]] std::vector<AgentId> match() {
     for (const AgentId i : instance_.agent_ids())
       if (auto crowd = augment(i); !crowd.empty()) return crowd;
     return {};
   }
-  [[nodiscard]] std::vector<VertexId> goals() const {
-    std::vector<VertexId> goals(instance_.num_agents());
-    for (const VertexId v : IdRange<VertexId>(owner_.size()))
-      if (owner_[v] != kNobody) goals[owner_[v]] = v;
-    return goals;
-  }
-
   /// Those of an agent that it can reach, nearest first.
   [[nodiscard]] const std::vector<VertexId>& near(AgentId i) const { return near_[i]; }
 
@@ -168,10 +150,17 @@ class Choices {
 }  // namespace
 
 GoalChoice choose_goals(const Instance& instance, LimitMonitor* limits) {
-  GoalMatching matching(instance);
-  if (!matching.rank_goals(limits)) return {{}, std::nullopt};
+  LimitMonitor none{Limits{}};
+  LimitMonitor& monitor = limits != nullptr ? *limits : none;
+  const auto reach = find_goal_reach(instance, monitor);
+  if (!reach) return {{}, std::nullopt};
+  GoalMatching matching(instance, *reach);
   if (const auto crowd = matching.match(); !crowd.empty()) return {crowded(crowd), std::nullopt};
-  Instance first = with_goals(instance, matching.goals());
+  const auto cheapest = solve::cheapest_assignment(reach->agents, reach->goals.size(), monitor);
+  if (!cheapest) return {{}, std::nullopt};
+  std::vector<VertexId> nearest;
+  for (const std::size_t goal : cheapest->goals) nearest.push_back(reach->goals[goal]);
+  Instance first = with_goals(instance, nearest);
   Feasibility verdict = check_feasibility(first);
   if (verdict.feasible) return {{}, std::move(first)};
   std::int64_t edges = 0;

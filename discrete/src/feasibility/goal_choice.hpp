@@ -17,8 +17,8 @@ struct GoalChoice {
   std::optional<Instance> chosen;
 };
 
-/// Looks for goals with which there is a plan: a matching of agents and goals, in which most are
-/// near, and then all others in their order for as long as that takes few steps. Exact in both
+/// Looks for goals with which there is a plan: those that cost least if nobody is in the way, and
+/// then all others in their order for as long as that takes few steps. Exact in both
 /// directions where the answer is decided: a plan ends with some choice. `limits` may be null.
 [[nodiscard]] GoalChoice choose_goals(const Instance& instance, LimitMonitor* limits);
 

@@ -11,7 +11,7 @@ DiscreteDomain::DiscreteDomain(LazyModel& model, LimitMonitor& limits, ExplicitP
     : model_(model),
       limits_(limits),
       paths_(model.instance()),
-      trailed_paths_(paths_, model.obstacles()),
+      trailed_paths_(paths_, model),
       search_(model, paths_, limits),
       clauses_(model, paths_),
       explicit_paths_(model, price) {

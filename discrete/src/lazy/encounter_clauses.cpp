@@ -11,7 +11,7 @@ std::vector<ObstacleId> EncounterClauses::exclude(const Encounter& e, Timestep c
                                                   FormulaWriter& writer) {
   if (e.kind == Encounter::Kind::rest && paths_.path(e.second).back() == e.vertex)
     return {model_.end(e.first, e.vertex, writer), model_.end(e.second, e.vertex, writer)};
-  if (e.kind == Encounter::Kind::rest && cap <= e.timestep)
+  if (e.kind == Encounter::Kind::rest && cap - model_.price(e.vertex) <= e.timestep)
     return {model_.keep_off_goal(e.second, e.first, {e.vertex, e.timestep}, writer)};
   if (e.kind != Encounter::Kind::rest)
     if (auto usages = exclude_corridor(e, writer); !usages.empty()) return usages;

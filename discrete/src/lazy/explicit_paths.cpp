@@ -48,8 +48,9 @@ std::int64_t ExplicitPaths::size(AgentId agent, Timestep max_delay) const {
 
 void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer) {
   Agent& a = agents_[agent];
-  // The clauses of MddPaths lead to one goal.
-  if (!model_.instance().agents()[agent].goals.is_single()) return;
+  // The clauses of MddPaths lead to one goal, without a price.
+  const Goals& goals = model_.instance().agents()[agent].goals;
+  if (!goals.is_single() || model_.price(goals.only()) > 0) return;
   if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
   const Timestep delay = cap - model_.distances(agent).free_cost();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;

@@ -50,7 +50,7 @@ std::string LazyAuditor::audit_usages(const sat::Lemma& lemma) const {
       const VertexId goal = var.kind == VariableKind::rest ? var.goal : goals.vertices().front();
       const bool says_where = var.kind == VariableKind::rest || goals.is_single();
       const bool holds = o.kind == Kind::range && o.last == kForever && var.agent != o.agent &&
-                         says_where && goal == o.vertex && LazyModel::cap(var) <= o.first &&
+                         says_where && goal == o.vertex && rests_from(var, goal) <= o.first &&
                          !o.allowed.positive();
       if (!holds) return "nobody rests where a target usage says so";
     } else if (var.kind != VariableKind::usage || var.obstacle != id) {
@@ -112,17 +112,35 @@ std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
       demand.avoided.push_back(model_.obstacles()[var.obstacle]);
     } else if (var.kind == VariableKind::rest) {  // of another agent
       if (var.agent == agent) return "explicit paths are bound to the agent's own rest";
-      avoid_range(var.goal, LazyModel::cap(var), kForever);
+      avoid_range(var.goal, rests_from(var, var.goal), kForever);
     } else if (var.agent == agent) {
       demand.bound = std::min(demand.bound.value_or(kForever), LazyModel::cap(var));
     } else {  // the other agent rests at its goal
-      avoid_range(model_.instance().agents()[var.agent].goal(), LazyModel::cap(var), kForever);
+      const VertexId goal = model_.instance().agents()[var.agent].goal();
+      avoid_range(goal, rests_from(var, goal), kForever);
     }
   }
   return has_path(agent, demand) ? "some path does not satisfy a clause about explicit paths" : "";
 }
 
+/// From when on an agent rests there that costs no more than the variable says.
+Timestep LazyAuditor::rests_from(const LazyModel::Variable& var, VertexId goal) const {
+  return LazyModel::cap(var) - model_.price(goal);
+}
+
 bool LazyAuditor::has_path(AgentId agent, const Demand& demand) const {
+  const Goals& goals = model_.instance().agents()[agent].goals;
+  const auto all = goals.vertices();
+  if (!demand.bound) return has_path_until(demand.horizon, agent, demand, {});
+  return std::any_of(all.begin(), all.end(), [&](VertexId goal) {
+    return has_path_until(*demand.bound - model_.price(goal), agent, demand, goal);
+  });
+}
+
+/// Ends at the goal then, or anywhere.
+bool LazyAuditor::has_path_until(Timestep end, AgentId agent, const Demand& demand,
+                                 std::optional<VertexId> goal) const {
+  if (end < 0) return false;
   const Graph& graph = model_.instance().graph();
   const Agent& task = model_.instance().agents()[agent];
   const auto visit_allowed = [&](VertexId v, Timestep t) {
@@ -136,7 +154,6 @@ bool LazyAuditor::has_path(AgentId agent, const Demand& demand) const {
     return std::none_of(demand.avoided.begin(), demand.avoided.end(),
                         [&](const Obstacle& o) { return forbids_move(o, v, w, t); });
   };
-  const Timestep end = demand.bound.value_or(demand.horizon);
   IdVector<VertexId, bool> here(graph.num_vertices(), false);
   here[task.start] = visit_allowed(task.start, 0);
   for (Timestep t = 0; t < end; ++t) {
@@ -149,18 +166,14 @@ bool LazyAuditor::has_path(AgentId agent, const Demand& demand) const {
     }
     here = std::move(next);
   }
-  if (!demand.bound) return std::find(here.begin(), here.end(), true) != here.end();
-  const auto can_rest = [&](VertexId goal) {
-    return std::none_of(
-               demand.avoided.begin(), demand.avoided.end(),
-               [&](const Obstacle& o) { return model_.obstacles().last_block(o, goal) >= end; }) &&
-           std::all_of(demand.visits.begin(), demand.visits.end(), [&](const Visit& visit) {
-             return visit.timestep < end || visit.vertex == goal;
-           });
-  };
-  const auto goals = task.goals.vertices();
-  return std::any_of(goals.begin(), goals.end(),
-                     [&](VertexId goal) { return here[goal] && can_rest(goal); });
+  if (!goal) return std::find(here.begin(), here.end(), true) != here.end();
+  return here[*goal] &&
+         std::none_of(
+             demand.avoided.begin(), demand.avoided.end(),
+             [&](const Obstacle& o) { return model_.obstacles().last_block(o, *goal) >= end; }) &&
+         std::all_of(demand.visits.begin(), demand.visits.end(), [&](const Visit& visit) {
+           return visit.timestep < end || visit.vertex == *goal;
+         });
 }
 
 std::string LazyAuditor::audit_collision(const sat::Lemma& lemma) const {
@@ -261,13 +274,14 @@ std::string LazyAuditor::audit_rest(Clause clause) const {
 std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
   const auto var = model_.variable(lit);
   const Path& path = known_plan_->paths[var.agent];
+  const Cost cost = arrival(path) + model_.price(path.back());
   switch (var.kind) {
     case VariableKind::usage:  // the negated variable: the agent does it
       return model_.obstacles().hits(var.obstacle, path) != lit.positive();
     case VariableKind::cost:  // the negated variable: the agent costs more
-      return (arrival(path) >= var.cost) != lit.positive();
+      return (cost >= var.cost) != lit.positive();
     case VariableKind::rest:
-      return (path.back() == var.goal && arrival(path) < var.cost) == lit.positive();
+      return (path.back() == var.goal && cost < var.cost) == lit.positive();
     case VariableKind::own:
       return (position(path, model_.visit(var).timestep) == model_.visit(var).vertex) ==
              lit.positive();

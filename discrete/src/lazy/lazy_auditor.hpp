@@ -41,6 +41,9 @@ class LazyAuditor final : public sat::ClauseAuditor {
     Timestep horizon = 0;
   };
   [[nodiscard]] bool has_path(AgentId agent, const Demand& demand) const;
+  [[nodiscard]] bool has_path_until(Timestep end, AgentId agent, const Demand& demand,
+                                    std::optional<VertexId> goal) const;
+  [[nodiscard]] Timestep rests_from(const LazyModel::Variable& variable, VertexId goal) const;
   /// True if the agents can move from their starts so that they do not collide and each makes all
   /// of its usages. At most four usages.
   [[nodiscard]] bool can_use_all(AgentId a, AgentId b, std::span<const Obstacle> usages) const;

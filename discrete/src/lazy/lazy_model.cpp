@@ -8,13 +8,15 @@ namespace quadrille::discrete {
 
 using sat::Lit;
 
-LazyModel::LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances)
+LazyModel::LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+                     std::shared_ptr<const GoalPrices> prices)
     : Vocabulary(instance.num_agents(), Costs::negative),
       instance_(instance),
-      goal_distances_(std::move(distances)) {
+      goal_distances_(std::move(distances)),
+      prices_(std::move(prices)) {
   distances_.reserve(instance.num_agents());
   for (const AgentId i : instance.agent_ids())
-    distances_.emplace_back(instance, *goal_distances_, i);
+    distances_.emplace_back(instance, *goal_distances_, i, prices_.get());
 }
 
 Lit LazyModel::new_vertex(AgentId agent, Visit visit, FormulaWriter& writer) {
@@ -84,7 +86,7 @@ ObstacleId LazyModel::end(AgentId agent, VertexId goal, FormulaWriter& writer) {
 
 ObstacleId LazyModel::keep_off_goal(AgentId agent, AgentId resident, Visit goal,
                                     FormulaWriter& writer) {
-  Rest rest{resident, goal.vertex, Cost{goal.timestep} + 1};
+  Rest rest{resident, goal.vertex, Cost{goal.timestep} + price(goal.vertex) + 1};
   if (!instance_.agents()[resident].goals.is_single())
     rest.may_end = obstacles_[end(resident, goal.vertex, writer)].allowed;
   return goal_obstacle(agent, rest, writer,

@@ -22,14 +22,17 @@ using lazy::FormulaWriter;
 class LazyModel final : public lazy::Vocabulary {
  public:
   /// Requires that all goals can be reached, and the distances of `instance`, which outlives the
-  /// model.
-  LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances);
+  /// model. With prices, which are those of the distances, costs include them.
+  LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
+            std::shared_ptr<const GoalPrices> prices = nullptr);
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] const AgentDistances& distances(AgentId agent) const {
     return distances_[agent.index()];
   }
   [[nodiscard]] const ObstacleTable& obstacles() const noexcept { return obstacles_; }
+  /// Of a goal.
+  [[nodiscard]] Timestep price(VertexId goal) const { return prices_ ? (*prices_)[goal] : 0; }
 
   [[nodiscard]] Cost free_cost(AgentId agent) const override {
     return distances(agent).free_cost();
@@ -52,8 +55,8 @@ class LazyModel final : public lazy::Vocabulary {
                                    FormulaWriter& writer);
   /// End in that goal, for an agent that shares it with others: of these only one may.
   [[nodiscard]] ObstacleId end(AgentId agent, VertexId goal, FormulaWriter& writer);
-  /// Keeps `agent` away from a goal of `resident` from `t` on while that rests there and costs at
-  /// most `t`.
+  /// Keeps `agent` away from a goal of `resident` from its timestep on while that rests there and
+  /// costs no more than if it had arrived then.
   ObstacleId keep_off_goal(AgentId agent, AgentId resident, Visit goal, FormulaWriter& writer);
 
   /// The literal "the agent is in that vertex at that timestep", or at rest there if it is its
@@ -78,6 +81,7 @@ class LazyModel final : public lazy::Vocabulary {
 
   const Instance& instance_;
   std::shared_ptr<const GoalDistances> goal_distances_;
+  std::shared_ptr<const GoalPrices> prices_;
   std::vector<AgentDistances> distances_;
   ObstacleTable obstacles_;
   std::unordered_map<std::uint64_t, Users> points_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lazy/lazy_model.hpp"
 #include "paths/path_index.hpp"
 #include "quadrille/lazy/vocabulary.hpp"
 
@@ -13,18 +14,19 @@ class TrailedPaths {
   using Cost = quadrille::Cost;
 
   /// Both outlive the object.
-  TrailedPaths(PathIndex& paths, const ObstacleTable& obstacles)
-      : paths_(paths), obstacles_(obstacles) {}
+  TrailedPaths(PathIndex& paths, const LazyModel& model) : paths_(paths), model_(model) {}
   [[nodiscard]] const Path& path(AgentId i) const { return paths_.path(i); }
   void set_path(AgentId i, const Path& path) { paths_.replace(i, path); }
-  [[nodiscard]] Cost cost(const Path& path) const { return static_cast<Cost>(path.size()) - 1; }
+  [[nodiscard]] Cost cost(const Path& path) const {
+    return static_cast<Cost>(path.size()) - 1 + model_.price(path.back());
+  }
   [[nodiscard]] bool breaks(const Path& path, ObstacleId id) const {
-    return obstacles_.hits(id, path);
+    return model_.obstacles().hits(id, path);
   }
 
  private:
   PathIndex& paths_;
-  const ObstacleTable& obstacles_;
+  const LazyModel& model_;
 };
 
 /// Caps are lazy::kNoCap for agents that do not take part.

@@ -13,7 +13,7 @@ PathSearch::PathSearch(const LazyModel& model, const PathIndex& paths, LimitMoni
 void PathSearch::load(AgentId agent, std::span<const ObstacleId> obstacles) {
   ++num_searches_;
   loaded_.assign(obstacles.begin(), obstacles.end());
-  map_.load(model_.obstacles(), loaded_, model_.distances(agent).goals());
+  map_.load(model_.obstacles(), loaded_, model_.distances(agent));
 }
 
 PathSearch::Cheapest PathSearch::find_cheapest(AgentId agent, std::span<const ObstacleId> obstacles,

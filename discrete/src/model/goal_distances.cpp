@@ -25,6 +25,32 @@ std::int64_t most_moves(const Graph& graph) {
   return most;
 }
 
+/// The least sum of a distance and a price, by vertex.
+void find_priced(const Graph& graph, const Goals& goals, const GoalPrices& prices,
+                 std::vector<Timestep>& distances) {
+  distances.assign(graph.num_vertices(), kUnreachable);
+  std::vector<std::pair<Timestep, VertexId>> sources;
+  for (const VertexId goal : goals.vertices()) sources.emplace_back(prices[goal], goal);
+  std::sort(sources.begin(), sources.end());
+  // Level by level: goals join the search at the level of their price.
+  std::vector<VertexId> level, next;
+  std::size_t num_joined = 0;
+  for (Timestep d = sources.front().first; !level.empty() || num_joined < sources.size(); ++d) {
+    if (level.empty()) d = sources[num_joined].first;
+    const auto reach = [&](VertexId v) {
+      if (distances[v.index()] != kUnreachable) return;
+      distances[v.index()] = d;
+      next.push_back(v);
+    };
+    for (const VertexId v : level)
+      for (const VertexId w : graph.neighbours(v)) reach(w);
+    for (; num_joined < sources.size() && sources[num_joined].first == d; ++num_joined)
+      reach(sources[num_joined].second);
+    level.swap(next);
+    next.clear();
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instance,
@@ -35,6 +61,21 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
   BreadthFirst search(instance.graph());
   for (const AgentId agent : instance.agent_ids())
     if (!table->fill(agent, instance.agents()[agent].goals, search, limits)) return nullptr;
+  return table;
+}
+
+std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instance,
+                                                         const GoalPrices& prices,
+                                                         LimitMonitor& limits) {
+  std::shared_ptr<GoalDistances> table(new GoalDistances());
+  // Packed, as a price may be larger than what fits otherwise.
+  if (!table->prepare(instance, limits, 0)) return nullptr;
+  std::vector<Timestep> distances;
+  for (const AgentId agent : instance.agent_ids()) {
+    if (limits.exhausted_now()) return nullptr;
+    find_priced(instance.graph(), instance.agents()[agent].goals, prices, distances);
+    table->keep(agent, distances);
+  }
   return table;
 }
 
@@ -58,17 +99,20 @@ bool GoalDistances::prepare(const Instance& instance, LimitMonitor& limits,
 bool GoalDistances::fill(AgentId agent, const Goals& goals, BreadthFirst& search,
                          LimitMonitor& limits) {
   if (limits.exhausted_now() || !search.run(goals.vertices(), &limits)) return false;
-  const std::vector<Timestep>& distances = search.distances();
+  keep(agent, search.distances());
+  return true;
+}
+
+void GoalDistances::keep(AgentId agent, const std::vector<Timestep>& distances) {
   if (plain_.empty()) {
     pack(distances, bits_.data() + agent.index() * num_bytes(),
          centres_.data() + agent.index() * group_centre_.size());
-    return true;
+    return;
   }
-  std::transform(distances.begin(), distances.end() - 1,
+  std::transform(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(groups_.size()),
                  plain_.data() + agent.index() * groups_.size(), [](Timestep distance) {
                    return static_cast<std::uint16_t>(std::min<Timestep>(distance, kNoWay));
                  });
-  return true;
 }
 
 std::shared_ptr<const GoalDistances> GoalDistancesInTheMaking::join(LimitMonitor& limits) {

@@ -3,11 +3,13 @@
 
 namespace quadrille::discrete {
 
-AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& table, AgentId agent)
+AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& table, AgentId agent,
+                               const GoalPrices* prices)
     : graph_(&instance.graph()),
       table_(&table),
       task_(instance.agents()[agent]),
-      to_goal_(table.row(agent)) {
+      to_goal_(table.row(agent)),
+      prices_(prices) {
   QUADRILLE_REQUIRE(free_cost() != kUnreachable, "a goal is reachable");
 }
 

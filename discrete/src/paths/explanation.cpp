@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "paths/explanation.hpp"
 
+#include <algorithm>
+
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
 
-// A walk of cost at most K is one that is at a goal at K and meets nothing there from then on. So
-// goals that a slot forbids at K or later need no more. Let H be the slots that blocked a step out
-// of a state that the start can reach within the slack. On any walk to another (goal, K) the part
-// after the last step that H blocks is found by searching back from (goal, K) around H, so that
-// step's slot is collected. This search cannot come to a state that the start reaches: from there,
-// the walk to the goal would have met a slot of H.
+// A walk of cost at most K is one that is at a goal of price p at K - p and meets nothing there
+// from then on. So goals that a slot forbids then or later need no more. Let H be the slots that
+// blocked a step out of a state that the start can reach within the slack. On any walk to another
+// (goal, K - p) the part after the last step that H blocks is found by searching back from (goal, K
+// - p) around H, so that step's slot is collected. This search cannot come to a state that the
+// start reaches: from there, the walk to the goal would have met a slot of H.
 void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
                         std::span<const Timestep> first_hits, Timestep bound,
                         std::vector<std::size_t>& slots) {
   taken_.assign(obstacles.num_slots(), 0);
   cut_off_blocked_goals(d, obstacles, bound, slots);
-  if (frontier_.empty()) return;
+  if (ends_.empty()) return;
   const Timestep max_slack = bound - d.free_cost();
   // Collects a slot of H from those that `for_each` tells, unless one of them is collected already.
   // False if it tells none.
@@ -35,7 +37,11 @@ void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
     }
     return true;
   };
-  for (Timestep t = bound - 1; t >= 0 && !frontier_.empty(); --t) {
+  std::size_t num_begun = 0;
+  for (Timestep t = ends_.front().timestep - 1;
+       t >= 0 && (!frontier_.empty() || num_begun < ends_.size()); --t) {
+    for (; num_begun < ends_.size() && ends_[num_begun].timestep == t + 1; ++num_begun)
+      frontier_.push_back(ends_[num_begun].vertex);
     ++stamp_;
     next_.clear();
     for (const VertexId w : frontier_) {
@@ -59,8 +65,9 @@ void Explainer::cut_off_blocked_goals(const AgentDistances& d, const ObstacleMap
                                       Timestep bound, std::vector<std::size_t>& slots) {
   const auto goals = d.goals().vertices();
   is_cut_.assign(goals.size(), 0);
+  const auto last_arrival = [&](std::size_t goal) { return bound - d.price(goals[goal]); };
   for (const ObstacleMap::GoalBlock& block : obstacles.goal_blocks()) {
-    if (block.last < bound || is_cut_[block.goal] != 0) continue;
+    if (block.last < last_arrival(block.goal) || is_cut_[block.goal] != 0) continue;
     is_cut_[block.goal] = 1;
     // Others that a collected slot cuts off come right after it.
     if (taken_[block.slot] != 0) continue;
@@ -68,8 +75,12 @@ void Explainer::cut_off_blocked_goals(const AgentDistances& d, const ObstacleMap
     slots.push_back(block.slot);
   }
   frontier_.clear();
+  ends_.clear();
   for (std::size_t k = 0; k < goals.size(); ++k)
-    if (is_cut_[k] == 0 && d.from_start(goals[k]) <= bound) frontier_.push_back(goals[k]);
+    if (is_cut_[k] == 0 && d.from_start(goals[k]) <= last_arrival(k))
+      ends_.push_back({goals[k], last_arrival(k)});
+  std::stable_sort(ends_.begin(), ends_.end(),
+                   [](const Visit& a, const Visit& b) { return a.timestep > b.timestep; });
 }
 
 }  // namespace quadrille::discrete

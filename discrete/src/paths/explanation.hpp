@@ -24,11 +24,12 @@ class Explainer {
                std::vector<std::size_t>& slots);
 
  private:
-  /// Collects a slot for each goal that some slot forbids at `bound` or later. The others that can
-  /// be reached by then become the frontier.
+  /// Collects a slot for each goal that some slot forbids when a path that costs `bound` arrives
+  /// there, or later. The others that can be reached by then become ends, the latest first.
   void cut_off_blocked_goals(const AgentDistances& distances, const ObstacleMap& obstacles,
                              Timestep bound, std::vector<std::size_t>& slots);
 
+  std::vector<Visit> ends_;
   std::vector<VertexId> frontier_, next_;
   IdVector<VertexId, std::uint64_t> seen_;
   std::uint64_t stamp_ = 0;

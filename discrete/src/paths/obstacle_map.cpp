@@ -6,14 +6,14 @@
 namespace quadrille::discrete {
 
 void ObstacleMap::load(const ObstacleTable& table, std::span<const ObstacleId> active,
-                       const Goals& goals) {
+                       const AgentDistances& distances) {
   if (++stamp_ == 0) {  // after 2^32 loads: all stamps are stale
     heads_.assign(heads_.size(), {});
     stamp_ = 1;
   }
   entries_.clear();
   num_slots_ = active.size();
-  goals_ = goals;
+  goals_ = distances.goals();
   goal_blocks_.clear();
   earliest_rests_.assign(goals_.size(), 0);
   for (std::uint32_t slot = 0; slot < active.size(); ++slot) {
@@ -32,7 +32,11 @@ void ObstacleMap::load(const ObstacleTable& table, std::span<const ObstacleId> a
       block_goal(o.vertex, o.last, slot);
     }
   }
-  earliest_rest_ = *std::min_element(earliest_rests_.begin(), earliest_rests_.end());
+  least_cost_ = kForever;
+  const auto all = goals_.vertices();
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (earliest_rests_[k] != kForever)
+      least_cost_ = std::min(least_cost_, earliest_rests_[k] + distances.price(all[k]));
 }
 
 void ObstacleMap::block_goal(VertexId v, Timestep last, std::uint32_t slot) {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "paths/agent_distances.hpp"
 #include "paths/obstacles.hpp"
-#include "quadrille/core/goals.hpp"
 
 namespace quadrille::discrete {
 
@@ -18,15 +18,16 @@ class ObstacleMap {
  public:
   explicit ObstacleMap(std::size_t num_vertices) : heads_(num_vertices) {}
 
-  /// Forgets what was loaded. `goals`: at one of them the agent has to rest.
-  void load(const ObstacleTable& table, std::span<const ObstacleId> active, const Goals& goals);
+  /// Forgets what was loaded. `distances`: of the agent, who has to rest at one of its goals.
+  void load(const ObstacleTable& table, std::span<const ObstacleId> active,
+            const AgentDistances& distances);
 
   [[nodiscard]] std::size_t num_slots() const noexcept { return num_slots_; }
-  /// From when on some goal stays allowed; kForever: never.
-  [[nodiscard]] Timestep earliest_rest() const noexcept { return earliest_rest_; }
-  /// From when on this goal does.
+  /// No path around the obstacles that rests at a goal costs less; kForever: there is none.
+  [[nodiscard]] Timestep least_cost() const noexcept { return least_cost_; }
+  /// From when on this goal stays allowed; kForever: never.
   [[nodiscard]] Timestep earliest_rest(VertexId goal) const {
-    return goals_.is_single() ? earliest_rest_ : earliest_rests_[index_of(goal)];
+    return earliest_rests_[goals_.is_single() ? 0 : index_of(goal)];
   }
   /// That a slot forbids to rest in a goal, from any timestep up to `last` on.
   struct GoalBlock {
@@ -101,7 +102,7 @@ class ObstacleMap {
   Goals goals_;
   std::vector<GoalBlock> goal_blocks_;
   std::vector<Timestep> earliest_rests_;  // by goal
-  Timestep earliest_rest_ = 0;            // the least of them
+  Timestep least_cost_ = 0;
 };
 
 }  // namespace quadrille::discrete

@@ -2,6 +2,7 @@
 #include "paths/path_finder.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "quadrille/core/contract.hpp"
 
@@ -51,7 +52,7 @@ PathFinder::ClosedIndex PathFinder::close(State state, Timestep slack) {
 }
 
 void PathFinder::trace(const Query& query, ClosedIndex last, Path& path) const {
-  const Timestep arrival = query.distances.free_cost() + closed_[last].slack;
+  const Timestep arrival = query.distances.time(closed_[last].state.vertex, closed_[last].slack);
   path.resize(static_cast<std::size_t>(arrival) + 1);
   ClosedIndex at = last;
   for (auto vertex = path.rbegin(); vertex != path.rend(); ++vertex) {
@@ -70,7 +71,7 @@ void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hi
   if (limits_ != nullptr && effort_ % 64 == 0) limits_->check();
   const AgentDistances& d = query.distances;
   const Timestep max_slack = query.max_cost - d.free_cost();
-  const Timestep h = d.to_goal(v), t = d.free_cost() + slack - h;
+  const Timestep h = d.to_goal(v), t = d.time(v, slack);
   const auto step = [&](VertexId w, Timestep slack_then) {
     if (slack_then > max_slack) return;
     if (is_closed(w, slack_then)) return;
@@ -90,10 +91,10 @@ void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hi
 bool PathFinder::find_cheapest(const Query& query, Path& path) {
   const AgentDistances& d = query.distances;
   first_hits_.assign(query.obstacles.num_slots(), kNoHit);
-  const Timestep earliest_rest = query.obstacles.earliest_rest();
-  if (std::max(d.free_cost(), earliest_rest) > query.max_cost) return false;
-  if (earliest_rest - d.free_cost() >= kLate) {
-    if (dive(query, path)) return true;
+  const Timestep least_cost = query.obstacles.least_cost();
+  if (std::max(d.free_cost(), least_cost) > query.max_cost) return false;
+  if (least_cost - d.free_cost() >= kLate) {
+    if (!d.has_prices() && dive(query, path)) return true;
   } else {
     const auto enough = kStatesPerVertex * static_cast<std::int64_t>(heads_.size());
     if (const End end = sweep(query, enough, path); end != End::gave_up) return end == End::found;
@@ -108,7 +109,13 @@ PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, P
   start_search();
   const Timestep max_slack = query.max_cost - d.free_cost();
   push(open_[0], 0, {d.start(), kNone});
+  // The cheapest end that was come to, at a goal that is dear.
+  std::optional<std::pair<Timestep, ClosedIndex>> end;
   for (Timestep slack = 0; slack <= max_slack; ++slack) {
+    if (end && end->first <= slack) {
+      trace(query, end->second, path);
+      return End::found;
+    }
     Buckets& buckets = open_[static_cast<std::size_t>(slack % 3)];
     for (std::size_t c = 0; c < buckets.size(); ++c) {
       while (!buckets[c].empty()) {
@@ -117,12 +124,14 @@ PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, P
         if (is_closed(state.vertex, slack)) continue;
         if (effort_ >= last_effort) return End::gave_up;
         const ClosedIndex index = close(state, slack);
-        if (d.is_goal(state.vertex)) {
-          const Timestep arrival = d.free_cost() + slack;
-          if (arrival >= query.obstacles.earliest_rest(state.vertex)) {
+        if (d.is_goal(state.vertex) &&
+            d.time(state.vertex, slack) >= query.obstacles.earliest_rest(state.vertex)) {
+          const Timestep then = d.end_slack(state.vertex, slack);
+          if (then == slack) {
             trace(query, index, path);
             return End::found;
           }
+          if (!end || then < end->first) end = {then, index};
         }
         expand(
             query, state.vertex, slack,
@@ -144,7 +153,7 @@ PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, P
 
 bool PathFinder::dive(const Query& query, Path& path) {
   const AgentDistances& d = query.distances;
-  const Timestep arrival = query.obstacles.earliest_rest();
+  const Timestep arrival = query.obstacles.least_cost();
   const Query bounded{query.agent, d, query.obstacles, arrival, query.others};
   const std::int64_t last_effort = effort_ + kStatesPerStep * (std::int64_t{arrival} + 1);
   if (open_.empty()) open_.resize(1);
@@ -172,7 +181,7 @@ bool PathFinder::dive(const Query& query, Path& path) {
       std::stable_sort(steps_.begin(), steps_.end(),
                        [](const auto& a, const auto& b) { return a.first > b.first; });
       for (const auto& [then, w] : steps_) {
-        const Timestep at = d.free_cost() + then - d.to_goal(w);
+        const Timestep at = d.time(w, then);
         const int more = query.others == nullptr
                              ? 0
                              : query.others->collisions_of_step(query.agent, state.vertex, w, at);
@@ -193,8 +202,7 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
   const std::int64_t last_effort =
       query.max_effort > INT64_MAX - effort_ ? INT64_MAX : effort_ + query.max_effort;
   const AgentDistances& d = query.distances;
-  if (query.max_cost < d.free_cost() || query.obstacles.earliest_rest() > query.max_cost)
-    return false;
+  if (query.max_cost < d.free_cost() || query.obstacles.least_cost() > query.max_cost) return false;
   if (static_cast<int>(open_.size()) < below) open_.resize(static_cast<std::size_t>(below));
   start_search();
   if (below <= 0) return false;
@@ -209,8 +217,9 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
         const auto slack = static_cast<Timestep>(s);
         if (is_closed(state.vertex, slack)) continue;
         const ClosedIndex index = close(state, slack);
-        const Timestep arrival = d.free_cost() + slack;
+        const Timestep arrival = d.time(state.vertex, slack);
         if (d.is_goal(state.vertex) && arrival >= query.obstacles.earliest_rest(state.vertex) &&
+            d.free_cost() + d.end_slack(state.vertex, slack) <= query.max_cost &&
             c + query.others->collisions_of_rest(query.agent, state.vertex, arrival) < below) {
           trace(query, index, path);
           return true;

@@ -39,7 +39,7 @@ class PathFinder {
   [[nodiscard]] bool find_cheapest(const Query& query, Path& path);
   /// By slot: the smallest slack at which an obstacle blocked a step of the last `find_cheapest`,
   /// kNoHit if it did not. Complete for all slacks below that of the path found, or up to the limit
-  /// if none was; but when the path arrives as early as the goal can be kept, it may be empty of
+  /// if none was; but when the path costs as little as the goals allow, it may be empty of
   /// hits, since the obstacles in the goal alone say why there is none that is cheaper.
   [[nodiscard]] std::span<const Timestep> first_hits() const noexcept { return first_hits_; }
   static constexpr Timestep kNoHit = INT32_MAX;
@@ -75,7 +75,8 @@ class PathFinder {
   /// All states by increasing slack, up to a number of them.
   End sweep(const Query& query, std::int64_t max_effort, Path& path);
   /// Looks for a path that arrives at the earliest rest and not before, ahead and in depth, as one
-  /// goes to the goal and waits beside it. False if that takes long, or if there is none.
+  /// goes to the goal and waits beside it. False if that takes long, or if there is none. Requires
+  /// that goals have no prices.
   bool dive(const Query& query, Path& path);
   void start_search();
   static void push(Buckets& buckets, Timestep at, State state);

@@ -2,16 +2,20 @@
 #include "paths/safe_interval_search.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace quadrille::discrete {
 
 bool SafeIntervalSearch::find(const AgentDistances& distances, const ObstacleMap& obstacles,
                               Timestep max_cost, std::span<Timestep> first_hits, Path& path) {
   const Query query{distances, obstacles, max_cost, first_hits};
-  if (max_cost < distances.free_cost() || obstacles.earliest_rest() > max_cost) return false;
+  if (max_cost < distances.free_cost() || obstacles.least_cost() > max_cost) return false;
   start_search();
   add(query, distances.start(), intervals_of(query, distances.start()).begin, 0, kNoLabel);
-  for (std::size_t slack = 0; slack < open_.size(); ++slack) {
+  // The cheapest end that was come to.
+  std::optional<std::pair<std::size_t, LabelIndex>> end;
+  for (std::size_t slack = 0; slack < open_.size() && !(end && end->first <= slack); ++slack) {
     while (!open_[slack].empty()) {
       const LabelIndex label = open_[slack].back();
       open_[slack].pop_back();
@@ -19,15 +23,19 @@ bool SafeIntervalSearch::find(const AgentDistances& distances, const ObstacleMap
       if (intervals_[interval].arrival < time) continue;
       if (intervals_[interval].end == kForever && distances.is_goal(vertex) &&
           obstacles.earliest_rest(vertex) != kForever) {
-        path = path_to(labels_, label);
-        return true;
+        const auto then =
+            static_cast<std::size_t>(distances.end_slack(vertex, static_cast<Timestep>(slack)));
+        if (!end || then < end->first) end = {then, label};
+        if (then == slack) break;
       }
       ++effort_;
       if (limits_ != nullptr && effort_ % 64 == 0) limits_->check();
       expand(query, label);
     }
   }
-  return false;
+  if (!end || static_cast<Timestep>(end->first) > max_cost - distances.free_cost()) return false;
+  path = path_to(labels_, end->second);
+  return true;
 }
 
 void SafeIntervalSearch::start_search() {

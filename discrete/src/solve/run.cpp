@@ -54,7 +54,8 @@ class MddRun final : public Run {
                                             engine_options(options, tuning, auditor_.get(), log_));
   }
 
-  bool prepare(std::shared_ptr<const GoalDistances>, LimitMonitor& limits) override {
+  bool prepare(std::shared_ptr<const GoalDistances>, std::shared_ptr<const GoalPrices>,
+               LimitMonitor& limits) override {
     if (!model_.attach(*engine_, limits)) return false;
     problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(), growth_);
     return true;
@@ -92,8 +93,9 @@ class LazyRun final : public Run {
   LazyRun(const Instance& instance, const SolveOptions& options, const Tuning& tuning)
       : instance_(instance), options_(options), tuning_(tuning) {}
 
-  bool prepare(std::shared_ptr<const GoalDistances> distances, LimitMonitor& limits) override {
-    model_ = std::make_unique<LazyModel>(instance_, std::move(distances));
+  bool prepare(std::shared_ptr<const GoalDistances> distances,
+               std::shared_ptr<const GoalPrices> prices, LimitMonitor& limits) override {
+    model_ = std::make_unique<LazyModel>(instance_, std::move(distances), std::move(prices));
     theory_ = std::make_unique<LazyTheory>(*model_, limits, tuning_.explicit_paths);
     if (limits.exhausted_now()) return false;
     if (options_.debug.audit || options_.debug.known_plan)

@@ -23,8 +23,10 @@ namespace quadrille::discrete {
 class Run {
  public:
   virtual ~Run() = default;
-  /// To be called once, first. False if `limits` ended that early.
+  /// To be called once, first. With prices, which are those of the distances, the costs of the
+  /// problem include them. False if `limits` ended that early.
   [[nodiscard]] virtual bool prepare(std::shared_ptr<const GoalDistances> distances,
+                                     std::shared_ptr<const GoalPrices> prices,
                                      LimitMonitor& limits) = 0;
   [[nodiscard]] virtual sat::Engine& engine() = 0;
   [[nodiscard]] virtual const sat::Engine& engine() const = 0;

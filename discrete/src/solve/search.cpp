@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "feasibility/goal_choice.hpp"
+#include "feasibility/goal_reach.hpp"
 #include "neighbourhoods/plan_merger.hpp"
 #include "quadrille/core/free_bound.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
@@ -15,6 +16,7 @@
 #include "quadrille/solve/frame.hpp"
 #include "solve/incumbent.hpp"
 #include "solve/plan_search.hpp"
+#include "solve/priced_bounds.hpp"
 #include "solve/run.hpp"
 
 namespace quadrille::discrete {
@@ -127,7 +129,7 @@ class Search final : private sat::YieldPoint {
   }
 
   [[nodiscard]] Message message() {
-    incumbent_.share();
+    share();
     Message message;
     message.lower = known_.lower();
     if (known_.plan) {
@@ -147,7 +149,7 @@ class Search final : private sat::YieldPoint {
       exchange_while_searching();
       if (plans_) make_plans(run_->engine().effort());
     }
-    incumbent_.share();
+    share();
     pulse_.beat();
   }
 
@@ -170,17 +172,18 @@ class Search final : private sat::YieldPoint {
   }
 
   void consider_stop() {
-    incumbent_.share();
+    share();
     pulse_.consider_stop();
   }
 
   void enter(Phase phase) {
-    incumbent_.share();
+    share();
     pulse_.enter(phase);
   }
 
   [[nodiscard]] sat::SearchEnd search_costs_of(Run& run, std::vector<Raise>* raises) {
-    const sat::CostSearchContext context{run.engine(), run.problem(),    incumbent_, limits_,
+    sat::Bounds& bounds = bounds_ ? static_cast<sat::Bounds&>(*bounds_) : incumbent_;
+    const sat::CostSearchContext context{run.engine(), run.problem(),    bounds, limits_,
                                          *this,        tuning_.settings, raises};
     const CostSearch by_default =
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
@@ -188,6 +191,18 @@ class Search final : private sat::YieldPoint {
         options_.cost_search.value_or(by_default) == CostSearch::core_guided)
       return sat::search_by_cores(context, tuning_.cores, known_.statistics);
     return sat::search_upwards(context);
+  }
+
+  /// Raises of the bound are told in costs.
+  [[nodiscard]] bool has_prices() const {
+    return instance_.has_goal_sets() && options_.objective == Objective::sum_of_costs &&
+           !options_.explain;
+  }
+
+  /// What is known of the bound is known to all.
+  void share() {
+    if (bounds_) bounds_->share();
+    incumbent_.share();
   }
 
   void keep_proof(const Run& run) {
@@ -201,10 +216,14 @@ class Search final : private sat::YieldPoint {
   void search_costs(const std::shared_ptr<const GoalDistances>& distances) {
     enter(Phase::search);
     const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
-    if (!run->prepare(distances, limits_)) return;
+    if (has_prices()) priced_ = price_goals(instance_, limits_);
+    const bool is_ready = priced_ ? run->prepare(priced_->distances, priced_->prices, limits_)
+                                  : run->prepare(distances, nullptr, limits_);
+    if (!is_ready) return;
     run_ = run.get();
     incumbent_.set_run(run_);
-    incumbent_.raise(run->problem().lower_bound());
+    incumbent_.raise(run->problem().lower_bound() - (priced_ ? priced_->paid : 0));
+    if (priced_) bounds_.emplace(incumbent_, *priced_);
     yield();
     sat::SearchEnd end = sat::SearchEnd::stopped;
     std::vector<Raise> raises;
@@ -212,6 +231,7 @@ class Search final : private sat::YieldPoint {
       end = search_costs_of(*run, options_.explain ? &raises : nullptr);
     } catch (const LimitReached&) {  // the engine is left in order, and what was raised is proved
     }
+    share();
     if (options_.proof) keep_proof(*run);
     if (known_.attribution) run->explain(std::move(raises), *known_.attribution);
     run->engine().add_statistics(known_.statistics);
@@ -240,7 +260,9 @@ class Search final : private sat::YieldPoint {
   solve::Exchange<Message>& exchange_;
   const Role role_;
   Incumbent incumbent_;
-  std::optional<Instance> chosen_;  // with one goal for each agent, if some have several
+  std::optional<PricedGoals> priced_;
+  std::optional<PricedBounds> bounds_;  // with prices
+  std::optional<Instance> chosen_;      // with one goal for each agent, if some have several
   std::optional<PlanSearch> plans_;
   std::optional<PlanMerger> merger_;
   const Run* run_ = nullptr;  // when it is prepared

@@ -264,7 +264,7 @@ class Separated {
 
   Scenery scenery_;
   LimitMonitor limits_{Limits{}};
-  TrailedPaths trailed_{scenery_.paths_, scenery_.model_.obstacles()};
+  TrailedPaths trailed_{scenery_.paths_, scenery_.model_};
   LazyTrail trail_{trailed_, scenery_.instance_.num_agents(), lazy::kNoCap};
   Separation separation_{scenery_.paths_, trail_, scenery_.search_, limits_};
   IdVector<AgentId, bool> is_present_;

@@ -28,7 +28,8 @@ int expect_right(const Trial& trial, const AgentDistances& distances, const Obst
   EXPECT_EQ(answer.found, expected.has_value());
   if (answer.found != expected.has_value()) return 0;
   if (expected) {
-    EXPECT_EQ(static_cast<Timestep>(answer.path.size()) - 1, *expected);
+    EXPECT_EQ(static_cast<Timestep>(answer.path.size()) - 1 + distances.price(answer.path.back()),
+              *expected);
     expect_path(trial, answer.path);
   }
   Explainer explainer(trial.graph->num_vertices());
@@ -45,16 +46,19 @@ int expect_right(const Trial& trial, const AgentDistances& distances, const Obst
   return explained;
 }
 
-TEST(Explanation, CutsOffEveryCheapPathAndPathsAreCheapest) {
+void expect_right_answers(Trial (*draw)(unsigned seed)) {
   int explained = 0;
   for (unsigned seed = 0; seed < 5000 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
-    const Trial trial = random_trial(seed);
+    const Trial trial = draw(seed);
     const Instance instance = Instance::make(*trial.graph, {trial.task}).value();
-    const auto table = support::distances_of(instance);
-    const AgentDistances distances(instance, *table, AgentId(0));
+    LimitMonitor limits{Limits{}};
+    const auto table = trial.prices ? GoalDistances::make(instance, *trial.prices, limits)
+                                    : support::distances_of(instance);
+    const AgentDistances distances(instance, *table, AgentId(0),
+                                   trial.prices ? &*trial.prices : nullptr);
     ObstacleMap map(trial.graph->num_vertices());
-    map.load(trial.table, trial.active, trial.task.goals);
+    map.load(trial.table, trial.active, distances);
     const auto cap = static_cast<Timestep>(distances.free_cost() + static_cast<int>(seed % 19));
     PathFinder finder(trial.graph->num_vertices());
     Answer answer;
@@ -68,6 +72,10 @@ TEST(Explanation, CutsOffEveryCheapPathAndPathsAreCheapest) {
   }
   EXPECT_GT(explained, 2000);
 }
+
+TEST(Explanation, CutsOffEveryCheapPathAndPathsAreCheapest) { expect_right_answers(random_trial); }
+
+TEST(Explanation, CountsThePricesOfGoals) { expect_right_answers(random_priced_trial); }
 
 TEST(Explanation, LeavesOutWhatIsNotInTheWay) {
   // A line 0-1-2 with a side vertex 3 at 0: only the block in front of the goal matters.
@@ -86,7 +94,7 @@ TEST(Explanation, LeavesOutWhatIsNotInTheWay) {
   ObstacleMap map(4);
   PathFinder finder(4);
   Explainer explainer(4);
-  map.load(trial.table, trial.active, trial.task.goals);
+  map.load(trial.table, trial.active, distances);
   Path path;
   EXPECT_FALSE(finder.find_cheapest({AgentId(0), distances, map, 2, nullptr}, path));
   std::vector<std::size_t> slots;

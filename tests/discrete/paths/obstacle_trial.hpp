@@ -12,15 +12,17 @@
 #include <vector>
 
 #include "paths/obstacles.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/graph.hpp"
 #include "quadrille/discrete/instance.hpp"
 
 namespace quadrille::discrete {
 
-/// A small graph, a task on it and obstacles of all kinds.
+/// A small graph, a task on it and obstacles of all kinds. Goals may have prices.
 struct Trial {
   std::optional<Graph> graph;
   Agent task;
+  std::optional<GoalPrices> prices;
   ObstacleTable table;
   std::vector<ObstacleId> active;
 };
@@ -88,6 +90,21 @@ inline bool allows(const Trial& trial, std::span<const ObstacleId> obstacles, Ve
   });
 }
 
+/// The same with more goals, which have prices.
+inline Trial random_priced_trial(unsigned seed) {
+  Trial trial = random_trial(seed);
+  std::mt19937 random(seed + 1'000'000);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  const std::size_t n = trial.graph->num_vertices();
+  std::vector<VertexId> goals{trial.task.goals.vertices().front()};
+  for (std::size_t k = below(4); k > 0; --k) goals.emplace_back(below(n));
+  trial.task.goals = Goals(goals);
+  trial.prices.emplace(n, 0);
+  const std::size_t dearest = 1 + below(9);
+  for (const VertexId goal : goals) (*trial.prices)[goal] = static_cast<Timestep>(below(dearest));
+  return trial;
+}
+
 /// The least cost around the obstacles, nullopt if it is more than `limit`.
 inline std::optional<Timestep> least_cost(const Trial& trial, std::span<const ObstacleId> obstacles,
                                           Timestep limit) {
@@ -113,9 +130,11 @@ inline std::optional<Timestep> least_cost(const Trial& trial, std::span<const Ob
       continue;
     Timestep from = kHorizon;  // the goal is allowed from then on
     while (from > 0 && allows(trial, obstacles, goal, goal, from)) --from;
-    for (Timestep t = from == 0 ? 0 : from + 1; t <= std::min(limit, least.value_or(limit)); ++t)
+    const Timestep price = trial.prices ? (*trial.prices)[goal] : 0;
+    const Timestep last = std::min(limit, least.value_or(limit)) - price;
+    for (Timestep t = from == 0 ? 0 : from + 1; t <= last; ++t)
       if (reached[static_cast<std::size_t>(t)][goal]) {
-        least = t;
+        least = t + price;
         break;
       }
   }

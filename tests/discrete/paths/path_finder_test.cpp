@@ -29,7 +29,7 @@ class PathFinderEffort : public testing::Test {
 
   void block(VertexId v, Timestep first, Timestep last) {
     active_.push_back(obstacles_.add_range(agent_, {}, v, first, last));
-    map_.load(obstacles_, active_, distances_.goals());
+    map_.load(obstacles_, active_, distances_);
   }
   void block_around(VertexId v, Timestep first, Timestep last) {
     for (const VertexId w : instance_.graph().neighbours(v)) block(w, first, last);

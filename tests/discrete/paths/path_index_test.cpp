@@ -110,7 +110,7 @@ TEST(PathFinder, FindsAWayAroundOthersWithinTheCap) {
   const auto table = support::distances_of(instance);
   const AgentDistances distances(instance, *table, AgentId(0));
   ObstacleMap map(6);
-  map.load({}, {}, VertexId(2));
+  map.load({}, {}, distances);
   PathFinder finder(6);
   Path path;
   EXPECT_FALSE(finder.find_quietest({AgentId(0), distances, map, 3, &index}, 1, path));

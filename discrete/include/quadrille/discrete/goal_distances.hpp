@@ -17,9 +17,12 @@ namespace quadrille::discrete {
 
 class BreadthFirst;
 
+/// What goals cost whoever ends there, besides the arrival: by vertex of the graph, >= 0. Those of
+/// vertices that are nobody's goals do not matter.
+using GoalPrices = IdVector<VertexId, Timestep>;
+
 /// The number of moves from every vertex to every agent's goal, or to the nearest one of several.
-/// Immutable, to be shared by all who
-/// search the same instance, from any thread.
+/// Immutable, to be shared by all who search the same instance, from any thread.
 ///
 /// A *plain* table takes 2 bytes per agent and vertex. Where it would be very large, or distances
 /// do not fit, it is *packed* into somewhat more than half a byte: vertices are grouped around
@@ -34,6 +37,12 @@ class GoalDistances {
   /// One breadth-first search per agent: O(agents * (V + E)). Null when a limit was met.
   [[nodiscard]] static std::shared_ptr<const GoalDistances> make(
       const Instance& instance, LimitMonitor& limits, std::size_t most_plain = kMostPlain);
+
+  /// Likewise with prices: the least sum of a distance and the price of the goal. Neighbours differ
+  /// by one at most, as without. O(agents * (V + E + goals log goals)).
+  [[nodiscard]] static std::shared_ptr<const GoalDistances> make(const Instance& instance,
+                                                                 const GoalPrices& prices,
+                                                                 LimitMonitor& limits);
 
   /// The distances to one agent's goals. Valid as long as the table.
   class Row {
@@ -101,6 +110,8 @@ class GoalDistances {
   /// Fills in the distances of one agent. False: a limit was met.
   [[nodiscard]] bool fill(AgentId agent, const Goals& goals, BreadthFirst& search,
                           LimitMonitor& limits);
+  /// `distances`: by vertex, and perhaps more.
+  void keep(AgentId agent, const std::vector<Timestep>& distances);
   void group(const Graph& graph);
   [[nodiscard]] std::size_t num_bytes() const noexcept { return (groups_.size() + 1) / 2; }
   /// Packs the distances by vertex.

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "feasibility/goal_reach.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/breadth_first.hpp"
+
+namespace quadrille::discrete {
+
+std::optional<GoalReach> find_goal_reach(const Instance& instance, LimitMonitor& limits) {
+  GoalReach reach;
+  for (const Agent& task : instance.agents().items()) {
+    const auto own = task.goals.vertices();
+    reach.goals.insert(reach.goals.end(), own.begin(), own.end());
+  }
+  std::sort(reach.goals.begin(), reach.goals.end());
+  reach.goals.erase(std::unique(reach.goals.begin(), reach.goals.end()), reach.goals.end());
+  BreadthFirst search(instance.graph());
+  for (const Agent& task : instance.agents().items()) {
+    if (limits.exhausted_now() || !search.run(task.start, &limits)) return std::nullopt;
+    std::vector<solve::Reach>& own = reach.agents.emplace_back();
+    for (const VertexId goal : task.goals.vertices()) {
+      const Timestep d = search.distances()[goal.index()];
+      if (d == kUnreachable) continue;
+      const auto at = std::lower_bound(reach.goals.begin(), reach.goals.end(), goal);
+      own.push_back({static_cast<std::size_t>(at - reach.goals.begin()), d});
+    }
+    std::stable_sort(own.begin(), own.end(),
+                     [](const solve::Reach& a, const solve::Reach& b) { return a.cost < b.cost; });
+  }
+  return reach;
+}
+
+std::optional<PricedGoals> price_goals(const Instance& instance, LimitMonitor& limits) {
+  const auto reach = find_goal_reach(instance, limits);
+  if (!reach) return std::nullopt;
+  auto assignment = solve::cheapest_assignment(reach->agents, reach->goals.size(), limits);
+  if (!assignment) return std::nullopt;
+  solve::keep_prices_that_are_always_paid(reach->agents, assignment->prices);
+  GoalPrices prices(instance.graph().num_vertices(), 0);
+  PricedGoals priced;
+  for (std::size_t k = 0; k < reach->goals.size(); ++k) {
+    prices[reach->goals[k]] = static_cast<Timestep>(assignment->prices[k]);
+    priced.paid += assignment->prices[k];
+  }
+  if (priced.paid == 0) return std::nullopt;
+  priced.distances = GoalDistances::make(instance, prices, limits);
+  if (!priced.distances) return std::nullopt;
+  priced.prices = std::make_shared<const GoalPrices>(std::move(prices));
+  return priced;
+}
+
+}  // namespace quadrille::discrete

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/solve/assignment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "quadrille/core/random.hpp"
+
+namespace quadrille::solve {
+namespace {
+
+using Reaches = std::vector<std::vector<Reach>>;
+
+Reaches random_reach(Random& random, std::size_t num_agents, std::size_t num_goals) {
+  Reaches reach(num_agents);
+  const std::size_t share = 20 + random.below(81), dearest = 1 + random.below(12);
+  for (auto& own : reach)
+    for (std::size_t goal = 0; goal < num_goals; ++goal) {
+      if (random.below(100) >= share) continue;
+      own.push_back({goal, static_cast<Cost>(random.below(dearest))});
+    }
+  return reach;
+}
+
+/// By trying all.
+std::optional<Cost> least_cost(const Reaches& reach, std::size_t agent, std::vector<bool>& taken) {
+  if (agent == reach.size()) return 0;
+  std::optional<Cost> least;
+  for (const Reach& to : reach[agent]) {
+    if (taken[to.goal]) continue;
+    taken[to.goal] = true;
+    if (const auto rest = least_cost(reach, agent + 1, taken))
+      least = std::min(least.value_or(*rest + to.cost), *rest + to.cost);
+    taken[to.goal] = false;
+  }
+  return least;
+}
+
+Cost paid(const std::vector<Reach>& own, std::size_t goal, const std::vector<Cost>& prices) {
+  const auto to =
+      std::find_if(own.begin(), own.end(), [&](const Reach& one) { return one.goal == goal; });
+  EXPECT_NE(to, own.end());
+  return to->cost + prices[goal];
+}
+
+/// With all costs and prices.
+Cost cheapest(const std::vector<Reach>& own, const std::vector<Cost>& prices) {
+  Cost least = own.front().cost + prices[own.front().goal];
+  for (const Reach& to : own) least = std::min(least, to.cost + prices[to.goal]);
+  return least;
+}
+
+TEST(Assignment, IsCheapestAndPricesProveIt) {
+  LimitMonitor limits{Limits{}};
+  int assigned = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::size_t num_agents = 1 + random.below(5), num_goals = 1 + random.below(6);
+    const Reaches reach = random_reach(random, num_agents, num_goals);
+    std::vector<bool> taken(num_goals, false);
+    const auto expected = least_cost(reach, 0, taken);
+    const auto found = cheapest_assignment(reach, num_goals, limits);
+    ASSERT_EQ(found.has_value(), expected.has_value());
+    if (!found) continue;
+    ++assigned;
+    Cost cost = 0, bound = 0;
+    for (std::size_t agent = 0; agent < num_agents; ++agent) {
+      const std::size_t goal = found->goals[agent];
+      ASSERT_FALSE(taken[goal]);
+      taken[goal] = true;
+      const Cost own = paid(reach[agent], goal, found->prices);
+      ASSERT_EQ(own, cheapest(reach[agent], found->prices));
+      cost += own - found->prices[goal];
+      bound += own;
+    }
+    for (std::size_t goal = 0; goal < num_goals; ++goal) {
+      ASSERT_GE(found->prices[goal], 0);
+      ASSERT_TRUE(taken[goal] || found->prices[goal] == 0);
+      bound -= found->prices[goal];
+    }
+    ASSERT_EQ(cost, *expected);
+    ASSERT_EQ(bound, *expected);
+  }
+  EXPECT_GT(assigned, 1000);
+}
+
+TEST(Assignment, PricesStayWhereEveryPlanPaysThem) {
+  // Agents 0 and 1 share two goals; agents 2 and 3 share three.
+  const Reaches reach{{{0, 1}, {1, 5}}, {{0, 1}, {1, 6}}, {{2, 1}, {3, 4}, {4, 9}}, {{2, 1}}};
+  LimitMonitor limits{Limits{}};
+  auto assignment = cheapest_assignment(reach, 5, limits);
+  ASSERT_TRUE(assignment);
+  EXPECT_EQ(assignment->goals, (std::vector<std::size_t>{1, 0, 3, 2}));
+  EXPECT_GT(assignment->prices[0], 0);
+  EXPECT_GT(assignment->prices[2], 0);
+  const Cost kept = assignment->prices[0];
+  keep_prices_that_are_always_paid(reach, assignment->prices);
+  EXPECT_EQ(assignment->prices, (std::vector<Cost>{kept, 0, 0, 0, 0}));
+}
+
+TEST(Assignment, EndsAtALimit) {
+  Limits none;
+  none.looks = 0;
+  LimitMonitor limits(none);
+  EXPECT_FALSE(cheapest_assignment({{{0, 1}}}, 1, limits));
+}
+
+}  // namespace
+}  // namespace quadrille::solve
