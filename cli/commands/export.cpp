@@ -30,13 +30,14 @@ Subcommand add_export(CLI::App& program) {
   add_roadmap_options(*app, arguments->roadmap);
   add_input_file(*app, "PLAN", arguments->plan, "Plan file")->required();
   add_choice(
-      *app, "--to", arguments->to, "csv, multidof, path or vda5050",
+      *app, "--to", arguments->to, "csv, multidof, path, vda5050 or planviz",
       +[](std::string_view text) -> std::optional<std::optional<ExportFormat>> {
         const auto format = parse_export_format(text);
         if (!format) return std::nullopt;
         return format;
       },
-      "csv (samples), multidof (trajectory_msgs), path (nav_msgs) or vda5050 (orders)")
+      "csv (samples), multidof (trajectory_msgs), path (nav_msgs), vda5050 (orders) or\n"
+      "planviz (actions of robots that turn)")
       ->required();
   add_positive(*app, "--rate", arguments->rate, "Samples per unit of time; default 10");
   add_input_file(*app, "--states", arguments->states,

@@ -30,6 +30,10 @@ constexpr const char* kFooter =
     "  quadrille solve --roadmap map.xml --task task.xml --agents 10 --radius 0.35\n"
     "  quadrille solve --instance discs.json\n"
     "\n"
+    "Robots that turn, as in the League of Robot Runners:\n"
+    "  quadrille solve --map empty-8-8.map --scen empty-8-8-random-1.scen --agents 10 --headings "
+    "4\n"
+    "\n"
     "SIGINT and SIGTERM end the search with what is known so far; a second one ends the program.\n"
     "\n";
 
@@ -193,7 +197,7 @@ ExitCode run(const CLI::App& app, SolveArguments& arguments) {
   limits.interrupt = &catch_interrupts();  // before anything is read
   if (arguments.memory_mib) limits.memory_mib = static_cast<double>(*arguments.memory_mib);
   arguments.input.most_vertices = discrete::kMaxVertices;
-  std::atomic<bool> has_roadmap = !arguments.roadmap.roadmap.empty();
+  std::atomic<bool> has_roadmap = arguments.roadmap.name_roadmap();
   InputWatch watch(limits, [&has_roadmap, arguments](StopReason reason, const Usage& used) {
     // The command line may not have been checked yet.
     if (!check_solve_outputs(arguments).empty()) return ExitCode::unknown;

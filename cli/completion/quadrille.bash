@@ -20,13 +20,14 @@ _quadrille() {
     --mdd-growth) values="on-demand full" ;;
     --to)
       values="json cbsh2 visualizer yaml ccbs"
-      if [[ $command == export ]]; then values="csv multidof path vda5050"; fi
+      if [[ $command == export ]]; then values="csv multidof path vda5050 planviz"; fi
       ;;
     --plan-format | --from) values="json cbsh2 visualizer yaml ccbs" ;;
     --svg-kind) values="map space-time waits" ;;
     --kind) values="empty random maze room warehouse roadmap" ;;
     --rule) values="naive gated coupled" ;;
     --neighbourhood) values="2 3 4 5" ;;
+    --headings) values="4" ;;
     --map | --scen | --instance | --roadmap | --task | --plan | --json | --proof | --initial-plan | --known-plan | --states | --output | --view | --svg | --map-output | \
       --scen-output | --instance-output | --folder | --data)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
@@ -34,7 +35,7 @@ _quadrille() {
       ;;
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
       --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
-      --speed | --resolution | --altitude | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
+      --speed | --resolution | --turn | --altitude | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
       --longest | --slow | --period | --runs | --rate)
       return
       ;;
@@ -45,7 +46,7 @@ _quadrille() {
   fi
 
   local instance="--map --scen --agents --instance --passable --blocked
-    --roadmap --task --radius --speed --neighbourhood --resolution"
+    --roadmap --task --radius --speed --neighbourhood --resolution --headings --turn"
   local options=
   case $command in
     solve)

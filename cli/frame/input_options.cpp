@@ -60,6 +60,12 @@ void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
   add_positive(app, "--resolution", options.resolution,
                "Size of a tick and of a length unit; default 0.000001")
       ->group(group);
+  add_integer(app, "--headings", options.headings, input::kHeadings, input::kHeadings,
+              "4: robots on --map turn and go ahead; at first they face east, in the end anywhere")
+      ->group(group);
+  add_integer(app, "--turn", options.turn, 1, geometry::kMaxDuration.value(),
+              "With --headings: timesteps of a quarter turn; default 1")
+      ->group(group);
 }
 
 std::string PlanFormats::why_not_discrete(const std::string& option) const {

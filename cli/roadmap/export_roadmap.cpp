@@ -9,6 +9,7 @@
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "roadmap/planviz.hpp"
 #include "roadmap/releasing.hpp"
 #include "roadmap/roadmap_text.hpp"
 
@@ -22,6 +23,8 @@ std::string check(const ExportArguments& arguments) {
   if (wrong.empty()) wrong = arguments.from.why_not_continuous("--from");
   if (wrong.empty() && arguments.rate && arguments.to == ExportFormat::vda5050)
     wrong = "--rate belongs to samples; orders have none";
+  if (wrong.empty() && arguments.rate && arguments.to == ExportFormat::planviz)
+    wrong = "--rate belongs to samples; planviz has one action per timestep";
   if (wrong.empty() && !arguments.states.empty() && arguments.to != ExportFormat::vda5050)
     wrong = "--states belongs to --to vda5050";
   if (wrong.empty() && arguments.allow_cycles && arguments.to != ExportFormat::vda5050)
@@ -29,9 +32,10 @@ std::string check(const ExportArguments& arguments) {
   if (wrong.empty() && !arguments.states.empty() && arguments.output != "-")
     wrong = "with --states orders go to standard output, as robots go";
   if (wrong.empty())
-    wrong = check_outputs({{"--output", &arguments.output}},
-                          {&arguments.input.instance, &arguments.roadmap.roadmap,
-                           &arguments.roadmap.task, &arguments.plan, &arguments.states});
+    wrong = check_outputs(
+        {{"--output", &arguments.output}},
+        {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
+         &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan, &arguments.states});
   return wrong;
 }
 
@@ -84,8 +88,21 @@ bool may_lock_up(const ExportArguments& arguments, const execution::Precedences&
   return arguments.allow_cycles;
 }
 
-/// The text of the plan as samples.
+/// The text of the plan as actions.
+Result<std::string> convert_to_actions(const ExportArguments& arguments,
+                                       const input::RoadmapInput& input) {
+  if (!input.poses || input.poses->turn() != continuous::Ticks(1))
+    return Error{ErrorCode::invalid_instance,
+                 "planviz shows robots on a grid that turn in one timestep: --headings",
+                 {input.source, 0}};
+  const auto checked = read_checked(arguments, input);
+  if (!checked) return checked.error();
+  return export_planviz(*input.poses, checked->plan, verify(input.instance, checked->plan));
+}
+
+/// The text of the plan as samples, or as actions.
 Result<std::string> convert(const ExportArguments& arguments, const input::RoadmapInput& input) {
+  if (arguments.to == ExportFormat::planviz) return convert_to_actions(arguments, input);
   const auto checked = read_checked(arguments, input);
   if (!checked) return checked.error();
   const auto& [plan, order] = *checked;

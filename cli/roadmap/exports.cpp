@@ -26,7 +26,8 @@ constexpr std::pair<ExportFormat, std::string_view> kFormats[] = {
     {ExportFormat::csv, "csv"},
     {ExportFormat::multidof, "multidof"},
     {ExportFormat::path, "path"},
-    {ExportFormat::vda5050, "vda5050"}};
+    {ExportFormat::vda5050, "vda5050"},
+    {ExportFormat::planviz, "planviz"}};
 
 /// In the instance's units; the velocity is that of what comes next.
 struct Sample {

@@ -19,11 +19,12 @@ enum class ExportFormat {
   multidof,  ///< trajectory_msgs/MultiDOFJointTrajectory, one message per agent, as JSON.
   path,      ///< nav_msgs/Path, one message per agent, as JSON.
   vda5050,   ///< VDA 5050 orders, one per agent, as JSON.
+  planviz,   ///< What PlanViz shows: an action per timestep of robots on a grid that turn.
 };
 [[nodiscard]] std::optional<ExportFormat> parse_export_format(std::string_view text) noexcept;
 
 /// The plan at `rate` samples per unit of time, at both ends of each move, and at the end of the
-/// path. Not for vda5050. Requires a valid plan.
+/// path. Not for vda5050 and planviz. Requires a valid plan.
 [[nodiscard]] std::string export_samples(const continuous::Instance& instance,
                                          const continuous::Plan& plan, ExportFormat format,
                                          double rate);

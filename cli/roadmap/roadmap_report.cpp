@@ -64,6 +64,12 @@ Json resolution_json(const continuous::Resolution& resolution) {
 
 Json options_json(const SolveArguments& arguments, const continuous::SolveOptions& options) {
   Json json;
+  if (arguments.roadmap.headings) {
+    json["map"] = text_or_null(arguments.input.map);
+    json["scen"] = text_or_null(arguments.input.scen);
+    json["headings"] = *arguments.roadmap.headings;
+    json["turn"] = arguments.roadmap.turn.value_or(1);
+  }
   json["roadmap"] = text_or_null(arguments.roadmap.roadmap);
   json["task"] = text_or_null(arguments.roadmap.task);
   json["agents"] = or_null(arguments.input.agents);

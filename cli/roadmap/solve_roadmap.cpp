@@ -118,10 +118,10 @@ class RoadmapSolve {
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
     return view::page(instance(), outcome.plan.value_or(continuous::Plan{}),
-                      page_options(input_.source, objective(), outcome), input_.grid_or_null());
+                      page_options(input_.source, objective(), outcome), input_.cells_or_null());
   }
   [[nodiscard]] Result<std::string> drawing(const continuous::Plan& plan) const {
-    return view::picture(instance(), plan, arguments_.picture.options, input_.grid_or_null());
+    return view::picture(instance(), plan, arguments_.picture.options, input_.cells_or_null());
   }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const continuous::VerifyReport& replay) const {

@@ -54,10 +54,10 @@ ExitCode view_roadmap(const CLI::App& app, const ViewArguments& arguments) {
     options.title = std::filesystem::path(input.source).filename().string();
     options.objective = objective;
     options.attribution = attribution;
-    return view::page(input.instance, plan, options, input.grid_or_null());
+    return view::page(input.instance, plan, options, input.cells_or_null());
   };
   const auto draw = [&](const input::RoadmapInput& input, const continuous::Plan& plan) {
-    return view::picture(input.instance, plan, arguments.picture.options, input.grid_or_null());
+    return view::picture(input.instance, plan, arguments.picture.options, input.cells_or_null());
   };
   return view_and_write(
       arguments, [&] { return load_roadmap_input(arguments.roadmap, arguments.input); }, read, page,

@@ -15,17 +15,21 @@
 #include "quadrille/continuous/roadmap_xml.hpp"
 #include "quadrille/core/decimal.hpp"
 #include "quadrille/discrete/movingai.hpp"
+#include "quadrille/input/grid.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::input {
 namespace {
 
 using continuous::GridRoadmap;
+using continuous::Heading;
 using continuous::Instance;
 using continuous::OccupancyGrid;
+using continuous::PoseGrid;
 using continuous::Roadmap;
 
 constexpr int kDefaultNeighbourhood = 3;
+constexpr const char* kTurnAlone = "--turn needs --headings";
 
 bool is_movingai_map(const std::string& file) { return std::string_view(file).ends_with(".map"); }
 bool is_nav_graph(const std::string& file) {
@@ -77,6 +81,12 @@ Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGr
   return task;
 }
 
+std::optional<Error> check_cells(const InputOptions& input, const OccupancyGrid& cells,
+                                 const std::string& file) {
+  return check_map_size(input, std::count(cells.passable.begin(), cells.passable.end(), true),
+                        file);
+}
+
 Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
 
 /// What all agents have in common.
@@ -112,15 +122,80 @@ Result<RoadmapInput> read_instance(const InputOptions& input) {
     instance = instance->with_agents(std::move(agents));
     names.agents.resize(static_cast<std::size_t>(*input.agents));
   }
-  const std::size_t count = instance->num_agents();
-  return RoadmapInput{std::move(instance).value(),
-                      {},
-                      input.instance,
-                      input.instance,
-                      count,
-                      "",
-                      0,
-                      std::move(names)};
+  RoadmapInput read{std::move(instance).value()};
+  read.source = read.task_source = input.instance;
+  read.rows = read.instance.num_agents();
+  read.names = std::move(names);
+  return read;
+}
+
+/// What is wrong with the options where `--headings` is given; empty if nothing is.
+std::string check_turning_options(const RoadmapOptions& options, const InputOptions& input,
+                                  Need need) {
+  if (!options.roadmap.empty() || !input.instance.empty())
+    return "--headings goes with --map and --scen, not with --roadmap or --instance";
+  if (!options.task.empty() || options.radius || options.speed || options.resolution ||
+      options.neighbourhood)
+    return "--task, --radius, --speed, --neighbourhood and --resolution do not go with --headings";
+  if (*options.headings != kHeadings)
+    return "--headings is " + std::to_string(kHeadings) + ": east, south, west and north";
+  return check_grid_options(input, need);
+}
+
+/// An instance of these agents. `source` and `task`: where roadmap and agents come from.
+Result<Instance> make_instance(std::shared_ptr<const Roadmap> roadmap,
+                               std::vector<continuous::Agent> agents,
+                               const continuous::Resolution& resolution, const std::string& source,
+                               const continuous::TaskXml& task) {
+  std::vector<SourcePlace> places;
+  for (std::size_t i = 0; i < agents.size(); ++i) places.push_back({task.file, task.rows[i].line});
+  auto instance = Instance::make(std::move(roadmap), std::move(agents), resolution, places);
+  if (instance) return instance;
+  Error error = instance.error();
+  if (error.where.file.empty()) error.where.file = source;
+  return error;
+}
+
+std::size_t num_agents(const InputOptions& input, const continuous::TaskXml& task) {
+  return input.agents ? static_cast<std::size_t>(*input.agents) : task.rows.size();
+}
+
+/// Robots that turn: they begin facing east, and end with any heading.
+Result<RoadmapInput> read_turning(const RoadmapOptions& options, const InputOptions& input) {
+  auto map = read_map(input.map, input.letters, 1, continuous::kUnitSpeed);
+  if (!map) return map.error();
+  const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
+  if (cells == nullptr)
+    return Error{ErrorCode::invalid_instance, "--headings needs a grid", {input.map, 0}};
+  if (auto error = check_cells(input, *cells, input.map)) return *std::move(error);
+  continuous::TaskXml task;
+  if (!input.scen.empty()) {
+    auto read = read_task(input.scen, cells);
+    if (!read) return read.error();
+    task = std::move(read).value();
+  }
+  const std::int64_t turn = options.turn.value_or(1);
+  auto poses = PoseGrid::make(*cells, continuous::Ticks(turn));
+  if (!poses) return Error{poses.error().code, poses.error().message, {input.map, 0}};
+  const auto speed = continuous::quantise_speed(1, PoseGrid::kResolution);
+  auto agents =
+      agents_of(task, num_agents(input, task), poses->cells(), PoseGrid::kRadius, speed.value());
+  if (!agents) return agents.error();
+  for (continuous::Agent& agent : *agents) {
+    agent.start = poses->vertex({poses->cells().cell(agent.start), Heading::east}).value();
+    agent.goals = poses->any_heading(poses->cells().cell(agent.goal())).value();
+  }
+  auto instance = make_instance(poses->roadmap(), std::move(agents).value(), PoseGrid::kResolution,
+                                input.map, task);
+  if (!instance) return instance.error();
+  RoadmapInput read{std::move(instance).value()};
+  read.source = input.map;
+  read.task_source = input.scen;
+  read.rows = task.rows.size();
+  read.kind = size_text(cells->width, cells->height) + " grid, 4 headings, turns of " +
+              std::to_string(turn) + (turn == 1 ? " timestep, " : " timesteps, ");
+  read.poses = std::move(poses).value();
+  return read;
 }
 
 }  // namespace
@@ -128,16 +203,18 @@ Result<RoadmapInput> read_instance(const InputOptions& input) {
 bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
   if (!input.instance.empty()) {
     std::ifstream in;
-    if (text::open_input(input.instance, in)) return !options.roadmap.empty();
+    if (text::open_input(input.instance, in)) return options.name_roadmap();
     auto text = text::read_all(in, input.instance);
     if (text) input.instance_text = std::move(text).value();
     if (input.instance_text && continuous::is_roadmap_json(*input.instance_text)) return true;
   }
-  return !options.roadmap.empty();
+  return options.name_roadmap();
 }
 
 std::string check_roadmap_options(const RoadmapOptions& options, const InputOptions& input,
                                   Need need) {
+  if (options.headings) return check_turning_options(options, input, need);
+  if (options.turn) return kTurnAlone;
   const bool letters = !input.letters.passable.empty() || !input.letters.blocked.empty();
   if (!options.roadmap.empty()) {
     if (!input.map.empty() || !input.scen.empty() || !input.instance.empty())
@@ -154,6 +231,7 @@ std::string check_roadmap_options(const RoadmapOptions& options, const InputOpti
 }
 
 std::string why_no_roadmap(const RoadmapOptions& options) {
+  if (options.turn) return kTurnAlone;
   if (options.task.empty() && !options.radius && !options.speed && !options.resolution &&
       !options.neighbourhood)
     return "";
@@ -161,6 +239,7 @@ std::string why_no_roadmap(const RoadmapOptions& options) {
 }
 
 Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const InputOptions& input) {
+  if (options.headings) return read_turning(options, input);
   if (options.roadmap.empty()) return read_instance(input);
   const auto numbers = quantise(options);
   if (!numbers) return numbers.error();
@@ -168,18 +247,14 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
   if (!map) return map.error();
   const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
   if (cells != nullptr)
-    if (auto error =
-            check_map_size(input, std::count(cells->passable.begin(), cells->passable.end(), true),
-                           options.roadmap))
-      return *std::move(error);
+    if (auto error = check_cells(input, *cells, options.roadmap)) return *std::move(error);
   continuous::TaskXml task;
   if (!options.task.empty()) {
     auto read = read_task(options.task, cells);
     if (!read) return read.error();
     task = std::move(read).value();
   }
-  const std::size_t count =
-      input.agents ? static_cast<std::size_t>(*input.agents) : task.rows.size();
+  const std::size_t count = num_agents(input, task);
 
   std::optional<GridRoadmap> grid;
   std::shared_ptr<const Roadmap> roadmap;
@@ -203,21 +278,16 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
     agents = agents_of(task, count, *roadmap, numbers->radius, numbers->speed);
   }
   if (!agents) return agents.error();
-  std::vector<SourcePlace> places;
-  for (std::size_t i = 0; i < count; ++i) places.push_back({task.file, task.rows[i].line});
-  auto instance = Instance::make(roadmap, std::move(agents).value(), numbers->resolution, places);
-  if (!instance) {
-    Error error = instance.error();
-    if (error.where.file.empty()) error.where.file = options.roadmap;
-    return error;
-  }
-  return RoadmapInput{std::move(instance).value(),
-                      std::move(grid),
-                      options.roadmap,
-                      options.task,
-                      task.rows.size(),
-                      std::move(kind),
-                      map->num_zero_length_edges};
+  auto instance = make_instance(std::move(roadmap), std::move(agents).value(), numbers->resolution,
+                                options.roadmap, task);
+  if (!instance) return instance.error();
+  RoadmapInput read{std::move(instance).value(), std::move(grid)};
+  read.source = options.roadmap;
+  read.task_source = options.task;
+  read.rows = task.rows.size();
+  read.kind = std::move(kind);
+  read.num_zero_length_edges = map->num_zero_length_edges;
+  return read;
 }
 
 }  // namespace quadrille::input

@@ -260,7 +260,7 @@ TEST_F(ExportTest, RefusesWhatItCannotDo) {
           "orders go to standard output");
   refuses(xml("export", {"--to", "vda5050", "--states", path("none")}), 65, "cannot be read");
   refuses(xml("export", {"--to", "csv", "--allow-cycles"}), 64, "--allow-cycles belongs to");
-  refuses(xml("export", {"--to", "bag"}), 64, "csv, multidof, path or vda5050");
+  refuses(xml("export", {"--to", "bag"}), 64, "csv, multidof, path, vda5050 or planviz");
   refuses(xml("export", {"--to", "csv", "--rate", "1e12"}), 65, "more than 10 million samples");
   refuses(small("export", {"--to", "csv"}), 64, "export is for plans on roadmaps");
 }

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+//
+// Robots that turn: --headings and --turn.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/roadmap_support.hpp"
+
+namespace quadrille::cli::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class TurningTest : public RoadmapCliTest {
+ protected:
+  /// The robots of `small`, which turn.
+  [[nodiscard]] std::vector<std::string> turning(const std::string& command,
+                                                 const std::vector<std::string>& more = {}) const {
+    return small(command, std::vector<std::string>{"--headings", "4"} + more);
+  }
+};
+
+// Two rows: from the upper left cell to the one below it, and to the left on the other side.
+TEST_F(TurningTest, TurnsCostTimesteps) {
+  write("two.map", "type octile\nheight 2\nwidth 3\nmap\n...\n...\n");
+  write("two.scen",
+        "version 1\n0\ttwo.map\t3\t2\t0\t0\t0\t1\t1\n0\ttwo.map\t3\t2\t2\t0\t1\t0\t1\n");
+  const std::vector<std::string> two{
+      "--map", path("two.map"), "--scen", path("two.scen"), "--agents", "2", "--headings", "4"};
+  const auto cost = [&](const std::vector<std::string>& more) {
+    const Finished solved = run(std::vector<std::string>{"solve"} + two + more +
+                                std::vector<std::string>{"--quiet", "--json", "-"});
+    EXPECT_EQ(solved.code, 0) << solved.err;
+    return json::parse(solved.out).at("cost");
+  };
+  // A quarter turn and a step, half a turn and a step.
+  EXPECT_EQ(cost({}), 2 + 3);
+  EXPECT_EQ(cost({"--turn", "5"}), 6 + 11);
+  EXPECT_EQ(cost({"--objective", "makespan", "--turn", "2"}), 5);
+}
+
+TEST_F(TurningTest, AllThatReadsPlansKnowsThem) {
+  const Finished solved = run(turning("solve", {"--plan", path("p.json"), "--view", path("v.html"),
+                                                "--svg", path("s.svg"), "--json", path("r.json")}));
+  ASSERT_EQ(solved.code, 0) << solved.err;
+  EXPECT_THAT(solved.out,
+              HasSubstr("4 x 3 grid, 4 headings, turns of 1 timestep, 40 vertices, 100 edges"));
+  const json options = json::parse(read("r.json")).at("options");
+  EXPECT_EQ(options.at("headings"), 4);
+  EXPECT_EQ(options.at("turn"), 1);
+  EXPECT_EQ(options.at("map"), path("small.map"));
+  EXPECT_EQ(options.at("scen"), path("small.scen"));
+  for (const char* plan : {"p.json", "r.json"}) {
+    const Finished verified = run(turning("verify", {path(plan)}));
+    EXPECT_EQ(verified.code, 0) << verified.err;
+    EXPECT_THAT(verified.out, HasSubstr("no violations"));
+  }
+  // With longer turns it is no plan.
+  EXPECT_EQ(run(turning("verify", {"--turn", "2", path("p.json")})).code, 1);
+  EXPECT_EQ(run(turning("view", {"--output", path("again.html"), path("p.json")})).code, 0);
+  EXPECT_EQ(run(turning("execute-check", {path("p.json")})).code, 0);
+  EXPECT_EQ(run(turning("export", {"--to", "csv", path("p.json")})).code, 0);
+  EXPECT_EQ(run(turning("info")).code, 0);
+}
+
+TEST_F(TurningTest, AnInstanceFileIsTheSame) {
+  ASSERT_EQ(run(turning("convert", {"--to", "json", "--output", path("i.json")})).code, 0);
+  const Finished solved = run(turning("solve", {"--quiet", "--json", path("r.json")}));
+  ASSERT_EQ(solved.code, 0) << solved.err;
+  const Finished again =
+      run({"solve", "--instance", path("i.json"), "--quiet", "--json", "-", "--plan", path("q")});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out).at("plan"), json::parse(read("r.json")).at("plan"));
+  EXPECT_EQ(run(turning("verify", {path("q")})).code, 0);
+  EXPECT_EQ(run({"verify", "--instance", path("i.json"), path("r.json")}).code, 0);
+  // Logs name vertices then, not cells.
+  for (const auto& input :
+       {turning("convert"), std::vector<std::string>{"convert", "--instance", path("i.json")}}) {
+    ASSERT_EQ(run(input +
+                  std::vector<std::string>{"--to", "ccbs", "--output", path("log.xml"), path("q")})
+                  .code,
+              0);
+    EXPECT_EQ(run(turning("verify", {path("log.xml")})).code, 0);
+  }
+}
+
+/// Where a robot is after the actions of a plan, as the League of Robot Runners has them; at no
+/// time in a cell that is not passable.
+std::pair<int, int> follow(const json& start, const std::string& actions,
+                           const std::vector<std::string>& rows) {
+  int y = start.at(0), x = start.at(1);
+  int heading = static_cast<int>(std::string("ESWN").find(std::string(start.at(2))));
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    if (k % 2 == 1) {
+      EXPECT_EQ(actions[k], ',');
+      continue;
+    }
+    if (actions[k] == 'R') heading = (heading + 1) % 4;
+    if (actions[k] == 'C') heading = (heading + 3) % 4;
+    if (actions[k] == 'F') {
+      x += heading == 0 ? 1 : heading == 2 ? -1 : 0;
+      y += heading == 1 ? 1 : heading == 3 ? -1 : 0;
+    }
+    EXPECT_EQ(rows.at(static_cast<std::size_t>(y)).at(static_cast<std::size_t>(x)), '.');
+  }
+  return {y, x};
+}
+
+TEST_F(TurningTest, PlanVizShowsActions) {
+  write("room.map", "type octile\nheight 3\nwidth 3\nmap\n...\n.@.\n...\n");
+  write("room.scen",
+        "version 1\n0\troom.map\t3\t3\t0\t0\t2\t2\t4\n0\troom.map\t3\t3\t2\t0\t0\t2\t4\n"
+        "0\troom.map\t3\t3\t1\t2\t1\t0\t4\n");
+  const std::vector<std::string> input{
+      "--map", path("room.map"), "--scen", path("room.scen"), "--agents", "3", "--headings", "4"};
+  const Finished solved = run(std::vector<std::string>{"solve"} + input +
+                              std::vector<std::string>{"--quiet", "--json", path("r.json")});
+  ASSERT_EQ(solved.code, 0) << solved.err;
+  const json result = json::parse(read("r.json"));
+  const std::vector<std::string> planviz{"--to", "planviz", path("r.json")};
+  const Finished exported = run(std::vector<std::string>{"export"} + input + planviz);
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  const json shown = json::parse(exported.out);
+  EXPECT_EQ(shown.at("actionModel"), "MAPF_T");
+  EXPECT_EQ(shown.at("teamSize"), 3);
+  EXPECT_EQ(shown.at("sumOfCost"), result.at("cost"));
+  EXPECT_EQ(shown.at("start"), json::parse(R"([[0, 0, "E"], [0, 2, "E"], [2, 1, "E"]])"));
+  EXPECT_EQ(shown.at("tasks"), json::parse("[[0, 0, [2, 2]], [1, 0, [2, 0]], [2, 0, [0, 1]]]"));
+  const std::pair<int, int> goals[] = {{2, 2}, {2, 0}, {0, 1}};
+  const std::size_t makespan = shown.at("makespan");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string actions = shown.at("actualPaths").at(i);
+    EXPECT_EQ(actions.size(), 2 * makespan - 1);
+    EXPECT_EQ(follow(shown.at("start").at(i), actions, {"...", ".@.", "..."}), goals[i]);
+    // It does nothing after its last arrival.
+    const std::size_t arrival = shown.at("events").at(i).at(0);
+    EXPECT_EQ(actions.find_last_not_of("W,") / 2 + 1, arrival);
+  }
+  // Not for other turns, other roadmaps, or with a rate.
+  EXPECT_EQ(run(std::vector<std::string>{"export"} + input +
+                std::vector<std::string>{"--turn", "2"} + planviz)
+                .code,
+            65);
+  EXPECT_EQ(run(discs("export", planviz)).code, 65);
+  EXPECT_EQ(run(std::vector<std::string>{"export"} + input + planviz +
+                std::vector<std::string>{"--rate", "2"})
+                .code,
+            64);
+}
+
+TEST_F(TurningTest, WrongOptionsAreRefused) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {small("solve", {"--headings", "8"}), "--headings"},
+      {small("solve", {"--turn", "1"}), "--turn needs --headings"},
+      {xml("solve", {"--turn", "1"}), "--turn needs --headings"},
+      {discs("solve", {"--turn", "1"}), "--turn needs --headings"},
+      {turning("solve", {"--turn", "0"}), "--turn"},
+      {turning("solve", {"--radius", "0.3"}), "--radius"},
+      {turning("verify", {"--resolution", "0.3", path("p")}), "--resolution"},
+      {discs("solve", {"--headings", "4"}), "--headings goes with --map"},
+      {xml("solve", {"--headings", "4"}), "--headings goes with --map"},
+      {{"solve", "--map", path("small.map"), "--headings", "4"}, "--scen is missing"},
+      {turning("solve", {"--proof", path("x")}), "--proof"},
+      {turning("solve", {"--plan", path("x"), "--plan-format", "cbsh2"}), "not for roadmaps"}};
+  for (const auto& [arguments, reason] : cases) {
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.code, 64) << testing::PrintToString(arguments);
+    EXPECT_THAT(finished.err, HasSubstr(reason)) << testing::PrintToString(arguments);
+  }
+}
+
+TEST_F(TurningTest, WrongFilesAreRefused) {
+  write("other.scen", "version 1\n0\tsmall.map\t9\t9\t0\t0\t1\t0\t1\n");
+  write("blocked.map", "type octile\nheight 1\nwidth 3\nmap\n..@\n");
+  write("blocked.scen", "version 1\n0\tblocked.map\t3\t1\t0\t0\t2\t0\t1\n");
+  const auto expect_refused = [&](const std::string& map, const std::string& scen, int code,
+                                  const std::string& reason) {
+    const Finished finished = run(
+        {"solve", "--map", path(map), "--scen", path(scen), "--agents", "1", "--headings", "4"});
+    EXPECT_EQ(finished.code, code) << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr(reason));
+  };
+  expect_refused("small.map", "other.scen", 65, "other.scen:2: the row is for a map of 9 x 9");
+  expect_refused("blocked.map", "blocked.scen", 65,
+                 "blocked.scen:2: the goal of agent 0 is no vertex of the map");
+  expect_refused("map.xml", "blocked.scen", 65, "map.xml: --headings needs a grid");
+  expect_refused("none.map", "blocked.scen", 65, "none.map");
+}
+
+}  // namespace
+}  // namespace quadrille::cli::test
