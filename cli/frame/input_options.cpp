@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdint>
 
 #include "frame/arguments.hpp"
 #include "quadrille/continuous/grid.hpp"
@@ -20,6 +22,25 @@ void add_letters(CLI::App& app, const std::string& name, std::string& letters,
     letters = text;
   };
   app.add_option_function<std::string>(name, read, help)->type_name("LETTERS");
+}
+
+CLI::Option& add_sharing(CLI::App& app, std::optional<std::size_t>& sharing) {
+  const auto read = [&sharing](const std::string& text) {
+    std::size_t size = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, fault] = std::from_chars(text.data(), end, size);
+    if (text == "all")
+      sharing = SIZE_MAX;
+    else if (fault == std::errc() && stop == end && size > 0)
+      sharing = size;
+    else
+      refuse_value("--share-goals", text, "all, or a whole number from 1 on");
+  };
+  return *app.add_option_function<std::string>(
+                 "--share-goals", read,
+                 "All agents of --scen or --task, or each N of them, may end at any goal\n"
+                 "that one of them has: all or N")
+              ->type_name("N");
 }
 
 }  // namespace
@@ -40,6 +61,7 @@ void add_input_options(CLI::App& app, InputOptions& options) {
   add_letters(app, "--blocked", options.letters.blocked,
               "Map letters that are blocked besides @, O and T");
   for (const char* name : {"--passable", "--blocked"}) app.get_option(name)->group(group);
+  add_sharing(app, options.sharing).group(group);
 }
 
 void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "quadrille/discrete/instance_json.hpp"
 #include "quadrille/discrete/instance_yaml.hpp"
+#include "shared_goals.hpp"
 
 namespace quadrille::input {
 namespace {
@@ -36,6 +37,7 @@ Result<GridInput> load_map(const InputOptions& options) {
   const auto agents =
       options.agents ? static_cast<std::size_t>(*options.agents) : scenario->rows.size();
   auto instance = discrete::make_instance(std::move(graph), *scenario, agents);
+  if (instance) instance = with_shared_goals(std::move(instance).value(), options);
   if (!instance) return instance.error();
   return GridInput{
       std::move(instance.value()), options.map,        options.scen,
@@ -71,6 +73,8 @@ Result<discrete::Instance> read_instance(const InputOptions& options, text::Name
 }  // namespace
 
 std::string check_grid_options(const InputOptions& options, Need need) {
+  if (std::string fault = check_sharing(options, !options.scen.empty()); !fault.empty())
+    return fault;
   const bool letters = !options.letters.passable.empty() || !options.letters.blocked.empty();
   if (!options.instance.empty()) {
     if (!options.map.empty() || !options.scen.empty())

@@ -17,6 +17,7 @@
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/input/grid.hpp"
 #include "quadrille/text/text_input.hpp"
+#include "shared_goals.hpp"
 
 namespace quadrille::input {
 namespace {
@@ -146,10 +147,11 @@ std::string check_turning_options(const RoadmapOptions& options, const InputOpti
 Result<Instance> make_instance(std::shared_ptr<const Roadmap> roadmap,
                                std::vector<continuous::Agent> agents,
                                const continuous::Resolution& resolution, const std::string& source,
-                               const continuous::TaskXml& task) {
+                               const continuous::TaskXml& task, const InputOptions& input) {
   std::vector<SourcePlace> places;
   for (std::size_t i = 0; i < agents.size(); ++i) places.push_back({task.file, task.rows[i].line});
   auto instance = Instance::make(std::move(roadmap), std::move(agents), resolution, places);
+  if (instance) instance = with_shared_goals(std::move(instance).value(), input);
   if (instance) return instance;
   Error error = instance.error();
   if (error.where.file.empty()) error.where.file = source;
@@ -186,7 +188,7 @@ Result<RoadmapInput> read_turning(const RoadmapOptions& options, const InputOpti
     agent.goals = poses->any_heading(poses->cells().cell(agent.goal())).value();
   }
   auto instance = make_instance(poses->roadmap(), std::move(agents).value(), PoseGrid::kResolution,
-                                input.map, task);
+                                input.map, task, input);
   if (!instance) return instance.error();
   RoadmapInput read{std::move(instance).value()};
   read.source = input.map;
@@ -214,6 +216,7 @@ bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
 std::string check_roadmap_options(const RoadmapOptions& options, const InputOptions& input,
                                   Need need) {
   if (options.headings) return check_turning_options(options, input, need);
+  if (std::string fault = check_sharing(input, !options.task.empty()); !fault.empty()) return fault;
   if (options.turn) return kTurnAlone;
   const bool letters = !input.letters.passable.empty() || !input.letters.blocked.empty();
   if (!options.roadmap.empty()) {
@@ -279,7 +282,7 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
   }
   if (!agents) return agents.error();
   auto instance = make_instance(std::move(roadmap), std::move(agents).value(), numbers->resolution,
-                                options.roadmap, task);
+                                options.roadmap, task, input);
   if (!instance) return instance.error();
   RoadmapInput read{std::move(instance).value(), std::move(grid)};
   read.source = options.roadmap;

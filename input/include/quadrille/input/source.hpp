@@ -19,6 +19,9 @@ struct InputOptions {
   std::string map, scen, instance;
   std::optional<std::int64_t> agents;
   discrete::MapOptions letters;
+  /// So many agents of a scenario or task, one after the other, share their goals; SIZE_MAX: all.
+  /// At least 1.
+  std::optional<std::size_t> sharing;
   /// Maps with more passable cells are refused before a graph is made of them.
   std::size_t most_vertices = SIZE_MAX;
   /// The contents of `instance`, if they have been read already.
@@ -32,6 +35,10 @@ enum class Need {
 
 /// What is wrong if an `--instance` with this number of agents has fewer than `--agents` asks for.
 [[nodiscard]] std::optional<Error> check_agents(const InputOptions& options, std::size_t agents);
+
+/// What is wrong with `--share-goals`; empty if nothing is. `has_task`: agents come from a scenario
+/// or a task.
+[[nodiscard]] std::string check_sharing(const InputOptions& options, bool has_task);
 
 /// What is wrong if a map, in this file, has too many passable cells.
 [[nodiscard]] std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,
