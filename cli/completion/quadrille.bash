@@ -45,7 +45,7 @@ _quadrille() {
     return
   fi
 
-  local instance="--map --scen --agents --instance --passable --blocked
+  local instance="--map --scen --agents --instance --passable --blocked --share-goals
     --roadmap --task --radius --speed --neighbourhood --resolution --headings --turn"
   local options=
   case $command in

@@ -78,6 +78,42 @@ TEST_F(SolveTest, OnlyDpllKnowsGoalSets) {
   EXPECT_THAT(proved.err, HasSubstr("which --proof does not know yet"));
 }
 
+// Six agents in a column, whose goals beside them are in the opposite order: for all, each takes
+// the goal of its row; in pairs, that of its partner.
+TEST_F(SolveTest, AgentsShareGoals) {
+  const std::string map = write("field.map",
+                                "type octile\nheight 6\nwidth 6\nmap\n......\n......\n......\n"
+                                "......\n......\n......\n");
+  std::string rows = "version 1\n";
+  for (int row = 0; row < 6; ++row)
+    rows += "0\tfield.map\t6\t6\t0\t" + std::to_string(row) + "\t5\t" + std::to_string(5 - row) +
+            "\t9\n";
+  const std::string scen = write("field.scen", rows);
+  const auto given = [&](const std::string& command, const std::string& sharing) {
+    std::vector<std::string> arguments{command, "--map", map, "--scen", scen, "--agents", "6"};
+    if (!sharing.empty())
+      arguments = arguments + std::vector<std::string>{"--share-goals", sharing};
+    return arguments;
+  };
+  // Nearest are for each: 5 moves in its own row; in pairs (0,1), (2,3) and (4,5) the goals are in
+  // rows 5 and 4, 3 and 2, 1 and 0.
+  for (const auto& [sharing, cost] : {std::pair{"all", 30}, {"6", 30}, {"7", 30}, {"2", 46}}) {
+    SCOPED_TRACE(sharing);
+    const Finished finished =
+        run(given("solve", sharing) +
+            std::vector<std::string>{"--quiet", "--json", "-", "--plan", path("shared.json")});
+    ASSERT_EQ(finished.code, 0) << finished.err;
+    EXPECT_EQ(json::parse(finished.out)["cost"], cost);
+    EXPECT_EQ(run(given("verify", sharing) + std::vector<std::string>{path("shared.json")}).code,
+              0);
+    EXPECT_EQ(run(given("verify", "") + std::vector<std::string>{path("shared.json")}).code, 1);
+  }
+  const Finished alone = run(given("solve", "1") + std::vector<std::string>{"--json", "-"});
+  EXPECT_EQ(
+      json::parse(alone.out)["cost"],
+      json::parse(run(given("solve", "") + std::vector<std::string>{"--json", "-"}).out)["cost"]);
+}
+
 TEST_F(SolveTest, InfeasibleIs20AndSaysWhy) {
   const Finished finished = run(corridor("solve", {"--json", "-"}));
   ASSERT_EQ(finished.code, 20) << finished.err;
