@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "conversions.hpp"
+#include "lane_duration.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 
 namespace quadrille::fleet {
@@ -84,10 +85,8 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
     const Cost cost = continuous::cost(plan.paths[i]);
     if (const auto& begin = fleet.under_way(i)) {
       // What is left of the move is the first one of the path.
-      const auto& positions = state.instance.roadmap();
       const double whole = static_cast<double>(
-          continuous::travel_time(positions.position(begin->from), positions.position(begin->to),
-                                  state.instance.agent(i).speed)
+          lane_duration(state.instance.roadmap(), state.instance.agent(i), begin->from, begin->to)
               .value()
               .value());
       const auto left =

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lane_duration.hpp"
 #include "numbers.hpp"
-#include "quadrille/continuous/quantise.hpp"
 #include "quadrille/fleet/fleet.hpp"
 #include "quadrille/fleet/timed_plan.hpp"
 
@@ -94,8 +94,8 @@ Result<Fleet::Roads> Fleet::put_under_way(std::vector<continuous::Agent>& agents
       return out_of_range(name + "is under way with " + shortest(where.fraction) +
                           " of its move behind it, which is not from 0 to 1");
     const continuous::Point from = points[where.from.index()], to = points[where.to.index()];
-    const auto whole = continuous::travel_time(from, to, agent.speed);
-    if (from == to || !whole)
+    const auto whole = lane_duration(*roadmap_.in_units(), agent, where.from, where.to);
+    if (!whole)
       return out_of_range(name + "is under way from " + roadmap_.name(where.from) + " to " +
                           roadmap_.name(where.to) + ", which takes it less than half a step of " +
                           to_string(roadmap_.resolution().time) + ", or too long");

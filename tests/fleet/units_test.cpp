@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <string>
 #include <type_traits>
 
 #include "quadrille/fleet/solver.hpp"
@@ -48,6 +50,11 @@ TEST(Units, LiteralsAreTheNearestDoubles) {
   EXPECT_EQ(3_s, Seconds(3));
   EXPECT_EQ((0.8_mps).value(), 0.8);
   EXPECT_EQ((20_Hz).value(), 20);
+  EXPECT_EQ(180_deg, Radians(std::numbers::pi));
+  EXPECT_EQ(22.5_deg, degrees(22.5));
+  EXPECT_EQ(2_rad, 2.0_rad);
+  EXPECT_EQ(90_degps, 90_deg / 1_s);
+  EXPECT_EQ(0.5_radps, 1_rad / 2_s);
 }
 
 TEST(Units, Arithmetic) {
@@ -61,6 +68,8 @@ TEST(Units, Arithmetic) {
   EXPECT_EQ(3_m / 1.5_mps, 2_s);
   EXPECT_EQ(1.5_mps * 2_s, 3_m);
   EXPECT_EQ(2_s * 1.5_mps, 3_m);
+  EXPECT_EQ(90_deg / 45_degps, 2_s);
+  EXPECT_EQ(in_degrees(90_deg), 90);
   EXPECT_LT(999_mm, 1_m);
   Metres sum;
   sum += 1_m;
@@ -74,6 +83,9 @@ TEST(Units, Texts) {
   EXPECT_EQ(to_string(0.8_mps), "0.8 m/s");
   EXPECT_EQ(to_string(20_Hz), "20 Hz");
   EXPECT_EQ(to_string(-0.0_m), "0 m");
+  for (const int angle : {0, 1, 30, 45, 60, 90, 100, 179, 360})
+    EXPECT_EQ(to_string(degrees(angle)), std::to_string(angle) + " deg");
+  EXPECT_EQ(to_string(22.5_degps), "22.5 deg/s");
 }
 
 }  // namespace

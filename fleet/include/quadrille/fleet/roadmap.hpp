@@ -23,6 +23,8 @@ namespace quadrille::fleet {
 using units::Hertz;
 using units::Metres;
 using units::MetresPerSecond;
+using units::Radians;
+using units::RadiansPerSecond;
 using units::Seconds;
 
 /// A place in the plane, or in space.
@@ -85,6 +87,7 @@ class Roadmap {
 
  private:
   friend class RoadmapBuilder;
+  friend class PoseBuilder;
   Roadmap() = default;
   Resolution resolution_;
   std::size_t num_groups_ = 0;

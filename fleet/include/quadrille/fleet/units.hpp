@@ -2,13 +2,14 @@
 #pragma once
 
 #include <compare>
+#include <numbers>
 #include <string>
 
 #include "quadrille/core/export.hpp"
 
-// Metres, seconds and what follows from them, as types: 0.35_m, 0.8_mps, 50_ms, 20_Hz. A plain
-// number becomes one of them by an explicit `Metres(number)` only, and the other way round by
-// `value()` only.
+// Metres, seconds, angles and what follows from them, as types: 0.35_m, 0.8_mps, 50_ms, 20_Hz,
+// 90_deg. A plain number becomes one of them by an explicit `Metres(number)` only, and the other
+// way round by `value()` only.
 
 QUADRILLE_API_BEGIN
 
@@ -21,7 +22,7 @@ class Measure {
   constexpr Measure() = default;  ///< Zero.
   constexpr explicit Measure(double value) noexcept : value_(value) {}
 
-  /// In metres, seconds, metres per second or hertz.
+  /// In metres, seconds, metres per second, hertz, radians or radians per second.
   [[nodiscard]] constexpr double value() const noexcept { return value_; }
 
   friend constexpr auto operator<=>(Measure, Measure) = default;
@@ -63,6 +64,22 @@ using Metres = Measure<struct MetreUnit>;
 using Seconds = Measure<struct SecondUnit>;
 using MetresPerSecond = Measure<struct MetrePerSecondUnit>;
 using Hertz = Measure<struct HertzUnit>;
+using Radians = Measure<struct RadianUnit>;  ///< Counter-clockwise where x points right and y up.
+using RadiansPerSecond = Measure<struct RadianPerSecondUnit>;
+
+/// A number of degrees.
+[[nodiscard]] constexpr Radians degrees(double value) noexcept {
+  return Radians(value * std::numbers::pi / 180);
+}
+[[nodiscard]] constexpr double in_degrees(Radians angle) noexcept {
+  return angle.value() * 180 / std::numbers::pi;
+}
+[[nodiscard]] constexpr RadiansPerSecond operator/(Radians angle, Seconds time) noexcept {
+  return RadiansPerSecond(angle.value() / time.value());
+}
+[[nodiscard]] constexpr Seconds operator/(Radians angle, RadiansPerSecond rate) noexcept {
+  return Seconds(angle.value() / rate.value());
+}
 
 [[nodiscard]] constexpr MetresPerSecond operator/(Metres way, Seconds time) noexcept {
   return MetresPerSecond(way.value() / time.value());
@@ -82,6 +99,9 @@ using Hertz = Measure<struct HertzUnit>;
 [[nodiscard]] std::string to_string(Seconds time);
 [[nodiscard]] std::string to_string(MetresPerSecond speed);
 [[nodiscard]] std::string to_string(Hertz rate);
+/// In degrees, rounded to a millionth: "90 deg", "22.5 deg/s".
+[[nodiscard]] std::string to_string(Radians angle);
+[[nodiscard]] std::string to_string(RadiansPerSecond rate);
 
 // The factors are divisions where the number would not be exact otherwise: 350_mm is 0.35_m.
 
@@ -129,6 +149,32 @@ using Hertz = Measure<struct HertzUnit>;
 }
 [[nodiscard]] constexpr Hertz operator""_Hz(unsigned long long value) noexcept {
   return Hertz(static_cast<double>(value));
+}
+
+[[nodiscard]] constexpr Radians operator""_deg(long double value) noexcept {
+  return degrees(static_cast<double>(value));
+}
+[[nodiscard]] constexpr Radians operator""_deg(unsigned long long value) noexcept {
+  return degrees(static_cast<double>(value));
+}
+[[nodiscard]] constexpr Radians operator""_rad(long double value) noexcept {
+  return Radians(static_cast<double>(value));
+}
+[[nodiscard]] constexpr Radians operator""_rad(unsigned long long value) noexcept {
+  return Radians(static_cast<double>(value));
+}
+
+[[nodiscard]] constexpr RadiansPerSecond operator""_degps(long double value) noexcept {
+  return degrees(static_cast<double>(value)) / Seconds(1);
+}
+[[nodiscard]] constexpr RadiansPerSecond operator""_degps(unsigned long long value) noexcept {
+  return degrees(static_cast<double>(value)) / Seconds(1);
+}
+[[nodiscard]] constexpr RadiansPerSecond operator""_radps(long double value) noexcept {
+  return RadiansPerSecond(static_cast<double>(value));
+}
+[[nodiscard]] constexpr RadiansPerSecond operator""_radps(unsigned long long value) noexcept {
+  return RadiansPerSecond(static_cast<double>(value));
 }
 
 }  // namespace quadrille::units
