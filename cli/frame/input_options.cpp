@@ -53,8 +53,8 @@ void add_input_options(CLI::App& app, InputOptions& options) {
               "Take the first N rows of --scen, or agents of --instance")
       ->group(group);
   add_input_file(app, "--instance", options.instance,
-                 "Instead: one file, quadrille's JSON (also with a roadmap) or\n"
-                 "libMultiRobotPlanning's YAML")
+                 "Instead: one file, quadrille's JSON (also with a roadmap),\n"
+                 "libMultiRobotPlanning's YAML or a problem of the League of Robot Runners")
       ->group(group);
   add_letters(app, "--passable", options.letters.passable,
               "Map letters that are passable besides . and G");

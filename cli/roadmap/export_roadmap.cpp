@@ -92,9 +92,11 @@ bool may_lock_up(const ExportArguments& arguments, const execution::Precedences&
 Result<std::string> convert_to_actions(const ExportArguments& arguments,
                                        const input::RoadmapInput& input) {
   if (!input.poses || input.poses->turn() != continuous::Ticks(1))
-    return Error{ErrorCode::invalid_instance,
-                 "planviz shows robots on a grid that turn in one timestep: --headings",
-                 {input.source, 0}};
+    return Error{
+        ErrorCode::invalid_instance,
+        "planviz shows robots on a grid that turn in one timestep: --headings, or a problem of "
+        "the League of Robot Runners",
+        {input.source, 0}};
   const auto checked = read_checked(arguments, input);
   if (!checked) return checked.error();
   return export_planviz(*input.poses, checked->plan, verify(input.instance, checked->plan));

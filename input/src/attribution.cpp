@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "member.hpp"
 #include "quadrille/core/stated_outcome.hpp"
 #include "quadrille/text/text_input.hpp"
 
@@ -151,17 +152,6 @@ class AttributionReader {
   const std::size_t num_agents_;
   const ReadVertex& read_vertex_;
 };
-
-/// The value of a key of the document, which is an object.
-std::optional<Node> member(const Document& document, std::string_view name) {
-  Node key = document.first(Document::kRoot);
-  while (key < document.next(Document::kRoot)) {
-    const Node value = document.next(key);
-    if (document.text(key) == name) return value;
-    key = document.next(value);
-  }
-  return std::nullopt;
-}
 
 }  // namespace
 

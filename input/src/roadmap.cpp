@@ -16,6 +16,7 @@
 #include "quadrille/core/decimal.hpp"
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/input/grid.hpp"
+#include "quadrille/input/robot_runners.hpp"
 #include "quadrille/text/text_input.hpp"
 #include "shared_goals.hpp"
 
@@ -162,42 +163,63 @@ std::size_t num_agents(const InputOptions& input, const continuous::TaskXml& tas
   return input.agents ? static_cast<std::size_t>(*input.agents) : task.rows.size();
 }
 
-/// Robots that turn: they begin facing east, and end with any heading.
-Result<RoadmapInput> read_turning(const RoadmapOptions& options, const InputOptions& input) {
-  auto map = read_map(input.map, input.letters, 1, continuous::kUnitSpeed);
-  if (!map) return map.error();
-  const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
-  if (cells == nullptr)
-    return Error{ErrorCode::invalid_instance, "--headings needs a grid", {input.map, 0}};
-  if (auto error = check_cells(input, *cells, input.map)) return *std::move(error);
+/// Where robots that turn come from.
+struct TurningSource {
+  OccupancyGrid cells;
   continuous::TaskXml task;
-  if (!input.scen.empty()) {
-    auto read = read_task(input.scen, cells);
-    if (!read) return read.error();
-    task = std::move(read).value();
-  }
-  const std::int64_t turn = options.turn.value_or(1);
-  auto poses = PoseGrid::make(*cells, continuous::Ticks(turn));
-  if (!poses) return Error{poses.error().code, poses.error().message, {input.map, 0}};
+  std::int64_t turn = 1;
+  std::string file, task_file;
+};
+
+/// They begin facing east, and end with any heading.
+Result<RoadmapInput> turning_input(const TurningSource& from, const InputOptions& input) {
+  if (auto error = check_cells(input, from.cells, from.file)) return *std::move(error);
+  auto poses = PoseGrid::make(from.cells, continuous::Ticks(from.turn));
+  if (!poses) return Error{poses.error().code, poses.error().message, {from.file, 0}};
   const auto speed = continuous::quantise_speed(1, PoseGrid::kResolution);
-  auto agents =
-      agents_of(task, num_agents(input, task), poses->cells(), PoseGrid::kRadius, speed.value());
+  auto agents = agents_of(from.task, num_agents(input, from.task), poses->cells(),
+                          PoseGrid::kRadius, speed.value());
   if (!agents) return agents.error();
   for (continuous::Agent& agent : *agents) {
     agent.start = poses->vertex({poses->cells().cell(agent.start), Heading::east}).value();
     agent.goals = poses->any_heading(poses->cells().cell(agent.goal())).value();
   }
   auto instance = make_instance(poses->roadmap(), std::move(agents).value(), PoseGrid::kResolution,
-                                input.map, task, input);
+                                from.file, from.task, input);
   if (!instance) return instance.error();
   RoadmapInput read{std::move(instance).value()};
-  read.source = input.map;
-  read.task_source = input.scen;
-  read.rows = task.rows.size();
-  read.kind = size_text(cells->width, cells->height) + " grid, 4 headings, turns of " +
-              std::to_string(turn) + (turn == 1 ? " timestep, " : " timesteps, ");
+  read.source = from.file;
+  read.task_source = from.task_file;
+  read.rows = from.task.rows.size();
+  read.kind = size_text(from.cells.width, from.cells.height) + " grid, 4 headings, turns of " +
+              std::to_string(from.turn) + (from.turn == 1 ? " timestep, " : " timesteps, ");
   read.poses = std::move(poses).value();
   return read;
+}
+
+Result<RoadmapInput> read_turning(const RoadmapOptions& options, const InputOptions& input) {
+  auto map = read_map(input.map, input.letters, 1, continuous::kUnitSpeed);
+  if (!map) return map.error();
+  auto* const cells = std::get_if<OccupancyGrid>(&map->map);
+  if (cells == nullptr)
+    return Error{ErrorCode::invalid_instance, "--headings needs a grid", {input.map, 0}};
+  TurningSource from{std::move(*cells), {}, options.turn.value_or(1), input.map, input.scen};
+  if (!input.scen.empty()) {
+    auto task = read_task(input.scen, &from.cells);
+    if (!task) return task.error();
+    from.task = std::move(task).value();
+  }
+  return turning_input(from, input);
+}
+
+/// A problem of the League of Robot Runners.
+Result<RoadmapInput> read_robot_problem(const InputOptions& input) {
+  auto problem = read_robot_runners(*input.instance_text, input.instance);
+  if (!problem) return problem.error();
+  if (auto error = check_agents(input, problem->task.rows.size())) return *std::move(error);
+  return turning_input(
+      {std::move(problem->cells), std::move(problem->task), 1, input.instance, input.instance},
+      input);
 }
 
 }  // namespace
@@ -208,7 +230,9 @@ bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
     if (text::open_input(input.instance, in)) return options.name_roadmap();
     auto text = text::read_all(in, input.instance);
     if (text) input.instance_text = std::move(text).value();
-    if (input.instance_text && continuous::is_roadmap_json(*input.instance_text)) return true;
+    if (input.instance_text && (continuous::is_roadmap_json(*input.instance_text) ||
+                                is_robot_runners(*input.instance_text)))
+      return true;
   }
   return options.name_roadmap();
 }
@@ -216,7 +240,9 @@ bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
 std::string check_roadmap_options(const RoadmapOptions& options, const InputOptions& input,
                                   Need need) {
   if (options.headings) return check_turning_options(options, input, need);
-  if (std::string fault = check_sharing(input, !options.task.empty()); !fault.empty()) return fault;
+  const bool has_task =
+      !options.task.empty() || (input.instance_text && is_robot_runners(*input.instance_text));
+  if (std::string fault = check_sharing(input, has_task); !fault.empty()) return fault;
   if (options.turn) return kTurnAlone;
   const bool letters = !input.letters.passable.empty() || !input.letters.blocked.empty();
   if (!options.roadmap.empty()) {
@@ -243,7 +269,9 @@ std::string why_no_roadmap(const RoadmapOptions& options) {
 
 Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const InputOptions& input) {
   if (options.headings) return read_turning(options, input);
-  if (options.roadmap.empty()) return read_instance(input);
+  if (options.roadmap.empty())
+    return is_robot_runners(*input.instance_text) ? read_robot_problem(input)
+                                                  : read_instance(input);
   const auto numbers = quantise(options);
   if (!numbers) return numbers.error();
   auto map = read_map(options.roadmap, input.letters, numbers->resolution, numbers->speed);

@@ -14,7 +14,7 @@ from ._core import __version__
 from ._errors import BodyWarning, FileError, InputError, NoPlanError, RoundingWarning
 from .attribution import Attribution, Charge, Place, Raise, Reason, Site
 from .fleet import Fleet
-from .graphs import Graph, Grid, Roadmap
+from .graphs import Graph, Grid, PoseGrid, Roadmap
 from .plans import Plan, StepPath, StepPlan, TimedPath, TimedPlan
 from .reading import read
 from .reports import Report, Violation
@@ -34,6 +34,7 @@ __all__ = [
     "Obstacle",
     "Place",
     "Plan",
+    "PoseGrid",
     "Progress",
     "Raise",
     "Reason",

@@ -55,6 +55,17 @@ class Grid:
         """Number of free cells."""
         return self._graph.num_vertices
 
+    def with_headings(self, turn: int = 1) -> PoseGrid:
+        """The grid for robots that turn, as the League of Robot Runners has them.
+
+        Args:
+            turn: Timesteps of a quarter turn, at least 1.
+
+        Raises:
+            InputError: for a turn that takes no time, or too long.
+        """
+        return PoseGrid(self, turn)
+
     def __repr__(self) -> str:
         height, width = self.shape
         return f"<quadrille.Grid {width} x {height}, {self.num_vertices} free cells>"
@@ -284,3 +295,45 @@ class Roadmap:
 
     def __repr__(self) -> str:
         return f"<quadrille.Roadmap {self.num_vertices} vertices, {self._graph.num_edges} edges>"
+
+
+class PoseGrid(Roadmap):
+    """A grid for robots that turn: a roadmap of poses, made by ``Grid.with_headings``.
+
+    In one timestep, the unit of time, a robot waits or goes to the cell ahead; turning to the left or
+    right where it is takes ``turn`` of them. A vertex is called ``(x, y, heading)``, where the heading is
+    "east", "south", "west" or "north" and (x, y) a free cell; all four of a cell are in one place. With
+    radius 0.35 (``RADIUS``) robots collide exactly if two are in one cell, or change places.
+
+        grid = q.Grid(free).with_headings()
+        fleet = q.Fleet(grid, [(0, 0, "east")], [grid.any_heading(4, 2)], radius=grid.RADIUS)
+    """
+
+    RADIUS = 0.35
+
+    def __init__(self, grid: Grid, turn: int = 1) -> None:
+        free = grid.free
+        graph = _core.TimedGraph.poses(free, int(ints(turn, "turn", ())))
+        self._setup(graph, _core.pose_resolution, [])
+        cells = [(int(x), int(y)) for y, x in zip(*np.nonzero(free))]
+        self._name_nodes([(x, y, heading) for x, y in cells for heading in _core.heading_names()])
+        self._turn = int(turn)
+
+    @property
+    def turn(self) -> int:
+        """Timesteps of a quarter turn."""
+        return self._turn
+
+    def any_heading(self, x: int, y: int) -> list[Hashable]:
+        """The poses of a cell, as a goal for ``Fleet``: a robot ends at any one of them.
+
+        Raises:
+            InputError: for a cell that is not free.
+        """
+        poses: list[Hashable] = [(x, y, heading) for heading in _core.heading_names()]
+        for pose in poses:
+            self._vertex(pose, "any_heading")
+        return poses
+
+    def __repr__(self) -> str:
+        return f"<quadrille.PoseGrid {self.num_vertices} poses, a quarter turn takes {self.turn}>"

@@ -26,6 +26,11 @@ py::array_t<T> new_array(std::initializer_list<std::size_t> shape) {
   return py::array_t<T>(sizes);
 }
 
+/// The entries, row by row.
+inline std::vector<bool> flags_of(const Bools& array) {
+  return std::vector<bool>(array.data(), array.data() + array.size());
+}
+
 /// From now on the array cannot be written to.
 inline py::array frozen(py::array array) {
   array.attr("setflags")(py::arg("write") = false);

@@ -30,14 +30,9 @@ using discrete::Instance;
 using discrete::Plan;
 
 std::shared_ptr<Graph> grid_of(const Bools& free) {
-  const auto cells = free.unchecked<2>();
-  const auto height = cells.shape(0), width = cells.shape(1);
-  std::vector<bool> passable;
-  passable.reserve(static_cast<std::size_t>(height * width));
-  for (py::ssize_t y = 0; y < height; ++y)
-    for (py::ssize_t x = 0; x < width; ++x) passable.push_back(cells(y, x));
-  return std::make_shared<Graph>(
-      Graph::grid(static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), passable));
+  const auto width = static_cast<std::int32_t>(free.shape(1));
+  const auto height = static_cast<std::int32_t>(free.shape(0));
+  return std::make_shared<Graph>(Graph::grid(width, height, flags_of(free)));
 }
 
 std::shared_ptr<Graph> graph_of(std::size_t num_vertices, const Ints& edges) {

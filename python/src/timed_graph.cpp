@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Roadmaps: vertices in the plane or in space and directed edges.
+#include <pybind11/stl.h>
+
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "timed.hpp"
 
@@ -84,6 +87,23 @@ std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const 
   return std::make_shared<Roadmap>(take(Roadmap::make(std::move(points), std::move(list))));
 }
 
+/// `free`: [h, w], the cells of a grid on which robots turn. The vertices are the poses, by cell,
+/// row by row, and heading.
+std::shared_ptr<Roadmap> poses_of(const Bools& free, std::int64_t turn) {
+  const continuous::OccupancyGrid cells{static_cast<std::int32_t>(free.shape(0)),
+                                        static_cast<std::int32_t>(free.shape(1)), flags_of(free)};
+  const auto poses = take(continuous::PoseGrid::make(cells, continuous::Ticks(turn)));
+  return std::const_pointer_cast<Roadmap>(poses.roadmap());
+}
+
+/// The names of the headings, in the order of the vertices of a cell.
+std::vector<std::string> heading_names() {
+  std::vector<std::string> names;
+  for (const continuous::Heading heading : continuous::kHeadings)
+    names.emplace_back(to_string(heading));
+  return names;
+}
+
 /// How many coordinates a place has.
 py::ssize_t dimensions(const Roadmap& roadmap) { return roadmap.is_flat() ? 2 : 3; }
 
@@ -142,6 +162,7 @@ py::array open_to_of(const Roadmap& roadmap) {
 void bind_timed_graph(py::module_& module) {
   py::class_<Roadmap, std::shared_ptr<Roadmap>>(module, "TimedGraph")
       .def(py::init(&roadmap_of))
+      .def_static("poses", &poses_of)
       .def_property_readonly("num_vertices", &Roadmap::num_vertices)
       .def_property_readonly("num_edges", &Roadmap::num_edges)
       .def_property_readonly("units", &units_of)
@@ -149,6 +170,9 @@ void bind_timed_graph(py::module_& module) {
       .def("edges", &edges_of)
       .def("durations", &durations_of)
       .def("open_to", &open_to_of);
+  module.def("heading_names", &heading_names);
+  module.attr("pose_resolution") =
+      Sizes(continuous::PoseGrid::kResolution.length, continuous::PoseGrid::kResolution.time);
 }
 
 }  // namespace quadrille::python

@@ -3,6 +3,7 @@
 // Robots that turn: --headings and --turn.
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -151,6 +152,82 @@ TEST_F(TurningTest, PlanVizShowsActions) {
                 std::vector<std::string>{"--rate", "2"})
                 .code,
             64);
+}
+
+/// A problem of the League of Robot Runners: robot k goes to the first place of task k.
+class RobotRunnersTest : public TurningTest {
+ protected:
+  RobotRunnersTest() {
+    std::filesystem::create_directories(path("maps"));
+    write("maps/room.map", "type octile\nheight 2\nwidth 3\nmap\n.E.\nS.@\n");
+    write("room.agents", "3\n0\n2\n4\n");
+    write("room.tasks", "# version for LoRR 2024\n4\n1,0\n0\n3,5\n2\n");
+    write("room.json", problem());
+  }
+  [[nodiscard]] static std::string problem(const std::string& more = "\"teamSize\": 2") {
+    return "{\"mapFile\": \"maps/room.map\", \"agentFile\": \"room.agents\",\n"
+           "\"taskFile\": \"room.tasks\", \"numTasksReveal\": 1.5,\n" +
+           more + "}\n";
+  }
+  void expect_refused(const std::string& reason) const {
+    const Finished finished = run({"solve", "--instance", path("room.json")});
+    EXPECT_EQ(finished.code, 65) << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr(reason));
+  }
+};
+
+TEST_F(RobotRunnersTest, ProblemsAreInstances) {
+  const Finished solved = run({"solve", "--instance", path("room.json"), "--json", path("r.json")});
+  ASSERT_EQ(solved.code, 0) << solved.err;
+  EXPECT_THAT(solved.out, HasSubstr("room.json: 3 x 2 grid, 4 headings, turns of 1 timestep"));
+  const json result = json::parse(read("r.json"));
+  // The first goes one cell ahead; the second comes from the right end to where the first was.
+  EXPECT_EQ(result.at("agents"), 2);
+  write("same.map", "type octile\nheight 2\nwidth 3\nmap\n...\n..@\n");
+  write("same.scen",
+        "version 1\n0\tsame.map\t3\t2\t0\t0\t1\t0\t1\n0\tsame.map\t3\t2\t2\t0\t0\t0\t2\n");
+  const Finished same = run({"solve", "--map", path("same.map"), "--scen", path("same.scen"),
+                             "--agents", "2", "--headings", "4", "--quiet", "--json", "-"});
+  ASSERT_EQ(same.code, 0) << same.err;
+  EXPECT_EQ(json::parse(same.out).at("plan"), result.at("plan"));
+  for (const std::string command : {"verify", "execute-check"})
+    EXPECT_EQ(run({command, "--instance", path("room.json"), path("r.json")}).code, 0);
+  EXPECT_EQ(
+      run({"view", "--instance", path("room.json"), "--output", path("v.html"), path("r.json")})
+          .code,
+      0);
+  const Finished shown =
+      run({"export", "--instance", path("room.json"), "--to", "planviz", path("r.json")});
+  EXPECT_EQ(json::parse(shown.out).at("sumOfCost"), result.at("cost"));
+  EXPECT_EQ(
+      run({"convert", "--instance", path("room.json"), "--to", "json", "--output", path("i.json")})
+          .code,
+      0);
+  EXPECT_EQ(run({"verify", "--instance", path("i.json"), path("r.json")}).code, 0);
+  EXPECT_EQ(run({"verify", "--instance", path("room.json"), "--agents", "1", path("r.json")}).code,
+            1);
+}
+
+TEST_F(RobotRunnersTest, WhatIsWrongIsSaidWithItsFile) {
+  write("room.json", problem("\"teamSize\": 4"));
+  expect_refused("room.agents: there are 3 starts for 4 robots");
+  write("room.json", "{\"mapFile\": \"maps/room.map\", \"agentFile\": \"room.agents\"}");
+  expect_refused("room.json:1: the key 'taskFile' is missing");
+  write("room.json", problem("\"teamSize\": -1"));
+  expect_refused("room.json:3: ");
+  write("room.json", problem("\"version\": 1"));
+  write("room.tasks", "2\n1\n5\n");
+  expect_refused("room.tasks:3: cell 5 of the map is not passable");
+  write("room.tasks", "2\n1\n");
+  expect_refused("room.tasks:3: the file ends too early");
+  write("room.tasks", "2\n1\n3\n");
+  expect_refused("room.tasks: there are 2 tasks for 3 robots");
+  write("room.agents", "3\n0\n6\n4\n");
+  expect_refused("room.agents:3: cell 6 of the map is not passable");
+  write("room.agents", "x\n");
+  expect_refused("room.agents:1: 'x' is no number of lines");
+  std::filesystem::remove(path("room.agents"));
+  expect_refused("room.agents");
 }
 
 TEST_F(TurningTest, WrongOptionsAreRefused) {
