@@ -168,8 +168,9 @@ TEST_F(RoadmapTest, VerifyNamesEachViolationAndExitsWith1) {
   const Finished collision = run(discs("verify", {write("early.json", early.dump())}));
   EXPECT_EQ(collision.code, 1);
   EXPECT_THAT(collision.out, HasSubstr("invalid    1 violation\n"));
-  EXPECT_THAT(collision.out,
-              HasSubstr("agents 0 and 1 collide between times 0.5 and 0.9: nearest at about 0."));
+  EXPECT_THAT(
+      collision.out,
+      HasSubstr("agents 0 and 1 collide between times 0.609 and 0.637: nearest at about 0.62"));
   EXPECT_THAT(collision.out,
               HasSubstr(", while agent 0 moves from vertex 0 to vertex 1 and agent 1 "
                         "moves from vertex 1 to vertex 3, at most 0.0015 too close\n"));

@@ -93,7 +93,7 @@ test("all violations of a plan are listed, with times of the input", async () =>
   }
   assert.equal(await buttons.count(), times);
   assert.match(await buttons.nth(1).textContent(),
-    /^6 {2}collision: agents 0 and 1 collide between times 4 and 8: nearest at about 6, /);
+    /^6 {2}collision: agents 0 and 1 collide between times 5.5 and 6.5: nearest at about 6, /);
   assert.doesNotMatch(await page.locator("#violation-list").innerText(), /tick|length unit/);
   await buttons.last().click();
   assert.equal(await visit.time(), times * 4 - 2);

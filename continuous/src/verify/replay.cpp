@@ -69,12 +69,36 @@ ExactStep exact_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   return {place(begin), place(end), duration_a * duration_b};
 }
 
+/// The last tick before two bodies overlap, and the first one after: they touch there, up to a
+/// tick. Requires that they overlap between `begin` and `end`, and so, as bodies are convex and
+/// each moves on a line as seen from the other, during one stretch of that time. Logarithmic in the
+/// number of ticks.
+std::pair<Ticks, Ticks> moments_of_contact(const FootprintPair& bodies, const Piece& a,
+                                           const Piece& b, Ticks begin, Ticks end) {
+  const auto overlap = [&](Ticks from, Ticks to) {
+    return bodies.interiors_meet(exact_step(a, b, from, to));
+  };
+  Ticks first = begin, last = end;
+  if (!overlap(begin, begin))
+    for (Ticks known = end; known - first > 1;) {
+      const Ticks middle = first + (known - first) / 2;
+      (overlap(begin, middle) ? known : first) = middle;
+    }
+  if (!overlap(end, end))
+    for (Ticks known = begin; last - known > 1;) {
+      const Ticks middle = known + (last - known) / 2;
+      (overlap(middle, end) ? known : last) = middle;
+    }
+  return {first, last};
+}
+
 /// How near two come, and when.
 struct Nearness {
   double gap, tick;
 };
 
-/// Pieces, one after the other, that collide; when they last; and those two that come nearest.
+/// Pieces, one after the other, that collide; when they begin and cease to; and those two that come
+/// nearest.
 struct Collision {
   Piece a, b;
   Ticks begin, end;
@@ -276,15 +300,16 @@ class Replay {
     // double, below 2^-5: those that are a whole unit apart need no exact look.
     if (near.gap >= 1 || !bodies.interiors_meet(exact_step(p, q, begin, end))) return;
     const bool goes_on = bodies.interiors_meet(exact_step(p, q, end, end));
+    const auto [first, last_touch] = moments_of_contact(bodies, p, q, begin, end);
     std::vector<Collision>& all = collisions_[pair];
     // What goes on at its end goes on in the next stretches of the two.
     if (all.empty() || !all.back().goes_on) {
-      all.push_back({p, q, begin, end, here, goes_on});
+      all.push_back({p, q, first, last_touch, here, goes_on});
       return;
     }
     Collision& last = all.back();
     if (here.gap < last.nearest.gap) std::tie(last.a, last.b, last.nearest) = std::tie(p, q, here);
-    last.end = end;
+    last.end = last_touch;
     last.goes_on = goes_on;
   }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -39,7 +40,8 @@ long double place(const Piece& p, Ticks tick, Length Point::*axis) {
 
 struct Told {
   double gap = std::numeric_limits<double>::infinity();
-  std::vector<Ticks> collisions;  ///< When they begin.
+  /// Between which ticks they begin: what is nearer than a millionth may count or not.
+  std::vector<std::pair<Ticks, Ticks>> collisions;
 };
 
 /// Each stretch of a with each one of b that is there at the same time; what goes on from one to
@@ -48,7 +50,8 @@ struct Told {
 Told by_hand(const Body& body_a, const std::vector<Piece>& a, const Body& body_b,
              const std::vector<Piece>& b) {
   const FootprintPair bodies(body_a, body_b);
-  std::vector<std::pair<Ticks, Ticks>> meetings;
+  // When stretches begin and end, and between which ticks the bodies get into touch.
+  std::vector<std::array<Ticks, 4>> meetings;
   Told told;
   for (const Piece& p : a)
     for (const Piece& q : b) {
@@ -64,12 +67,23 @@ Told by_hand(const Body& body_a, const std::vector<Piece>& a, const Body& body_b
       };
       told.gap = std::min(told.gap, gap(begin, end));
       if (gap(begin, end) > -1e-6) continue;
-      meetings.emplace_back(begin, end);
+      // The first tick up to which they have come as near as that.
+      const auto first_within = [&](double level) {
+        if (gap(begin, begin) <= level) return begin;
+        Ticks apart_until = begin, near_at = end;
+        while (near_at - apart_until > 1) {
+          const Ticks middle = apart_until + (near_at - apart_until) / 2;
+          (gap(begin, middle) <= level ? near_at : apart_until) = middle;
+        }
+        return near_at;
+      };
+      meetings.push_back({begin, end, std::max(begin, first_within(1e-6) - 1),
+                          std::max(begin, first_within(-1e-6) - 1)});
     }
   std::sort(meetings.begin(), meetings.end());
   for (std::size_t k = 0; k < meetings.size(); ++k)
-    if (k == 0 || meetings[k - 1].second != meetings[k].first)
-      told.collisions.push_back(meetings[k].first);
+    if (k == 0 || meetings[k - 1][1] != meetings[k][0])
+      told.collisions.emplace_back(meetings[k][2], meetings[k][3]);
   return told;
 }
 
@@ -110,8 +124,10 @@ void compare_with_pairs(const Instance& instance, const Plan& plan, Seen& seen) 
         if (v.agent == i && v.other == j) here.push_back(v.tick);
       // What is one collision is decided at the moments at which stretches end, exactly.
       ASSERT_EQ(here.empty(), told.collisions.empty());
-      for (const Ticks tick : told.collisions)
-        EXPECT_NE(std::find(here.begin(), here.end(), tick), here.end());
+      for (const auto& [least, most] : told.collisions)
+        EXPECT_TRUE(std::any_of(here.begin(), here.end(), [&, low = least, high = most](Ticks t) {
+          return low <= t && t <= high;
+        }));
       seen.collisions += here.size();
       seen.split += here.size() - told.collisions.size();
     }

@@ -37,7 +37,8 @@ struct Violation {
   Kind kind;
   AgentId agent;
   std::optional<AgentId> other;  ///< For collisions; larger than `agent`.
-  Ticks tick = 0;                ///< When the step begins in which it happens.
+  /// When the step begins in which it happens; of a collision the last tick before bodies overlap.
+  Ticks tick = 0;
   std::string message;  ///< One sentence that names agents, place and time as the input counts.
   /// Of collisions of two agents: a moment, in ticks, at which the bodies are nearest.
   std::optional<double> nearest = std::nullopt;
