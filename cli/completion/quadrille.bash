@@ -35,7 +35,7 @@ _quadrille() {
       ;;
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
       --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
-      --speed | --resolution | --turn | --altitude | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
+      --speed | --level | --vehicle-type | --resolution | --turn | --altitude | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
       --longest | --slow | --period | --runs | --rate)
       return
       ;;
@@ -46,7 +46,7 @@ _quadrille() {
   fi
 
   local instance="--map --scen --agents --instance --passable --blocked --share-goals
-    --roadmap --task --radius --speed --neighbourhood --resolution --headings --turn"
+    --roadmap --task --radius --speed --neighbourhood --level --vehicle-type --resolution --headings --turn"
   local options=
   case $command in
     solve)

@@ -15,6 +15,15 @@ namespace {
 
 constexpr std::int64_t kMaxAgents = 1'000'000'000;
 
+CLI::Option* add_name(CLI::App& app, const std::string& name, std::string& value,
+                      const std::string& help) {
+  const auto read = [&value, name](const std::string& text) {
+    if (text.empty()) refuse_value(name, text, "a name");
+    value = text;
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name("NAME");
+}
+
 void add_letters(CLI::App& app, const std::string& name, std::string& letters,
                  const std::string& help) {
   const auto read = [&letters, name](const std::string& text) {
@@ -67,8 +76,8 @@ void add_input_options(CLI::App& app, InputOptions& options) {
 void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
   const std::string group = "Continuous time";
   add_input_file(app, "--roadmap", options.roadmap,
-                 "Roadmap: GraphML, a grid as XML, a MovingAI .map file, or a nav graph of\n"
-                 "Open-RMF as .yaml")
+                 "Roadmap: GraphML, GML, a nav graph of Open-RMF, a LIF, GeoJSON of Nav2, a grid\n"
+                 "as XML, or a MovingAI .map file")
       ->group(group);
   add_input_file(app, "--task", options.task, "Its agents: a task as XML, or a MovingAI .scen file")
       ->group(group);
@@ -78,6 +87,11 @@ void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
   add_integer(
       app, "--neighbourhood", options.neighbourhood, continuous::GridRoadmap::kMinNeighbourhood,
       continuous::GridRoadmap::kMaxNeighbourhood, "On grids: moves to 2^N neighbours; default 3")
+      ->group(group);
+  add_name(app, "--level", options.level, "The level or layout to read, of a file that has several")
+      ->group(group);
+  add_name(app, "--vehicle-type", options.vehicle_type,
+           "The type of vehicles, of a LIF that has several")
       ->group(group);
   add_positive(app, "--resolution", options.resolution,
                "Size of a tick and of a length unit; default 0.000001")

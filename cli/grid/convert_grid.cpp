@@ -34,7 +34,7 @@ Result<std::string> convert(const ConvertArguments& arguments, const input::Grid
   std::optional<Error> error;
   if (!arguments.plan.empty()) {
     const std::filesystem::path path(arguments.plan);
-    const auto file = discrete::read_plan(path, input.instance.graph(), arguments.from.discrete);
+    const auto file = discrete::read_plan(path, input.instance, arguments.from.discrete);
     if (!file) return file.error();
     error = write_plan(text, arguments.plan, input.instance.graph(), file->plan,
                        *arguments.to.discrete);

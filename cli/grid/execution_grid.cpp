@@ -39,7 +39,7 @@ std::string check_execution_grid(const ExecutionArguments& arguments) {
 Result<ExecutionCase> load_execution_grid(const ExecutionArguments& arguments) {
   const auto input = load_grid_input(arguments.input);
   if (!input) return input.error();
-  auto file = discrete::read_plan(std::filesystem::path(arguments.plan), input->instance.graph(),
+  auto file = discrete::read_plan(std::filesystem::path(arguments.plan), input->instance,
                                   arguments.format.discrete);
   if (!file) return file.error();
   auto order = execution::precedences(input->instance, file->plan);

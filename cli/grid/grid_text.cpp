@@ -30,6 +30,7 @@ std::string describe_input(const input::GridInput& input) {
   text += "\n";
   if (!input.other_map.empty())
     text += fmt::format("note       the scenario names another map, {}\n", input.other_map);
+  if (!input.note.empty()) text += "note       " + input.note + "\n";
   return text;
 }
 

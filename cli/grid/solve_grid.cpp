@@ -181,7 +181,7 @@ Result<input::GridInput> read_input(SolveArguments& arguments) {
   auto input = load_grid_input(arguments.input);
   if (!input) return input;
   const auto read = [&](const std::filesystem::path& path) {
-    return discrete::read_plan(path, input->instance.graph());
+    return discrete::read_plan(path, input->instance);
   };
   auto error = read_given_plans(arguments, input->instance, arguments.options, read);
   if (!error) error = check_picture_agents(arguments.picture, input->instance.num_agents());

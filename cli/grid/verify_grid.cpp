@@ -52,21 +52,25 @@ class GridVerdict {
 
 ExitCode verify_grid(const CLI::App& app, const VerifyArguments& arguments) {
   std::string wrong = why_no_roadmap(arguments.roadmap);
-  if (wrong.empty()) wrong = check_grid_options(arguments.input, Need::tasks);
+  if (wrong.empty()) wrong = check_grid_options(arguments.input, Need::plan);
   if (wrong.empty()) wrong = arguments.format.why_not_discrete("--plan-format");
   if (wrong.empty() && arguments.check_with) wrong = "--check-with applies to roadmaps only";
   if (wrong.empty()) wrong = check_verify_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 
-  const auto input = load_grid_input(arguments.input);
+  auto input = load_grid_input(arguments.input);
   if (!input) {
     report_error(input.error());
     return ExitCode::bad_input;
   }
   const std::filesystem::path path(arguments.plan);
-  const auto file = discrete::read_plan(path, input->instance.graph(), arguments.format.discrete);
-  if (!file) {
-    report_error(file.error());
+  const bool is_alone = is_map_alone(arguments.input);
+  const auto file =
+      is_alone ? discrete::read_plan(path, input->instance.graph(), arguments.format.discrete)
+               : discrete::read_plan(path, input->instance, arguments.format.discrete);
+  if (file && is_alone) input = with_agents_of(*std::move(input), file->plan, arguments.plan);
+  if (!file || !input) {
+    report_error(file ? input.error() : file.error());
     return ExitCode::bad_input;
   }
   const auto replay = verify(input->instance, file->plan);

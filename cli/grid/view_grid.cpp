@@ -33,43 +33,70 @@ input::ReadVertex reader_of_vertices(const discrete::Graph& graph) {
   };
 }
 
+/// The file of the plan, which may be a pipe.
+class GivenPlan {
+ public:
+  explicit GivenPlan(const ViewArguments& arguments) : arguments_(arguments) {}
+
+  const Result<std::string>& text() {
+    if (!text_) text_ = input::read_text(arguments_.plan);
+    return *text_;
+  }
+  /// `where`: a graph or an instance.
+  template <class Where>
+  Result<discrete::PlanFile> read(const Where& where) {
+    if (!text()) return text().error();
+    std::istringstream in(*text());
+    return discrete::read_plan(in, arguments_.plan, where, arguments_.format.discrete);
+  }
+
+ private:
+  const ViewArguments& arguments_;
+  std::optional<Result<std::string>> text_;
+};
+
 }  // namespace
 
 ExitCode view_grid(const CLI::App& app, const ViewArguments& arguments) {
   std::string wrong = why_no_roadmap(arguments.roadmap);
-  if (wrong.empty()) wrong = check_grid_options(arguments.input, Need::tasks);
+  if (wrong.empty()) wrong = check_grid_options(arguments.input, Need::plan);
   if (wrong.empty()) wrong = arguments.format.why_not_discrete("--plan-format");
   if (wrong.empty()) wrong = check_view_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 
   std::optional<Attribution> attribution;
   Objective objective = Objective::sum_of_costs;
+  GivenPlan plan(arguments);
+  const auto load = [&]() -> Result<input::GridInput> {
+    auto input = load_grid_input(arguments.input);
+    if (!input || !is_map_alone(arguments.input)) return input;
+    const auto file = plan.read(input->instance.graph());
+    if (!file) return file.error();
+    return with_agents_of(*std::move(input), file->plan, arguments.plan);
+  };
   const auto read = [&](const input::GridInput& input) -> Result<discrete::PlanFile> {
-    const discrete::Graph& graph = input.instance.graph();
-    const auto text = input::read_text(arguments.plan);
+    const auto& text = plan.text();
     if (!text) return text.error();
-    std::istringstream in(*text);
-    auto file = discrete::read_plan(in, arguments.plan, graph, arguments.format.discrete);
+    auto file = plan.read(input.instance);
     if (!file) return file;
     const auto found = input::read_attribution(*text, arguments.plan, input.instance.num_agents(),
-                                               reader_of_vertices(graph));
+                                               reader_of_vertices(input.instance.graph()));
     if (!found) return found.error();
     attribution = *found;
     objective = file->stated.objective;
     return file;
   };
-  const auto page = [&](const input::GridInput& input, const discrete::Plan& plan) {
+  const auto page = [&](const input::GridInput& input, const discrete::Plan& paths) {
     view::PageOptions options;
     options.title = std::filesystem::path(input.source).filename().string();
     options.objective = objective;
     options.attribution = attribution;
-    return view::page(input.instance, plan, options);
+    return view::page(input.instance, paths, options);
   };
-  const auto draw = [&](const input::GridInput& input, const discrete::Plan& plan) {
-    return view::picture(input.instance, plan, arguments.picture.options);
+  const auto draw = [&](const input::GridInput& input, const discrete::Plan& paths) {
+    return view::picture(input.instance, paths, arguments.picture.options);
   };
-  return view_and_write(
-      arguments, [&] { return load_grid_input(arguments.input); }, read, page, draw);
+  return view_and_write(arguments, load, read, page, draw);
 }
 
 }  // namespace quadrille::cli

@@ -79,6 +79,7 @@ std::string describe_input(const input::RoadmapInput& input) {
   if (input.num_zero_length_edges > 0)
     text += fmt::format("           {} edges of length zero, which take one tick\n",
                         input.num_zero_length_edges);
+  for (const std::string& note : input.notes) text += "note       " + note + "\n";
   if (const auto closed = std::count_if(
           instance.roadmap().edges().begin(), instance.roadmap().edges().end(),
           [](const continuous::Edge& e) { return !(e.open_to == continuous::Groups::all()); });

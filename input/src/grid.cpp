@@ -8,6 +8,7 @@
 
 #include "quadrille/discrete/instance_json.hpp"
 #include "quadrille/discrete/instance_yaml.hpp"
+#include "quadrille/text/sniff.hpp"
 #include "shared_goals.hpp"
 
 namespace quadrille::input {
@@ -39,9 +40,14 @@ Result<GridInput> load_map(const InputOptions& options) {
   auto instance = discrete::make_instance(std::move(graph), *scenario, agents);
   if (instance) instance = with_shared_goals(std::move(instance).value(), options);
   if (!instance) return instance.error();
-  return GridInput{
-      std::move(instance.value()), options.map,        options.scen,
-      scenario->rows.size(),       map->other_letters, name_other_map(*scenario, options.map)};
+  return GridInput{std::move(instance.value()),
+                   options.map,
+                   options.scen,
+                   scenario->rows.size(),
+                   map->other_letters,
+                   name_other_map(*scenario, options.map),
+                   {},
+                   note_on_sizes(*scenario, map->width, map->height)};
 }
 
 /// The contents decide, whatever the name; it helps where they may be either.
@@ -62,8 +68,11 @@ Result<discrete::Instance> read_instance(const InputOptions& options, text::Name
     if (extension == ".yaml" || extension == ".yml") return discrete::read_instance_yaml(path);
     return discrete::read_instance_json(path);
   }
-  if (std::string why = why_no_instance(*options.instance_text); !why.empty())
-    return Error{ErrorCode::syntax, std::move(why), {options.instance, 1}};
+  if (auto error = text::refuse_other(
+          *options.instance_text, options.instance,
+          {text::FileKind::own_instance, text::FileKind::own_roadmap, text::FileKind::own_plan,
+           text::FileKind::libmrp_instance, text::FileKind::libmrp_roadmap}))
+    return *error;
   std::istringstream in(*options.instance_text);
   return is_yaml(*options.instance_text, extension)
              ? discrete::read_instance_yaml(in, options.instance, options.most_vertices, &names)
@@ -83,10 +92,11 @@ std::string check_grid_options(const InputOptions& options, Need need) {
     return "";
   }
   if (options.map.empty())
-    return need == Need::tasks ? "an instance is needed: --map, --scen and --agents, or --instance"
-                               : "--map or --instance is needed";
+    return need != Need::map ? "an instance is needed: --map, --scen and --agents, or --instance"
+                             : "--map or --instance is needed";
   if (options.scen.empty() && (need == Need::tasks || options.agents)) return "--scen is missing";
-  if (need == Need::tasks && !options.agents) return "--agents is missing";
+  const bool needs_agents = need == Need::tasks || (need == Need::plan && !options.scen.empty());
+  if (needs_agents && !options.agents) return "--agents is missing";
   return "";
 }
 
@@ -104,6 +114,22 @@ Result<GridInput> load_grid_input(const InputOptions& options) {
   }
   return GridInput{
       std::move(instance.value()), options.instance, options.instance, 0, {}, "", std::move(names)};
+}
+
+bool is_map_alone(const InputOptions& options) {
+  return options.instance.empty() && options.scen.empty();
+}
+
+Result<GridInput> with_agents_of(GridInput input, const discrete::Plan& plan,
+                                 const std::string& file) {
+  std::vector<discrete::Agent> agents;
+  for (const discrete::Path& path : plan.paths) agents.push_back({path.front(), path.back()});
+  auto instance =
+      discrete::Instance::make(input.instance.shared_graph(), std::move(agents), plan.now);
+  if (!instance) return Error{ErrorCode::invalid_plan, instance.error().message, {file, 0}};
+  input.instance = std::move(instance).value();
+  input.task_source = file;
+  return input;
 }
 
 }  // namespace quadrille::input

@@ -2,7 +2,6 @@
 #include "quadrille/input/roadmap.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -10,13 +9,14 @@
 #include <vector>
 
 #include "quadrille/continuous/instance_json.hpp"
-#include "quadrille/continuous/nav_graph.hpp"
+#include "quadrille/continuous/map_file.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/roadmap_xml.hpp"
 #include "quadrille/core/decimal.hpp"
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/input/grid.hpp"
 #include "quadrille/input/robot_runners.hpp"
+#include "quadrille/text/sniff.hpp"
 #include "quadrille/text/text_input.hpp"
 #include "shared_goals.hpp"
 
@@ -26,6 +26,7 @@ namespace {
 using continuous::GridRoadmap;
 using continuous::Heading;
 using continuous::Instance;
+using continuous::MapFile;
 using continuous::OccupancyGrid;
 using continuous::PoseGrid;
 using continuous::Roadmap;
@@ -34,52 +35,48 @@ constexpr int kDefaultNeighbourhood = 3;
 constexpr const char* kTurnAlone = "--turn needs --headings";
 
 bool is_movingai_map(const std::string& file) { return std::string_view(file).ends_with(".map"); }
-bool is_nav_graph(const std::string& file) {
-  return std::string_view(file).ends_with(".yaml") || std::string_view(file).ends_with(".yml");
-}
 
 template <class Size>
 std::string size_text(Size width, Size height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-Result<continuous::MapXml> read_map(const std::string& file, const discrete::MapOptions& letters,
-                                    double resolution, continuous::Speed speed) {
-  if (is_nav_graph(file)) {
-    auto graph = continuous::read_nav_graph(std::filesystem::path(file), resolution, speed);
-    if (!graph) return graph.error();
-    return continuous::MapXml{std::move(graph->roadmap), graph->num_zero_length_edges};
-  }
+Result<MapFile> read_map(const RoadmapOptions& options, const discrete::MapOptions& letters,
+                         double resolution, continuous::Speed speed) {
+  const std::string& file = options.roadmap;
   const auto text = read_text(file);
   if (!text) return text.error();
   std::istringstream in(*text);
-  // The program writes maps to files of any name.
-  if (!is_movingai_map(file) && !text->starts_with("type "))
-    return continuous::read_map_xml(in, file, resolution);
+  const auto kind = text::sniff(*text);
+  const bool is_other = kind != text::FileKind::movingai_map &&
+                        (kind != text::FileKind::unknown || !is_movingai_map(file));
+  if (is_other)
+    return continuous::read_map_file(in, file,
+                                     {resolution, speed, options.level, options.vehicle_type});
   auto map = discrete::read_map(in, file, letters);
   if (!map) return with_letters_hint(map.error());
-  return continuous::MapXml{OccupancyGrid{map->height, map->width, std::move(map->passable)}, 0};
+  return MapFile{OccupancyGrid{map->height, map->width, std::move(map->passable)}};
 }
 
 /// `grid`: what the cells of a scenario belong to, if the map is one.
-Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGrid* grid) {
+Result<continuous::TaskXml> read_task(const std::string& file, const OccupancyGrid* grid,
+                                      std::vector<std::string>& notes) {
   const auto text = read_text(file);
   if (!text) return text.error();
   std::istringstream in(*text);
-  if (!std::string_view(file).ends_with(".scen") && !text->starts_with("version "))
+  const auto kind = text::sniff(*text);
+  if (kind != text::FileKind::movingai_scenario &&
+      (kind != text::FileKind::unknown || !std::string_view(file).ends_with(".scen")))
     return continuous::read_task_xml(in, file);
   const auto scenario = discrete::read_scenario(in, file);
   if (!scenario) return scenario.error();
   continuous::TaskXml task{file, {}};
-  for (const discrete::ScenarioRow& row : scenario->rows) {
-    if (grid != nullptr && (row.width != grid->width || row.height != grid->height))
-      return Error{ErrorCode::invalid_instance,
-                   "the row is for a map of " + size_text(row.width, row.height) + " cells, not " +
-                       size_text(grid->width, grid->height),
-                   {file, row.line}};
+  if (grid != nullptr)
+    if (auto note = note_on_sizes(*scenario, grid->width, grid->height); !note.empty())
+      notes.push_back(file + ": " + note);
+  for (const discrete::ScenarioRow& row : scenario->rows)
     task.rows.push_back({row.line, std::pair{continuous::Cell{row.start.x, row.start.y},
                                              continuous::Cell{row.goal.x, row.goal.y}}});
-  }
   return task;
 }
 
@@ -169,6 +166,7 @@ struct TurningSource {
   continuous::TaskXml task;
   std::int64_t turn = 1;
   std::string file, task_file;
+  std::vector<std::string> notes = {};
 };
 
 /// They begin facing east, and end with any heading.
@@ -194,18 +192,21 @@ Result<RoadmapInput> turning_input(const TurningSource& from, const InputOptions
   read.kind = size_text(from.cells.width, from.cells.height) + " grid, 4 headings, turns of " +
               std::to_string(from.turn) + (from.turn == 1 ? " timestep, " : " timesteps, ");
   read.poses = std::move(poses).value();
+  read.notes = from.notes;
   return read;
 }
 
 Result<RoadmapInput> read_turning(const RoadmapOptions& options, const InputOptions& input) {
-  auto map = read_map(input.map, input.letters, 1, continuous::kUnitSpeed);
+  RoadmapOptions source;
+  source.roadmap = input.map;
+  auto map = read_map(source, input.letters, 1, continuous::kUnitSpeed);
   if (!map) return map.error();
   auto* const cells = std::get_if<OccupancyGrid>(&map->map);
   if (cells == nullptr)
     return Error{ErrorCode::invalid_instance, "--headings needs a grid", {input.map, 0}};
   TurningSource from{std::move(*cells), {}, options.turn.value_or(1), input.map, input.scen};
   if (!input.scen.empty()) {
-    auto task = read_task(input.scen, &from.cells);
+    auto task = read_task(input.scen, &from.cells, from.notes);
     if (!task) return task.error();
     from.task = std::move(task).value();
   }
@@ -262,9 +263,10 @@ std::string check_roadmap_options(const RoadmapOptions& options, const InputOpti
 std::string why_no_roadmap(const RoadmapOptions& options) {
   if (options.turn) return kTurnAlone;
   if (options.task.empty() && !options.radius && !options.speed && !options.resolution &&
-      !options.neighbourhood)
+      !options.neighbourhood && options.level.empty() && options.vehicle_type.empty())
     return "";
-  return "--task, --radius, --speed, --neighbourhood and --resolution belong to --roadmap";
+  return "--task, --radius, --speed, --neighbourhood, --level, --vehicle-type and --resolution "
+         "belong to --roadmap";
 }
 
 Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const InputOptions& input) {
@@ -274,14 +276,14 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
                                                   : read_instance(input);
   const auto numbers = quantise(options);
   if (!numbers) return numbers.error();
-  auto map = read_map(options.roadmap, input.letters, numbers->resolution, numbers->speed);
+  auto map = read_map(options, input.letters, numbers->resolution, numbers->speed);
   if (!map) return map.error();
   const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
   if (cells != nullptr)
     if (auto error = check_cells(input, *cells, options.roadmap)) return *std::move(error);
   continuous::TaskXml task;
   if (!options.task.empty()) {
-    auto read = read_task(options.task, cells);
+    auto read = read_task(options.task, cells, map->notes);
     if (!read) return read.error();
     task = std::move(read).value();
   }
@@ -306,7 +308,7 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
                    "--neighbourhood is for grids, and this is a roadmap",
                    {options.roadmap, 0}};
     roadmap = std::make_shared<const Roadmap>(std::get<Roadmap>(std::move(map->map)));
-    agents = agents_of(task, count, *roadmap, numbers->radius, numbers->speed);
+    agents = agents_of(task, count, *roadmap, numbers->radius, numbers->speed, map->names);
   }
   if (!agents) return agents.error();
   auto instance = make_instance(std::move(roadmap), std::move(agents).value(), numbers->resolution,
@@ -318,6 +320,10 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
   read.rows = task.rows.size();
   read.kind = std::move(kind);
   read.num_zero_length_edges = map->num_zero_length_edges;
+  read.notes = std::move(map->notes);
+  if (map->names.are_ids)
+    for (const std::string& id : map->names.of_vertices)
+      read.names.vertices.push_back(text::quoted_json(id));
   return read;
 }
 

@@ -2,7 +2,6 @@
 #include "quadrille/input/source.hpp"
 
 #include <fstream>
-#include <string_view>
 #include <utility>
 
 #include "quadrille/text/text_input.hpp"
@@ -41,15 +40,6 @@ Result<std::string> read_text(const std::string& file) {
   std::ifstream in;
   if (auto error = text::open_input(file, in)) return *error;
   return text::read_all(in, file);
-}
-
-std::string why_no_instance(const std::string& text) {
-  const std::string_view begin = std::string_view(text).substr(0, text.find_first_of("\r\n"));
-  if (begin.starts_with("type ")) return "this is a map of MovingAI's: it belongs to --map";
-  if (begin.starts_with("version "))
-    return "this is a scenario of MovingAI's: it belongs to --scen";
-  if (begin.starts_with('<')) return "this is XML: roadmaps belong to --roadmap, tasks to --task";
-  return "";
 }
 
 }  // namespace quadrille::input

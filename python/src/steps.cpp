@@ -253,7 +253,7 @@ Plan read_plan(const Instance& instance, const std::filesystem::path& path,
   const auto format = format_of(name);
   return take([&] {
            const py::gil_scoped_release release;
-           return discrete::read_plan(path, instance.graph(), format);
+           return discrete::read_plan(path, instance, format);
          }())
       .plan;
 }

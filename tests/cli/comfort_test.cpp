@@ -75,7 +75,7 @@ TEST_F(ComfortTest, AFileOfAnotherKindIsToldWhereItBelongs) {
   };
   EXPECT_THAT(error(grid[2]), HasSubstr(":1: this is a map of MovingAI's: it belongs to --map"));
   EXPECT_THAT(error(grid[4]), HasSubstr("it belongs to --scen"));
-  EXPECT_THAT(error(path("map.xml")), HasSubstr("roadmaps belong to --roadmap"));
+  EXPECT_THAT(error(path("map.xml")), HasSubstr("it belongs to --roadmap"));
   write("swamp.map", "type octile\nheight 1\nwidth 3\nmap\n.S.\n");
   EXPECT_THAT(run({"info", "--map", path("swamp.map")}).err, HasSubstr("--passable and --blocked"));
   EXPECT_THAT(run({"info", "--roadmap", path("swamp.map")}).err, HasSubstr("--passable and"));

@@ -28,10 +28,12 @@ Result<std::string> read_all(std::istream& in, const std::string& file) {
   }
   // Only the end of the file may stop the reading.
   if (in.bad() || !in.eof()) return Error{ErrorCode::io, "cannot be read", {file, 0}};
-  for (const std::string_view mark : {"\xEF\xBB\xBF", "\xFE\xFF", "\xFF\xFE"})
+  for (const std::string_view mark : {"\xFE\xFF", "\xFF\xFE"})
     if (text.starts_with(mark))
       return Error{
-          ErrorCode::syntax, "a byte order mark: files are read as UTF-8 without one", {file, 1}};
+          ErrorCode::syntax, "a byte order mark of UTF-16: files are read as UTF-8", {file, 1}};
+  constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
+  if (text.starts_with(kUtf8Mark)) text.erase(0, kUtf8Mark.size());
   return text;
 }
 
@@ -76,7 +78,8 @@ Natural parse_natural(std::string_view text, std::int64_t max) {
   if (!digits) return {0, NumberFault::malformed};
   for (const char c : text) {
     const std::int64_t digit = c - '0';
-    if (number.value > (max - digit) / 10) return {0, NumberFault::too_large};
+    // Division rounds negative numbers up.
+    if (digit > max || number.value > (max - digit) / 10) return {0, NumberFault::too_large};
     number.value = 10 * number.value + digit;
   }
   return number;

@@ -14,6 +14,7 @@
 #include "quadrille/text/document.hpp"
 #include "quadrille/text/goals.hpp"
 #include "quadrille/text/names.hpp"
+#include "quadrille/text/sniff.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
@@ -381,6 +382,10 @@ class InstanceReader {
 Result<Instance> read_instance_json(std::istream& in, const std::string& file, text::Names* names) {
   const auto text = text::read_all(in, file);
   if (!text) return text.error();
+  if (auto error = text::refuse_other(
+          *text, file,
+          {text::FileKind::own_roadmap, text::FileKind::own_instance, text::FileKind::own_plan}))
+    return *error;
   const auto document = text::parse_json(*text, file);
   if (!document) return document.error();
   return InstanceReader(*document).run(names);

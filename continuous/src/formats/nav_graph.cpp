@@ -7,9 +7,13 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
-#include "quadrille/continuous/quantise.hpp"
+#include "formats/roadmap_builder.hpp"
+#include "formats/roadmap_readers.hpp"
 #include "quadrille/text/document.hpp"
+#include "quadrille/text/names.hpp"
+#include "quadrille/text/sniff.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
@@ -20,78 +24,75 @@ using Node = Document::Node;
 
 class NavGraphReader {
  public:
-  NavGraphReader(const Document& document, const Resolution& resolution, Speed speed)
-      : document_(document), check_(document), resolution_(resolution), speed_(speed) {}
+  NavGraphReader(const Document& document, const MapFileOptions& options)
+      : document_(document),
+        check_(document),
+        objects_(document, check_),
+        options_(options),
+        builder_(options) {}
 
-  Result<NavGraph> run() {
+  Result<MapFile> run() {
     const auto level = find_level();
     if (!level || !read_level(*level)) return check_.error();
-    auto roadmap = Roadmap::make(std::move(positions_), std::move(edges_));
-    if (!roadmap) return document_.error(*level, roadmap.error().code, roadmap.error().message);
-    return NavGraph{std::move(roadmap).value(), std::move(names_), num_zero_length_edges_};
+    auto map = std::move(builder_).finish(document_.file());
+    if (!map) return document_.error(*level, map.error().code, map.error().message);
+    return map;
   }
 
  private:
-  /// Goes through the keys and values of an object until `visit` says that something is wrong.
-  template <class Visit>
-  bool each_member(Node object, std::string_view what, const Visit& visit) {
-    if (document_.kind(object) != Document::Kind::object)
-      return check_.fail(object, "expected " + std::string(what));
-    for (Node key = document_.first(object); key < document_.next(object);) {
-      const Node value = document_.next(key);
-      if (!visit(key, value)) return false;
-      key = document_.next(value);
-    }
-    return true;
+  bool fail(Node node, const RoadmapBuilder::Fault& fault) {
+    return check_.fail(node, fault.code, fault.message);
   }
 
-  /// Of an object with more keys than those that are looked at, the value of one, which may be
-  /// missing, but not be there twice.
-  bool find(Node object, std::string_view what, std::string_view name, std::optional<Node>& found) {
-    return each_member(object, what, [&](Node key, Node value) {
-      if (document_.text(key) != name) return true;
-      if (found) return check_.fail(key, "the key is there twice");
-      found = value;
-      return true;
-    });
+  struct Level {
+    std::string name;
+    Node node;
+  };
+  static std::string listed(const std::vector<Level>& levels) {
+    std::string text;
+    for (const Level& level : levels)
+      text += (text.empty() ? "" : ", ") + text::in_quotes(level.name);
+    return text;
   }
 
-  /// The one with vertices.
+  /// The one with vertices, or the one that is asked for.
   std::optional<Node> find_level() {
-    std::optional<Node> levels, level;
-    if (!find(Document::kRoot, "a nav graph of Open-RMF", "levels", levels)) return std::nullopt;
-    if (!levels) {
-      check_.fail(Document::kRoot, "a nav graph of Open-RMF has the key 'levels'");
+    std::optional<Node> levels;
+    std::vector<Level> with_vertices;
+    if (!objects_.find_all(Document::kRoot, "a nav graph of Open-RMF", {{"levels", &levels}}))
       return std::nullopt;
-    }
-    const bool is_good = each_member(*levels, "levels by their names", [&](Node, Node value) {
-      std::optional<Node> vertices;
-      if (!find(value, "a level", "vertices", vertices)) return false;
-      if (!vertices) return check_.fail(value, "a level has the key 'vertices'");
-      if (!check_.array(*vertices, "vertices")) return false;
-      if (document_.first(*vertices) == document_.next(*vertices)) return true;
-      if (level)
-        return check_.fail(value, ErrorCode::invalid_instance,
-                           "a roadmap is of one level, and this is another");
-      level = value;
-      return true;
-    });
+    const bool is_good =
+        objects_.each_member(*levels, "levels by their names", [&](Node key, Node value) {
+          std::optional<Node> vertices;
+          if (!objects_.find_all(value, "a level", {{"vertices", &vertices}}) ||
+              !check_.array(*vertices, "vertices"))
+            return false;
+          if (document_.first(*vertices) != document_.next(*vertices))
+            with_vertices.push_back({std::string(document_.text(key)), value});
+          return true;
+        });
     if (!is_good) return std::nullopt;
-    if (!level) check_.fail(*levels, ErrorCode::invalid_instance, "there are no vertices");
-    return level;
+    if (options_.level.empty() && with_vertices.size() == 1) return with_vertices.front().node;
+    for (const Level& level : with_vertices)
+      if (level.name == options_.level) return level.node;
+    const std::string names = listed(with_vertices);
+    const std::string why =
+        names.empty() ? "there are no vertices"
+        : options_.level.empty()
+            ? "there are several levels with vertices, --level says which is meant: " + names
+            : "no level with vertices is called " + text::in_quotes(options_.level) + ", only " +
+                  names;
+    check_.fail(*levels, ErrorCode::invalid_instance, why);
+    return std::nullopt;
   }
 
   bool read_level(Node level) {
     std::optional<Node> vertices, lanes;
-    if (!find(level, "a level", "vertices", vertices) || !find(level, "a level", "lanes", lanes))
+    if (!objects_.find_all(level, "a level", {{"vertices", &vertices}, {"lanes", &lanes, false}}) ||
+        !objects_.each_element(*vertices, "vertices", [&](Node v) { return read_vertex(v); }))
       return false;
-    for (Node v = document_.first(*vertices); v < document_.next(*vertices); v = document_.next(v))
-      if (!read_vertex(v)) return false;
-    if (!lanes) return true;
-    if (!check_.array(*lanes, "lanes")) return false;
-    for (Node l = document_.first(*lanes); l < document_.next(*lanes); l = document_.next(l))
-      if (!read_lane(l)) return false;
-    return true;
+    return !lanes ||
+           objects_.each_element(*lanes, "lanes", [&](Node lane) { return read_lane(lane); });
   }
 
   /// The first two elements of a vertex or a lane, and its properties.
@@ -111,7 +112,7 @@ class NavGraphReader {
       }
     if (size < 2 || size > 3) return check_.fail(node, "expected " + form);
     if (!item.properties) return true;
-    return each_member(*item.properties, form, [&](Node key, Node value) {
+    return objects_.each_member(*item.properties, form, [&](Node key, Node value) {
       const bool is_empty =
           document_.kind(value) == Document::Kind::null ||
           (document_.kind(value) == Document::Kind::string && document_.text(value).empty());
@@ -130,99 +131,97 @@ class NavGraphReader {
     return check_.fail(node, "expected a number, found " + text::in_quotes(text));
   }
 
-  bool read_coordinate(Node node, Length& length) {
-    double value = 0;
-    if (!read_number(node, value)) return false;
-    const auto units = quantise_coordinate(value, resolution_);
-    if (!units) return check_.fail(node, ErrorCode::out_of_range, "the coordinate is too large");
-    length = *units;
-    return true;
+  bool read_flag(Node node, bool& value) {
+    if (document_.kind(node) == Document::Kind::string)
+      for (const auto& [word, meaning] : {std::pair<std::string_view, bool>{"true", true},
+                                          {"True", true},
+                                          {"false", false},
+                                          {"False", false}})
+        if (document_.text(node) == word) {
+          value = meaning;
+          return true;
+        }
+    return check_.fail(node, "expected true or false");
   }
 
   bool read_vertex(Node node) {
     Item item;
-    Point point;
+    double x = 0, y = 0;
     std::optional<Node> name;
-    if (!read_item(node, "[x, y, {properties}]", item) || !read_coordinate(item.first, point.x) ||
-        !read_coordinate(item.second, point.y) ||
-        (item.properties && !find(*item.properties, "properties", "name", name)))
+    if (!read_item(node, "[x, y, {properties}]", item) || !read_number(item.first, x) ||
+        !read_number(item.second, y) ||
+        (item.properties &&
+         !objects_.find_all(*item.properties, "properties", {{"name", &name, false}})))
       return false;
-    std::string_view text;
-    if (name && !check_.text(*name, text)) return false;
-    positions_.push_back(point);
-    names_.emplace_back(text);
-    return true;
+    std::optional<std::string> text;
+    if (name && document_.kind(*name) != Document::Kind::null &&
+        !text::read_name(check_, document_, *name, text))
+      return false;
+    const VertexId vertex(builder_.num_vertices());
+    if (text && !text->empty()) builder_.add_place(*text, vertex);
+    const auto fault = builder_.add_vertex(std::to_string(vertex.index()), {x, y, 0});
+    return !fault || fail(node, *fault);
   }
 
   bool read_end(Node node, VertexId& vertex) {
     std::int64_t number = 0;
     if (!check_.integer(node, 0, INT64_MAX, number)) return false;
-    if (static_cast<std::size_t>(number) >= positions_.size())
+    if (static_cast<std::size_t>(number) >= builder_.num_vertices())
       return check_.fail(node, ErrorCode::invalid_instance,
                          "there is no vertex " + std::to_string(number) + " among " +
-                             std::to_string(positions_.size()));
+                             std::to_string(builder_.num_vertices()));
     vertex = VertexId(static_cast<std::size_t>(number));
     return true;
   }
 
   bool read_lane(Node node) {
     Item item;
-    Edge edge;
-    std::optional<Node> limit;
-    if (!read_item(node, "[from, to, {properties}]", item) || !read_end(item.first, edge.from) ||
-        !read_end(item.second, edge.to) ||
-        (item.properties && !find(*item.properties, "properties", "speed_limit", limit)))
+    VertexId from, to;
+    std::optional<Node> limit, both_ways;
+    double speed = 0;
+    bool is_both = false;
+    if (!read_item(node, "[from, to, {properties}]", item) || !read_end(item.first, from) ||
+        !read_end(item.second, to) ||
+        (item.properties && !objects_.find_all(*item.properties, "properties",
+                                               {{"speed_limit", &limit, false},
+                                                {"is_bidirectional", &both_ways, false}})) ||
+        (limit && !read_number(*limit, speed)) || (both_ways && !read_flag(*both_ways, is_both)))
       return false;
-    if (edge.from == edge.to)
-      return check_.fail(node, ErrorCode::invalid_instance, "the lane is a loop");
-    if (positions_[edge.from.index()] == positions_[edge.to.index()]) {
-      edge.duration = Ticks(1);
-      ++num_zero_length_edges_;
-    } else if (limit && !read_speed_limit(*limit, edge)) {
-      return false;
-    }
-    edges_.push_back(edge);
-    return true;
-  }
-
-  bool read_speed_limit(Node node, Edge& edge) {
-    double value = 0;
-    if (!read_number(node, value)) return false;
-    if (value == 0) return true;  // Open-RMF writes 0 for none.
-    const auto most = quantise_speed(value, resolution_);
-    if (!most) return check_.fail(node, ErrorCode::out_of_range, "the speed is not supported");
-    if (*most >= speed_) return true;
-    edge.duration = travel_time(positions_[edge.from.index()], positions_[edge.to.index()], *most);
-    return edge.duration ||
-           check_.fail(node, ErrorCode::out_of_range, "the lane takes too long at this speed");
+    if (from == to) return check_.fail(node, ErrorCode::invalid_instance, "the lane is a loop");
+    const auto most = limit ? std::optional(speed) : std::nullopt;
+    auto fault = builder_.add_edge(from, to, most);
+    if (!fault && is_both) fault = builder_.add_edge(to, from, most);
+    return !fault || fail(limit.value_or(node), *fault);
   }
 
   const Document& document_;
   text::Checker check_;
-  const Resolution& resolution_;
-  const Speed speed_;
-  std::vector<Point> positions_;
-  std::vector<std::string> names_;
-  std::vector<Edge> edges_;
-  std::size_t num_zero_length_edges_ = 0;
+  text::OpenObjects objects_;
+  const MapFileOptions& options_;
+  RoadmapBuilder builder_;
 };
 
 }  // namespace
 
-Result<NavGraph> read_nav_graph(std::istream& in, const std::string& file,
-                                const Resolution& resolution, Speed speed) {
-  const auto text = text::read_all(in, file);
-  if (!text) return text.error();
-  const auto document = text::parse_yaml(*text, file);
+Result<MapFile> read_nav_graph_text(const std::string& text, const std::string& file,
+                                    const MapFileOptions& options) {
+  const auto document = text::parse_yaml(text, file);
   if (!document) return document.error();
-  return NavGraphReader(*document, resolution, speed).run();
+  return NavGraphReader(*document, options).run();
 }
 
-Result<NavGraph> read_nav_graph(const std::filesystem::path& path, const Resolution& resolution,
-                                Speed speed) {
+Result<MapFile> read_nav_graph(std::istream& in, const std::string& file,
+                               const MapFileOptions& options) {
+  const auto text = text::read_all(in, file);
+  if (!text) return text.error();
+  if (auto error = text::refuse_other(*text, file, {text::FileKind::nav_graph})) return *error;
+  return read_nav_graph_text(*text, file, options);
+}
+
+Result<MapFile> read_nav_graph(const std::filesystem::path& path, const MapFileOptions& options) {
   std::ifstream in;
   if (const auto error = text::open_input(path, in)) return *error;
-  return read_nav_graph(in, path.string(), resolution, speed);
+  return read_nav_graph(in, path.string(), options);
 }
 
 }  // namespace quadrille::continuous

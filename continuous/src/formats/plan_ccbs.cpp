@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <ostream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "formats/json_numbers.hpp"
 #include "formats/plan_codecs.hpp"
@@ -136,10 +139,11 @@ class LogReader {
   }
 
   std::optional<Error> read_section(const pugi::xml_node& node, AgentId agent, bool is_first,
-                                    Path& path) const {
+                                    Path& path) {
     std::array<VertexId, 2> ends;
-    for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
-      if (auto error = read_vertex(node, end == 0 ? "start" : "goal", ends[end])) return error;
+    const auto before = is_first ? std::nullopt : std::optional(path.back().vertex);
+    if (auto error = read_vertex(node, "start", Near{agent, before, false}, ends[0])) return error;
+    if (auto error = read_vertex(node, "goal", Near{agent, ends[0], true}, ends[1])) return error;
     const auto seconds = parse_number(node.attribute("duration").value());
     const double units = seconds ? *seconds / instance_.resolution().time : -1;
     if (!(units >= 0 && units <= static_cast<double>((kMaxTick - path.back().depart).value())))
@@ -160,7 +164,80 @@ class LogReader {
     return std::nullopt;
   }
 
+  /// What helps where several vertices have one place.
+  struct Near {
+    AgentId agent;
+    std::optional<VertexId> before;  ///< Where the agent was before.
+    bool moves;                      ///< Whether it may have moved since.
+  };
+
   std::optional<Error> read_vertex(const pugi::xml_node& node, const std::string& end,
+                                   const Near& near, VertexId& vertex) {
+    const std::string_view x = node.attribute((end + "_i").c_str()).value();
+    const std::string_view y = node.attribute((end + "_j").c_str()).value();
+    const bool has_id = node.attribute((end + "_id").c_str());
+    // Cells of grids are rows and columns; of roadmaps CCBS writes coordinates.
+    if (grid_ != nullptr || has_id) return read_number(node, end, vertex);
+    const auto at_x = parse_number(x), at_y = parse_number(y);
+    if (!at_x || !at_y)
+      return xml_.error(node, "a <section> has " + end + "_id, or " + end + "_i and " + end + "_j");
+    const auto found = choose(vertices_at(*at_x, *at_y), near);
+    if (!found)
+      return xml_.error(node,
+                        "the " + end + " of a section, (" + text::printable(x, 40) + ", " +
+                            text::printable(y, 40) + "), is no vertex of the roadmap",
+                        ErrorCode::invalid_plan);
+    vertex = *found;
+    return std::nullopt;
+  }
+
+  /// The vertices in the nearest place, which differs by less than six digits tell.
+  std::vector<VertexId> vertices_at(double x, double y) {
+    constexpr double kSixDigits = 5e-6;
+    const std::vector<Point>& positions = instance_.roadmap().positions();
+    const auto at = [&](VertexId v) {
+      const Point& point = positions[v.index()];
+      return std::pair{static_cast<double>(point.x.value()), static_cast<double>(point.y.value())};
+    };
+    if (by_x_.empty()) {
+      for (const VertexId v : IdRange<VertexId>(positions.size())) by_x_.push_back(v);
+      std::stable_sort(by_x_.begin(), by_x_.end(),
+                       [&](VertexId v, VertexId w) { return at(v).first < at(w).first; });
+    }
+    x /= instance_.resolution().length;
+    y /= instance_.resolution().length;
+    const double most_x = 1 + kSixDigits * std::abs(x), most_y = 1 + kSixDigits * std::abs(y);
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<VertexId> found;
+    for (auto v = std::partition_point(by_x_.begin(), by_x_.end(),
+                                       [&](VertexId w) { return at(w).first < x - most_x; });
+         v != by_x_.end() && at(*v).first <= x + most_x; ++v) {
+      const double distance = std::hypot(at(*v).first - x, at(*v).second - y);
+      if (std::abs(at(*v).second - y) > most_y || distance > least) continue;
+      if (distance < least) found.clear();
+      least = distance;
+      found.push_back(*v);
+    }
+    return found;
+  }
+
+  /// The one that fits: where the agent was, or else where it can go from there; of a first start
+  /// its own one.
+  [[nodiscard]] std::optional<VertexId> choose(const std::vector<VertexId>& found,
+                                               const Near& near) const {
+    const auto has = [&](VertexId v) {
+      return std::find(found.begin(), found.end(), v) != found.end();
+    };
+    const VertexId expected = near.before.value_or(instance_.agent(near.agent).start);
+    if (has(expected)) return expected;
+    if (near.moves)
+      for (const EdgeId e : instance_.roadmap().out_edges(expected))
+        if (has(instance_.roadmap().edge(e).to)) return instance_.roadmap().edge(e).to;
+    if (found.empty()) return std::nullopt;
+    return found.front();
+  }
+
+  std::optional<Error> read_number(const pugi::xml_node& node, const std::string& end,
                                    VertexId& vertex) const {
     constexpr std::int64_t kMax = INT32_MAX;
     const auto id = parse_integer(node.attribute((end + "_id").c_str()).value(), 0, kMax);
@@ -188,6 +265,7 @@ class LogReader {
   const Instance& instance_;
   const GridRoadmap* grid_;
   PlanFile file_;
+  std::vector<VertexId> by_x_;  // Once coordinates are asked for.
   std::int64_t num_sections_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "formats/plan_codecs.hpp"
+#include "quadrille/text/sniff.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
@@ -43,6 +44,10 @@ Result<PlanFile> read_plan(std::istream& in, const std::string& file, const Inst
                            const GridRoadmap* grid, std::optional<PlanFormat> format) {
   const auto text = text::read_all(in, file);
   if (!text) return text.error();
+  if (auto error = text::refuse_other(*text, file,
+                                      {text::FileKind::own_plan, text::FileKind::ccbs_log,
+                                       text::FileKind::own_roadmap, text::FileKind::own_instance}))
+    return *error;
   const auto first = text->find_first_not_of(" \t\r\n");
   const bool is_xml = first != std::string::npos && (*text)[first] == '<';
   if (format.value_or(is_xml ? PlanFormat::ccbs : PlanFormat::json) == PlanFormat::ccbs)

@@ -1,147 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/continuous/roadmap_xml.hpp"
 
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <initializer_list>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
+#include "formats/graphml.hpp"
+#include "formats/roadmap_readers.hpp"
 #include "formats/xml_input.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/core/decimal.hpp"
+#include "quadrille/text/sniff.hpp"
+#include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
 namespace {
 
 constexpr std::int64_t kMaxVertices = std::int64_t{1} << 26;
 constexpr std::int64_t kMaxSide = std::int64_t{1} << 16;
-
-std::optional<std::int64_t> parse_node_id(std::string_view text) {
-  if (text.empty()) return std::nullopt;
-  const auto number = parse_integer(text.substr(1), 0, kMaxVertices);
-  // One name for each node: not n01, nor n with a blank.
-  if (!number || text != "n" + std::to_string(*number)) return std::nullopt;
-  return number;
-}
-
-class GraphmlReader {
- public:
-  GraphmlReader(const XmlFile& xml, double resolution) : xml_(xml), resolution_(resolution) {}
-
-  Result<MapXml> read() {
-    if (auto error = xml_.misplaced({{"graphml"},
-                                     {"graphml", "key"},
-                                     {"graphml", "graph"},
-                                     {"graphml", "graph", "node"},
-                                     {"graphml", "graph", "edge"}}))
-      return *error;
-    if (auto error = find_coords_key()) return *error;
-    const auto graph = xml_.only_child(xml_.root(), "graph");
-    if (!graph) return graph.error();
-    if (!*graph) return xml_.error(xml_.root(), "there is no <graph>");
-    if (std::string_view(graph->attribute("edgedefault").value()) != "directed")
-      return xml_.error(*graph, "edgedefault has to be \"directed\"");
-    for (const pugi::xml_node node : graph->children("node"))
-      if (auto error = read_node(node)) return *error;
-    for (const pugi::xml_node edge : graph->children("edge"))
-      if (auto error = read_edge(edge)) return *error;
-    auto roadmap = Roadmap::make(std::move(positions_), std::move(edges_));
-    if (!roadmap) return Error{roadmap.error().code, roadmap.error().message, {xml_.file(), 0}};
-    return MapXml{std::move(roadmap).value(), num_zero_length_edges_};
-  }
-
- private:
-  std::optional<Error> find_coords_key() {
-    std::set<std::string_view> ids;
-    for (const pugi::xml_node key : xml_.root().children("key")) {
-      const std::string_view id = key.attribute("id").value();
-      if (!ids.insert(id).second)
-        return xml_.error(key, "there is a second <key> with the id " + quoted(id));
-      if (std::string_view(key.attribute("for").value()) != "node" ||
-          std::string_view(key.attribute("attr.name").value()) != "coords")
-        continue;
-      if (!coords_key_.empty()) return xml_.error(key, "there is a second <key> for coords");
-      if (id.empty()) return xml_.error(key, "the <key> for coords has no id");
-      coords_key_ = id;
-    }
-    if (coords_key_.empty())
-      return xml_.error(xml_.root(), "there is no <key for=\"node\" attr.name=\"coords\">");
-    return std::nullopt;
-  }
-
-  /// The text of the node's <data> with the coordinates, empty if there is none.
-  Result<std::string_view> coordinates(const pugi::xml_node& node) const {
-    pugi::xml_node found;
-    for (const pugi::xml_node data : node.children("data")) {
-      if (coords_key_ != data.attribute("key").value()) continue;
-      if (found) return xml_.error(data, "the coordinates of a node are given twice");
-      found = data;
-    }
-    return xml_.text(found);
-  }
-
-  std::optional<Error> read_node(const pugi::xml_node& node) {
-    const std::string_view id = node.attribute("id").value();
-    const std::string expected = "n" + std::to_string(positions_.size());
-    if (id != expected)
-      return xml_.error(node, "node " + quoted(id) + " where " + expected + " is due");
-    const auto data = coordinates(node);
-    if (!data) return data.error();
-    const std::string_view text = data.value();
-    const auto comma = text.find(',');
-    const auto x = parse_number(text.substr(0, comma));
-    const auto y =
-        comma == std::string_view::npos ? std::nullopt : parse_number(text.substr(comma + 1));
-    if (!x || !y)
-      return xml_.error(node, "node " + expected + " has the coordinates " + quoted(text) +
-                                  ", not two finite numbers");
-    const auto unit_x = quantise_coordinate(*x, resolution_);
-    const auto unit_y = quantise_coordinate(*y, resolution_);
-    if (!unit_x || !unit_y)
-      return xml_.error(node, "node " + expected + " is too far away for the resolution",
-                        ErrorCode::out_of_range);
-    positions_.push_back({*unit_x, *unit_y});
-    return std::nullopt;
-  }
-
-  std::optional<Error> read_edge(const pugi::xml_node& edge) {
-    VertexId ends[2];
-    for (const int end : {0, 1}) {
-      const char* const name = end == 0 ? "source" : "target";
-      const std::string_view text = edge.attribute(name).value();
-      const auto id = parse_node_id(text);
-      if (!id || *id >= static_cast<std::int64_t>(positions_.size()))
-        return xml_.error(
-            edge, std::string("the ") + name + " " + quoted(text) + " of an edge is no node",
-            ErrorCode::invalid_instance);
-      ends[end] = VertexId(static_cast<std::size_t>(*id));
-    }
-    if (ends[0] == ends[1])
-      return xml_.error(edge, "an edge from a node to itself", ErrorCode::invalid_instance);
-    const pugi::xml_attribute directed = edge.attribute("directed");
-    const std::string_view way = directed ? directed.value() : "true";
-    if (way != "true" && way != "false")
-      return xml_.error(edge, "directed is " + quoted(way) + ", neither true nor false");
-    add_edge(ends[0], ends[1]);
-    if (way == "false") add_edge(ends[1], ends[0]);
-    return std::nullopt;
-  }
-
-  void add_edge(VertexId from, VertexId to) {
-    edges_.push_back({from, to, std::nullopt});
-    // Sampling planners leave such edges in published files. Every move takes time here.
-    if (positions_[from.index()] == positions_[to.index()]) {
-      edges_.back().duration = Ticks{1};
-      ++num_zero_length_edges_;
-    }
-  }
-
-  const XmlFile& xml_;
-  const double resolution_;
-  std::string coords_key_;
-  std::vector<Point> positions_;
-  std::vector<Edge> edges_;
-  std::size_t num_zero_length_edges_ = 0;
-};
 
 std::optional<Error> read_row(const XmlFile& xml, const pugi::xml_node& row, OccupancyGrid& grid) {
   const auto text = xml.text(row);
@@ -160,7 +40,7 @@ std::optional<Error> read_row(const XmlFile& xml, const pugi::xml_node& row, Occ
   return std::nullopt;
 }
 
-Result<MapXml> read_grid(const XmlFile& xml) {
+Result<MapFile> read_grid(const XmlFile& xml) {
   if (auto error = xml.misplaced({{"root"},
                                   {"root", "map"},
                                   {"root", "map", "width"},
@@ -194,32 +74,49 @@ Result<MapXml> read_grid(const XmlFile& xml) {
   if (rows != grid.height)
     return xml.error(
         *map, std::to_string(rows) + " rows where the height is " + std::to_string(grid.height));
-  return MapXml{std::move(grid), 0};
+  return MapFile{std::move(grid)};
 }
 
-Result<MapXml> read_map(const Result<XmlFile>& xml, double resolution) {
+Result<MapFile> read_map(const Result<XmlFile>& xml, const MapFileOptions& options) {
   if (!xml) return xml.error();
   const std::string_view name = xml->root().name();
-  if (name == "graphml") return GraphmlReader(*xml, resolution).read();
+  if (name == "graphml") return read_graphml(*xml, options);
   if (name == "root") return read_grid(*xml);
   return xml->error(xml->root(), "neither <graphml> nor <root> but " + quoted(name));
 }
 
+constexpr std::array<const char*, 6> kAttributes = {"start_id", "goal_id", "start_i",
+                                                    "start_j",  "goal_i",  "goal_j"};
+
+/// What is there of kAttributes.
+using Places = std::map<std::string_view, std::string_view>;
+
+bool has_only(const Places& places, std::initializer_list<const char*> names) {
+  return places.size() == names.size() &&
+         std::all_of(names.begin(), names.end(), [&](auto name) { return places.contains(name); });
+}
+
 std::optional<Error> read_agent(const XmlFile& xml, const pugi::xml_node& agent, TaskXml& task) {
-  std::map<std::string, std::int64_t> numbers;
-  for (const char* const name : {"start_id", "goal_id", "start_i", "start_j", "goal_i", "goal_j"}) {
+  Places texts;
+  std::map<std::string_view, std::int64_t> numbers;
+  for (const char* const name : kAttributes) {
     const pugi::xml_attribute attribute = agent.attribute(name);
     if (!attribute) continue;
+    texts.emplace(name, attribute.value());
     const auto number = parse_integer(attribute.value(), 0, kMaxVertices);
-    if (!number)
+    if (number)
+      numbers.emplace(name, *number);
+    else if (!std::string_view(name).ends_with("_id"))
       return xml.error(
           agent, std::string(name) + " is " + quoted(attribute.value()) + ", not a natural number");
-    numbers[name] = *number;
   }
   TaskRow row{xml.line(agent), {}};
-  if (numbers.size() == 2 && numbers.contains("start_id") && numbers.contains("goal_id")) {
-    row.places = std::pair{numbers["start_id"], numbers["goal_id"]};
-  } else if (numbers.size() == 4 && !numbers.contains("start_id") && !numbers.contains("goal_id")) {
+  if (has_only(texts, {"start_id", "goal_id"})) {
+    if (numbers.size() == 2)
+      row.places = std::pair{numbers["start_id"], numbers["goal_id"]};
+    else
+      row.places = std::pair{std::string(texts["start_id"]), std::string(texts["goal_id"])};
+  } else if (has_only(texts, {"start_i", "start_j", "goal_i", "goal_j"})) {
     const auto cell = [&](const char* i, const char* j) {
       return Cell{static_cast<std::int32_t>(numbers[j]), static_cast<std::int32_t>(numbers[i])};
     };
@@ -247,6 +144,7 @@ Result<TaskXml> read_task(const Result<XmlFile>& xml) {
   return task;
 }
 
+/// `find(place)`: the vertex, or why there is none.
 template <class FindVertex>
 Result<std::vector<Agent>> make_agents(const TaskXml& task, std::size_t num_agents, Length radius,
                                        Speed speed, const FindVertex& find) {
@@ -263,56 +161,99 @@ Result<std::vector<Agent>> make_agents(const TaskXml& task, std::size_t num_agen
           return std::pair{find(places.first), find(places.second)};
         },
         row.places);
-    if (!start || !goal)
-      return Error{ErrorCode::invalid_instance,
+    if (!start || !goal) {
+      const Error& why = start ? goal.error() : start.error();
+      return Error{why.code,
                    std::string("the ") + (start ? "goal" : "start") + " of agent " +
-                       std::to_string(i) + " is no vertex of the map",
+                       std::to_string(i) + ": " + why.message,
                    {task.file, row.line}};
+    }
     agents.push_back({*start, *goal, Disc{radius}, speed});
   }
   return agents;
 }
 
+Error no_vertex(const std::string& why, ErrorCode code = ErrorCode::invalid_instance) {
+  return {code, why, {}};
+}
+
+struct FindOnRoadmap {
+  const Roadmap& roadmap;
+  const VertexNames& names;
+
+  Result<VertexId> operator()(const std::string& text) const {
+    return names.find(text, roadmap.num_vertices());
+  }
+  Result<VertexId> operator()(std::int64_t id) const {
+    if (names.are_ids) return (*this)(std::to_string(id));
+    if (id < static_cast<std::int64_t>(roadmap.num_vertices()))
+      return VertexId(static_cast<std::size_t>(id));
+    return no_vertex("there is no vertex " + std::to_string(id) + " among " +
+                     std::to_string(roadmap.num_vertices()));
+  }
+  Result<VertexId> operator()(Cell) const { return no_vertex("a roadmap has vertices, not cells"); }
+};
+
+struct FindOnGrid {
+  const GridRoadmap& grid;
+  Length radius;
+
+  Result<VertexId> operator()(const std::string& text) const {
+    return no_vertex(quoted(std::string_view(text)) + " is no number of a cell");
+  }
+  Result<VertexId> operator()(std::int64_t id) const {
+    return (*this)(Cell{static_cast<std::int32_t>(id % grid.width()),
+                        static_cast<std::int32_t>(id / grid.width())});
+  }
+  Result<VertexId> operator()(Cell cell) const {
+    if (const auto vertex = grid.vertex(cell)) return *vertex;
+    const std::string place = "(" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + ")";
+    if (cell.x >= grid.width() || cell.y >= grid.height())
+      return no_vertex(place + " is outside of the grid of " + std::to_string(grid.width()) +
+                       " x " + std::to_string(grid.height()) + " cells");
+    if (!grid.is_passable(cell)) return no_vertex(place + " is blocked");
+    return no_vertex("a disc of radius " +
+                         decimal(radius_in_input_units(radius, grid.resolution())) +
+                         " does not fit at " + place,
+                     ErrorCode::no_plan);
+  }
+};
+
 }  // namespace
 
-Result<MapXml> read_map_xml(std::istream& in, const std::string& file, double resolution) {
-  return read_map(XmlFile::read(in, file), resolution);
+Result<MapFile> read_xml_map(const std::string& text, const std::string& file,
+                             const MapFileOptions& options) {
+  return read_map(XmlFile::parse(text, file), options);
 }
-Result<MapXml> read_map_xml(const std::filesystem::path& path, double resolution) {
-  return read_map(XmlFile::read(path), resolution);
+
+Result<MapFile> read_map_xml(std::istream& in, const std::string& file, double resolution) {
+  return read_map(XmlFile::read(in, file), {resolution, kUnitSpeed});
+}
+Result<MapFile> read_map_xml(const std::filesystem::path& path, double resolution) {
+  return read_map(XmlFile::read(path), {resolution, kUnitSpeed});
 }
 
 Result<TaskXml> read_task_xml(std::istream& in, const std::string& file) {
-  return read_task(XmlFile::read(in, file));
+  const auto text = text::read_all(in, file);
+  if (!text) return text.error();
+  if (auto error = text::refuse_other(*text, file, {text::FileKind::ccbs_task})) return *error;
+  return read_task(XmlFile::parse(*text, file));
 }
 Result<TaskXml> read_task_xml(const std::filesystem::path& path) {
-  return read_task(XmlFile::read(path));
+  std::ifstream in;
+  if (auto error = text::open_input(path, in)) return *error;
+  return read_task_xml(in, path.string());
 }
 
 Result<std::vector<Agent>> agents_of(const TaskXml& task, std::size_t num_agents,
-                                     const Roadmap& roadmap, Length radius, Speed speed) {
-  struct Find {
-    const Roadmap& roadmap;
-    std::optional<VertexId> operator()(std::int64_t id) const {
-      if (id >= static_cast<std::int64_t>(roadmap.num_vertices())) return std::nullopt;
-      return VertexId(static_cast<std::size_t>(id));
-    }
-    std::optional<VertexId> operator()(Cell) const { return std::nullopt; }
-  };
-  return make_agents(task, num_agents, radius, speed, Find{roadmap});
+                                     const Roadmap& roadmap, Length radius, Speed speed,
+                                     const VertexNames& names) {
+  return make_agents(task, num_agents, radius, speed, FindOnRoadmap{roadmap, names});
 }
 
 Result<std::vector<Agent>> agents_of(const TaskXml& task, std::size_t num_agents,
                                      const GridRoadmap& grid, Length radius, Speed speed) {
-  struct Find {
-    const GridRoadmap& grid;
-    std::optional<VertexId> operator()(std::int64_t id) const {
-      return grid.vertex({static_cast<std::int32_t>(id % grid.width()),
-                          static_cast<std::int32_t>(id / grid.width())});
-    }
-    std::optional<VertexId> operator()(Cell cell) const { return grid.vertex(cell); }
-  };
-  return make_agents(task, num_agents, radius, speed, Find{grid});
+  return make_agents(task, num_agents, radius, speed, FindOnGrid{grid, radius});
 }
 
 }  // namespace quadrille::continuous

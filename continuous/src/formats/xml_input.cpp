@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "quadrille/text/sniff.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
@@ -101,6 +102,16 @@ std::optional<ReferenceFault> find_reference_fault(std::string_view text) {
 }  // namespace
 
 Result<XmlFile> XmlFile::parse(std::string text, const std::string& file) {
+  const std::string_view begin = trimmed(text);
+  if (begin.empty()) return Error{ErrorCode::syntax, "the file is empty", {file, 1}};
+  if (!begin.starts_with('<')) {
+    const auto kind = text::sniff(text);
+    return Error{ErrorCode::syntax,
+                 kind == text::FileKind::unknown
+                     ? "neither XML, which begins with '<', nor anything else that is known here"
+                     : text::describe(kind),
+                 {file, 1}};
+  }
   XmlFile xml;
   xml.file_ = file;
   xml.text_ = std::move(text);

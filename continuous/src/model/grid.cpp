@@ -110,11 +110,15 @@ bool is_free(const OccupancyGrid& grid, Cell from, const std::vector<Cell>& cell
 }  // namespace
 
 std::optional<VertexId> GridRoadmap::vertex(Cell cell) const {
-  if (cell.x < 0 || cell.x >= width_ || cell.y < 0 || cell.y >= height_) return std::nullopt;
-  const auto v = vertex_of_[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
-                            static_cast<std::size_t>(cell.x)];
+  const std::int64_t v = slot(cell);
   if (v < 0) return std::nullopt;
   return VertexId(static_cast<std::size_t>(v));
+}
+
+std::int64_t GridRoadmap::slot(Cell cell) const {
+  if (cell.x < 0 || cell.x >= width_ || cell.y < 0 || cell.y >= height_) return kBlocked;
+  return vertex_of_[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
+                    static_cast<std::size_t>(cell.x)];
 }
 
 Result<GridRoadmap> GridRoadmap::make(const OccupancyGrid& grid, int neighbourhood, Length radius,
@@ -134,16 +138,20 @@ Result<GridRoadmap> GridRoadmap::make(const OccupancyGrid& grid, int neighbourho
 
   const SweptDisc disc(*side, radius);
   const auto margin = static_cast<std::int32_t>(radius / *side + 1);
-  GridRoadmap result;
+  GridRoadmap result(resolution);
   result.height_ = grid.height;
   result.width_ = grid.width;
-  result.vertex_of_.assign(grid.passable.size(), -1);
+  result.vertex_of_.assign(grid.passable.size(), kBlocked);
   std::vector<Point> positions;
   const std::vector<Cell> standing = swept_cells(disc, {0, 0}, margin);
   for (std::int32_t y = 0; y < grid.height; ++y)
     for (std::int32_t x = 0; x < grid.width; ++x) {
       const Cell cell{x, y};
-      if (!grid.is_passable(cell) || !is_free(grid, cell, standing)) continue;
+      if (!grid.is_passable(cell)) continue;
+      if (!is_free(grid, cell, standing)) {
+        result.vertex_of_[grid.index(cell)] = kTooNarrow;
+        continue;
+      }
       result.vertex_of_[grid.index(cell)] = static_cast<std::int64_t>(positions.size());
       positions.push_back({x * *side, y * *side});
       result.cells_.push_back(cell);

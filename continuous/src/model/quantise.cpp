@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/areas.hpp"
+#include "quadrille/core/decimal.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -46,6 +47,20 @@ std::optional<Length> quantise_coordinate(double value, const Resolution& resolu
   const auto units = in_units(value, resolution.length, geometry::kMaxLength.value());
   if (!units) return std::nullopt;
   return Length(static_cast<std::int64_t>(std::round(*units)));
+}
+
+std::string why_no_coordinate(double value, const Resolution& resolution) {
+  const std::string number = "the coordinate " + decimal(value);
+  if (!std::isfinite(value)) return number + " is no finite number";
+  const auto most = static_cast<double>(geometry::kMaxLength.value());
+  int digits = 12;
+  while (std::abs(value) * std::pow(10.0, digits) > most) --digits;
+  const std::string enough =
+      digits > 0 ? "0." + std::string(static_cast<std::size_t>(digits) - 1, '0') + "1"
+                 : "1" + std::string(static_cast<std::size_t>(-digits), '0');
+  return number + " is too large: at a resolution of " + decimal(resolution.length) +
+         " there is room up to " + decimal(std::floor(multiplied(most, resolution.length))) +
+         "; with --resolution " + enough + " there is enough";
 }
 
 std::optional<Length> quantise_radius(double value, const Resolution& resolution) {

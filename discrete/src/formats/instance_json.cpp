@@ -14,6 +14,7 @@
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/text/goals.hpp"
 #include "quadrille/text/names.hpp"
+#include "quadrille/text/sniff.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -195,6 +196,10 @@ Result<Instance> read_instance_json(std::istream& in, const std::string& file,
                                     std::size_t most_vertices, text::Names* names) {
   const auto text = read_all(in, file);
   if (!text) return text.error();
+  if (auto error = text::refuse_other(
+          *text, file,
+          {text::FileKind::own_instance, text::FileKind::own_roadmap, text::FileKind::own_plan}))
+    return *error;
   const auto document = parse_json(*text, file);
   if (!document) return document.error();
   return JsonInstanceReader(*document, most_vertices).run(names);

@@ -2,8 +2,12 @@
 #include "quadrille/discrete/instance_yaml.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <istream>
+#include <map>
 #include <ostream>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +15,7 @@
 #include "formats/instance_document.hpp"
 #include "formats/text_input.hpp"
 #include "quadrille/text/names.hpp"
+#include "quadrille/text/sniff.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -25,14 +30,13 @@ class YamlInstanceReader {
   Result<Instance> run(text::Names* names) {
     std::optional<Node> map, agents, roadmap;
     std::vector<PlacedTask> tasks;
-    // The roadmap comes first: files that have one have no map, and deserve the right reason.
     if (!check_.members(
             Document::kRoot,
             {{"map", &map, false}, {"agents", &agents, false}, {"roadmap", &roadmap, false}}) ||
-        (roadmap && !check_.fail(*roadmap, "roadmaps are not supported, only grids")) ||
-        (!map && !check_.fail(Document::kRoot, "the key 'map' is missing")) ||
+        (!map && !roadmap && !check_.fail(Document::kRoot, "the key 'map' is missing")) ||
+        (map && roadmap && !check_.fail(*roadmap, "a map and a roadmap")) ||
         (!agents && !check_.fail(Document::kRoot, "the key 'agents' is missing")) ||
-        !read_map(*map) || !read_agents(*agents, tasks))
+        !(map ? read_map(*map) : read_roadmap(*roadmap)) || !read_agents(*agents, tasks))
       return check_.error();
     auto instance = make_instance(check_, std::move(*graph_), tasks);
     if (instance && names != nullptr) *names = std::move(names_);
@@ -73,6 +77,78 @@ class YamlInstanceReader {
     return true;
   }
 
+  /// The lists of edges, and perhaps of vertices with places, of which only the names count: all
+  /// moves take one timestep.
+  bool read_roadmap(Node roadmap) {
+    std::optional<Node> undirected, waits, vertices, edges, conflicts;
+    if (!check_.members(roadmap, {{"undirected", &undirected},
+                                  {"allow_wait_actions", &waits},
+                                  {"vertices", &vertices, false},
+                                  {"edges", &edges},
+                                  {"conflicts", &conflicts, false}}))
+      return false;
+    if (conflicts)
+      return check_.fail(*conflicts, ErrorCode::invalid_instance,
+                         "conflicts between edges are not supported");
+    if (!is_true(*undirected))
+      return check_.fail(*undirected, ErrorCode::invalid_instance,
+                         "only undirected roadmaps are supported: true");
+    if (!is_true(*waits))
+      return check_.fail(*waits, ErrorCode::invalid_instance,
+                         "agents may always wait here: only true is supported");
+    if (vertices) {
+      if (document_.kind(*vertices) != Document::Kind::object)
+        return check_.fail(*vertices, "expected vertices by their names");
+      for (Node key = document_.first(*vertices); key < document_.next(*vertices);
+           key = document_.next(document_.first(key)))
+        if (!numbers_.emplace(document_.text(key), numbers_.size()).second)
+          return check_.fail(key, "this vertex is given twice");
+    }
+    if (!check_.array(*edges, "edges")) return false;
+    std::set<Graph::Edge> known;
+    for (Node e = document_.first(*edges); e < document_.next(*edges); e = document_.next(e)) {
+      VertexId from, to;
+      if (!check_.array(e, "vertices", 2) || !read_vertex(document_.first(e), true, from) ||
+          !read_vertex(document_.next(document_.first(e)), true, to))
+        return false;
+      if (from == to)
+        return check_.fail(e, ErrorCode::invalid_instance, "an edge from a vertex to itself");
+      known.emplace(std::min(from, to), std::max(from, to));
+    }
+    if (!has_most_vertices(check_, roadmap, static_cast<std::int64_t>(numbers_.size()),
+                           most_vertices_))
+      return false;
+    auto graph = Graph::make(numbers_.size(), {known.begin(), known.end()});
+    if (!graph) return check_.fail(*edges, graph.error().code, graph.error().message);
+    graph_ = std::move(graph).value();
+    return true;
+  }
+
+  /// YAML 1.1 has many words for it; these are what the programs and their users write.
+  bool is_true(Node node) {
+    return document_.kind(node) == Document::Kind::string &&
+           (document_.text(node) == "true" || document_.text(node) == "True");
+  }
+
+  /// A vertex of a roadmap by its name. `may_be_new`: as the first edges name the vertices, too.
+  bool read_vertex(Node node, bool may_be_new, VertexId& vertex) {
+    std::optional<std::string> name;
+    if (!text::read_name(check_, document_, node, name)) return false;
+    if (may_be_new) numbers_.emplace(*name, numbers_.size());
+    const auto found = numbers_.find(*name);
+    if (found == numbers_.end())
+      return check_.fail(node, ErrorCode::invalid_instance,
+                         "there is no vertex " + in_quotes(*name));
+    vertex = VertexId(found->second);
+    return true;
+  }
+
+  /// A cell of a map, or a vertex of a roadmap.
+  bool read_end(Node node, VertexId& vertex) {
+    if (!graph_->layout()) return read_vertex(node, false, vertex);
+    return read_place(check_, document_, *graph_, node, ErrorCode::invalid_instance, vertex);
+  }
+
   bool read_agents(Node agents, std::vector<PlacedTask>& tasks) {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> places;
@@ -89,9 +165,7 @@ class YamlInstanceReader {
       if (name && !text::read_name(check_, document_, *name, own)) return false;
       places.push_back(a);
       VertexId from, to;
-      if (!read_place(check_, document_, *graph_, *start, ErrorCode::invalid_instance, from) ||
-          !read_place(check_, document_, *graph_, *goal, ErrorCode::invalid_instance, to))
-        return false;
+      if (!read_end(*start, from) || !read_end(*goal, to)) return false;
       tasks.push_back({{from, to}, *start, *goal});
     }
     return are_distinct(check_, names_.agents, places);
@@ -101,6 +175,7 @@ class YamlInstanceReader {
   Checker check_;
   const std::size_t most_vertices_;
   std::optional<Graph> graph_;
+  std::map<std::string, std::size_t, std::less<>> numbers_;  // Of a roadmap's vertices.
   text::Names names_;
 };
 
@@ -110,6 +185,9 @@ Result<Instance> read_instance_yaml(std::istream& in, const std::string& file,
                                     std::size_t most_vertices, text::Names* names) {
   const auto text = read_all(in, file);
   if (!text) return text.error();
+  if (auto error = text::refuse_other(
+          *text, file, {text::FileKind::libmrp_instance, text::FileKind::libmrp_roadmap}))
+    return *error;
   const auto document = parse_yaml(*text, file);
   if (!document) return document.error();
   return YamlInstanceReader(*document, most_vertices).run(names);

@@ -8,6 +8,7 @@
 
 #include "formats/text_input.hpp"
 #include "quadrille/discrete/movingai.hpp"
+#include "quadrille/text/sniff.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -67,17 +68,23 @@ class MapReader {
     return {code, std::move(message), {file_, lines_.number()}};
   }
 
-  std::optional<Error> expect(std::string_view wanted) {
-    const auto line = lines_.next();
-    if (!line)
-      return fail(ErrorCode::syntax, "the file ends where " + in_quotes(wanted) + " belongs");
-    if (*line == wanted) return std::nullopt;
-    return fail(ErrorCode::syntax, "expected " + in_quotes(wanted) + ", found " + in_quotes(*line));
+  /// The next line of the header; published files have blanks at the ends of these lines.
+  void take_line() {
+    line_ = lines_.next();
+    if (line_) line_ = line_->substr(0, line_->find_last_not_of(" \t") + 1);
   }
 
-  std::optional<Error> read_size(std::string_view name, std::int32_t& size) {
+  std::optional<Error> expect(std::string_view wanted) const {
+    if (!line_)
+      return fail(ErrorCode::syntax, "the file ends where " + in_quotes(wanted) + " belongs");
+    if (*line_ == wanted) return std::nullopt;
+    return fail(ErrorCode::syntax,
+                "expected " + in_quotes(wanted) + ", found " + in_quotes(*line_));
+  }
+
+  std::optional<Error> read_size(std::string_view name, std::int32_t& size) const {
     const std::string wanted = std::string(name) + " ";
-    const auto line = lines_.next();
+    const auto& line = line_;
     if (!line) return fail(ErrorCode::syntax, "the file ends where the " + wanted + "belongs");
     if (!line->starts_with(wanted))
       return fail(ErrorCode::syntax,
@@ -95,13 +102,23 @@ class MapReader {
   }
 
   std::optional<Error> read_header() {
-    if (auto error = expect("type octile")) return error;
-    if (auto error = read_size("height", map_.height)) return error;
-    if (auto error = read_size("width", map_.width)) return error;
-    if (std::int64_t{map_.height} * map_.width > kMaxMapCells)
-      return fail(ErrorCode::out_of_range,
-                  "a map of " + std::to_string(map_.width) + " x " + std::to_string(map_.height) +
-                      " cells is larger than " + std::to_string(kMaxMapCells) + " cells");
+    take_line();
+    // Some published files have no type.
+    const bool is_size = line_ && (line_->starts_with("height ") || line_->starts_with("width "));
+    if (!is_size) {
+      if (auto error = expect("type octile")) return error;
+      take_line();
+    }
+    const bool width_first = line_ && line_->starts_with("width ");
+    for (const bool is_width : {width_first, !width_first}) {
+      auto error = is_width ? read_size("width", map_.width) : read_size("height", map_.height);
+      if (error) return error;
+      if (std::int64_t{map_.height} * map_.width > kMaxMapCells)
+        return fail(ErrorCode::out_of_range,
+                    "a map of " + std::to_string(map_.width) + " x " + std::to_string(map_.height) +
+                        " cells is larger than " + std::to_string(kMaxMapCells) + " cells");
+      take_line();
+    }
     return expect("map");
   }
 
@@ -129,6 +146,7 @@ class MapReader {
   }
 
   LineReader lines_;
+  std::optional<std::string_view> line_;  // Of the header.
   const std::string& file_;
   const LetterTable& table_;
   GridMap map_;
@@ -146,6 +164,7 @@ Result<GridMap> read_map(std::istream& in, const std::string& file, const MapOpt
   if (!table) return table.error();
   const auto text = read_all(in, file);
   if (!text) return text.error();
+  if (auto error = text::refuse_other(*text, file, {text::FileKind::movingai_map})) return *error;
   return MapReader(*text, file, *table).run();
 }
 

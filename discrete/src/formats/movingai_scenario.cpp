@@ -11,6 +11,7 @@
 #include "formats/text_input.hpp"
 #include "quadrille/core/contract.hpp"
 #include "quadrille/discrete/movingai.hpp"
+#include "quadrille/text/sniff.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -55,11 +56,6 @@ class RowReader {
                       natural(6, row.goal.x) && natural(7, row.goal.y) && length(8, row.optimal);
     if (!fine) return *error_;
     if (row.width == 0 || row.height == 0) return fail("the map has no cells");
-    for (const auto& [name, cell] : {std::pair("start", row.start), std::pair("goal", row.goal)})
-      if (cell.x >= row.width || cell.y >= row.height)
-        return fail(std::string("the ") + name + " (" + std::to_string(cell.x) + ", " +
-                    std::to_string(cell.y) + ") is outside the map of " +
-                    std::to_string(row.width) + " x " + std::to_string(row.height) + " cells");
     return row;
   }
 
@@ -98,6 +94,14 @@ class RowReader {
   std::optional<Error> error_;
 };
 
+std::string size_text(std::int32_t width, std::int32_t height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+bool is_for(const ScenarioRow& row, std::int32_t width, std::int32_t height) {
+  return row.width == width && row.height == height;
+}
+
 Error refuse_row(const Scenario& scenario, const ScenarioRow& row, std::string message) {
   return {ErrorCode::invalid_instance, std::move(message), {scenario.file, row.line}};
 }
@@ -129,11 +133,16 @@ std::optional<Error> check_rows(const GridLayout& grid, const Scenario& scenario
                                 std::size_t count) {
   for (std::size_t i = 0; i < scenario.rows.size(); ++i) {
     const ScenarioRow& row = scenario.rows[i];
-    if (row.width != grid.width() || row.height != grid.height())
-      return refuse_row(scenario, row,
-                        "the row is for a map of " + std::to_string(row.width) + " x " +
-                            std::to_string(row.height) + " cells, the map has " +
-                            std::to_string(grid.width()) + " x " + std::to_string(grid.height()));
+    for (const auto& [name, cell] : {std::pair("start", row.start), std::pair("goal", row.goal)})
+      if (cell.x >= grid.width() || cell.y >= grid.height())
+        return refuse_row(
+            scenario, row,
+            std::string("the ") + name + " (" + std::to_string(cell.x) + ", " +
+                std::to_string(cell.y) + ") is outside the map of " +
+                size_text(grid.width(), grid.height()) + " cells" +
+                (is_for(row, grid.width(), grid.height())
+                     ? ""
+                     : ", and the row is for one of " + size_text(row.width, row.height)));
     if (i >= count) continue;
     for (const auto& [name, cell] : {std::pair("start", row.start), std::pair("goal", row.goal)})
       if (!grid.vertex_at(cell))
@@ -150,6 +159,8 @@ std::optional<Error> check_rows(const GridLayout& grid, const Scenario& scenario
 Result<Scenario> read_scenario(std::istream& in, const std::string& file) {
   const auto text = read_all(in, file);
   if (!text) return text.error();
+  if (auto error = text::refuse_other(*text, file, {text::FileKind::movingai_scenario}))
+    return *error;
   LineReader lines(*text);
   const auto fail = [&](long line, std::string message) {
     return Error{ErrorCode::syntax, std::move(message), {file, line}};
@@ -179,6 +190,15 @@ Result<Scenario> read_scenario(const std::filesystem::path& path) {
   std::ifstream in;
   if (auto error = open_input(path, in)) return *error;
   return read_scenario(in, path.string());
+}
+
+std::string note_on_sizes(const Scenario& scenario, std::int32_t width, std::int32_t height) {
+  for (const ScenarioRow& row : scenario.rows)
+    if (!is_for(row, width, height))
+      return "line " + std::to_string(row.line) + " is for a map of " +
+             size_text(row.width, row.height) + " cells, and this one has " +
+             size_text(width, height) + "; all cells are inside of it";
+  return "";
 }
 
 std::optional<Error> write_scenario(std::ostream& out, const std::string& file,

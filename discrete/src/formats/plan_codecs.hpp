@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
 
 namespace quadrille::discrete {
@@ -19,6 +20,14 @@ namespace quadrille::discrete {
                                                     const std::string& file, const Graph& graph);
 [[nodiscard]] Result<PlanFile> read_yaml_plan(const std::string& text, const std::string& file,
                                               const Graph& graph);
+
+// Read only.
+[[nodiscard]] Result<PlanFile> read_planviz_plan(const std::string& text, const std::string& file,
+                                                 const Graph& graph);
+/// Paths begin at the starts of `agents`.
+[[nodiscard]] Result<PlanFile> read_tracker_plan(const std::string& text, const std::string& file,
+                                                 const Graph& graph,
+                                                 const IdVector<AgentId, Agent>& agents);
 
 void write_json_plan(std::ostream& out, const Graph& graph, const Plan& plan);
 void write_cbsh2_plan(std::ostream& out, const Graph& graph, const Plan& plan);

@@ -8,6 +8,7 @@
 #include "formats/plan_codecs.hpp"
 #include "formats/text_input.hpp"
 #include "quadrille/discrete/instance.hpp"
+#include "quadrille/text/sniff.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -67,6 +68,7 @@ PlanFormat detect_plan_format(std::string_view text) noexcept {
   if (text.front() == '{') return PlanFormat::json;
   if (text.front() >= '0' && text.front() <= '9') return PlanFormat::visualizer;
   if (text.starts_with("Agent ")) return PlanFormat::cbsh2;
+  if (text::sniff(text) == text::FileKind::lacam_result) return PlanFormat::visualizer;
   return PlanFormat::yaml;
 }
 
@@ -77,10 +79,37 @@ std::optional<PlanFormat> plan_format_of(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-Result<PlanFile> read_plan(std::istream& in, const std::string& file, const Graph& graph,
-                           std::optional<PlanFormat> format) {
+namespace {
+
+/// `agents`: null if there is only a graph.
+Result<PlanFile> read_any_plan(std::istream& in, const std::string& file, const Graph& graph,
+                               const IdVector<AgentId, Agent>* agents,
+                               std::optional<PlanFormat> format) {
+  using text::FileKind;
   const auto text = read_all(in, file);
   if (!text) return text.error();
+  const FileKind kind = text::sniff(*text);
+  if (auto error =
+          text::refuse_other(*text, file,
+                             {FileKind::own_plan, FileKind::cbsh2_paths, FileKind::visualizer_plan,
+                              FileKind::lacam_result, FileKind::libmrp_schedule, FileKind::planviz,
+                              FileKind::tracker_csv, FileKind::own_instance}))
+    return *error;
+  // These two have no name as a format: what they are is beyond doubt.
+  const bool is_nameless = kind == FileKind::planviz || kind == FileKind::tracker_csv;
+  if (is_nameless && format)
+    return Error{ErrorCode::syntax, text::describe(kind) + ", without a plan format", {file, 1}};
+  if (is_nameless && !graph.layout())
+    return Error{ErrorCode::invalid_plan,
+                 "this is " + std::string(text::in_words(kind)) + ", which needs a grid",
+                 {file, 1}};
+  if (kind == FileKind::planviz) return read_planviz_plan(*text, file, graph);
+  if (kind == FileKind::tracker_csv && agents == nullptr)
+    return Error{ErrorCode::invalid_plan,
+                 "paths in the CSV of the MAPF tracker begin at the starts of an instance: it "
+                 "needs a scenario",
+                 {file, 1}};
+  if (kind == FileKind::tracker_csv) return read_tracker_plan(*text, file, graph, *agents);
   const PlanFormat chosen = format.value_or(detect_plan_format(*text));
   if (needs_grid(chosen) && !graph.layout()) return no_grid(chosen, file);
   switch (chosen) {
@@ -96,11 +125,30 @@ Result<PlanFile> read_plan(std::istream& in, const std::string& file, const Grap
   return Error{ErrorCode::internal, "unknown plan format", {file, 0}};
 }
 
+}  // namespace
+
+Result<PlanFile> read_plan(std::istream& in, const std::string& file, const Graph& graph,
+                           std::optional<PlanFormat> format) {
+  return read_any_plan(in, file, graph, nullptr, format);
+}
+
+Result<PlanFile> read_plan(std::istream& in, const std::string& file, const Instance& instance,
+                           std::optional<PlanFormat> format) {
+  return read_any_plan(in, file, instance.graph(), &instance.agents(), format);
+}
+
 Result<PlanFile> read_plan(const std::filesystem::path& path, const Graph& graph,
                            std::optional<PlanFormat> format) {
   std::ifstream in;
   if (auto error = open_input(path, in)) return *error;
   return read_plan(in, path.string(), graph, format);
+}
+
+Result<PlanFile> read_plan(const std::filesystem::path& path, const Instance& instance,
+                           std::optional<PlanFormat> format) {
+  std::ifstream in;
+  if (auto error = open_input(path, in)) return *error;
+  return read_plan(in, path.string(), instance, format);
 }
 
 std::optional<Error> write_plan(std::ostream& out, const std::string& file, const Graph& graph,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The two line formats, which differ in everything but their spirit: cbsh2 has a line per agent and
-// (row, column), visualizer a line per timestep and (x, y).
+// (row, column), visualizer a line per timestep and (x, y), in results of lacam behind a header.
 #include <algorithm>
 #include <ostream>
 #include <string_view>
@@ -10,6 +10,7 @@
 #include "formats/instance_document.hpp"
 #include "formats/plan_codecs.hpp"
 #include "formats/text_input.hpp"
+#include "quadrille/text/sniff.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -103,8 +104,9 @@ class Cbsh2Reader final : LinePlanReader {
   std::optional<Error> read_line(std::string_view line) {
     LineScanner scanner(line);
     std::int64_t number = 0, row = 0, column = 0;
-    if (!scanner.literal("Agent ") || !scanner.natural(number) || !scanner.literal(": "))
-      return malformed(scanner, "'Agent <number>: '");
+    if (!scanner.literal("Agent ") || !scanner.natural(number) || !scanner.literal(":"))
+      return malformed(scanner, "'Agent <number>:'");
+    (void)scanner.literal(" ");  // LNS2 leaves it away.
     const std::size_t agent = result_.plan.paths.size();
     if (number != static_cast<std::int64_t>(agent))
       return fail(ErrorCode::syntax, "expected agent " + std::to_string(agent) + ", found agent " +
@@ -124,20 +126,108 @@ class VisualizerReader final : LinePlanReader {
  public:
   using LinePlanReader::LinePlanReader;
 
-  Result<PlanFile> run() {
-    std::int64_t timestep = 0;
-    while (const auto line = lines_.next()) {
-      if (line->empty()) {
-        if (auto error = expect_end()) return *error;
-        break;
-      }
-      if (auto error = read_line(*line, timestep)) return *error;
-      ++timestep;
-    }
+  Result<PlanFile> run(bool has_header) {
+    if (has_header)
+      if (auto error = read_header()) return *error;
+    if (auto error = read_steps()) return *error;
+    if (auto error = check_header()) return *error;
     return std::move(result_);
   }
 
  private:
+  std::optional<Error> read_steps() {
+    std::int64_t timestep = 0;
+    while (const auto line = lines_.next()) {
+      if (line->empty()) {
+        return expect_end();
+      }
+      if (auto error = read_line(*line, timestep)) return error;
+      ++timestep;
+    }
+    return std::nullopt;
+  }
+
+  /// What lacam, lacam2 and lacam3 write above the plan: lines `key=value`, one of them with a
+  /// message of its own, up to `solution=`.
+  std::optional<Error> read_header() {
+    while (const auto line = lines_.next()) {
+      const auto equals = line->find('=');
+      if (equals == std::string_view::npos) continue;
+      const std::string_view key = line->substr(0, equals), value = line->substr(equals + 1);
+      if (key == "solution") {
+        if (value.empty()) return std::nullopt;
+        return fail(ErrorCode::syntax, "expected the plan in the lines after 'solution='");
+      }
+      if (key == "solved" && value != "1")
+        return fail(ErrorCode::invalid_plan, "there is no plan: solved=" + printable(value, 40));
+      if (auto error = read_statement(key, value)) return error;
+    }
+    return fail(ErrorCode::invalid_plan, "there is no plan: no line 'solution='");
+  }
+
+  std::optional<Error> read_statement(std::string_view key, std::string_view value) {
+    if (key == "starts") return read_places(value, starts_);
+    if (key == "goals") return read_places(value, goals_);
+    StatedOutcome& stated = result_.stated;
+    for (const auto& [name, number] :
+         {std::pair<std::string_view, std::optional<Cost>*>{"agents", &agents_},
+          {"soc", &stated.sum_of_costs},
+          {"makespan", &stated.makespan},
+          {"soc_lb", &stated.lower_bound}}) {
+      if (key != name) continue;
+      const Natural natural = parse_natural(value, INT64_MAX);
+      if (natural.fault != NumberFault::none)
+        return fail(ErrorCode::syntax,
+                    std::string(name) + " is " + in_quotes(value) + ", not a natural number");
+      if (*number) return fail(ErrorCode::syntax, std::string(name) + " is given twice");
+      *number = natural.value;
+      if (number == &agents_) agents_line_ = lines_.number();
+    }
+    return std::nullopt;
+  }
+
+  /// Starts or goals, in the order of the agents.
+  struct Ends {
+    long line = 0;  // 0: not there.
+    Path places;
+  };
+  std::optional<Error> read_places(std::string_view text, Ends& ends) {
+    if (ends.line != 0) return fail(ErrorCode::syntax, "given twice");
+    ends.line = lines_.number();
+    LineScanner scanner(text);
+    std::int64_t x = 0, y = 0;
+    while (!scanner.at_end()) {
+      if (!scanner.pair(x, y, ",")) return malformed(scanner, "'(<x>,<y>),'");
+      if (auto error = append(ends.places.size(), ends.places, x, y)) return error;
+    }
+    return std::nullopt;
+  }
+
+  /// The header is about this plan.
+  std::optional<Error> check_header() const {
+    const auto& paths = result_.plan.paths;
+    if (agents_ && *agents_ != static_cast<Cost>(paths.size()))
+      return Error{ErrorCode::invalid_plan,
+                   std::to_string(*agents_) + " agents are stated, but " +
+                       std::to_string(paths.size()) + " have paths",
+                   {file_, agents_line_}};
+    for (const Ends* const ends : {&starts_, &goals_}) {
+      if (ends->line == 0) continue;
+      const bool are_starts = ends == &starts_;
+      bool agree = ends->places.size() == paths.size();
+      for (std::size_t i = 0; agree && i < paths.size(); ++i) {
+        const Path& path = paths[AgentId(i)];
+        agree = ends->places[i] == (are_starts ? path.front() : path.back());
+      }
+      if (!agree)
+        return Error{ErrorCode::invalid_plan,
+                     are_starts ? "these are not the places where the paths begin"
+                                : "these are not the places where the paths end",
+                     {file_, ends->line}};
+    }
+    return std::nullopt;
+  }
+
   std::optional<Error> read_line(std::string_view line, std::int64_t timestep) {
     LineScanner scanner(line);
     std::int64_t number = 0, x = 0, y = 0;
@@ -162,6 +252,10 @@ class VisualizerReader final : LinePlanReader {
     return fail(ErrorCode::syntax, "there have to be " + std::to_string(result_.plan.paths.size()) +
                                        " places, as many as at timestep 0");
   }
+
+  std::optional<Cost> agents_;
+  long agents_line_ = 0;
+  Ends starts_, goals_;
 };
 
 }  // namespace
@@ -173,7 +267,8 @@ Result<PlanFile> read_cbsh2_plan(const std::string& text, const std::string& fil
 
 Result<PlanFile> read_visualizer_plan(const std::string& text, const std::string& file,
                                       const Graph& graph) {
-  return VisualizerReader(text, file, graph).run();
+  const bool has_header = text::sniff(text) == text::FileKind::lacam_result;
+  return VisualizerReader(text, file, graph).run(has_header);
 }
 
 void write_cbsh2_plan(std::ostream& out, const Graph& graph, const Plan& plan) {

@@ -19,9 +19,11 @@ class YamlPlanReader {
       : document_(document), check_(document), graph_(graph) {}
 
   Result<PlanFile> run() {
-    std::optional<Node> statistics, schedule;
-    if (!check_.members(Document::kRoot,
-                        {{"statistics", &statistics, false}, {"schedule", &schedule}}) ||
+    std::optional<Node> statistics, schedule, cost;
+    if (!check_.members(Document::kRoot, {{"statistics", &statistics, false},
+                                          {"schedule", &schedule},
+                                          // Of atb033's planners, which count the places of paths.
+                                          {"cost", &cost, false}}) ||
         (statistics && !read_statistics(*statistics)) || !read_schedule(*schedule))
       return check_.error();
     return std::move(file_);

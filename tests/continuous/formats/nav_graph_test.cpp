@@ -10,9 +10,9 @@ namespace {
 
 constexpr Resolution kMillimetres{1e-3};
 
-Result<NavGraph> read(const std::string& text) {
+Result<MapFile> read(const std::string& text) {
   std::istringstream in(text);
-  return read_nav_graph(in, "nav.yaml", kMillimetres, kUnitSpeed);
+  return read_nav_graph(in, "nav.yaml", {kMillimetres, kUnitSpeed});
 }
 
 TEST(NavGraph, HasVerticesNamesAndLanes) {
@@ -31,13 +31,14 @@ TEST(NavGraph, HasVerticesNamesAndLanes) {
       "    - [2, 1, {speed_limit: 0, door_name: d1}]\n"
       "  L2: {vertices: [], lanes: []}\n");
   ASSERT_TRUE(graph.has_value()) << graph.error().to_string();
-  EXPECT_EQ(graph->roadmap.positions(),
+  EXPECT_EQ(std::get<Roadmap>(graph->map).positions(),
             (std::vector<Point>{{10'500, -5'500}, {12'000, -5'500}, {12'000, -2'500}}));
-  EXPECT_EQ(graph->names, (std::vector<std::string>{"c1", "", ""}));
+  EXPECT_EQ(graph->names.places,
+            (std::vector<std::pair<std::string, VertexId>>{{"c1", VertexId(0)}}));
   const VertexId a(0), b(1), c(2);
   // 1.5 m at half a metre per second; faster limits than the agents' speed mean nothing.
   EXPECT_EQ(
-      graph->roadmap.edges(),
+      std::get<Roadmap>(graph->map).edges(),
       (std::vector<Edge>{
           {a, b, Ticks(3'000)}, {b, a, std::nullopt}, {b, c, std::nullopt}, {c, b, std::nullopt}}));
   EXPECT_EQ(graph->num_zero_length_edges, 0u);
@@ -46,7 +47,7 @@ TEST(NavGraph, HasVerticesNamesAndLanes) {
 TEST(NavGraph, LanesOfLengthZeroTakeATick) {
   const auto graph = read("levels: {L1: {vertices: [[0, 0], [0, 0]], lanes: [[0, 1]]}}\n");
   ASSERT_TRUE(graph.has_value()) << graph.error().to_string();
-  EXPECT_EQ(graph->roadmap.edges().front().duration, Ticks(1));
+  EXPECT_EQ(std::get<Roadmap>(graph->map).edges().front().duration, Ticks(1));
   EXPECT_EQ(graph->num_zero_length_edges, 1u);
 }
 
@@ -57,17 +58,23 @@ TEST(NavGraph, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(graph.error().to_string(), why);
   };
   refuses("levels: [1\n", "nav.yaml:2: not valid YAML: end of sequence flow not found");
-  refuses("a: 1\n", "nav.yaml:1: a nav graph of Open-RMF has the key 'levels'");
-  refuses("levels: {L1: {}}\n", "nav.yaml:1: /levels/L1: a level has the key 'vertices'");
+  refuses("a: 1\n",
+          "nav.yaml:1: a nav graph of Open-RMF has the key 'levels', which is missing here");
+  refuses("levels: {L1: {}}\n",
+          "nav.yaml:1: /levels/L1: a level has the key 'vertices', which is missing here");
   refuses("levels: {L1: {vertices: []}}\n", "nav.yaml:1: /levels: there are no vertices");
   refuses("levels:\n  L1: {vertices: [[0, 0]]}\n  L2: {vertices: [[0, 0]]}\n",
-          "nav.yaml:3: /levels/L2: a roadmap is of one level, and this is another");
+          "nav.yaml:2: /levels: there are several levels with vertices, --level says which is "
+          "meant: 'L1', 'L2'");
   refuses("levels:\n  L1:\n    vertices: [[0, 0], [1, x]]\n",
           "nav.yaml:3: /levels/L1/vertices/1/1: expected a number, found 'x'");
   refuses("levels:\n  L1:\n    vertices: [[0]]\n",
           "nav.yaml:3: /levels/L1/vertices/0: expected [x, y, {properties}]");
-  refuses("levels:\n  L1:\n    vertices: [[0, 1e300]]\n",
-          "nav.yaml:3: /levels/L1/vertices/0/1: the coordinate is too large");
+  refuses(
+      "levels:\n  L1:\n    vertices: [[0, 1e300]]\n",
+      "nav.yaml:3: /levels/L1/vertices/0: the coordinate 1e+300 is too large: at a resolution of "
+      "0.001 there is room up to 1099511627; with --resolution 1" +
+          std::string(288, '0') + " there is enough");
   const std::string two = "levels:\n  L1:\n    vertices: [[0, 0], [1, 0]]\n    lanes:\n    - ";
   refuses(two + "[0, 2]\n", "nav.yaml:5: /levels/L1/lanes/0/1: there is no vertex 2 among 2");
   refuses(two + "[0, -1]\n",

@@ -90,7 +90,7 @@ TEST(TimedPlanFiles, RefusesWrongLogs) {
       {"start_id=\"3\"", "start_id=\"2\"", "f:16: the section does not begin where"},
       {"start_id=\"3\"", "start_id=\"x\"", "f:16: a <section> has start_id"},
       {"start_id=\"3\"", "start_i=\"0\" start_j=\"3\"",
-       "f:16: the start of a section is no vertex"},
+       "f:16: the start of a section, (0, 3), is no vertex"},
       {"\"1.5\"", "\"-1.5\"", "f:16: the duration is '-1.5', not a time"},
       {"\"1.5\"", "\"nan\"", "f:16: the duration is 'nan', not a time"},
       {"\"1.5\"", "\"inf\"", "f:16: the duration is 'inf', not a time"},

@@ -86,8 +86,9 @@ TEST(RoadmapReaderFuzz, Maps) {
 }
 
 TEST(RoadmapReaderFuzz, NavGraphs) {
-  survive("nav.yaml",
-          [](std::istream& in) { return error_of(read_nav_graph(in, "f", 1e-3, kUnitSpeed)); });
+  survive("nav.yaml", [](std::istream& in) {
+    return error_of(read_nav_graph(in, "f", {Resolution{1e-3}, kUnitSpeed}));
+  });
 }
 
 TEST(RoadmapReaderFuzz, Tasks) {

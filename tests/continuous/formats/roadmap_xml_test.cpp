@@ -20,7 +20,7 @@ OccupancyGrid cells() {
 }
 
 TEST(RoadmapXml, ReadsGraphml) {
-  const MapXml map = read_map_xml(test::data("roadmap.xml"), kResolution).value();
+  const MapFile map = read_map_xml(test::data("roadmap.xml"), kResolution).value();
   const Roadmap& roadmap = std::get<Roadmap>(map.map);
   EXPECT_EQ(roadmap.positions(), (std::vector<Point>{{0, 0}, {1'500'000, -2'000'000}}));
   EXPECT_EQ(roadmap.edges(), (std::vector<Edge>{{VertexId(0), VertexId(1), std::nullopt},
@@ -31,7 +31,7 @@ TEST(RoadmapXml, ReadsGraphml) {
 TEST(RoadmapXml, EdgesOfLengthZeroTakeOneTickAndAreCounted) {
   const test::Fault same{"1.5,-2", "0,0.0000001", ""};
   std::istringstream in(test::with_fault(test::contents(test::data("roadmap.xml")), same));
-  const MapXml map = read_map_xml(in, "f", kResolution).value();
+  const MapFile map = read_map_xml(in, "f", kResolution).value();
   EXPECT_EQ(map.num_zero_length_edges, 2u);
   EXPECT_EQ(std::get<Roadmap>(map.map).edge(EdgeId(0)).duration, Ticks{1});
 }
@@ -83,25 +83,26 @@ TEST(RoadmapXml, ReadsGridsAndTasks) {
 
 TEST(RoadmapXml, RefusesWrongRoadmaps) {
   const std::vector<test::Fault> faults = {
-      {"", "", "f:1: not well-formed XML"},
-      {"", " \n ", "f:1: not well-formed XML"},
+      {"", "", "f:1: the file is empty"},
+      {"", " \n ", "f:1: the file is empty"},
       {"", std::string("<root>\n\0</root>", 15), "f:2: a NUL byte"},
       {"", "<map/>", "f:1: neither <graphml> nor <root> but 'map'"},
       {"", "<root/>\n<root/>", "f:2: there is a second root element"},
       {"</graphml>", "</graphml> x", "f:19: not well-formed XML: text outside"},
       {"</graphml>", "</graph>", "f:19: not well-formed XML"},
-      {"attr.name=\"coords\"", "attr.name=\"place\"", "f:2: there is no <key"},
-      {"directed", "undirected", "f:5: edgedefault has to be"},
-      {"<node id=\"n1\">", "<node id=\"n2\">", "f:9: node 'n2' where n1 is due"},
-      {"<node id=\"n1\">", "<node>", "f:9: node '' where n1 is due"},
-      {"1.5,-2", "1.5", "f:9: node n1 has the coordinates '1.5', not two finite numbers"},
-      {"1.5,-2", "1.5,x", "f:9: node n1 has the coordinates"},
-      {"1.5,-2", "1.5,-2,3", "f:9: node n1 has the coordinates"},
-      {"1.5,-2", "nan,0", "f:9: node n1 has the coordinates"},
-      {"1.5,-2", "0,inf", "f:9: node n1 has the coordinates"},
-      {"1.5,-2", "1e999,0", "f:9: node n1 has the coordinates"},
-      {"1.5,-2", "1e12,0", "f:9: node n1 is too far away"},
-      {"<data key=\"key0\">1.5,-2</data>", "", "f:9: node n1 has the coordinates ''"},
+      {"attr.name=\"coords\"", "attr.name=\"place\"", "f:2: nodes have no places"},
+      {"directed", "both", "f:5: edgedefault has to be"},
+      {"<node id=\"n1\">", "<node id=\"n2\">", "f:12: the target 'n1' of an edge is no node"},
+      {"<node id=\"n1\">", "<node>", "f:9: a node without an id"},
+      {"1.5,-2", "1.5",
+       "f:9: node 'n1' has the coordinates '1.5', not two or three finite numbers"},
+      {"1.5,-2", "1.5,x", "f:9: node 'n1' has the coordinates"},
+      {"1.5,-2", "1.5,-2,3,4", "f:9: node 'n1' has the coordinates"},
+      {"1.5,-2", "nan,0", "f:9: node 'n1' has the coordinates"},
+      {"1.5,-2", "0,inf", "f:9: node 'n1' has the coordinates"},
+      {"1.5,-2", "1e999,0", "f:9: node 'n1' has the coordinates"},
+      {"1.5,-2", "1e12,0", "f:9: node 'n1': the coordinate 1e+12 is too large"},
+      {"<data key=\"key0\">1.5,-2</data>", "", "f:9: node 'n1' has the coordinates ''"},
       {"id=\"e1\" source=\"n1\"", "id=\"e1\" source=\"n2\"", "f:15: the source 'n2' of an edge"},
       {"id=\"e1\" source=\"n1\"", "id=\"e1\" source=\"n-1\"", "f:15: the source 'n-1' of an edge"},
       {"id=\"e1\" source=\"n1\"", "id=\"e1\" source=\"1\"", "f:15: the source '1' of an edge"},
@@ -136,7 +137,7 @@ TEST(RoadmapXml, RefusesWrongRoadmaps) {
        "f:15: directed is 'no', neither true nor false"},
       {"id=\"e1\" source=\"n1\"", "id=\"e1\" source=\"n01\"", "f:15: the source 'n01' of an edge"},
       {"id=\"e1\" source=\"n1\"", "id=\"e1\" source=\"n1 \"", "f:15: the source 'n1 ' of an edge"},
-      {"", "\xEF\xBB\xBF<graphml/>", "f:1: a byte order mark"},
+      {"", "\xEF\xBB\xBF<graphml/>", "f:1: nodes have no places"},
   };
   test::expect_refused(test::contents(test::data("roadmap.xml")), faults, read_map);
 }
@@ -176,13 +177,13 @@ TEST(RoadmapXml, RefusesWrongTasks) {
       {"<agent start_id", "<robot start_id", "f:3: not <agent> but 'robot'"},
       {"start_id=\"7\" ", "", "f:3: an <agent> has start_id and goal_id"},
       {"start_id=\"7\"", "start_id=\"7\" start_i=\"1\"", "f:3: an <agent> has start_id"},
-      {"start_id=\"7\"", "start_id=\"-7\"", "f:3: start_id is '-7', not a natural number"},
-      {"start_id=\"7\"", "start_id=\"x\"", "f:3: start_id is 'x', not a natural number"},
-      {"start_id=\"7\"", "start_id=\"1.0\"", "f:3: start_id is '1.0', not a natural number"},
-      {"start_id=\"7\"", "start_id=\"99999999999\"", "f:3: start_id is '99999999999'"},
+      {"goal_j=\"3\"", "goal_j=\"-3\"", "f:2: goal_j is '-3', not a natural number"},
+      {"goal_j=\"3\"", "goal_j=\"x\"", "f:2: goal_j is 'x', not a natural number"},
+      {"goal_j=\"3\"", "goal_j=\"1.0\"", "f:2: goal_j is '1.0', not a natural number"},
+      {"goal_j=\"3\"", "goal_j=\"99999999999\"", "f:2: goal_j is '99999999999'"},
       {"start_id=\"7\"", "start_id=\"7\" start_id=\"6\"",
        "f:3: not well-formed XML: the attribute 'start_id' is given twice"},
-      {"start_id=\"7\"", "start_id=\"-0\"", "f:3: start_id is '-0', not a natural number"},
+      {"goal_j=\"3\"", "goal_j=\"-0\"", "f:2: goal_j is '-0', not a natural number"},
       {"goal_id=\"4\"/>", "goal_id=\"4\"><agent/></agent>", "f:3: <agent> outside of <root>"},
   };
   test::expect_refused(test::contents(test::data("tasks.xml")), faults, read_task);
@@ -197,11 +198,19 @@ TEST(RoadmapXml, AgentsHaveToFitTheMap) {
   EXPECT_EQ(agents("<agent start_id=\"0\" goal_id=\"1\"/>", 2).error().to_string(),
             "f: 2 agents are asked for, but there are 1");
   EXPECT_EQ(agents("<agent start_id=\"0\" goal_id=\"2\"/>", 1).error().to_string(),
-            "f:2: the goal of agent 0 is no vertex of the map");  // an obstacle
+            "f:2: the goal of agent 0: (2, 0) is blocked");
   EXPECT_EQ(agents("<agent start_i=\"2\" start_j=\"0\" goal_i=\"0\" goal_j=\"0\"/>", 1)
                 .error()
                 .to_string(),
-            "f:2: the start of agent 0 is no vertex of the map");  // outside
+            "f:2: the start of agent 0: (0, 2) is outside of the grid of 4 x 2 cells");
+  // Beside an obstacle there is no room for a larger one.
+  const auto wide = GridRoadmap::make(cells(), 2, 600'000, kResolution).value();
+  std::istringstream task("<root><agent start_id=\"0\" goal_id=\"1\"/></root>");
+  const auto no_room =
+      agents_of(read_task_xml(task, "f").value(), 1, wide, 600'000, kUnitSpeed).error();
+  EXPECT_EQ(no_room.to_string(),
+            "f:1: the goal of agent 0: a disc of radius 0.6 does not fit at (1, 0)");
+  EXPECT_EQ(no_room.code, ErrorCode::no_plan);
   // Rows that nobody asked for are not looked at.
   EXPECT_TRUE(agents("<agent start_id=\"0\" goal_id=\"2\"/>", 0).has_value());
   const Roadmap roadmap = Roadmap::make({{0, 0}, {9, 9}}, {}).value();

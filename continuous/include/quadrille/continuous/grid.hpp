@@ -57,12 +57,21 @@ class GridRoadmap {
   /// nullopt if there is no vertex, or no such cell.
   [[nodiscard]] std::optional<VertexId> vertex(Cell cell) const;
   [[nodiscard]] Cell cell(VertexId v) const { return cells_[v.index()]; }
+  /// Whether the cell is one of the grid, and passable: without a vertex the disc does not fit.
+  [[nodiscard]] bool is_passable(Cell cell) const { return slot(cell) != kBlocked; }
+  [[nodiscard]] const Resolution& resolution() const noexcept { return resolution_; }
 
  private:
-  GridRoadmap() = default;
+  static constexpr std::int64_t kBlocked = -1, kTooNarrow = -2;
+
+  explicit GridRoadmap(Resolution resolution) : resolution_(resolution) {}
+  /// The vertex of a cell, or why there is none.
+  [[nodiscard]] std::int64_t slot(Cell cell) const;
+
+  Resolution resolution_;
   std::int32_t height_ = 0, width_ = 0;
   std::vector<Cell> cells_;              // by vertex
-  std::vector<std::int64_t> vertex_of_;  // by cell; -1 for none
+  std::vector<std::int64_t> vertex_of_;  // by cell; kBlocked or kTooNarrow for none
   std::shared_ptr<const Roadmap> roadmap_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/export.hpp"
@@ -17,6 +18,9 @@ namespace quadrille::continuous {
 
 /// A coordinate, to the nearest length unit.
 [[nodiscard]] std::optional<Length> quantise_coordinate(double value, const Resolution& resolution);
+/// Why a number is no coordinate, and which resolution has room for it if any has: for messages.
+/// Requires that quantise_coordinate has no value for it.
+[[nodiscard]] std::string why_no_coordinate(double value, const Resolution& resolution);
 /// A radius, rounded down: less than one length unit is lost. nullopt if nothing is left.
 [[nodiscard]] std::optional<Length> quantise_radius(double value, const Resolution& resolution);
 /// A radius, rounded up, for bodies that must not be smaller than they are given: less than one

@@ -10,7 +10,7 @@
 
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
-#include "quadrille/continuous/plan.hpp"
+#include "quadrille/continuous/map_file.hpp"
 #include "quadrille/core/export.hpp"
 
 // The XML files of continuous-time planners; docs/formats-of-others.md has examples. Errors of the
@@ -21,27 +21,28 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
-/// What a map file contains.
-struct MapXml {
-  std::variant<Roadmap, OccupancyGrid> map;
-  /// Edges between different vertices in the same place, which take one tick: worth a line to the
-  /// user.
-  std::size_t num_zero_length_edges = 0;
-};
-
-/// Reads a roadmap as GraphML, as OMPL's PlannerData::printGraphML writes it: nodes n0, n1, ... in
-/// this order with their coordinates "x,y" under the node key named `coords`; directed edges, whose
-/// weights are not looked at. Or a grid: <map> with <width>, <height> and a <grid> of <row>s of 0
-/// (passable) and 1. `resolution` is for coordinates.
-[[nodiscard]] Result<MapXml> read_map_xml(std::istream& in, const std::string& file,
-                                          double resolution);
-[[nodiscard]] Result<MapXml> read_map_xml(const std::filesystem::path& path, double resolution);
+/// Reads a roadmap as GraphML, or a grid.
+///
+/// GraphML: nodes with any ids, each given once, whose places stand under the node key `coords`, as
+/// "x,y" or "x,y,z" (OMPL's PlannerData::printGraphML, CCBS), under keys `x`, `y` and perhaps `z`
+/// (networkx), or in pictures of yEd; edges lead one way or both, as `edgedefault` and `directed`
+/// say. Weights are not looked at. Ids that are 0, 1, ... or n0, n1, ... are the numbers of the
+/// vertices, in whatever order they come.
+///
+/// A grid: <map> with <width>, <height> and a <grid> of <row>s of 0 (passable) and 1.
+/// `resolution` is for coordinates.
+[[nodiscard]] Result<MapFile> read_map_xml(std::istream& in, const std::string& file,
+                                           double resolution);
+[[nodiscard]] Result<MapFile> read_map_xml(const std::filesystem::path& path, double resolution);
 
 /// One <agent> of a task file.
 struct TaskRow {
   long line = 0;
-  /// By vertex number (start_id, goal_id) or by cell (start_i = row, start_j = column, ...).
-  std::variant<std::pair<std::int64_t, std::int64_t>, std::pair<Cell, Cell>> places;
+  /// By vertex number (start_id, goal_id), by name if one of them is no number, or by cell
+  /// (start_i = row, start_j = column, ...).
+  std::variant<std::pair<std::int64_t, std::int64_t>, std::pair<Cell, Cell>,
+               std::pair<std::string, std::string>>
+      places;
 };
 struct TaskXml {
   std::string file;
@@ -50,12 +51,12 @@ struct TaskXml {
 [[nodiscard]] Result<TaskXml> read_task_xml(std::istream& in, const std::string& file);
 [[nodiscard]] Result<TaskXml> read_task_xml(const std::filesystem::path& path);
 
-/// The agents of the first `num_agents` rows, all alike but for their places. Errors
-/// (invalid_instance), with file and line: fewer rows, cells for a roadmap or vertex numbers out of
-/// range, cells without a vertex.
+/// The agents of the first `num_agents` rows, all alike but for their places; `names` is what the
+/// file of the roadmap calls its vertices. Errors (invalid_instance), with file and line: fewer
+/// rows, cells for a roadmap, vertices that do not exist; no_plan where a disc does not fit.
 [[nodiscard]] Result<std::vector<Agent>> agents_of(const TaskXml& task, std::size_t num_agents,
                                                    const Roadmap& roadmap, Length radius,
-                                                   Speed speed);
+                                                   Speed speed, const VertexNames& names = {});
 /// As above, on a grid; vertex numbers are row * width + column.
 [[nodiscard]] Result<std::vector<Agent>> agents_of(const TaskXml& task, std::size_t num_agents,
                                                    const GridRoadmap& grid, Length radius,

@@ -67,8 +67,10 @@ struct GridMap {
   friend bool operator==(const GridMap&, const GridMap&) = default;
 };
 
-/// Reads a `.map` file. The header has to be `type octile`, `height H`, `width W`, `map`; exactly H
-/// rows of exactly W letters follow, and then nothing but empty lines. H and W are positive.
+/// Reads a `.map` file. The header is `type octile`, `height H`, `width W`, `map`; in published
+/// files the first line may be missing, width may come before height, and blanks may end a line.
+/// Exactly H rows of exactly W letters follow, and then nothing but empty lines. H and W are
+/// positive.
 [[nodiscard]] Result<GridMap> read_map(std::istream& in, const std::string& file,
                                        const MapOptions& options = {});
 [[nodiscard]] Result<GridMap> read_map(const std::filesystem::path& path,
@@ -96,19 +98,23 @@ struct Scenario {
 };
 
 /// Reads a `.scen` file: `version 1` or `version 1.0`, then rows of nine fields separated by blanks
-/// or tabs. The form of every row is checked, and that its cells lie inside the width and height it
-/// names; see make_instance for the rest.
+/// or tabs. The form of every row is checked; see make_instance for the rest.
 [[nodiscard]] Result<Scenario> read_scenario(std::istream& in, const std::string& file);
 [[nodiscard]] Result<Scenario> read_scenario(const std::filesystem::path& path);
+/// A remark, for the user, on the first row whose width and height are not those of the map; empty
+/// if there is none.
+[[nodiscard]] std::string note_on_sizes(const Scenario& scenario, std::int32_t width,
+                                        std::int32_t height);
 /// Writes `version 1` and one row per agent, separated by tabs, `optimal` with eight digits.
 /// Requires that map names are neither empty nor contain white space.
 [[nodiscard]] std::optional<Error> write_scenario(std::ostream& out, const std::string& file,
                                                   const Scenario& scenario);
 
 /// The instance of the first `num_agents` rows; 0 is allowed. Requires a grid graph. Errors
-/// (invalid_instance), with the file and line of the row: fewer rows than agents; a width or
-/// height, in any row, that is not the graph's; among the first `num_agents` rows a cell that is
-/// blocked, or two equal starts or goals (the message names both lines).
+/// (invalid_instance), with the file and line of the row: fewer rows than agents; a cell of any row
+/// that is outside of the grid; among the first `num_agents` rows a cell that is blocked, or two
+/// equal starts or goals (the message names both lines). Width and height of the rows are not
+/// compared with the grid's, as published files have wrong ones: see note_on_sizes.
 [[nodiscard]] Result<Instance> make_instance(std::shared_ptr<const Graph> graph,
                                              const Scenario& scenario, std::size_t num_agents);
 

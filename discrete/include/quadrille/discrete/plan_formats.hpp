@@ -12,6 +12,7 @@
 #include "quadrille/core/result.hpp"
 #include "quadrille/core/stated_outcome.hpp"
 #include "quadrille/discrete/graph.hpp"
+#include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
 
 QUADRILLE_API_BEGIN
@@ -23,13 +24,14 @@ namespace quadrille::discrete {
 enum class PlanFormat {
   json,        ///< This project's JSON: a plan, or the result of a solve.
   cbsh2,       ///< `Agent 0: (row,column)->(row,column)->`; grids only.
-  visualizer,  ///< `0:(x,y),(x,y),`, one line per timestep; grids only.
+  visualizer,  ///< `0:(x,y),(x,y),`, one line per timestep; grids only. Also read behind the header
+               ///< of a result of lacam.
   yaml,        ///< libMultiRobotPlanning's `schedule`.
 };
 [[nodiscard]] std::string_view to_string(PlanFormat format) noexcept;  ///< "json" | "cbsh2" | ...
 [[nodiscard]] std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept;
 /// Guesses from the first characters that are not white space: `{` is json, a digit visualizer,
-/// `Agent ` cbsh2, anything else yaml.
+/// `Agent ` cbsh2, the header of a result of lacam visualizer, anything else yaml.
 [[nodiscard]] PlanFormat detect_plan_format(std::string_view text) noexcept;
 /// .json, .yaml and .yml; other extensions mean nothing.
 [[nodiscard]] std::optional<PlanFormat> plan_format_of(const std::filesystem::path& path);
@@ -40,13 +42,23 @@ struct PlanFile {
   StatedOutcome stated;
 };
 
-/// Reads a plan on `graph`; without `format` the content decides. Errors, with file and line: io,
-/// syntax, out_of_range (file above kMaxFileBytes), invalid_plan (a place that is no vertex of the
-/// graph; a result without a plan; a format that needs a grid).
+/// Reads a plan on `graph`; without `format` the content decides. Then outputs of the League of
+/// Robot Runners without turns are read, too, and, for the agents of an instance, the CSV of the
+/// MAPF tracker, whose paths begin at their starts. Errors, with file and line: io, syntax,
+/// out_of_range (file above kMaxFileBytes), invalid_plan (a place that is no vertex of the graph; a
+/// result without a plan; a header that contradicts the plan; a format that needs a grid, or an
+/// instance).
 [[nodiscard]] Result<PlanFile> read_plan(std::istream& in, const std::string& file,
                                          const Graph& graph,
                                          std::optional<PlanFormat> format = std::nullopt);
 [[nodiscard]] Result<PlanFile> read_plan(const std::filesystem::path& path, const Graph& graph,
+                                         std::optional<PlanFormat> format = std::nullopt);
+
+[[nodiscard]] Result<PlanFile> read_plan(std::istream& in, const std::string& file,
+                                         const Instance& instance,
+                                         std::optional<PlanFormat> format = std::nullopt);
+[[nodiscard]] Result<PlanFile> read_plan(const std::filesystem::path& path,
+                                         const Instance& instance,
                                          std::optional<PlanFormat> format = std::nullopt);
 
 /// Writes a plan, with its costs where the format has a place for them. Reading it back gives an

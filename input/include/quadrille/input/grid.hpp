@@ -7,6 +7,7 @@
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/movingai.hpp"
+#include "quadrille/discrete/plan.hpp"
 #include "quadrille/input/source.hpp"
 #include "quadrille/text/names.hpp"
 
@@ -24,8 +25,16 @@ struct GridInput {
   std::vector<discrete::LetterCount> other_letters;
   std::string other_map;  ///< What the scenario names, if it is not the map; else empty.
   text::Names names = {};
+  std::string note = "";  ///< About the files, for the user; empty if there is nothing to say.
 };
 /// Requires options that pass check_grid_options. Reads each file once, front to back.
 [[nodiscard]] Result<GridInput> load_grid_input(const InputOptions& options);
+
+/// Whether the options name a map and no agents.
+[[nodiscard]] bool is_map_alone(const InputOptions& options);
+/// The map of a plan, with agents that begin and end where its paths do. `file`: that of the plan.
+/// Errors (invalid_plan): two agents begin, or end, in the same place.
+[[nodiscard]] Result<GridInput> with_agents_of(GridInput input, const discrete::Plan& plan,
+                                               const std::string& file);
 
 }  // namespace quadrille::input

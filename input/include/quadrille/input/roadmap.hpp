@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
@@ -27,6 +28,7 @@ struct RoadmapOptions {
   std::string roadmap, task;
   std::optional<double> radius, speed, resolution;
   std::optional<std::int64_t> neighbourhood;
+  std::string level, vehicle_type;  ///< Of a roadmap that has several.
   std::optional<std::int64_t> headings, turn;  ///< Robots that turn, and in how many timesteps.
 
   /// By themselves, whatever `--instance` contains.
@@ -52,6 +54,8 @@ struct RoadmapInput {
   std::string kind = {};         ///< "32 x 32 grid, 2^3 neighbours, " or nothing.
   std::size_t num_zero_length_edges = 0;
   text::Names names = {};
+  std::vector<std::string> notes =
+      {};  ///< What plans do not honour, and what may be meant otherwise.
 
   /// Whose cells plans may name.
   [[nodiscard]] const continuous::GridRoadmap* grid_or_null() const {

@@ -31,6 +31,7 @@ struct InputOptions {
 enum class Need {
   tasks,  ///< A map needs its scenario and the number of agents.
   map,    ///< A map alone will do, and all rows of a scenario are taken by default.
+  plan,   ///< As tasks, or a map alone: a plan says where its agents begin and end.
 };
 
 /// What is wrong if an `--instance` with this number of agents has fewer than `--agents` asks for.
@@ -49,8 +50,5 @@ enum class Need {
 
 /// The text of a file, which may be a pipe. Errors: those of text::read_all.
 [[nodiscard]] Result<std::string> read_text(const std::string& file);
-
-/// What a file is, if `--instance` is given one that belongs to another option; empty else.
-[[nodiscard]] std::string why_no_instance(const std::string& text);
 
 }  // namespace quadrille::input

@@ -18,9 +18,9 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::text {
 
-/// A parsed JSON or YAML file: its values in the order of the file, sixteen bytes each, with their
-/// lines. Containers are followed by what they contain; in an object each value follows its key,
-/// which is a string.
+/// A parsed JSON, YAML or GML file: its values in the order of the file, sixteen bytes each, with
+/// their lines. Containers are followed by what they contain; in an object each value follows its
+/// key, which is a string.
 class Document {
  public:
   enum class Kind : std::uint8_t { null, boolean, integer, real, string, array, object };
@@ -108,6 +108,10 @@ inline constexpr std::size_t kMaxYamlLookahead = std::size_t{1} << 20;
 /// that look like decimal integers are integers, null ones are null, all others are strings.
 /// Errors as those of parse_json, and out_of_range above kMaxYamlLookahead.
 [[nodiscard]] Result<Document> parse_yaml(std::string_view text, const std::string& file);
+
+/// A graph in GML: lists in brackets are objects, in which keys may be repeated. Errors as those of
+/// parse_json.
+[[nodiscard]] Result<Document> parse_gml(std::string_view text, const std::string& file);
 
 /// Looks for values in a document and remembers the first thing that is wrong. Each function
 /// returns whether all is well; calls can be chained with &&.

@@ -23,7 +23,8 @@ namespace quadrille::text {
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 28;
 
 /// A whole stream. Errors: io; out_of_range above kMaxFileBytes; syntax at a NUL byte, which no
-/// text format has, and at a byte order mark.
+/// text format has, and at the byte order mark of UTF-16. That of UTF-8 is left away: XML, YAML and
+/// many a CSV may begin with it, and JSON's RFC lets readers pass it over.
 [[nodiscard]] Result<std::string> read_all(std::istream& in, const std::string& file);
 
 /// Why `path` cannot be read, if it cannot; otherwise `in` is open.
