@@ -134,8 +134,9 @@ std::string check_turning_options(const RoadmapOptions& options, const InputOpti
   if (!options.roadmap.empty() || !input.instance.empty())
     return "--headings goes with --map and --scen, not with --roadmap or --instance";
   if (!options.task.empty() || options.radius || options.speed || options.resolution ||
-      options.neighbourhood)
-    return "--task, --radius, --speed, --neighbourhood and --resolution do not go with --headings";
+      options.neighbourhood || !options.level.empty() || !options.vehicle_type.empty())
+    return "--task, --radius, --speed, --neighbourhood, --level, --vehicle-type and --resolution "
+           "do not go with --headings";
   if (*options.headings != kHeadings)
     return "--headings is " + std::to_string(kHeadings) + ": east, south, west and north";
   return check_grid_options(input, need);

@@ -12,6 +12,7 @@
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/input/source.hpp"
 #include "quadrille/text/document.hpp"
+#include "quadrille/text/sniff.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::input {
@@ -110,10 +111,7 @@ Result<Problem> read_problem(const std::string& text, const std::string& file) {
 }  // namespace
 
 bool is_robot_runners(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t\r\n");
-  return begin != std::string::npos && text[begin] == '{' &&
-         text.find("\"mapFile\"") != std::string::npos &&
-         text.find("\"quadrille\"") == std::string::npos;
+  return text::sniff(text) == text::FileKind::lorr_problem;
 }
 
 Result<RobotRunnersProblem> read_robot_runners(const std::string& text, const std::string& file) {

@@ -56,7 +56,7 @@ const std::vector<Case> kCases = {
     {FileKind::tracker_csv, "map_name,scen_type,type_id,agents,\"solution_plan\"\n"},
     {FileKind::planviz, "{\"actionModel\": \"MAPF\", \"actualPaths\": []}"},
     {FileKind::lorr_problem, "{\"mapFile\": \"a\", \"taskFile\": \"b\"}"},
-    {FileKind::lorr_problem, "# version for LoRR 2026\n400\n"},
+    {FileKind::lorr_locations, "# version for LoRR 2026\n400\n"},
     {FileKind::vda5050, "{\"orderId\": \"a\", \"nodes\": []}"},
     {FileKind::occupancy_yaml, "image: a.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n"},
     {FileKind::boox, "Locations: 8\n0: 0.0, 0.0\n"},

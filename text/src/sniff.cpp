@@ -58,8 +58,9 @@ constexpr Words kWords[] = {
     {FileKind::cbsh2_paths, "a file of paths of CBSH2, EECBS or LNS2", kGridPlan},
     {FileKind::tracker_csv, "a CSV of the MAPF tracker", kGridPlan},
     {FileKind::planviz, "an output of the League of Robot Runners, for PlanViz", kGridPlan},
-    {FileKind::lorr_problem, "an input of the League of Robot Runners",
-     "no command reads it, as tasks come one after the other there; its map belongs to --map"},
+    {FileKind::lorr_problem, "a problem of the League of Robot Runners", kInstance},
+    {FileKind::lorr_locations, "robots or tasks of the League of Robot Runners",
+     "the problem that names it belongs to --instance"},
     {FileKind::vda5050, "a message of VDA 5050", "states belong to export --states"},
     {FileKind::occupancy_yaml, "the description of a picture of a map, for ROS",
      "no command reads it; --map takes maps of MovingAI's"},
@@ -284,7 +285,7 @@ FileKind by_line(std::string_view line) {
   if (line.starts_with("type ") || line.starts_with("height ")) return FileKind::movingai_map;
   if (line.starts_with("version ")) return FileKind::movingai_scenario;
   if (line.starts_with("Agent ")) return FileKind::cbsh2_paths;
-  if (line.starts_with("# version for LoRR")) return FileKind::lorr_problem;
+  if (line.starts_with("# version for LoRR")) return FileKind::lorr_locations;
   if (line.starts_with("Locations:") || line.starts_with("V =")) return FileKind::boox;
   if (line.starts_with("init(object(") || line.starts_with("occurs(object("))
     return FileKind::asprilo;

@@ -16,12 +16,12 @@ struct RobotRunnersProblem {
   continuous::TaskXml task;  ///< Cells as row * width + column; lines are those of the robots.
 };
 
-/// Whether this is the text of such a problem: JSON with the key `mapFile`.
+/// Whether this is the text of such a problem, see text::sniff.
 [[nodiscard]] bool is_robot_runners(const std::string& text);
 /// Reads the map, the robots and the tasks that the text names, relative to where `file` is. Errors
 /// with file and line: syntax, io, invalid_instance (fewer tasks than robots, fewer robots than
-/// `teamSize`, cells that are not passable or do not exist, `agentSize` and `agentCounter`, which are of
-/// another model) and those of discrete::read_map.
+/// `teamSize`, cells that are not passable or do not exist, `agentSize` and `agentCounter`, which
+/// are of another model) and those of discrete::read_map.
 [[nodiscard]] Result<RobotRunnersProblem> read_robot_runners(const std::string& text,
                                                              const std::string& file);
 

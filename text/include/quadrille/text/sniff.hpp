@@ -46,7 +46,8 @@ enum class FileKind : std::uint8_t {
   cbsh2_paths,      ///< `Agent 0: (row,column)->`
   tracker_csv,      ///< Of the MAPF tracker.
   planviz,          ///< Output of the League of Robot Runners.
-  lorr_problem,     ///< Its inputs.
+  lorr_problem,     ///< Its inputs: names the files of map, robots and tasks.
+  lorr_locations,   ///< Robots or tasks of such a problem.
   vda5050,          ///< An order or a state.
   occupancy_yaml,   ///< map.yaml beside a picture, of ROS.
   boox,             ///< Maps and instances of boOX.
