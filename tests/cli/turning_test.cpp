@@ -215,6 +215,10 @@ TEST_F(RobotRunnersTest, WhatIsWrongIsSaidWithItsFile) {
   expect_refused("room.json:1: the key 'taskFile' is missing");
   write("room.json", problem("\"teamSize\": -1"));
   expect_refused("room.json:3: ");
+  for (const char* key : {"agentSize", "agentCounter"}) {
+    write("room.json", problem("\"" + std::string(key) + "\": 3"));
+    expect_refused("room.json:3: '" + std::string(key) + "' is of problems with actions that take");
+  }
   write("room.json", problem("\"version\": 1"));
   write("room.tasks", "2\n1\n5\n");
   expect_refused("room.tasks:3: cell 5 of the map is not passable");
