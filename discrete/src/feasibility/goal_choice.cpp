@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "feasibility/goal_reach.hpp"
-#include "quadrille/solve/assignment.hpp"
+#include "quadrille/core/assignment.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -27,9 +27,9 @@ class GoalMatching {
         owner_(instance.graph().num_vertices(), kNobody),
         seen_(instance.graph().num_vertices(), 0),
         asker_(instance.graph().num_vertices()) {
-    for (const std::vector<solve::Reach>& own : reach.agents) {
+    for (const std::vector<Reach>& own : reach.agents) {
       std::vector<VertexId> near;
-      for (const solve::Reach& to : own) near.push_back(reach.goals[to.goal]);
+      for (const Reach& to : own) near.push_back(reach.goals[to.goal]);
       near_.push_back(std::move(near));
     }
   }
@@ -156,7 +156,7 @@ GoalChoice choose_goals(const Instance& instance, LimitMonitor* limits) {
   if (!reach) return {{}, std::nullopt};
   GoalMatching matching(instance, *reach);
   if (const auto crowd = matching.match(); !crowd.empty()) return {crowded(crowd), std::nullopt};
-  const auto cheapest = solve::cheapest_assignment(reach->agents, reach->goals.size(), monitor);
+  const auto cheapest = cheapest_assignment(reach->agents, reach->goals.size(), monitor);
   if (!cheapest) return {{}, std::nullopt};
   std::vector<VertexId> nearest;
   for (const std::size_t goal : cheapest->goals) nearest.push_back(reach->goals[goal]);

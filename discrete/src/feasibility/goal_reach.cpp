@@ -19,7 +19,7 @@ std::optional<GoalReach> find_goal_reach(const Instance& instance, LimitMonitor&
   BreadthFirst search(instance.graph());
   for (const Agent& task : instance.agents().items()) {
     if (limits.exhausted_now() || !search.run(task.start, &limits)) return std::nullopt;
-    std::vector<solve::Reach>& own = reach.agents.emplace_back();
+    std::vector<Reach>& own = reach.agents.emplace_back();
     for (const VertexId goal : task.goals.vertices()) {
       const Timestep d = search.distances()[goal.index()];
       if (d == kUnreachable) continue;
@@ -27,7 +27,7 @@ std::optional<GoalReach> find_goal_reach(const Instance& instance, LimitMonitor&
       own.push_back({static_cast<std::size_t>(at - reach.goals.begin()), d});
     }
     std::stable_sort(own.begin(), own.end(),
-                     [](const solve::Reach& a, const solve::Reach& b) { return a.cost < b.cost; });
+                     [](const Reach& a, const Reach& b) { return a.cost < b.cost; });
   }
   return reach;
 }
@@ -35,9 +35,9 @@ std::optional<GoalReach> find_goal_reach(const Instance& instance, LimitMonitor&
 std::optional<PricedGoals> price_goals(const Instance& instance, LimitMonitor& limits) {
   const auto reach = find_goal_reach(instance, limits);
   if (!reach) return std::nullopt;
-  auto assignment = solve::cheapest_assignment(reach->agents, reach->goals.size(), limits);
+  auto assignment = cheapest_assignment(reach->agents, reach->goals.size(), limits);
   if (!assignment) return std::nullopt;
-  solve::keep_prices_that_are_always_paid(reach->agents, assignment->prices);
+  keep_prices_that_are_always_paid(reach->agents, assignment->prices);
   GoalPrices prices(instance.graph().num_vertices(), 0);
   PricedGoals priced;
   for (std::size_t k = 0; k < reach->goals.size(); ++k) {

@@ -5,17 +5,17 @@
 #include <optional>
 #include <vector>
 
+#include "quadrille/core/assignment.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
-#include "quadrille/solve/assignment.hpp"
 
 namespace quadrille::discrete {
 
 /// Which goals agents can reach, and in how many moves.
 struct GoalReach {
-  std::vector<VertexId> goals;                    ///< All that somebody has, increasing.
-  std::vector<std::vector<solve::Reach>> agents;  ///< Of each its goals, nearest first.
+  std::vector<VertexId> goals;             ///< All that somebody has, increasing.
+  std::vector<std::vector<Reach>> agents;  ///< Of each its goals, nearest first.
 };
 
 /// One breadth-first search per agent: O(agents * (V + E)). nullopt if a limit was met.

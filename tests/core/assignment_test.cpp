@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "quadrille/solve/assignment.hpp"
+#include "quadrille/core/assignment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "quadrille/core/random.hpp"
 
-namespace quadrille::solve {
+namespace quadrille {
 namespace {
 
 using Reaches = std::vector<std::vector<Reach>>;
@@ -110,4 +110,4 @@ TEST(Assignment, EndsAtALimit) {
 }
 
 }  // namespace
-}  // namespace quadrille::solve
+}  // namespace quadrille

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "quadrille/solve/assignment.hpp"
+#include "quadrille/core/assignment.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -8,7 +8,7 @@
 #include <queue>
 #include <utility>
 
-namespace quadrille::solve {
+namespace quadrille {
 namespace {
 
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
@@ -136,4 +136,4 @@ void keep_prices_that_are_always_paid(const std::vector<std::vector<Reach>>& rea
     if (num_left[root(goal)] > 0) prices[goal] = 0;
 }
 
-}  // namespace quadrille::solve
+}  // namespace quadrille

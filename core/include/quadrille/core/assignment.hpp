@@ -11,7 +11,7 @@
 
 QUADRILLE_API_BEGIN
 
-namespace quadrille::solve {
+namespace quadrille {
 
 /// Who could end where, and what it costs at least.
 struct Reach {
@@ -42,6 +42,6 @@ struct Assignment {
 void keep_prices_that_are_always_paid(const std::vector<std::vector<Reach>>& reach,
                                       std::vector<Cost>& prices);
 
-}  // namespace quadrille::solve
+}  // namespace quadrille
 
 QUADRILLE_API_END
