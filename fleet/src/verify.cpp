@@ -49,10 +49,10 @@ std::string message(const Fleet& fleet, const continuous::Violation& violation,
     case Kind::closed_edge:
       return robot + "moves along a lane that is not for it, at " + when;
     case Kind::obstacle:
-      return robot + "and an obstacle collide in the move or wait that begins at " + when;
+      return robot + "and an obstacle collide at " + when;
     case Kind::collision:
       return robot + "and '" + fleet.name(violation.other.value_or(violation.agent)) +
-             "' collide in the move or wait that begins at " + when;
+             "' collide at " + when;
     default:
       return violation.message;
   }

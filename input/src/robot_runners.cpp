@@ -100,9 +100,8 @@ Result<Problem> read_problem(const std::string& text, const std::string& file) {
   for (const char* name : {"agentSize", "agentCounter"})
     if (const auto value = member(*document, name))
       return document->error(*value, ErrorCode::invalid_instance,
-                             "'" + std::string(name) +
-                                 "' is of problems with actions that take several ticks and may be "
-                                 "late; only those of one timestep for each action are read");
+                             "it belongs to problems with actions that take several ticks and may "
+                             "be late; only those of one timestep for each action are read");
   if (const auto value = member(*document, "teamSize"))
     if (!check.integer(*value, 0, INT32_MAX, problem.team_size.emplace())) return check.error();
   return problem;

@@ -62,7 +62,7 @@ TEST(FleetVerify, ViolationsHaveNamesAndSeconds) {
   EXPECT_EQ(with([](auto& path) {
               path = {{kA, 0, 50}, {kB, 150, 150}, {kC, 250, 250}, {kB, 350, 350}};
             }),
-            "'p' and 'q' collide in the move or wait that begins at 1.5 s");
+            "'p' and 'q' collide at 2 s");
   EXPECT_EQ(first({}), "the plan has not one path for each of the 2 robots");
 }
 

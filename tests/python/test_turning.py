@@ -26,14 +26,15 @@ def test_poses_have_names() -> None:
     assert repr(grid) == "<quadrille.PoseGrid 12 poses, a quarter turn takes 2>"
 
 
-@pytest.mark.parametrize("turn, cost", [(1, 4 + 3), (3, 6 + 7)])
+@pytest.mark.parametrize("turn, cost", [(1, 4 + 3), (3, 7 + 7)])
 def test_turns_cost_timesteps(turn: int, cost: int) -> None:
     grid = q.Grid(np.ones((2, 3))).with_headings(turn=turn)
     starts = [(0, 0, "east"), (2, 1, "east")]
     goals = [grid.any_heading(2, 1), (1, 1, "west")]
     fleet = q.Fleet(grid, starts, goals, radius=grid.RADIUS)
     result = q.solve(fleet)
-    # Ahead twice, a turn and ahead; half a turn and ahead.
+    # Ahead twice, a turn and ahead; half a turn and ahead. Turns of three timesteps make the first one
+    # wait for a timestep, until the other has gone.
     assert result.status == "optimal"
     assert result.cost == cost
     assert result.plan is not None
