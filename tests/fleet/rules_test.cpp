@@ -264,7 +264,7 @@ TEST(FleetRules, ViolationsAreSaidInWords) {
   EXPECT_EQ(complaint(), "'p' begins a move at 0 s, before its release at 0.5 s");
   robot.release(0_s);
   fleet.obstacle({"cart", Disc(0.2_m), {{{1_m, 0_m}, 0.5_s, 3_s}}, true});
-  EXPECT_EQ(complaint().substr(0, 51), "'p' and an obstacle collide in the move or wait tha");
+  EXPECT_EQ(complaint(), "'p' and an obstacle collide at 0.6 s");
 }
 
 TEST(FleetRules, APlanToBeginWithIsHeldAgainstTheRules) {
