@@ -20,7 +20,7 @@ using Node = Document::Node;
 class PlanVizReader {
  public:
   PlanVizReader(const Document& document, const Graph& graph)
-      : document_(document), check_(document), objects_(document, check_), grid_(*graph.layout()) {}
+      : check_(document), objects_(document, check_), grid_(*graph.layout()) {}
 
   Result<PlanFile> run() {
     std::optional<Node> model, size, starts, paths;
@@ -90,7 +90,6 @@ class PlanVizReader {
     return true;
   }
 
-  const Document& document_;
   Checker check_;
   text::OpenObjects objects_;
   const GridLayout& grid_;
