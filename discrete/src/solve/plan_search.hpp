@@ -139,8 +139,8 @@ class PlanSearch {
   /// Instead of both, where a search in another thread has all the time that it needs. First the
   /// guided searches, to the end.
   void begin();
-  /// Then looks for plans for a while. `draft` as above. Returns the effort, or what it counts for
-  /// if there was nothing to do.
+  /// Then looks for plans for a while. `draft` as above. Returns what it counts for
+  /// among threads.
   Effort work(const std::function<Plan()>& draft);
 
  private:
