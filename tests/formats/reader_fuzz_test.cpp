@@ -72,7 +72,7 @@ void survive(const std::string& sample,
     ASSERT_NE(error->code, ErrorCode::internal) << file;
     ASSERT_EQ(error->message.find('\n'), std::string::npos) << file;
   }
-  if (num_files < 100) return;
+  if (num_files < 1000) return;  // too few to say what is to be expected
   EXPECT_GT(accepted, 0u) << sample;
   EXPECT_LT(accepted, num_files) << sample;
 }
