@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "exports/export_roadmap.hpp"
 #include "frame/arguments.hpp"
 #include "frame/subcommands.hpp"
-#include "roadmap/export_roadmap.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ball_pair.hpp"
 
-#include "exact_balls.hpp"
+#include "exact/exact_balls.hpp"
 
 namespace quadrille::geometry::balls {
 namespace {

@@ -2,8 +2,8 @@
 #include "quadrille/geometry/body_pair.hpp"
 
 #include "ball_pair.hpp"
-#include "exact.hpp"
-#include "offset_search.hpp"
+#include "exact/exact.hpp"
+#include "exact/offset_search.hpp"
 #include "pair_shape.hpp"
 #include "quadrille/core/contract.hpp"
 

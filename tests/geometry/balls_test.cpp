@@ -3,7 +3,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "exact_balls.hpp"
+#include "exact/exact_balls.hpp"
 #include "geometry/cases.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 

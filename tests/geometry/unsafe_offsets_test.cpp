@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "exact.hpp"
+#include "exact/exact.hpp"
 #include "geometry/cases.hpp"
 #include "geometry/oracle.hpp"
 #include "grown_shape.hpp"

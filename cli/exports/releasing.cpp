@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap/releasing.hpp"
+#include "exports/releasing.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "exports/exports.hpp"
 #include "quadrille/execution/releaser.hpp"
-#include "roadmap/exports.hpp"
 
 namespace quadrille::cli {
 namespace {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap/export_roadmap.hpp"
+#include "exports/export_roadmap.hpp"
 
 #include <filesystem>
 #include <fstream>
 
 #include "asked/conversion.hpp"
+#include "exports/planviz.hpp"
+#include "exports/releasing.hpp"
 #include "frame/arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
-#include "roadmap/planviz.hpp"
-#include "roadmap/releasing.hpp"
 #include "roadmap/roadmap_text.hpp"
 
 namespace quadrille::cli {

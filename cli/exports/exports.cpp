@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap/exports.hpp"
+#include "exports/exports.hpp"
 
 #include <fmt/format.h>
 

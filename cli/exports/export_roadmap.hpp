@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "exports/exports.hpp"
 #include "frame/exit_codes.hpp"
 #include "frame/input_options.hpp"
 #include "frame/option_parser.hpp"
 #include "quadrille/input/roadmap.hpp"
-#include "roadmap/exports.hpp"
 
 namespace quadrille::cli {
 

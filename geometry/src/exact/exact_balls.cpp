@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "exact_balls.hpp"
+#include "exact/exact_balls.hpp"
 
-#include "exact_integer.hpp"
-#include "offset_search.hpp"
+#include "exact/exact_integer.hpp"
+#include "exact/offset_search.hpp"
 
 namespace quadrille::geometry::exact {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap/planviz.hpp"
+#include "exports/planviz.hpp"
 
 #include <fmt/format.h>
 
