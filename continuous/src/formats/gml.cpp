@@ -3,7 +3,6 @@
 // Graphs in GML, as networkx, igraph, Gephi and yEd write them.
 #include <utility>
 
-#include "formats/roadmap_builder.hpp"
 #include "formats/roadmap_readers.hpp"
 #include "quadrille/text/text_input.hpp"
 
@@ -11,12 +10,11 @@ namespace quadrille::continuous {
 namespace {
 
 using text::Document;
-using Node = Document::Node;
 
-class GmlReader {
+class GmlReader : DocumentRoadmapReader {
  public:
   GmlReader(const Document& document, const MapFileOptions& options)
-      : document_(document), check_(document), objects_(document, check_), builder_(options) {}
+      : DocumentRoadmapReader(document, options) {}
 
   Result<MapFile> run() {
     std::optional<Node> graph, directed;
@@ -43,10 +41,6 @@ class GmlReader {
   }
 
  private:
-  bool fail(Node node, const RoadmapBuilder::Fault& fault) {
-    return check_.fail(node, fault.code, fault.message);
-  }
-
   /// Coordinates are x, y and perhaps z of a node, or of its graphics; or two or three times pos.
   bool read_node(Node node) {
     std::optional<Node> id_node, label, x, y, z, graphics;
@@ -75,8 +69,7 @@ class GmlReader {
     const VertexId vertex(builder_.num_vertices());
     if (label && document_.kind(*label) == Document::Kind::string)
       builder_.add_place(std::string(document_.text(*label)), vertex);
-    const auto fault = builder_.add_vertex(std::to_string(id), at);
-    return !fault || fail(node, *fault);
+    return accept(node, builder_.add_vertex(std::to_string(id), at));
   }
 
   bool find_node(Node node, std::optional<Node>& id, std::optional<Node>& label,
@@ -106,13 +99,9 @@ class GmlReader {
     auto fault = builder_.add_edge(std::to_string(ids[0]), std::to_string(ids[1]));
     if (!fault && !is_directed)
       fault = builder_.add_edge(std::to_string(ids[1]), std::to_string(ids[0]));
-    return !fault || fail(edge, *fault);
+    return accept(edge, fault);
   }
 
-  const Document& document_;
-  text::Checker check_;
-  text::OpenObjects objects_;
-  RoadmapBuilder builder_;
   bool has_heights_ = false;
 };
 

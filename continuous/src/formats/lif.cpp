@@ -5,7 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "formats/roadmap_builder.hpp"
 #include "formats/roadmap_readers.hpp"
 #include "quadrille/text/text_input.hpp"
 
@@ -13,7 +12,6 @@ namespace quadrille::continuous {
 namespace {
 
 using text::Document;
-using Node = Document::Node;
 
 std::string listed(const std::set<std::string>& names) {
   std::string text;
@@ -21,14 +19,10 @@ std::string listed(const std::set<std::string>& names) {
   return text;
 }
 
-class LifReader {
+class LifReader : DocumentRoadmapReader {
  public:
   LifReader(const Document& document, const MapFileOptions& options)
-      : document_(document),
-        check_(document),
-        objects_(document, check_),
-        options_(options),
-        builder_(options) {}
+      : DocumentRoadmapReader(document, options) {}
 
   Result<MapFile> run() {
     std::optional<Node> meta, layouts;
@@ -41,9 +35,6 @@ class LifReader {
   }
 
  private:
-  bool fail(Node node, const RoadmapBuilder::Fault& fault) {
-    return check_.fail(node, fault.code, fault.message);
-  }
   void unused(Node key, std::string_view of) {
     const std::string name(document_.text(key));
     // Texts for people, and what says nothing about where robots go.
@@ -184,8 +175,7 @@ class LifReader {
                                    [&](Node key) { unused(key, "a node"); }))
       return false;
     id_again_.reset();
-    const auto fault = builder_.add_vertex(std::move(name), {at_x, at_y, 0});
-    return !fault || fail(node, *fault);
+    return accept(node, builder_.add_vertex(std::move(name), {at_x, at_y, 0}));
   }
 
   bool read_edge(Node edge) {
@@ -215,8 +205,7 @@ class LifReader {
       return true;
     }
     if ((source && closed_.contains(*source)) || (target && closed_.contains(*target))) return true;
-    const auto fault = builder_.add_edge(from, to, limit ? std::optional(speed) : std::nullopt);
-    return !fault || fail(edge, *fault);
+    return accept(edge, builder_.add_edge(from, to, limit ? std::optional(speed) : std::nullopt));
   }
 
   [[nodiscard]] bool is_text(Node node) const {
@@ -233,7 +222,7 @@ class LifReader {
     return all_nodes_.contains(name);
   }
 
-  /// A station is where its only interaction node is.
+  /// A station is a name of each of its interaction nodes; a task can use it if there is one.
   bool read_station(Node station) {
     std::optional<Node> id, nodes;
     std::string name;
@@ -253,11 +242,6 @@ class LifReader {
     });
   }
 
-  const Document& document_;
-  text::Checker check_;
-  text::OpenObjects objects_;
-  const MapFileOptions& options_;
-  RoadmapBuilder builder_;
   std::optional<Node> layout_, id_again_;
   std::set<std::string> types_, all_nodes_;
   std::set<VertexId> closed_;  // To our type.

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "formats/roadmap_builder.hpp"
 #include "formats/roadmap_readers.hpp"
 #include "quadrille/text/document.hpp"
 #include "quadrille/text/names.hpp"
@@ -20,16 +19,11 @@ namespace quadrille::continuous {
 namespace {
 
 using text::Document;
-using Node = Document::Node;
 
-class NavGraphReader {
+class NavGraphReader : DocumentRoadmapReader {
  public:
   NavGraphReader(const Document& document, const MapFileOptions& options)
-      : document_(document),
-        check_(document),
-        objects_(document, check_),
-        options_(options),
-        builder_(options) {}
+      : DocumentRoadmapReader(document, options) {}
 
   Result<MapFile> run() {
     const auto level = find_level();
@@ -40,10 +34,6 @@ class NavGraphReader {
   }
 
  private:
-  bool fail(Node node, const RoadmapBuilder::Fault& fault) {
-    return check_.fail(node, fault.code, fault.message);
-  }
-
   struct Level {
     std::string name;
     Node node;
@@ -159,8 +149,7 @@ class NavGraphReader {
       return false;
     const VertexId vertex(builder_.num_vertices());
     if (text && !text->empty()) builder_.add_place(*text, vertex);
-    const auto fault = builder_.add_vertex(std::to_string(vertex.index()), {x, y, 0});
-    return !fault || fail(node, *fault);
+    return accept(node, builder_.add_vertex(std::to_string(vertex.index()), {x, y, 0}));
   }
 
   bool read_end(Node node, VertexId& vertex) {
@@ -191,14 +180,8 @@ class NavGraphReader {
     const auto most = limit ? std::optional(speed) : std::nullopt;
     auto fault = builder_.add_edge(from, to, most);
     if (!fault && is_both) fault = builder_.add_edge(to, from, most);
-    return !fault || fail(limit.value_or(node), *fault);
+    return accept(limit.value_or(node), fault);
   }
-
-  const Document& document_;
-  text::Checker check_;
-  text::OpenObjects objects_;
-  const MapFileOptions& options_;
-  RoadmapBuilder builder_;
 };
 
 }  // namespace

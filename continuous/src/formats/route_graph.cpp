@@ -4,7 +4,6 @@
 // and lines are edges that lead one way.
 #include <utility>
 
-#include "formats/roadmap_builder.hpp"
 #include "formats/roadmap_readers.hpp"
 #include "quadrille/text/text_input.hpp"
 
@@ -12,12 +11,11 @@ namespace quadrille::continuous {
 namespace {
 
 using text::Document;
-using Node = Document::Node;
 
-class RouteGraphReader {
+class RouteGraphReader : DocumentRoadmapReader {
  public:
   RouteGraphReader(const Document& document, const MapFileOptions& options)
-      : document_(document), check_(document), objects_(document, check_), builder_(options) {}
+      : DocumentRoadmapReader(document, options) {}
 
   Result<MapFile> run() {
     std::optional<Node> type, features;
@@ -39,10 +37,6 @@ class RouteGraphReader {
   }
 
  private:
-  bool fail(Node node, const RoadmapBuilder::Fault& fault) {
-    return check_.fail(node, fault.code, fault.message);
-  }
-
   bool read_feature(Node feature, bool wants_node) {
     std::optional<Node> type, properties, geometry, shape, coordinates;
     std::string_view kind;
@@ -87,8 +81,7 @@ class RouteGraphReader {
       return false;
     if (axis < 2) return check_.fail(coordinates, "expected two coordinates");
     if (at[2] != 0) builder_.not_used("the height of a node");
-    const auto fault = builder_.add_vertex(std::move(id), {at[0], at[1], 0});
-    return !fault || fail(coordinates, *fault);
+    return accept(coordinates, builder_.add_vertex(std::move(id), {at[0], at[1], 0}));
   }
 
   /// Coordinates mean the same everywhere only in one frame.
@@ -116,8 +109,8 @@ class RouteGraphReader {
         (metadata && !objects_.find_all(*metadata, "metadata", {{"speed_limit", &limit, false}})) ||
         (limit && !check_.number(*limit, speed)))
       return false;
-    const auto fault = builder_.add_edge(from, to, limit ? std::optional(speed) : std::nullopt);
-    return !fault || fail(feature, *fault);
+    return accept(feature,
+                  builder_.add_edge(from, to, limit ? std::optional(speed) : std::nullopt));
   }
 
   void unused(Node key, std::string_view of) {
@@ -126,10 +119,6 @@ class RouteGraphReader {
     builder_.not_used("'" + text::printable(name, 40) + "' of " + std::string(of));
   }
 
-  const Document& document_;
-  text::Checker check_;
-  text::OpenObjects objects_;
-  RoadmapBuilder builder_;
   std::string frame_;
 };
 
