@@ -82,8 +82,7 @@ Result<discrete::Instance> read_instance(const InputOptions& options, text::Name
 }  // namespace
 
 std::string check_grid_options(const InputOptions& options, Need need) {
-  if (std::string fault = check_sharing(options, !options.scen.empty()); !fault.empty())
-    return fault;
+  if (options.sharing && options.scen.empty()) return kSharingNeedsTask;
   const bool letters = !options.letters.passable.empty() || !options.letters.blocked.empty();
   if (!options.instance.empty()) {
     if (!options.map.empty() || !options.scen.empty())

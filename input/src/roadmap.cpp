@@ -41,18 +41,15 @@ std::string size_text(Size width, Size height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-Result<MapFile> read_map(const RoadmapOptions& options, const discrete::MapOptions& letters,
-                         double resolution, continuous::Speed speed) {
-  const std::string& file = options.roadmap;
+Result<MapFile> read_map(const std::string& file, const discrete::MapOptions& letters,
+                         const continuous::MapFileOptions& options) {
   const auto text = read_text(file);
   if (!text) return text.error();
   std::istringstream in(*text);
   const auto kind = text::sniff(*text);
   const bool is_other = kind != text::FileKind::movingai_map &&
                         (kind != text::FileKind::unknown || !is_movingai_map(file));
-  if (is_other)
-    return continuous::read_map_file(in, file,
-                                     {resolution, speed, options.level, options.vehicle_type});
+  if (is_other) return continuous::read_map_file(in, file, options);
   auto map = discrete::read_map(in, file, letters);
   if (!map) return with_letters_hint(map.error());
   return MapFile{OccupancyGrid{map->height, map->width, std::move(map->passable)}};
@@ -198,9 +195,7 @@ Result<RoadmapInput> turning_input(const TurningSource& from, const InputOptions
 }
 
 Result<RoadmapInput> read_turning(const RoadmapOptions& options, const InputOptions& input) {
-  RoadmapOptions source;
-  source.roadmap = input.map;
-  auto map = read_map(source, input.letters, 1, continuous::kUnitSpeed);
+  auto map = read_map(input.map, input.letters, {1, continuous::kUnitSpeed});
   if (!map) return map.error();
   auto* const cells = std::get_if<OccupancyGrid>(&map->map);
   if (cells == nullptr)
@@ -242,9 +237,10 @@ bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
 std::string check_roadmap_options(const RoadmapOptions& options, const InputOptions& input,
                                   Need need) {
   if (options.headings) return check_turning_options(options, input, need);
-  const bool has_task =
-      !options.task.empty() || (input.instance_text && is_robot_runners(*input.instance_text));
-  if (std::string fault = check_sharing(input, has_task); !fault.empty()) return fault;
+  const auto has_task = [&] {
+    return !options.task.empty() || (input.instance_text && is_robot_runners(*input.instance_text));
+  };
+  if (input.sharing && !has_task()) return kSharingNeedsTask;
   if (options.turn) return kTurnAlone;
   const bool letters = !input.letters.passable.empty() || !input.letters.blocked.empty();
   if (!options.roadmap.empty()) {
@@ -277,7 +273,8 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
                                                   : read_instance(input);
   const auto numbers = quantise(options);
   if (!numbers) return numbers.error();
-  auto map = read_map(options, input.letters, numbers->resolution, numbers->speed);
+  auto map = read_map(options.roadmap, input.letters,
+                      {numbers->resolution, numbers->speed, options.level, options.vehicle_type});
   if (!map) return map.error();
   const auto* const cells = std::get_if<OccupancyGrid>(&map->map);
   if (cells != nullptr)

@@ -15,11 +15,6 @@ std::optional<Error> check_agents(const InputOptions& options, std::size_t agent
                {options.instance, 0}};
 }
 
-std::string check_sharing(const InputOptions& options, bool has_task) {
-  if (!options.sharing || has_task) return "";
-  return "--share-goals needs agents of --scen or --task; in --instance they have \"goals\"";
-}
-
 std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,
                                     const std::string& file) {
   if (static_cast<std::size_t>(cells) <= options.most_vertices) return std::nullopt;

@@ -336,9 +336,8 @@ std::string describe(FileKind kind) {
   return "this is " + std::string(in_words(kind)) + ": " + std::string(where_it_belongs(kind));
 }
 
-std::optional<Error> refuse_other(std::string_view text, const std::string& file,
+std::optional<Error> refuse_other(FileKind kind, const std::string& file,
                                   std::initializer_list<FileKind> read) {
-  const FileKind kind = sniff(text);
   if (kind == FileKind::unknown || std::find(read.begin(), read.end(), kind) != read.end())
     return std::nullopt;
   return Error{ErrorCode::syntax, describe(kind), {file, 1}};

@@ -60,7 +60,7 @@ std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept {
   return std::nullopt;
 }
 
-PlanFormat detect_plan_format(std::string_view text) noexcept {
+PlanFormat detect_plan_format(std::string_view text) {
   const auto begin = text.find_first_not_of(" \t\r\n");
   // An empty line is the plan for no agents, which an empty file is in no format.
   if (begin == std::string_view::npos) return text.empty() ? PlanFormat::yaml : PlanFormat::cbsh2;
@@ -90,7 +90,7 @@ Result<PlanFile> read_any_plan(std::istream& in, const std::string& file, const 
   if (!text) return text.error();
   const FileKind kind = text::sniff(*text);
   if (auto error =
-          text::refuse_other(*text, file,
+          text::refuse_other(kind, file,
                              {FileKind::own_plan, FileKind::cbsh2_paths, FileKind::visualizer_plan,
                               FileKind::lacam_result, FileKind::libmrp_schedule, FileKind::planviz,
                               FileKind::tracker_csv, FileKind::own_instance}))

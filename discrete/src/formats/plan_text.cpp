@@ -106,7 +106,7 @@ class Cbsh2Reader final : LinePlanReader {
     std::int64_t number = 0, row = 0, column = 0;
     if (!scanner.literal("Agent ") || !scanner.natural(number) || !scanner.literal(":"))
       return malformed(scanner, "'Agent <number>:'");
-    (void)scanner.literal(" ");  // LNS2 leaves it away.
+    static_cast<void>(scanner.literal(" "));  // LNS2 leaves it away.
     const std::size_t agent = result_.plan.paths.size();
     if (number != static_cast<std::int64_t>(agent))
       return fail(ErrorCode::syntax, "expected agent " + std::to_string(agent) + ", found agent " +

@@ -32,7 +32,7 @@ enum class PlanFormat {
 [[nodiscard]] std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept;
 /// Guesses from the first characters that are not white space: `{` is json, a digit visualizer,
 /// `Agent ` cbsh2, the header of a result of lacam visualizer, anything else yaml.
-[[nodiscard]] PlanFormat detect_plan_format(std::string_view text) noexcept;
+[[nodiscard]] PlanFormat detect_plan_format(std::string_view text);
 /// .json, .yaml and .yml; other extensions mean nothing.
 [[nodiscard]] std::optional<PlanFormat> plan_format_of(const std::filesystem::path& path);
 

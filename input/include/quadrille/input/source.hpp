@@ -37,9 +37,9 @@ enum class Need {
 /// What is wrong if an `--instance` with this number of agents has fewer than `--agents` asks for.
 [[nodiscard]] std::optional<Error> check_agents(const InputOptions& options, std::size_t agents);
 
-/// What is wrong with `--share-goals`; empty if nothing is. `has_task`: agents come from a scenario
-/// or a task.
-[[nodiscard]] std::string check_sharing(const InputOptions& options, bool has_task);
+/// What is wrong with `--share-goals` where agents come from elsewhere.
+inline constexpr const char* kSharingNeedsTask =
+    "--share-goals needs agents of --scen or --task; in --instance they have \"goals\"";
 
 /// What is wrong if a map, in this file, has too many passable cells.
 [[nodiscard]] std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,

@@ -71,8 +71,13 @@ enum class FileKind : std::uint8_t {
 
 /// The error (syntax, line 1) of a reader whose file is clearly of a kind that it does not read;
 /// nullopt if it is one of `read`, or of no known kind.
-[[nodiscard]] std::optional<Error> refuse_other(std::string_view text, const std::string& file,
+[[nodiscard]] std::optional<Error> refuse_other(FileKind kind, const std::string& file,
                                                 std::initializer_list<FileKind> read);
+[[nodiscard]] inline std::optional<Error> refuse_other(std::string_view text,
+                                                       const std::string& file,
+                                                       std::initializer_list<FileKind> read) {
+  return refuse_other(sniff(text), file, read);
+}
 
 }  // namespace quadrille::text
 
