@@ -14,6 +14,8 @@ std::optional<GoalReach> find_goal_reach(const Instance& instance, LimitMonitor&
     const auto own = task.goals.vertices();
     reach.goals.insert(reach.goals.end(), own.begin(), own.end());
   }
+  // Where many share many, this is the largest part of all.
+  if (!limits.has_room_for(2 * reach.goals.size() * sizeof(Reach))) return std::nullopt;
   std::sort(reach.goals.begin(), reach.goals.end());
   reach.goals.erase(std::unique(reach.goals.begin(), reach.goals.end()), reach.goals.end());
   BreadthFirst search(instance.graph());

@@ -14,8 +14,8 @@ constexpr Effort kFirstSlice = Effort::microseconds(62'500),
 /// Whoever makes plans in a thread of its own tells more than that took: others wait for it at the
 /// end of each round, and it may take longer. First plans, measured as 1, 2 and 4 times, two
 /// threads and 1,000 agents: warehouse-20-40-10-2-1 to a gap of 2 % 7.6, 5.6 and 5.7 s,
-/// den520d 1.4, 1.6 and 2.3 s. Improvement, as once: dpll-mdd with nine agents, two threads, takes
-/// three times as long.
+/// den520d 1.4, 1.6 and 2.3 s. Improvement counted once: nine agents, dpll-mdd
+/// and two threads take three times as long.
 constexpr std::int64_t kTimesFirst = 2, kTimesImproved = 4;
 /// Improvement of a first plan is looked at when all paths could have been made so many times.
 constexpr std::int64_t kFirstLook = 32;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "feasibility/goal_choice.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/plan_improver.hpp"
 #include "quadrille/discrete/primal.hpp"
@@ -131,6 +132,22 @@ TEST(GoalSet, InstancesRefuseWhatCannotBe) {
             "agent 0 has no goal");
   EXPECT_EQ(Instance::make(graph, {{VertexId(0), Goals({VertexId(0), VertexId(2)})}}).error().code,
             ErrorCode::invalid_instance);
+}
+
+// Many who share many: whoever could go where does not fit into this memory.
+TEST(GoalSet, WhoCanGoWhereIsWithinTheMemoryLimit) {
+  const Graph graph = Graph::grid(40, 40, std::vector<bool>(1600, true));
+  std::vector<VertexId> all;
+  for (std::size_t v = 0; v < 1600; ++v) all.emplace_back(v);
+  const Goals shared(all);
+  std::vector<Agent> agents;
+  for (const VertexId v : all) agents.push_back({v, shared});
+  const Instance instance = Instance::make(graph, std::move(agents)).value();
+  Limits limits;
+  limits.memory_mib = 40;
+  LimitMonitor monitor(limits);
+  EXPECT_FALSE(choose_goals(instance, &monitor).chosen);
+  EXPECT_EQ(monitor.reason(), StopReason::memory);
 }
 
 TEST(GoalSet, FirstPlansAndTheirImprovementEndAtGoals) {
