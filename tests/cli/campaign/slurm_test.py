@@ -34,12 +34,16 @@ class Slurm(CampaignCase):
         return [{name: value for name, value in row.items() if name not in MEASURED}
                 for row in self.table()]
 
+    def setUp(self):
+        super().setUp()
+        # Long enough for the node to die while some are running. Written once: a program that runs
+        # cannot be written.
+        self.slow = self.write("slow", f"#!/bin/sh\necho \"$@\" >>'{self.path('starts')}'\n"
+                               f"sleep 0.2\nexec '{self.program}' \"$@\"\n")
+        os.chmod(self.slow, 0o755)
+
     def sixty_jobs(self, chunk):
-        # Long enough for the node to die while some are running.
-        slow = self.write("slow", f"#!/bin/sh\necho \"$@\" >>'{self.path('starts')}'\n"
-                          f"sleep 0.2\nexec '{self.program}' \"$@\"\n")
-        os.chmod(slow, 0o755)
-        systems = "\n  ".join(f"{name}: {{program: {slow}, options: --system {name}}}"
+        systems = "\n  ".join(f"{name}: {{program: {self.slow}, options: --system {name}}}"
                               for name in ("dpll", "smt-cbs", "mdd-sat"))
         return self.manifest("1-5", "never", systems,
                              more=f"slurm: {{partition: main, time: 10, chunk: {chunk}}}\n")
