@@ -40,6 +40,9 @@ Subcommand add_export(CLI::App& program) {
       "planviz (actions of robots that turn)")
       ->required();
   add_positive(*app, "--rate", arguments->rate, "Samples per unit of time; default 10");
+  add_integer(*app, "--ros", arguments->ros, static_cast<std::int64_t>(RosVersion::one),
+              static_cast<std::int64_t>(RosVersion::two),
+              "With multidof and path: whose field names, of ROS 1 or 2; default 2");
   add_input_file(*app, "--states", arguments->states,
                  "States of robots, one JSON message per line: release orders as they go");
   app->add_flag("--allow-cycles", arguments->allow_cycles,

@@ -28,6 +28,7 @@ _quadrille() {
     --rule) values="naive gated coupled" ;;
     --neighbourhood) values="2 3 4 5" ;;
     --headings) values="4" ;;
+    --ros) values="1 2" ;;
     --map | --scen | --instance | --roadmap | --task | --plan | --json | --proof | --initial-plan | --known-plan | --states | --output | --view | --svg | --map-output | \
       --scen-output | --instance-output | --folder | --data)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
@@ -76,7 +77,7 @@ _quadrille() {
         return
       fi
       ;;
-    export) options="$instance --to --from --rate --states --allow-cycles --output" ;;
+    export) options="$instance --to --from --rate --ros --states --allow-cycles --output" ;;
     execute-check) options="$instance --plan-format --json --quiet" ;;
     simulate)
       options="$instance --plan-format --json --quiet --rule --delays --longest --slow --period --runs --seed"

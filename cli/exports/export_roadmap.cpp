@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "exports/export_roadmap.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "asked/conversion.hpp"
+#include "exports/orders.hpp"
 #include "exports/planviz.hpp"
 #include "exports/releasing.hpp"
 #include "frame/arguments.hpp"
@@ -16,7 +18,7 @@
 namespace quadrille::cli {
 namespace {
 
-constexpr double kDefaultRate = 10, kMaxSamples = 1e7;
+constexpr double kMaxSamples = 1e7;
 
 std::string check(const ExportArguments& arguments) {
   std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
@@ -25,6 +27,8 @@ std::string check(const ExportArguments& arguments) {
     wrong = "--rate belongs to samples; orders have none";
   if (wrong.empty() && arguments.rate && arguments.to == ExportFormat::planviz)
     wrong = "--rate belongs to samples; planviz has one action per timestep";
+  const bool is_ros = arguments.to == ExportFormat::multidof || arguments.to == ExportFormat::path;
+  if (wrong.empty() && arguments.ros && !is_ros) wrong = "--ros belongs to multidof and path";
   if (wrong.empty() && !arguments.states.empty() && arguments.to != ExportFormat::vda5050)
     wrong = "--states belongs to --to vda5050";
   if (wrong.empty() && arguments.allow_cycles && arguments.to != ExportFormat::vda5050)
@@ -102,21 +106,41 @@ Result<std::string> convert_to_actions(const ExportArguments& arguments,
   return export_planviz(*input.poses, checked->plan, verify(input.instance, checked->plan));
 }
 
+/// Why the plan cannot be written as samples.
+std::optional<Error> why_no_samples(const continuous::Instance& instance,
+                                    const continuous::Plan& plan, const SampleOptions& options) {
+  const auto units = [&](continuous::Ticks ticks) {
+    return continuous::in_input_units(ticks, instance.resolution());
+  };
+  double time = 0, last = 0;
+  for (const AgentId agent : instance.agent_ids()) {
+    time += continuous::in_input_units(cost(plan.paths[agent]), instance.resolution());
+    last = std::max(last, units(plan.paths[agent].back().arrive));
+  }
+  if (time * options.rate > kMaxSamples)
+    return Error{
+        ErrorCode::out_of_range, "more than 10 million samples; take a smaller --rate", {}};
+  if (options.format != ExportFormat::csv && last > kLastRosSecond)
+    return Error{ErrorCode::out_of_range,
+                 "the times of ROS end at 2147483647 seconds, and the plan later",
+                 {}};
+  return std::nullopt;
+}
+
 /// The text of the plan as samples, or as actions.
 Result<std::string> convert(const ExportArguments& arguments, const input::RoadmapInput& input) {
   if (arguments.to == ExportFormat::planviz) return convert_to_actions(arguments, input);
   const auto checked = read_checked(arguments, input);
   if (!checked) return checked.error();
-  const auto& [plan, order] = *checked;
   warn_of_durations(input);
-  const double rate = arguments.rate.value_or(kDefaultRate);
-  double time = 0;
-  for (const AgentId agent : input.instance.agent_ids())
-    time += continuous::in_input_units(cost(plan.paths[agent]), input.instance.resolution());
-  if (time * rate > kMaxSamples)
-    return Error{
-        ErrorCode::out_of_range, "more than 10 million samples; take a smaller --rate", {}};
-  return export_samples(input.instance, plan, *arguments.to, rate);
+  SampleOptions options{*arguments.to};
+  if (arguments.rate) options.rate = *arguments.rate;
+  if (arguments.ros) options.ros = static_cast<RosVersion>(*arguments.ros);
+  if (auto error = why_no_samples(input.instance, checked->plan, options)) return *std::move(error);
+  const auto robots = robot_names(input.names, input.instance.num_agents());
+  if (!robots) return Error{robots.error().code, robots.error().message, {input.task_source, 0}};
+  return export_samples(input.instance, input.poses ? &*input.poses : nullptr, checked->plan,
+                        *robots, options);
 }
 
 ExitCode release(const ExportArguments& arguments, const continuous::Instance& instance,

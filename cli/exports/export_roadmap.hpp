@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -20,7 +21,8 @@ struct ExportArguments {
   PlanFormats from;
   std::optional<ExportFormat> to;
   std::optional<double> rate;
-  std::string states;  ///< Messages of robots that go; empty: the orders at the start.
+  std::optional<std::int64_t> ros;  ///< Of RosVersion.
+  std::string states;               ///< Messages of robots that go; empty: the orders at the start.
   bool allow_cycles = false;
   std::string output = "-";
 };

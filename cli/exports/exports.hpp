@@ -4,11 +4,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "exports/naming.hpp"
+#include "exports/ros.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
-#include "quadrille/execution/precedences.hpp"
+#include "quadrille/continuous/pose_grid.hpp"
 
 namespace quadrille::cli {
 
@@ -23,29 +24,27 @@ enum class ExportFormat {
 };
 [[nodiscard]] std::optional<ExportFormat> parse_export_format(std::string_view text) noexcept;
 
-/// The plan at `rate` samples per unit of time, at both ends of each move, and at the end of the
-/// path. Not for vda5050 and planviz. Requires a valid plan.
-[[nodiscard]] std::string export_samples(const continuous::Instance& instance,
-                                         const continuous::Plan& plan, ExportFormat format,
-                                         double rate);
-/// One order per agent, in which what can be released at the start is released.
-[[nodiscard]] std::string export_orders(const continuous::Instance& instance,
-                                        const continuous::Plan& plan,
-                                        const execution::Precedences& order);
-
-/// How robots that follow the orders end up waiting for each other for ever: who waits where for
-/// whom, in the names of the orders, one line for each. Empty if all arrive.
-[[nodiscard]] std::vector<std::string> describe_lock_up(const execution::Precedences& order);
-
-/// What of an order has been released: the order begins with the node `first` of the path, and ends
-/// its base with the node `released`.
-struct OrderState {
-  std::uint32_t first = 0, released = 0, update = 0;
+/// How samples are taken and written.
+struct SampleOptions {
+  ExportFormat format = ExportFormat::csv;  ///< csv, multidof or path.
+  double rate = 10;                         ///< As in Sampler.
+  RosVersion ros = RosVersion::two;
 };
-/// One order of one agent, without the end of the line.
-[[nodiscard]] std::string export_order(const continuous::Instance& instance, AgentId agent,
-                                       const continuous::Path& path, const OrderState& state);
-/// The agent's serialNumber and orderId.
-[[nodiscard]] std::string order_name(AgentId agent);
+/// The plan at moments, see Sampler. `poses`: those that the instance is made of, or null;
+/// `robots`: their names. Requires a valid plan, and for messages one that ends by kLastRosSecond.
+[[nodiscard]] std::string export_samples(const continuous::Instance& instance,
+                                         const continuous::PoseGrid* poses,
+                                         const continuous::Plan& plan, const RobotNames& robots,
+                                         const SampleOptions& options);
+
+/// One JSON value per line, in a list.
+class JsonLines {
+ public:
+  void add(const std::string& value) { text_ += (text_.empty() ? "[\n" : ",\n") + value; }
+  [[nodiscard]] std::string text() const { return text_.empty() ? "[]\n" : text_ + "\n]\n"; }
+
+ private:
+  std::string text_;
+};
 
 }  // namespace quadrille::cli

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "exports/exports.hpp"
+#include "exports/orders.hpp"
 #include "quadrille/execution/releaser.hpp"
 
 namespace quadrille::cli {

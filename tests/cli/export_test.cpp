@@ -71,17 +71,70 @@ TEST_F(ExportTest, MessagesHaveTheFieldsOfRos) {
   EXPECT_EQ(multidof[1]["joint_names"], json({"agent1"}));
   const json& last = multidof[1]["points"].back();
   EXPECT_EQ(last["transforms"][0]["translation"], json({{"x", 1.0}, {"y", 1.0}, {"z", 0.0}}));
-  EXPECT_EQ(last["transforms"][0]["rotation"]["w"], 1.0);
   EXPECT_EQ(last["velocities"][0]["linear"]["y"], 0.0);
   const double arrive = plan_[1][1]["arrive"];
-  EXPECT_NEAR(last["time_from_start"]["secs"].get<double>() +
-                  last["time_from_start"]["nsecs"].get<double>() / 1e9,
-              arrive, 1e-9);
+  const auto seconds = [](const json& time, const char* whole, const char* nanoseconds) {
+    EXPECT_EQ(time.size(), 2u);
+    return time.at(whole).get<double>() + time.at(nanoseconds).get<double>() / 1e9;
+  };
+  EXPECT_NEAR(seconds(last["time_from_start"], "sec", "nanosec"), arrive, 1e-9);
   const json nav = json::parse(exported({"--to", "path", "--rate", "2"}));
   ASSERT_EQ(nav.size(), 2u);
   ASSERT_EQ(nav[0]["poses"].size(), multidof[0]["points"].size());
   EXPECT_EQ(nav[0]["poses"].back()["pose"]["position"]["x"], 2.0);
   EXPECT_EQ(nav[0]["poses"].back()["header"]["frame_id"], "map");
+  const json old = json::parse(exported({"--to", "path", "--rate", "2", "--ros", "1"}));
+  EXPECT_NEAR(seconds(old[1]["poses"].back()["header"]["stamp"], "secs", "nsecs"), arrive, 1e-9);
+}
+
+/// From east to south, by the map of a grid, on which y grows downwards, and back west.
+TEST_F(ExportTest, HeadingsAreAlongTheMoves) {
+  write("bend.json", R"({"quadrille": "instance", "version": 1, "roadmap": {
+    "vertices": [[0, 0], [2, 0], [2, 1]], "edges": [[0, 1], [1, 2], {"from": 2, "to": 0}]},
+    "agents": [{"start": 0, "goal": 0, "name": "forklift", "radius": 0.3}]})");
+  write("bend_plan.json", R"({"quadrille": "plan", "version": 1, "resolution": 0.000001, "plan": [[
+    {"vertex": 0, "arrive_ticks": 0, "depart_ticks": 1000000},
+    {"vertex": 1, "arrive_ticks": 3000000, "depart_ticks": 4000000},
+    {"vertex": 2, "arrive_ticks": 5000000, "depart_ticks": 5000000},
+    {"vertex": 0, "arrive_ticks": 7236068}]]})");
+  const auto exported_to = [&](const std::string& format) {
+    const Finished finished = run({"export", "--instance", path("bend.json"), "--rate", "0.0001",
+                                   "--to", format, path("bend_plan.json")});
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    return json::parse(finished.out)[0];
+  };
+  const json poses = exported_to("path")["poses"], multidof = exported_to("multidof");
+  EXPECT_EQ(multidof["joint_names"], json({"forklift"}));
+  const double back = std::atan2(-1, -2);
+  const std::vector<double> expected{0, 0, 0, std::acos(0.0), back, back};
+  ASSERT_EQ(poses.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    SCOPED_TRACE(k);
+    const json& orientation = poses[k]["pose"]["orientation"];
+    EXPECT_EQ(orientation["x"], 0.0);
+    EXPECT_EQ(orientation["y"], 0.0);
+    EXPECT_NEAR(orientation["z"].get<double>(), std::sin(expected[k] / 2), 1e-12);
+    EXPECT_NEAR(orientation["w"].get<double>(), std::cos(expected[k] / 2), 1e-12);
+    EXPECT_EQ(multidof["points"][k]["transforms"][0]["rotation"], orientation);
+  }
+}
+
+TEST_F(ExportTest, RosEndsIn2038) {
+  write("late.json", R"({"quadrille": "instance", "version": 1, "resolution":
+    {"length": 0.001, "time": 3000000000}, "roadmap": {
+    "vertices": [[0, 0], [1, 0]], "edges": [[0, 1, 3000000000]]},
+    "agents": [{"start": 0, "goal": 1, "radius": 0.3, "speed": 1e-9}]})");
+  write("late_plan.json", R"({"quadrille": "plan", "version": 1, "resolution":
+    {"length": 0.001, "time": 3000000000}, "plan": [[
+    {"vertex": 0, "arrive_ticks": 0, "depart_ticks": 0}, {"vertex": 1, "arrive_ticks": 1}]]})");
+  for (const char* const format : {"csv", "path", "multidof"}) {
+    const Finished finished = run({"export", "--instance", path("late.json"), "--rate", "1e-9",
+                                   "--to", format, path("late_plan.json")});
+    EXPECT_EQ(finished.code, format == std::string("csv") ? 0 : 65) << finished.err;
+    if (finished.code != 0) {
+      EXPECT_THAT(finished.err, HasSubstr("end at 2147483647 seconds"));
+    }
+  }
 }
 
 TEST_F(ExportTest, Heights) {
@@ -256,6 +309,8 @@ TEST_F(ExportTest, RefusesWhatItCannotDo) {
   };
   refuses(xml("export", {"--to", "vda5050", "--rate", "2"}), 64, "--rate belongs to samples");
   refuses(xml("export", {"--to", "csv", "--states", "-"}), 64, "--states belongs to");
+  refuses(xml("export", {"--to", "csv", "--ros", "1"}), 64, "--ros belongs to multidof and path");
+  refuses(xml("export", {"--to", "path", "--ros", "3"}), 64, "a whole number from 1 to 2");
   refuses(xml("export", {"--to", "vda5050", "--states", "-", "--output", path("x")}), 64,
           "orders go to standard output");
   refuses(xml("export", {"--to", "vda5050", "--states", path("none")}), 65, "cannot be read");

@@ -3,6 +3,7 @@
 // Robots that turn: --headings and --turn.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -67,6 +68,35 @@ TEST_F(TurningTest, AllThatReadsPlansKnowsThem) {
   EXPECT_EQ(run(turning("execute-check", {path("p.json")})).code, 0);
   EXPECT_EQ(run(turning("export", {"--to", "csv", path("p.json")})).code, 0);
   EXPECT_EQ(run(turning("info")).code, 0);
+}
+
+// Facing east, it turns to the right for two timesteps, goes down, and turns back.
+TEST_F(TurningTest, ExportsSayWhereRobotsFace) {
+  write("down.map", "type octile\nheight 2\nwidth 1\nmap\n.\n.\n");
+  write("down.scen", "version 1\n0\tdown.map\t1\t2\t0\t0\t0\t1\t1\n");
+  write("down.json", R"({"quadrille": "plan", "version": 1,
+    "resolution": {"length": 0.01, "time": 1}, "plan": [[
+    {"vertex": 0, "arrive_ticks": 0, "depart_ticks": 1},
+    {"vertex": 1, "arrive_ticks": 3, "depart_ticks": 3},
+    {"vertex": 5, "arrive_ticks": 4, "depart_ticks": 5},
+    {"vertex": 4, "arrive_ticks": 7}]]})");
+  const Finished finished =
+      run({"export", "--map", path("down.map"), "--scen", path("down.scen"), "--agents", "1",
+           "--headings", "4", "--turn", "2", "--to", "multidof", "--rate", "1", path("down.json")});
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const json points = json::parse(finished.out)[0]["points"];
+  // In eighths of a full turn, and per timestep.
+  const std::vector<int> facing{0, 0, 1, 2, 2, 2, 1, 0}, turning{0, 1, 1, 0, 0, -1, -1, 0};
+  ASSERT_EQ(points.size(), facing.size());
+  const double eighth = std::acos(0.0) / 2;
+  for (std::size_t k = 0; k < facing.size(); ++k) {
+    SCOPED_TRACE(k);
+    const json& rotation = points[k]["transforms"][0]["rotation"];
+    EXPECT_NEAR(rotation["z"].get<double>(), std::sin(facing[k] * eighth / 2), 1e-12);
+    EXPECT_NEAR(rotation["w"].get<double>(), std::cos(facing[k] * eighth / 2), 1e-12);
+    EXPECT_NEAR(points[k]["velocities"][0]["angular"]["z"].get<double>(), turning[k] * eighth,
+                1e-12);
+  }
 }
 
 TEST_F(TurningTest, AnInstanceFileIsTheSame) {
