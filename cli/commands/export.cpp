@@ -17,7 +17,7 @@ constexpr const char* kFooter =
     "\n"
     "Examples:\n"
     "  quadrille export --instance discs.json --to csv --rate 20 --output plan.csv plan.json\n"
-    "  quadrille export --instance discs.json --to vda5050 plan.json\n"
+    "  quadrille export --instance discs.json --to vda5050 --vda-version 2.1 plan.json\n"
     "  ... | quadrille export --instance discs.json --to vda5050 --states - plan.json | ...\n"
     "\n";
 
@@ -43,6 +43,25 @@ Subcommand add_export(CLI::App& program) {
   add_integer(*app, "--ros", arguments->ros, static_cast<std::int64_t>(RosVersion::one),
               static_cast<std::int64_t>(RosVersion::two),
               "With multidof and path: whose field names, of ROS 1 or 2; default 2");
+  add_choice<std::optional<VdaVersion>>(
+      *app, "--vda-version", arguments->vda_version, "2.0, 2.1 or 3.0",
+      +[](std::string_view text) -> std::optional<std::optional<VdaVersion>> {
+        const auto version = parse_vda_version(text);
+        if (!version) return std::nullopt;
+        return version;
+      },
+      "With vda5050: 2.0, 2.1 or 3.0 (default)")
+      ->type_name("VERSION");
+  add_input_file(*app, "--names", arguments->names,
+                 "With vda5050 and multidof: what agents, vertices, map and manufacturer are\n"
+                 "called, as JSON or YAML");
+  const auto read_order_id = [arguments](const std::string& text) {
+    if (text.empty()) refuse_value("--order-id", text, "a name");
+    arguments->order_id = text;
+  };
+  add_word(*app, "--order-id", read_order_id,
+           "With vda5050: what the ids of orders begin with, before the serial number of each\n"
+           "robot; default: they are the serial numbers");
   add_input_file(*app, "--states", arguments->states,
                  "States of robots, one JSON message per line: release orders as they go");
   app->add_flag("--allow-cycles", arguments->allow_cycles,

@@ -29,7 +29,8 @@ _quadrille() {
     --neighbourhood) values="2 3 4 5" ;;
     --headings) values="4" ;;
     --ros) values="1 2" ;;
-    --map | --scen | --instance | --roadmap | --task | --plan | --json | --proof | --initial-plan | --known-plan | --states | --output | --view | --svg | --map-output | \
+    --vda-version) values="2.0 2.1 3.0" ;;
+    --map | --scen | --instance | --roadmap | --task | --plan | --json | --proof | --initial-plan | --known-plan | --states | --names | --output | --view | --svg | --map-output | \
       --scen-output | --instance-output | --folder | --data)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
@@ -37,7 +38,7 @@ _quadrille() {
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
       --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
       --speed | --level | --vehicle-type | --resolution | --turn | --altitude | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
-      --longest | --slow | --period | --runs | --rate)
+      --longest | --slow | --period | --runs | --rate | --order-id)
       return
       ;;
   esac
@@ -77,7 +78,7 @@ _quadrille() {
         return
       fi
       ;;
-    export) options="$instance --to --from --rate --ros --states --allow-cycles --output" ;;
+    export) options="$instance --to --from --rate --ros --vda-version --names --order-id --states --allow-cycles --output" ;;
     execute-check) options="$instance --plan-format --json --quiet" ;;
     simulate)
       options="$instance --plan-format --json --quiet --rule --delays --longest --slow --period --runs --seed"

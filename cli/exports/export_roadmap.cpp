@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "asked/conversion.hpp"
-#include "exports/orders.hpp"
 #include "exports/planviz.hpp"
 #include "exports/releasing.hpp"
 #include "frame/arguments.hpp"
@@ -20,27 +19,52 @@ namespace {
 
 constexpr double kMaxSamples = 1e7;
 
+/// The options that belong to some formats only.
+std::string check_formats(const ExportArguments& arguments) {
+  const ExportFormat to = *arguments.to;
+  const bool is_ros = to == ExportFormat::multidof || to == ExportFormat::path;
+  const bool is_vda = to == ExportFormat::vda5050;
+  if (arguments.rate && is_vda) return "--rate belongs to samples; orders have none";
+  if (arguments.rate && to == ExportFormat::planviz)
+    return "--rate belongs to samples; planviz has one action per timestep";
+  if (arguments.ros && !is_ros) return "--ros belongs to multidof and path";
+  if (!arguments.names.empty() && !is_vda && to != ExportFormat::multidof)
+    return "--names belongs to vda5050 and multidof; the others have no names";
+  if (is_vda) return "";
+  if (arguments.vda_version) return "--vda-version belongs to --to vda5050";
+  if (!arguments.order_id.empty()) return "--order-id belongs to --to vda5050";
+  if (!arguments.states.empty()) return "--states belongs to --to vda5050";
+  if (arguments.allow_cycles)
+    return "--allow-cycles belongs to --to vda5050; samples have times, and nobody waits";
+  return "";
+}
+
 std::string check(const ExportArguments& arguments) {
   std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
   if (wrong.empty()) wrong = arguments.from.why_not_continuous("--from");
-  if (wrong.empty() && arguments.rate && arguments.to == ExportFormat::vda5050)
-    wrong = "--rate belongs to samples; orders have none";
-  if (wrong.empty() && arguments.rate && arguments.to == ExportFormat::planviz)
-    wrong = "--rate belongs to samples; planviz has one action per timestep";
-  const bool is_ros = arguments.to == ExportFormat::multidof || arguments.to == ExportFormat::path;
-  if (wrong.empty() && arguments.ros && !is_ros) wrong = "--ros belongs to multidof and path";
-  if (wrong.empty() && !arguments.states.empty() && arguments.to != ExportFormat::vda5050)
-    wrong = "--states belongs to --to vda5050";
-  if (wrong.empty() && arguments.allow_cycles && arguments.to != ExportFormat::vda5050)
-    wrong = "--allow-cycles belongs to --to vda5050; samples have times, and nobody waits";
+  if (wrong.empty()) wrong = check_formats(arguments);
   if (wrong.empty() && !arguments.states.empty() && arguments.output != "-")
     wrong = "with --states orders go to standard output, as robots go";
   if (wrong.empty())
-    wrong = check_outputs(
-        {{"--output", &arguments.output}},
-        {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
-         &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan, &arguments.states});
+    wrong = check_outputs({{"--output", &arguments.output}},
+                          {&arguments.input.map, &arguments.input.scen, &arguments.input.instance,
+                           &arguments.roadmap.roadmap, &arguments.roadmap.task, &arguments.plan,
+                           &arguments.states, &arguments.names});
   return wrong;
+}
+
+const continuous::PoseGrid* poses_or_null(const input::RoadmapInput& input) {
+  return input.poses ? &*input.poses : nullptr;
+}
+
+/// What agents and vertices are called: as the file of --names says, else as the instance does.
+Result<Naming> naming(const ExportArguments& arguments, const input::RoadmapInput& input) {
+  Naming own;
+  own.names = input.names;
+  own.source = input.task_source;
+  if (arguments.names.empty()) return own;
+  return read_naming(arguments.names, std::move(own), input.instance.num_agents(),
+                     input.instance.roadmap().num_vertices());
 }
 
 struct Checked {
@@ -75,8 +99,9 @@ Result<Checked> read_checked(const ExportArguments& arguments, const input::Road
 
 /// Says it on stderr if robots that have to wait for each other's moves to end would do so for
 /// ever. Whether the orders may be given all the same.
-bool may_lock_up(const ExportArguments& arguments, const execution::Precedences& order) {
-  const auto lines = describe_lock_up(order);
+bool may_lock_up(const ExportArguments& arguments, const execution::Precedences& order,
+                 const OrderNames& names) {
+  const auto lines = describe_lock_up(order, names);
   if (lines.empty()) return true;
   const Error what{ErrorCode::invalid_plan, "with these orders robots wait for ever", {}};
   Error located = what;
@@ -137,14 +162,15 @@ Result<std::string> convert(const ExportArguments& arguments, const input::Roadm
   if (arguments.rate) options.rate = *arguments.rate;
   if (arguments.ros) options.ros = static_cast<RosVersion>(*arguments.ros);
   if (auto error = why_no_samples(input.instance, checked->plan, options)) return *std::move(error);
-  const auto robots = robot_names(input.names, input.instance.num_agents());
-  if (!robots) return Error{robots.error().code, robots.error().message, {input.task_source, 0}};
-  return export_samples(input.instance, input.poses ? &*input.poses : nullptr, checked->plan,
-                        *robots, options);
+  const auto named = naming(arguments, input);
+  if (!named) return named.error();
+  const auto robots = robot_names(named->names, input.instance.num_agents());
+  if (!robots) return Error{robots.error().code, robots.error().message, {named->source, 0}};
+  return export_samples(input.instance, poses_or_null(input), checked->plan, *robots, options);
 }
 
-ExitCode release(const ExportArguments& arguments, const continuous::Instance& instance,
-                 const Checked& checked) {
+ExitCode release(const ExportArguments& arguments, const OrderWriter& writer,
+                 const execution::Precedences& order) {
   std::ifstream states(arguments.states);
   if (!states) {
     report_error({ErrorCode::io, "cannot be read", {arguments.states, 0}});
@@ -156,8 +182,7 @@ ExitCode release(const ExportArguments& arguments, const continuous::Instance& i
     failure = write_stdout(text);
     return failure == 0;
   };
-  const auto error = release_orders(instance, checked.plan, checked.order, states, arguments.states,
-                                    take, report_warning);
+  const auto error = release_orders(writer, order, states, arguments.states, take, report_warning);
   if (failure != 0) {
     report_write_failure("-", failure);
     return ExitCode::output;
@@ -165,6 +190,30 @@ ExitCode release(const ExportArguments& arguments, const continuous::Instance& i
   if (!error) return ExitCode::success;
   report_error(*error);
   return ExitCode::bad_input;
+}
+
+Result<OrderNames> names_in_orders(const ExportArguments& arguments,
+                                   const input::RoadmapInput& input, const continuous::Plan& plan) {
+  const auto named = naming(arguments, input);
+  if (!named) return named.error();
+  return order_names(*named, plan, input.instance.roadmap().num_vertices(), arguments.order_id);
+}
+
+ExitCode write_orders(const ExportArguments& arguments, const OutputFile& output,
+                      const input::RoadmapInput& input, const Checked& checked) {
+  auto names = names_in_orders(arguments, input, checked.plan);
+  if (!names) {
+    report_error(names.error());
+    return ExitCode::bad_input;
+  }
+  warn_of_durations(input);
+  if (!may_lock_up(arguments, checked.order, *names)) return ExitCode::violations;
+  const OrderWriter writer(input.instance, poses_or_null(input), checked.plan,
+                           std::move(names).value(),
+                           arguments.vda_version.value_or(VdaVersion::v3_0));
+  if (!arguments.states.empty()) return release(arguments, writer, checked.order);
+  return write_or_report(output, writer.orders(checked.order)) ? ExitCode::success
+                                                               : ExitCode::output;
 }
 
 /// Writes the orders once, or again and again as robots go.
@@ -180,11 +229,7 @@ ExitCode give_orders(const ExportArguments& arguments) {
     report_error(checked.error());
     return ExitCode::bad_input;
   }
-  warn_of_durations(*input);
-  if (!may_lock_up(arguments, checked->order)) return ExitCode::violations;
-  if (!arguments.states.empty()) return release(arguments, input->instance, *checked);
-  const std::string text = export_orders(input->instance, checked->plan, checked->order);
-  return write_or_report(*output, text) ? ExitCode::success : ExitCode::output;
+  return write_orders(arguments, *output, *input, *checked);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "exports/exports.hpp"
+#include "exports/orders.hpp"
 #include "frame/exit_codes.hpp"
 #include "frame/input_options.hpp"
 #include "frame/option_parser.hpp"
@@ -22,7 +23,10 @@ struct ExportArguments {
   std::optional<ExportFormat> to;
   std::optional<double> rate;
   std::optional<std::int64_t> ros;  ///< Of RosVersion.
-  std::string states;               ///< Messages of robots that go; empty: the orders at the start.
+  std::optional<VdaVersion> vda_version;
+  std::string names;     ///< A file for read_naming.
+  std::string order_id;  ///< Empty: as robots are called.
+  std::string states;    ///< Messages of robots that go; empty: the orders at the start.
   bool allow_cycles = false;
   std::string output = "-";
 };

@@ -3,11 +3,109 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
 
+#include "quadrille/input/source.hpp"
+#include "quadrille/text/document.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::cli {
+namespace {
+
+using text::Document;
+
+Error wrong_names(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+
+class NamingReader {
+ public:
+  NamingReader(const Document& document, Naming naming)
+      : document_(document), check_(document), naming_(std::move(naming)) {}
+
+  Result<Naming> run(std::size_t num_agents, std::size_t num_vertices) {
+    std::optional<Document::Node> manufacturer, map, agents, vertices;
+    if (!check_.members(Document::kRoot, {{"manufacturer", &manufacturer, false},
+                                          {"map", &map, false},
+                                          {"agents", &agents, false},
+                                          {"vertices", &vertices, false}}) ||
+        !read_text(manufacturer, naming_.manufacturer) || !read_text(map, naming_.map) ||
+        !read_agents(agents, num_agents) || !read_vertices(vertices, num_vertices))
+      return check_.error();
+    return std::move(naming_);
+  }
+
+ private:
+  bool read_text(const std::optional<Document::Node>& node, std::string& name) {
+    std::optional<std::string> read;
+    if (!node) return true;
+    if (!text::read_name(check_, document_, *node, read)) return false;
+    name = *read;
+    return !name.empty() || check_.fail(*node, "the name is empty");
+  }
+  bool read_agents(const std::optional<Document::Node>& node, std::size_t num_agents) {
+    if (!node) return true;
+    auto& agents = naming_.names.agents;
+    agents.clear();
+    if (!text::read_names(check_, document_, *node, agents)) return false;
+    return agents.size() <= num_agents ||
+           check_.fail(*node, ErrorCode::invalid_instance,
+                       fmt::format("{} names, but {} agents", agents.size(), num_agents));
+  }
+  bool read_vertices(const std::optional<Document::Node>& node, std::size_t num_vertices) {
+    if (!node) return true;
+    naming_.names.vertices.clear();
+    return text::read_vertex_names(check_, document_, *node, num_vertices, naming_.names.vertices);
+  }
+
+  const Document& document_;
+  text::Checker check_;
+  Naming naming_;
+};
+
+/// A text without its quotes; what else is a name as it stands.
+std::string node_name(const text::Names& names, VertexId v) {
+  if (v.index() >= names.vertices.size()) return fmt::format("v{}", v.value());
+  const std::string& name = names.vertices[v.index()];
+  return name.starts_with('"') ? nlohmann::json::parse(name).get<std::string>() : name;
+}
+
+bool is_serial_number(const std::string& text) {
+  const auto is_part = [](unsigned char c) {
+    return c < 0x80 &&
+           (std::isalnum(c) != 0 ||
+            std::string_view("_.:-").find(static_cast<char>(c)) != std::string_view::npos);
+  };
+  return !text.empty() && std::all_of(text.begin(), text.end(), is_part);
+}
+
+/// Of the vertices that the plan goes to.
+Result<IdVector<VertexId, std::string>> node_names(const text::Names& names,
+                                                   const continuous::Plan& plan,
+                                                   std::size_t num_vertices) {
+  IdVector<VertexId, std::string> nodes(num_vertices);
+  std::map<std::string, VertexId> known;
+  for (const continuous::Path& path : plan.paths)
+    for (const continuous::Stop& stop : path) {
+      const VertexId v = stop.vertex;
+      if (!nodes[v].empty()) continue;
+      nodes[v] = node_name(names, v);
+      if (nodes[v].empty())
+        return wrong_names(fmt::format("the name of vertex {} is empty", v.value()));
+      const auto [other, is_new] = known.emplace(nodes[v], v);
+      if (!is_new)
+        return wrong_names(fmt::format("vertices {} and {} are both called {}",
+                                       other->second.value(), v.value(),
+                                       text::in_quotes(nodes[v])));
+    }
+  return nodes;
+}
+
+}  // namespace
 
 Result<RobotNames> robot_names(const text::Names& names, std::size_t num_agents) {
   RobotNames robots;
@@ -17,12 +115,49 @@ Result<RobotNames> robot_names(const text::Names& names, std::size_t num_agents)
     robots.push_back(given != nullptr ? *given : fmt::format("agent{}", agent.value()));
     const auto [other, is_new] = known.emplace(robots[agent], agent);
     if (!is_new)
-      return Error{ErrorCode::invalid_instance,
-                   fmt::format("agents {} and {} are both called {}", other->second.value(),
-                               agent.value(), text::in_quotes(robots[agent])),
-                   {}};
+      return wrong_names(fmt::format("agents {} and {} are both called {}", other->second.value(),
+                                     agent.value(), text::in_quotes(robots[agent])));
   }
   return robots;
+}
+
+Result<Naming> read_naming(const std::string& file, Naming own, std::size_t num_agents,
+                           std::size_t num_vertices) {
+  const auto text = input::read_text(file);
+  if (!text) return text.error();
+  const std::size_t begin = text->find_first_not_of(" \t\r\n");
+  const bool is_json = begin != std::string::npos && (*text)[begin] == '{';
+  const auto document = is_json ? text::parse_json(*text, file) : text::parse_yaml(*text, file);
+  if (!document) return document.error();
+  own.source = file;
+  return NamingReader(*document, std::move(own)).run(num_agents, num_vertices);
+}
+
+Result<OrderNames> order_names(const Naming& naming, const continuous::Plan& plan,
+                               std::size_t num_vertices, const std::string& order) {
+  OrderNames names;
+  names.manufacturer = naming.manufacturer;
+  names.map = naming.map;
+  auto robots = robot_names(naming.names, plan.paths.size());
+  auto nodes = node_names(naming.names, plan, num_vertices);
+  std::optional<Error> wrong;
+  if (!robots) wrong = robots.error();
+  if (!wrong && !nodes) wrong = nodes.error();
+  if (wrong) {
+    wrong->where.file = naming.source;
+    return *std::move(wrong);
+  }
+  names.robots = std::move(robots).value();
+  names.nodes = std::move(nodes).value();
+  for (const std::string& robot : names.robots) {
+    if (!is_serial_number(robot))
+      return Error{ErrorCode::invalid_instance,
+                   text::in_quotes(robot) +
+                       " is no serial number of VDA 5050: A-Z a-z 0-9 _ . : - (--names has others)",
+                   {naming.source, 0}};
+    names.orders.push_back(order.empty() ? robot : order + "-" + robot);
+  }
+  return names;
 }
 
 }  // namespace quadrille::cli

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 
+#include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/text/names.hpp"
@@ -15,5 +17,31 @@ using RobotNames = IdVector<AgentId, std::string>;
 /// Those of the names, "agent3" where there is none. Error (invalid_instance, without a file): two
 /// are called alike.
 [[nodiscard]] Result<RobotNames> robot_names(const text::Names& names, std::size_t num_agents);
+
+/// Names that whoever receives an export has for things.
+struct Naming {
+  text::Names names;
+  std::string manufacturer = "quadrille", map = "map";
+  std::string source;  ///< The file that says so, for errors.
+};
+/// Those of a file of `--names`, JSON or YAML (docs/formats-of-others.md), in place of `own`. A
+/// list of agents or vertices that is there replaces the other one as a whole. Errors with file and
+/// line: those of text::parse_json and text::read_all; syntax and invalid_instance for another
+/// form, for more names than there are agents or vertices, and vertices that are called alike.
+[[nodiscard]] Result<Naming> read_naming(const std::string& file, Naming own,
+                                         std::size_t num_agents, std::size_t num_vertices);
+
+/// The names in the orders of a plan.
+struct OrderNames {
+  RobotNames robots, orders;
+  IdVector<VertexId, std::string> nodes;  ///< Of vertices that the plan goes to; of others empty.
+  std::string manufacturer, map;
+};
+/// `order`: the beginning of the ids of orders, which are followed by the robot; empty: they are
+/// the names of the robots. Errors (invalid_instance): names of robots that are no serial numbers
+/// of VDA 5050 (A-Z a-z 0-9 _ . : -), empty names, two robots or two places of the plan that are
+/// called alike. Linear in the plan and the vertices.
+[[nodiscard]] Result<OrderNames> order_names(const Naming& naming, const continuous::Plan& plan,
+                                             std::size_t num_vertices, const std::string& order);
 
 }  // namespace quadrille::cli

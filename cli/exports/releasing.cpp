@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "exports/orders.hpp"
 #include "quadrille/execution/releaser.hpp"
 
 namespace quadrille::cli {
@@ -69,10 +68,9 @@ class Leftovers {
 
 class Releasing {
  public:
-  Releasing(const continuous::Instance& instance, const continuous::Plan& plan,
-            const execution::Precedences& order, const TakeOrder& take)
-      : instance_(instance),
-        plan_(plan),
+  Releasing(const OrderWriter& writer, const execution::Precedences& order, const TakeOrder& take)
+      : writer_(writer),
+        order_(order),
         take_(take),
         releaser_(order),
         ended_(order.num_agents(), 0),
@@ -80,7 +78,7 @@ class Releasing {
 
   void start() {
     (void)releaser_.take_news();
-    for (const AgentId i : instance_.agent_ids()) send(i);
+    for (const AgentId i : agent_ids()) send(i);
   }
 
   /// What there is to say of the line; an error: the robot went on without release.
@@ -104,7 +102,7 @@ class Releasing {
     if (!has_text("orderId")) return broken("a state has a text 'orderId'");
     const std::string order = state["orderId"];
     if (order.empty()) return std::optional<PassedOver>();  // Not yet, or no more, on its way.
-    if (order != order_name(*agent))
+    if (order != writer_.names().orders[*agent])
       return std::optional(PassedOver{
           Foreign::order, "'" + name + "' follows the order '" + order + "' of somebody else"});
     if (!state.contains("lastNodeSequenceId") || !state["lastNodeSequenceId"].is_number_unsigned())
@@ -129,15 +127,16 @@ class Releasing {
     std::uint32_t updates = 0, released = 0;
   };
 
+  [[nodiscard]] IdRange<AgentId> agent_ids() const { return IdRange<AgentId>(order_.num_agents()); }
   [[nodiscard]] std::optional<AgentId> find(const std::string& name) const {
-    for (const AgentId i : instance_.agent_ids())
-      if (order_name(i) == name) return i;
+    for (const AgentId i : agent_ids())
+      if (writer_.names().robots[i] == name) return i;
     return std::nullopt;
   }
 
   [[nodiscard]] bool all_arrived() const {
-    for (const AgentId i : instance_.agent_ids())
-      if (ended_[i] + 1 < plan_.paths[i].size()) return false;
+    for (const AgentId i : agent_ids())
+      if (ended_[i] < order_.moves[i].size()) return false;
     return true;
   }
 
@@ -152,15 +151,14 @@ class Releasing {
     if (!is_read_) return;
     Sent& sent = sent_[agent];
     const std::uint32_t released = releaser_.released(agent);
-    const std::string text =
-        export_order(instance_, agent, plan_.paths[agent], {sent.released, released, sent.updates});
+    const std::string text = writer_.order(agent, {sent.released, released, sent.updates});
     ++sent.updates;
     sent.released = released;
     is_read_ = take_(text + "\n");
   }
 
-  const continuous::Instance& instance_;
-  const continuous::Plan& plan_;
+  const OrderWriter& writer_;
+  const execution::Precedences& order_;
   const TakeOrder& take_;
   execution::Releaser releaser_;
   IdVector<AgentId, std::uint32_t> ended_;
@@ -170,12 +168,10 @@ class Releasing {
 
 }  // namespace
 
-std::optional<Error> release_orders(const continuous::Instance& instance,
-                                    const continuous::Plan& plan,
-                                    const execution::Precedences& order, std::istream& states,
-                                    const std::string& file, const TakeOrder& take,
-                                    const TakeWarning& warn) {
-  Releasing releasing(instance, plan, order, take);
+std::optional<Error> release_orders(const OrderWriter& writer, const execution::Precedences& order,
+                                    std::istream& states, const std::string& file,
+                                    const TakeOrder& take, const TakeWarning& warn) {
+  Releasing releasing(writer, order, take);
   Leftovers leftovers(file, warn);
   releasing.start();
   std::string line;

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "quadrille/continuous/plan.hpp"
+#include "exports/orders.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/execution/precedences.hpp"
 
@@ -28,8 +28,7 @@ using TakeWarning = std::function<void(const Error&)>;
 /// the first one of each kind at once, and of all together at the end. States that are older than
 /// known, and those of robots without any order, are passed over in silence. Error (with `file` and
 /// line): a node that the robot had no release for.
-[[nodiscard]] std::optional<Error> release_orders(const continuous::Instance& instance,
-                                                  const continuous::Plan& plan,
+[[nodiscard]] std::optional<Error> release_orders(const OrderWriter& writer,
                                                   const execution::Precedences& order,
                                                   std::istream& states, const std::string& file,
                                                   const TakeOrder& take, const TakeWarning& warn);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "cli/roadmap_support.hpp"
@@ -173,6 +174,110 @@ TEST_F(ExportTest, OrdersReleaseTheLeaderOnly) {
   EXPECT_NEAR(orders[0]["edges"][0]["maximumSpeed"].get<double>(), 1, 1e-9);
 }
 
+TEST_F(ExportTest, VersionsOfOrders) {
+  const json newest = json::parse(exported({"--to", "vda5050"}));
+  EXPECT_EQ(newest[0]["version"], "3.0.0");
+  EXPECT_EQ(json::parse(exported({"--to", "vda5050", "--vda-version", "3.0"})), newest);
+  for (const std::string version : {"2.0", "2.1"}) {
+    json older = json::parse(exported({"--to", "vda5050", "--vda-version", version}));
+    for (std::size_t i = 0; i < older.size(); ++i) {
+      EXPECT_EQ(older[i]["version"], version + ".0");
+      older[i]["version"] = "3.0.0";
+      json& edge = older[i]["edges"][0];
+      EXPECT_EQ(edge["startNodeId"], older[i]["nodes"][0]["nodeId"]);
+      EXPECT_EQ(edge["endNodeId"], older[i]["nodes"][1]["nodeId"]);
+      edge["maximumSpeed"] = edge["maxSpeed"];
+      for (const char* const key : {"startNodeId", "endNodeId", "maxSpeed"}) edge.erase(key);
+    }
+    EXPECT_EQ(older, newest);
+  }
+}
+
+TEST_F(ExportTest, OrdersCallThingsByTheirNames) {
+  // Those of the roadmap and of the instance.
+  const std::string numbered = read("map.xml");
+  write("map.xml", std::regex_replace(numbered, std::regex("\"n([0-3])"), "\"dock-$1"));
+  const json by_ids = json::parse(exported({"--to", "vda5050"}));
+  EXPECT_EQ(by_ids[1]["nodes"][0]["nodeId"], "dock-2");
+  EXPECT_EQ(by_ids[1]["edges"][0]["edgeId"], "dock-2-dock-3");
+  EXPECT_EQ(by_ids[1]["serialNumber"], "agent1");
+  EXPECT_EQ(by_ids[1]["orderId"], "agent1");
+  EXPECT_EQ(by_ids[1]["manufacturer"], "quadrille");
+  write("map.xml", numbered);
+  ASSERT_EQ(run(xml("convert", {"--to", "json", "--output", path("i.json")})).code, 0);
+  json instance = json::parse(read("i.json"));
+  instance["agents"][1]["name"] = "AGV_1:b";
+  instance["roadmap"]["names"] = {"dock", 7, {1, "a"}};
+  write("i.json", instance.dump());
+  const auto exported_from = [&](const std::vector<std::string>& more) {
+    return run(std::vector<std::string>{"export", "--instance", path("i.json"), "--to", "vda5050"} +
+               more + std::vector<std::string>{path("plan.json")});
+  };
+  json orders = json::parse(exported_from({}).out);
+  EXPECT_EQ(orders[1]["serialNumber"], "AGV_1:b");
+  EXPECT_EQ(orders[1]["nodes"][0]["nodeId"], "[1, \"a\"]");
+  EXPECT_EQ(orders[1]["nodes"][1]["nodeId"], "v3");
+  EXPECT_EQ(orders[0]["edges"][0]["edgeId"], "dock-7");
+
+  // Those that the user gives, in place of them.
+  write("names.json",
+        R"({"manufacturer": "ACME", "map": "hall 2", "agents": [null, "r2"], "vertices": ["a"]})");
+  write("names.yaml", "manufacturer: ACME\nmap: hall 2\nagents: [null, r2]\nvertices:\n- a\n");
+  for (const char* const file : {"names.json", "names.yaml"}) {
+    const Finished finished =
+        exported_from({"--names", path(file), "--order-id", "shift-7", "--vda-version", "2.1"});
+    ASSERT_EQ(finished.code, 0) << finished.err;
+    orders = json::parse(finished.out);
+    EXPECT_EQ(orders[0]["serialNumber"], "agent0");
+    EXPECT_EQ(orders[1]["serialNumber"], "r2");
+    EXPECT_EQ(orders[1]["orderId"], "shift-7-r2");
+    EXPECT_EQ(orders[1]["manufacturer"], "ACME");
+    EXPECT_EQ(orders[0]["nodes"][0]["nodeId"], "a");
+    EXPECT_EQ(orders[0]["edges"][0]["endNodeId"], "v1");
+    EXPECT_EQ(orders[0]["nodes"][0]["nodePosition"]["mapId"], "hall 2");
+  }
+  // States name robots and orders in the same way.
+  const std::string leader = orders[0]["edges"][0]["released"] == true ? "agent0" : "r2";
+  write("states",
+        json{{"serialNumber", leader}, {"orderId", "shift-7-" + leader}, {"lastNodeSequenceId", 2}}
+                .dump() +
+            "\n");
+  const Finished released = exported_from(
+      {"--names", path("names.json"), "--order-id", "shift-7", "--states", path("states")});
+  EXPECT_EQ(released.code, 0) << released.err;
+  EXPECT_EQ(std::count(released.out.begin(), released.out.end(), '\n'), 3) << released.err;
+  const Finished multidof =
+      run(xml("export", {"--to", "multidof", "--names", path("names.json"), path("plan.json")}));
+  ASSERT_EQ(multidof.code, 0) << multidof.err;
+  EXPECT_EQ(json::parse(multidof.out)[1]["joint_names"], json({"r2"}));
+}
+
+TEST_F(ExportTest, RefusesNamesThatAreNone) {
+  const auto refuses = [&](const std::string& names, const std::string& why) {
+    write("names.json", names);
+    const Finished finished =
+        run(xml("export", {"--to", "vda5050", "--names", path("names.json"), path("plan.json")}));
+    EXPECT_EQ(finished.code, 65) << names;
+    EXPECT_EQ(finished.out, "");
+    EXPECT_THAT(finished.err, testing::AllOf(HasSubstr("names.json"), HasSubstr(why))) << names;
+  };
+  refuses("[]", "expected an object");
+  refuses(R"({"robots": []})", "robots");
+  refuses(R"({"map": ""})", "the name is empty");
+  refuses(R"({"agents": ["a", "b", "c"]})", "3 names, but 2 agents");
+  refuses(R"({"agents": ["a", "a"]})", "agents 0 and 1 are both called 'a'");
+  refuses(R"({"agents": ["agent1"]})", "agents 0 and 1 are both called 'agent1'");
+  refuses(R"({"agents": ["a b"]})", "'a b' is no serial number of VDA 5050");
+  refuses(R"({"agents": [""]})", "'' is no serial number");
+  refuses("{\"agents\": [\"r\u00e9\"]}", "is no serial number");
+  refuses(R"({"vertices": ["a", "b", "c", "d", "e"]})", "there are only 4 vertices");
+  refuses(R"({"vertices": ["a", "a"]})", "another vertex has this name");
+  refuses(R"({"vertices": ["v1"]})", "vertices 0 and 1 are both called 'v1'");
+  refuses(R"({"vertices": [1, "1"]})", "vertices 0 and 1 are both called '1'");
+  refuses(R"({"vertices": [""]})", "the name of vertex 0 is empty");
+  refuses("{\"map\":\n", "names.json:");
+}
+
 TEST_F(ExportTest, UpdatesReleaseWhatTheLeaderHasLeft) {
   const json orders = json::parse(exported({"--to", "vda5050"}));
   const std::string first = orders[0]["edges"][0]["released"] == true ? "agent0" : "agent1";
@@ -315,6 +420,12 @@ TEST_F(ExportTest, RefusesWhatItCannotDo) {
           "orders go to standard output");
   refuses(xml("export", {"--to", "vda5050", "--states", path("none")}), 65, "cannot be read");
   refuses(xml("export", {"--to", "csv", "--allow-cycles"}), 64, "--allow-cycles belongs to");
+  refuses(xml("export", {"--to", "csv", "--vda-version", "2.0"}), 64, "--vda-version belongs to");
+  refuses(xml("export", {"--to", "vda5050", "--vda-version", "2"}), 64, "2.0, 2.1 or 3.0");
+  refuses(xml("export", {"--to", "path", "--order-id", "a"}), 64, "--order-id belongs to");
+  refuses(xml("export", {"--to", "vda5050", "--order-id", ""}), 64, "is not a name");
+  refuses(xml("export", {"--to", "path", "--names", path("map.xml")}), 64, "--names belongs to");
+  refuses(xml("export", {"--to", "vda5050", "--names", path("none")}), 65, "none");
   refuses(xml("export", {"--to", "bag"}), 64, "csv, multidof, path, vda5050 or planviz");
   refuses(xml("export", {"--to", "csv", "--rate", "1e12"}), 65, "more than 10 million samples");
   refuses(small("export", {"--to", "csv"}), 64, "export is for plans on roadmaps");

@@ -97,6 +97,14 @@ TEST_F(TurningTest, ExportsSayWhereRobotsFace) {
     EXPECT_NEAR(points[k]["velocities"][0]["angular"]["z"].get<double>(), turning[k] * eighth,
                 1e-12);
   }
+  const Finished orders =
+      run({"export", "--map", path("down.map"), "--scen", path("down.scen"), "--agents", "1",
+           "--headings", "4", "--turn", "2", "--to", "vda5050", path("down.json")});
+  ASSERT_EQ(orders.code, 0) << orders.err;
+  std::vector<double> thetas;
+  const json order = json::parse(orders.out)[0];
+  for (const json& node : order["nodes"]) thetas.push_back(node["nodePosition"]["theta"]);
+  EXPECT_EQ(thetas, (std::vector<double>{0, 2 * eighth, 2 * eighth, 0}));
 }
 
 TEST_F(TurningTest, AnInstanceFileIsTheSame) {

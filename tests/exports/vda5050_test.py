@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Orders of `quadrille export --to vda5050` against a schema of the message, and against the
-precedences that `quadrille execute-check` lists.
+"""Orders of `quadrille export --to vda5050` against a schema of the message in each version, and against
+the precedences that `quadrille execute-check` lists.
 
 usage: vda5050_test.py <quadrille> <schema>
 """
@@ -41,9 +41,34 @@ def check_order(order, precedences, agent):
         assert edge["edgeId"] == f"v{move['from']}-v{move['to']}"
 
 
+def in_version(order, version):
+    """An order of 3.0 as the other versions have it."""
+    names = [node["nodeId"] for node in order["nodes"]]
+    edges = [dict(edge) for edge in order["edges"]]
+    for edge, start, end in zip(edges, names, names[1:]):
+        if version.startswith("2"):
+            edge.update(startNodeId=start, endNodeId=end, maxSpeed=edge.pop("maximumSpeed"))
+    return {**order, "version": version + ".0", "edges": edges}
+
+
+def check_versions(orders, exported):
+    """`exported`: what is written with these arguments."""
+    for version in ("2.0", "2.1", "3.0"):
+        assert exported("--vda-version", version) == [in_version(order, version) for order in orders]
+        for order in orders:
+            validator.validate(in_version(order, version))
+            other = {**order, "version": "2.1.0"} if version == "3.0" else {
+                **in_version(order, version), "version": "3.0.0"}
+            assert not order["edges"] or not validator.is_valid(other), "fields of another version"
+
+
 def check_refusals(order):
     """The schema is one that can fail."""
+    position = order["nodes"][0]["nodePosition"]
     for broken in (
+        {**order, "version": "1.1.0"},
+        {**order, "serialNumber": "a robot"},
+        {**order, "nodes": [{**order["nodes"][0], "nodePosition": {**position, "theta": 3.2}}]},
         {**order, "orderUpdateId": -1},
         {**order, "nodes": []},
         {key: value for key, value in order.items() if key != "edges"},
@@ -69,6 +94,7 @@ with tempfile.TemporaryDirectory() as folder:
             export.append("--allow-cycles")
         orders = json.loads(run(*export, plan))
         assert len(orders) == 8
+        check_versions(orders, lambda *more: json.loads(run(*export, *more, plan)))
         for agent, order in enumerate(orders):
             check_order(order, precedences, agent)
             check_refusals(order)
