@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "asked/given_plan.hpp"
 #include "frame/arguments.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
 #include "quadrille/input/attribution.hpp"
@@ -33,28 +34,6 @@ input::ReadVertex reader_of_vertices(const discrete::Graph& graph) {
   };
 }
 
-/// The file of the plan, which may be a pipe.
-class GivenPlan {
- public:
-  explicit GivenPlan(const ViewArguments& arguments) : arguments_(arguments) {}
-
-  const Result<std::string>& text() {
-    if (!text_) text_ = input::read_text(arguments_.plan);
-    return *text_;
-  }
-  /// `where`: a graph or an instance.
-  template <class Where>
-  Result<discrete::PlanFile> read(const Where& where) {
-    if (!text()) return text().error();
-    std::istringstream in(*text());
-    return discrete::read_plan(in, arguments_.plan, where, arguments_.format.discrete);
-  }
-
- private:
-  const ViewArguments& arguments_;
-  std::optional<Result<std::string>> text_;
-};
-
 }  // namespace
 
 ExitCode view_grid(const CLI::App& app, const ViewArguments& arguments) {
@@ -66,21 +45,26 @@ ExitCode view_grid(const CLI::App& app, const ViewArguments& arguments) {
 
   std::optional<Attribution> attribution;
   Objective objective = Objective::sum_of_costs;
-  GivenPlan plan(arguments);
+  GivenPlan plan(arguments.plan);
+  // `where`: a graph or an instance.
+  const auto read_for = [&](const auto& where) -> Result<discrete::PlanFile> {
+    if (!plan.text()) return plan.text().error();
+    std::istringstream in(*plan.text());
+    return discrete::read_plan(in, plan.file(), where, arguments.format.discrete);
+  };
   const auto load = [&]() -> Result<input::GridInput> {
     auto input = load_grid_input(arguments.input);
     if (!input || !is_map_alone(arguments.input)) return input;
-    const auto file = plan.read(input->instance.graph());
+    const auto file = read_for(input->instance.graph());
     if (!file) return file.error();
     return with_agents_of(*std::move(input), file->plan, arguments.plan);
   };
   const auto read = [&](const input::GridInput& input) -> Result<discrete::PlanFile> {
-    const auto& text = plan.text();
-    if (!text) return text.error();
-    auto file = plan.read(input.instance);
+    auto file = read_for(input.instance);
     if (!file) return file;
-    const auto found = input::read_attribution(*text, arguments.plan, input.instance.num_agents(),
-                                               reader_of_vertices(input.instance.graph()));
+    const auto found =
+        input::read_attribution(*plan.text(), arguments.plan, input.instance.num_agents(),
+                                reader_of_vertices(input.instance.graph()));
     if (!found) return found.error();
     attribution = *found;
     objective = file->stated.objective;

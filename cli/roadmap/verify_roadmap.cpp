@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "roadmap/verify_roadmap.hpp"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "frame/arguments.hpp"
-#include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "roadmap/opinion_report.hpp"
+#include "roadmap/roadmap_plan.hpp"
 #include "roadmap/roadmap_report.hpp"
 #include "roadmap/roadmap_text.hpp"
 
@@ -62,19 +61,19 @@ class RoadmapVerdict {
 }  // namespace
 
 ExitCode verify_roadmap(const CLI::App& app, const VerifyArguments& arguments) {
-  std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
+  std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::plan);
   if (wrong.empty()) wrong = arguments.format.why_not_continuous("--plan-format");
   if (wrong.empty()) wrong = check_verify_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 
-  const auto input = load_roadmap_input(arguments.roadmap, arguments.input);
+  RoadmapPlan given(arguments.roadmap, arguments.input, arguments.plan,
+                    arguments.format.continuous);
+  const auto input = given.load();
   if (!input) {
     report_error(input.error());
     return ExitCode::bad_input;
   }
-  const std::filesystem::path path(arguments.plan);
-  const auto file = continuous::read_plan(path, input->instance, input->grid_or_null(),
-                                          arguments.format.continuous);
+  const auto file = given.read(*input);
   if (!file) {
     report_error(file.error());
     return ExitCode::bad_input;

@@ -3,13 +3,12 @@
 
 #include <filesystem>
 #include <optional>
-#include <sstream>
 
 #include "frame/arguments.hpp"
-#include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/input/attribution.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
+#include "roadmap/roadmap_plan.hpp"
 
 namespace quadrille::cli {
 
@@ -28,22 +27,21 @@ input::ReadVertex reader_of_vertices(const continuous::Roadmap& roadmap) {
 }  // namespace
 
 ExitCode view_roadmap(const CLI::App& app, const ViewArguments& arguments) {
-  std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::tasks);
+  std::string wrong = check_roadmap_options(arguments.roadmap, arguments.input, Need::plan);
   if (wrong.empty()) wrong = arguments.format.why_not_continuous("--plan-format");
   if (wrong.empty()) wrong = check_view_outputs(arguments);
   if (!wrong.empty()) return usage_error(app, wrong);
 
   std::optional<Attribution> attribution;
   Objective objective = Objective::sum_of_costs;
+  RoadmapPlan given(arguments.roadmap, arguments.input, arguments.plan,
+                    arguments.format.continuous);
   const auto read = [&](const input::RoadmapInput& input) -> Result<continuous::PlanFile> {
-    const auto text = input::read_text(arguments.plan);
-    if (!text) return text.error();
-    std::istringstream in(*text);
-    auto file = continuous::read_plan(in, arguments.plan, input.instance, input.grid_or_null(),
-                                      arguments.format.continuous);
+    auto file = given.read(input);
     if (!file) return file;
-    const auto found = input::read_attribution(*text, arguments.plan, input.instance.num_agents(),
-                                               reader_of_vertices(input.instance.roadmap()));
+    const auto found =
+        input::read_attribution(*given.text(), arguments.plan, input.instance.num_agents(),
+                                reader_of_vertices(input.instance.roadmap()));
     if (!found) return found.error();
     attribution = *found;
     objective = file->stated.objective;
@@ -60,8 +58,7 @@ ExitCode view_roadmap(const CLI::App& app, const ViewArguments& arguments) {
     return view::picture(input.instance, plan, arguments.picture.options, input.cells_or_null());
   };
   return view_and_write(
-      arguments, [&] { return load_roadmap_input(arguments.roadmap, arguments.input); }, read, page,
-      draw);
+      arguments, [&] { return given.load(); }, read, page, draw);
 }
 
 }  // namespace quadrille::cli

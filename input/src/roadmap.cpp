@@ -18,6 +18,7 @@
 #include "quadrille/input/robot_runners.hpp"
 #include "quadrille/text/sniff.hpp"
 #include "quadrille/text/text_input.hpp"
+#include "roadmap_numbers.hpp"
 #include "shared_goals.hpp"
 
 namespace quadrille::input {
@@ -84,27 +85,6 @@ std::optional<Error> check_cells(const InputOptions& input, const OccupancyGrid&
 }
 
 Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
-
-/// What all agents have in common.
-struct Numbers {
-  double resolution;
-  continuous::Length radius;
-  continuous::Speed speed;
-};
-
-Result<Numbers> quantise(const RoadmapOptions& options) {
-  const double resolution = options.resolution.value_or(continuous::kDefaultResolution);
-  const auto radius =
-      continuous::quantise_radius(options.radius.value_or(kDefaultRadius), resolution);
-  if (!radius)
-    return out_of_range("--radius: " + decimal(options.radius.value_or(kDefaultRadius)) +
-                        " is less than one length unit, or too large");
-  const auto speed = continuous::quantise_speed(options.speed.value_or(1), resolution);
-  if (!speed)
-    return out_of_range("--speed: " + decimal(options.speed.value_or(1)) +
-                        " is not between 0.000001 and 1000000");
-  return Numbers{resolution, *radius, *speed};
-}
 
 Result<RoadmapInput> read_instance(const InputOptions& input) {
   std::istringstream in(*input.instance_text);
@@ -220,6 +200,20 @@ Result<RoadmapInput> read_robot_problem(const InputOptions& input) {
 }
 
 }  // namespace
+
+Result<Numbers> quantise(const RoadmapOptions& options) {
+  const double resolution = options.resolution.value_or(continuous::kDefaultResolution);
+  const auto radius =
+      continuous::quantise_radius(options.radius.value_or(kDefaultRadius), resolution);
+  if (!radius)
+    return out_of_range("--radius: " + decimal(options.radius.value_or(kDefaultRadius)) +
+                        " is less than one length unit, or too large");
+  const auto speed = continuous::quantise_speed(options.speed.value_or(1), resolution);
+  if (!speed)
+    return out_of_range("--speed: " + decimal(options.speed.value_or(1)) +
+                        " is not between 0.000001 and 1000000");
+  return Numbers{resolution, *radius, *speed};
+}
 
 bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
   if (!input.instance.empty()) {
