@@ -36,7 +36,7 @@ Subcommand add_convert(CLI::App& program) {
   add_roadmap_options(*app, arguments->roadmap);
   add_input_file(*app, "PLAN", arguments->plan, "Plan file");
   add_plan_format(*app, "--to", arguments->to,
-                  "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs")
+                  "json, cbsh2, lns2, visualizer, lacam or yaml, for roadmaps json or ccbs")
       ->required();
   add_plan_format(*app, "--from", arguments->from,
                   "Format of PLAN; default: by what the file says");

@@ -15,8 +15,8 @@ void add_execution_options(CLI::App& app, ExecutionArguments& arguments) {
   add_roadmap_options(app, arguments.roadmap);
   add_input_file(app, "PLAN", arguments.plan, "Plan file")->required();
   add_plan_format(app, "--plan-format", arguments.format,
-                  "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs; default: by what\n"
-                  "the file says");
+                  "json, cbsh2, lns2, visualizer, lacam or yaml, for roadmaps json or ccbs;\n"
+                  "default: by what the file says");
   add_file(app, "--json", arguments.json, "Write the report as JSON; - is standard output");
   app.add_flag("--quiet", arguments.quiet, "Print nothing but errors and what is asked for");
 }

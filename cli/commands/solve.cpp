@@ -158,8 +158,8 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
   add_file(app, "--plan", arguments.plan, "Write the plan to a file; - is standard output")
       ->group(group);
   add_plan_format(app, "--plan-format", arguments.plan_format,
-                  "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs; default: by the\n"
-                  "name of the file, else json")
+                  "json, cbsh2, lns2, visualizer, lacam or yaml, for roadmaps json or ccbs;\n"
+                  "default: by the name of the file, else json")
       ->group(group);
   add_seconds(app, "--plan-every", arguments.plan_every,
               "Write each better plan to the file of --plan, at most once in this time")

@@ -33,8 +33,8 @@ Subcommand add_verify(CLI::App& program) {
   add_roadmap_options(*app, arguments->roadmap);
   add_input_file(*app, "PLAN", arguments->plan, "Plan file")->required();
   add_plan_format(*app, "--plan-format", arguments->format,
-                  "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs; default: by what\n"
-                  "the file says");
+                  "json, cbsh2, lns2, visualizer, lacam or yaml, for roadmaps json or ccbs;\n"
+                  "default: by what the file says");
   add_check_with(*app, arguments->check_with);
   add_file(*app, "--json", arguments->json, "Write the verdict as JSON; - is standard output");
   app->add_flag("--quiet", arguments->quiet, "Print nothing but errors; the exit code says it");

@@ -41,8 +41,8 @@ Subcommand add_view(CLI::App& program) {
   add_roadmap_options(*app, arguments->roadmap);
   add_input_file(*app, "PLAN", arguments->plan, "Plan file, valid or not")->required();
   add_plan_format(*app, "--plan-format", arguments->format,
-                  "json, cbsh2, visualizer or yaml, for roadmaps json or ccbs; default: by what\n"
-                  "the file says");
+                  "json, cbsh2, lns2, visualizer, lacam or yaml, for roadmaps json or ccbs;\n"
+                  "default: by what the file says");
   add_file(*app, "--output", arguments->output,
            "Where to write the page; default - is standard output, or nowhere with --svg");
   add_picture_options(*app, arguments->picture, "Pictures");

@@ -19,10 +19,10 @@ _quadrille() {
     --backtracking) values="chronological jump" ;;
     --mdd-growth) values="on-demand full" ;;
     --to)
-      values="json cbsh2 visualizer yaml ccbs"
+      values="json cbsh2 lns2 visualizer lacam yaml ccbs"
       if [[ $command == export ]]; then values="csv multidof path vda5050 planviz"; fi
       ;;
-    --plan-format | --from) values="json cbsh2 visualizer yaml ccbs" ;;
+    --plan-format | --from) values="json cbsh2 lns2 visualizer lacam yaml ccbs" ;;
     --svg-kind) values="map space-time waits" ;;
     --kind) values="empty random maze room warehouse roadmap" ;;
     --rule) values="naive gated coupled" ;;

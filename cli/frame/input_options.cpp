@@ -119,7 +119,8 @@ CLI::Option* add_plan_format(CLI::App& app, const std::string& name, PlanFormats
                              const std::string& help) {
   const auto read = [&formats, name](const std::string& text) {
     formats = {discrete::parse_plan_format(text), continuous::parse_plan_format(text)};
-    if (!formats.is_given()) refuse_value(name, text, "json, cbsh2, visualizer, yaml or ccbs");
+    if (!formats.is_given())
+      refuse_value(name, text, "json, cbsh2, lns2, visualizer, lacam, yaml or ccbs");
   };
   return app.add_option_function<std::string>(name, read, help)->type_name("FORMAT");
 }

@@ -312,8 +312,8 @@ class Fleet(Generic[P]):
 
         Args:
             file: Its name.
-            format: "json", "cbsh2", "visualizer" or "yaml", on roadmaps "json" or "ccbs"; by
-                default the contents decide.
+            format: "json", "cbsh2", "lns2", "visualizer", "lacam" or "yaml", on roadmaps "json" or
+                "ccbs"; by default the contents decide.
 
         Raises:
             InputError: with file, line and reason.

@@ -142,9 +142,9 @@ class Plan:
 
         Args:
             file: Its name.
-            format: "json", "cbsh2", "visualizer" or "yaml", on roadmaps "json" or "ccbs"; by
-                default the name decides (.json, .yaml, .yml, on roadmaps .json, .xml), and a name
-                without an ending is JSON.
+            format: "json", "cbsh2", "lns2", "visualizer", "lacam" or "yaml", on roadmaps "json" or
+                "ccbs"; by default the name decides (.json, .yaml, .yml, on roadmaps .json, .xml),
+                and a name without an ending is JSON.
 
         Raises:
             FileError: if it cannot be written.

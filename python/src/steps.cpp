@@ -235,14 +235,15 @@ py::tuple verify_steps(const Instance& instance, const Plan& plan) {
 std::optional<discrete::PlanFormat> format_of(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
   const auto format = discrete::parse_plan_format(*name);
-  if (!format) refuse("format: '" + *name + "' is not json, cbsh2, visualizer or yaml");
+  if (!format)
+    refuse("format: '" + *name + "' is not json, cbsh2, lns2, visualizer, lacam or yaml");
   return format;
 }
 
 void save_plan(const Plan& plan, const Instance& instance, const std::filesystem::path& path,
                const std::optional<std::string>& name) {
   const auto format = format_for(path, format_of(name), discrete::plan_format_of(path),
-                                 "json, cbsh2, visualizer or yaml");
+                                 "json, cbsh2, lns2, visualizer, lacam or yaml");
   save(path, [&](std::ostream& out) {
     return write_plan(out, path.string(), instance.graph(), plan, format);
   });

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 using RoundTripTest = CliTest;
 
-constexpr const char* kFormats[] = {"json", "cbsh2", "visualizer", "yaml"};
+constexpr const char* kFormats[] = {"json", "cbsh2", "lns2", "visualizer", "lacam", "yaml"};
 
 TEST_F(RoundTripTest, VerifyAcceptsThePlanOfSolveInEveryFormat) {
   for (const std::string format : kFormats) {

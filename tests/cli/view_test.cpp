@@ -30,7 +30,7 @@ TEST_F(ViewTest, SolveAndViewMakeThePageOfEachFormat) {
   EXPECT_EQ(solved["status"], "optimal");
   EXPECT_EQ(solved["sumOfCosts"], 8);
   EXPECT_EQ(solved["agents"].size(), 3u);
-  for (const char* format : {"json", "cbsh2", "visualizer", "yaml"}) {
+  for (const char* format : {"json", "cbsh2", "lns2", "visualizer", "lacam", "yaml"}) {
     SCOPED_TRACE(format);
     ASSERT_EQ(run(small("convert", {"--to", format, "--output", path("p"), path("p.json")})).code,
               0);

@@ -14,7 +14,7 @@ namespace quadrille::discrete {
 namespace {
 
 bool needs_grid(PlanFormat format) {
-  return format == PlanFormat::cbsh2 || format == PlanFormat::visualizer;
+  return format != PlanFormat::json && format != PlanFormat::yaml;
 }
 
 Error no_grid(PlanFormat format, const std::string& file) {
@@ -45,8 +45,12 @@ std::string_view to_string(PlanFormat format) noexcept {
       return "json";
     case PlanFormat::cbsh2:
       return "cbsh2";
+    case PlanFormat::lns2:
+      return "lns2";
     case PlanFormat::visualizer:
       return "visualizer";
+    case PlanFormat::lacam:
+      return "lacam";
     case PlanFormat::yaml:
       return "yaml";
   }
@@ -54,8 +58,7 @@ std::string_view to_string(PlanFormat format) noexcept {
 }
 
 std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept {
-  for (const PlanFormat format :
-       {PlanFormat::json, PlanFormat::cbsh2, PlanFormat::visualizer, PlanFormat::yaml})
+  for (const PlanFormat format : kPlanFormats)
     if (text == to_string(format)) return format;
   return std::nullopt;
 }
@@ -68,7 +71,7 @@ PlanFormat detect_plan_format(std::string_view text) {
   if (text.front() == '{') return PlanFormat::json;
   if (text.front() >= '0' && text.front() <= '9') return PlanFormat::visualizer;
   if (text.starts_with("Agent ")) return PlanFormat::cbsh2;
-  if (text::sniff(text) == text::FileKind::lacam_result) return PlanFormat::visualizer;
+  if (text::sniff(text) == text::FileKind::lacam_result) return PlanFormat::lacam;
   return PlanFormat::yaml;
 }
 
@@ -116,9 +119,12 @@ Result<PlanFile> read_any_plan(std::istream& in, const std::string& file, const 
     case PlanFormat::json:
       return read_json_plan(*text, file, graph);
     case PlanFormat::cbsh2:
+    case PlanFormat::lns2:
       return read_cbsh2_plan(*text, file, graph);
     case PlanFormat::visualizer:
       return read_visualizer_plan(*text, file, graph);
+    case PlanFormat::lacam:
+      return read_lacam_plan(*text, file, graph);
     case PlanFormat::yaml:
       return read_yaml_plan(*text, file, graph);
   }
@@ -170,10 +176,16 @@ std::optional<Error> write_plan(std::ostream& out, const std::string& file, cons
       write_json_plan(out, graph, plan);
       break;
     case PlanFormat::cbsh2:
-      write_cbsh2_plan(out, graph, plan);
+      write_cbsh2_plan(out, graph, plan, ": ");
+      break;
+    case PlanFormat::lns2:
+      write_cbsh2_plan(out, graph, plan, ":");
       break;
     case PlanFormat::visualizer:
       write_visualizer_plan(out, graph, plan);
+      break;
+    case PlanFormat::lacam:
+      write_lacam_plan(out, graph, plan);
       break;
     case PlanFormat::yaml:
       write_yaml_plan(out, graph, plan);

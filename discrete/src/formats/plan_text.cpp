@@ -258,6 +258,11 @@ class VisualizerReader final : LinePlanReader {
   Ends starts_, goals_;
 };
 
+void write_place(std::ostream& out, const Graph& graph, VertexId v) {
+  const Cell cell = graph.layout()->cell_of(v);
+  out << '(' << cell.x << ',' << cell.y << "),";
+}
+
 }  // namespace
 
 Result<PlanFile> read_cbsh2_plan(const std::string& text, const std::string& file,
@@ -271,11 +276,17 @@ Result<PlanFile> read_visualizer_plan(const std::string& text, const std::string
   return VisualizerReader(text, file, graph).run(has_header);
 }
 
-void write_cbsh2_plan(std::ostream& out, const Graph& graph, const Plan& plan) {
+Result<PlanFile> read_lacam_plan(const std::string& text, const std::string& file,
+                                 const Graph& graph) {
+  return VisualizerReader(text, file, graph).run(true);
+}
+
+void write_cbsh2_plan(std::ostream& out, const Graph& graph, const Plan& plan,
+                      std::string_view colon) {
   // An empty line tells the plan for no agents from a file that could not be written.
   if (plan.paths.empty()) out << '\n';
   for (std::size_t i = 0; i < plan.paths.size(); ++i) {
-    out << "Agent " << i << ": ";
+    out << "Agent " << i << colon;
     for (const VertexId v : plan.paths[AgentId(i)]) {
       const Cell cell = graph.layout()->cell_of(v);
       out << '(' << cell.y << ',' << cell.x << ")->";
@@ -289,13 +300,21 @@ void write_visualizer_plan(std::ostream& out, const Graph& graph, const Plan& pl
   for (const Path& path : plan.paths) length = std::max(length, path.size());
   for (std::size_t t = 0; t < length; ++t) {
     out << t << ':';
-    for (const Path& path : plan.paths) {
-      const Cell cell = graph.layout()->cell_of(path[std::min(t, path.size() - 1)]);
-      out << '(' << cell.x << ',' << cell.y << "),";
-    }
+    for (const Path& path : plan.paths) write_place(out, graph, path[std::min(t, path.size() - 1)]);
     out << '\n';
     if (!out) return;
   }
+}
+
+void write_lacam_plan(std::ostream& out, const Graph& graph, const Plan& plan) {
+  out << "agents=" << plan.paths.size()
+      << "\nsolver=quadrille\nsolved=1\nsoc=" << plan.cost(Objective::sum_of_costs)
+      << "\nmakespan=" << plan.cost(Objective::makespan) << "\nstarts=";
+  for (const Path& path : plan.paths) write_place(out, graph, path.front());
+  out << "\ngoals=";
+  for (const Path& path : plan.paths) write_place(out, graph, path.back());
+  out << "\nsolution=\n";
+  write_visualizer_plan(out, graph, plan);
 }
 
 }  // namespace quadrille::discrete

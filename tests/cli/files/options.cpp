@@ -57,7 +57,7 @@ Words draw_search(Random& random, const Input& input, bool has_json) {
 std::vector<std::string> plan_formats(const Input& input) {
   if (input.in_time) return {"json", "ccbs"};
   if (!input.has_cells) return {"json", "yaml"};
-  return {"json", "cbsh2", "visualizer", "yaml"};
+  return {"json", "cbsh2", "lns2", "visualizer", "lacam", "yaml"};
 }
 
 Words draw_picture(Random& random, const Input& input) {

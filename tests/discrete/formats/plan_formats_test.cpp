@@ -6,9 +6,6 @@
 namespace quadrille::discrete {
 namespace {
 
-constexpr PlanFormat kAllFormats[] = {PlanFormat::json, PlanFormat::cbsh2, PlanFormat::visualizer,
-                                      PlanFormat::yaml};
-
 Graph small_graph() { return read_map(testing::data("valid/small.map")).value().graph(); }
 
 Plan small_plan() {
@@ -26,7 +23,7 @@ std::string written(const Graph& graph, const Plan& plan, PlanFormat format) {
 }
 
 TEST(PlanFormats, HaveNames) {
-  for (const PlanFormat format : kAllFormats)
+  for (const PlanFormat format : kPlanFormats)
     EXPECT_EQ(parse_plan_format(to_string(format)), format);
   EXPECT_EQ(parse_plan_format("JSON"), std::nullopt);
 }
@@ -42,8 +39,24 @@ TEST(PlanFormats, AreRecognisedByTheirFirstCharacters) {
   EXPECT_EQ(plan_format_of("b.txt"), std::nullopt);
 }
 
+TEST(PlanFormats, OneCanBeReadAsAnother) {
+  for (const auto& [from, to] : {std::pair(PlanFormat::cbsh2, PlanFormat::lns2),
+                                 std::pair(PlanFormat::lns2, PlanFormat::cbsh2),
+                                 std::pair(PlanFormat::lacam, PlanFormat::visualizer)}) {
+    std::istringstream in(written(small_graph(), small_plan(), from));
+    const auto again = read_plan(in, "f", small_graph(), to);
+    ASSERT_TRUE(again.has_value()) << again.error().to_string();
+    EXPECT_EQ(again->plan, small_plan());
+  }
+  // A result has a header.
+  std::istringstream in(written(small_graph(), small_plan(), PlanFormat::visualizer));
+  EXPECT_FALSE(read_plan(in, "f", small_graph(), PlanFormat::lacam).has_value());
+  EXPECT_EQ(detect_plan_format(written(small_graph(), small_plan(), PlanFormat::lacam)),
+            PlanFormat::lacam);
+}
+
 TEST(PlanFormats, APlanForNoAgentsIsReadBack) {
-  for (const PlanFormat format : kAllFormats) {
+  for (const PlanFormat format : kPlanFormats) {
     const std::string text = written(small_graph(), {}, format);
     EXPECT_FALSE(text.empty());
     for (const std::optional<PlanFormat> named :
@@ -96,6 +109,12 @@ TEST(PlanFormats, AreWrittenAsDocumented) {
             testing::text_of(testing::data("valid/plan.cbsh2")));
   EXPECT_EQ(written(graph, small_plan(), PlanFormat::visualizer),
             testing::text_of(testing::data("valid/plan.visualizer")));
+  EXPECT_EQ(written(graph, small_plan(), PlanFormat::lns2),
+            "Agent 0:(0,0)->(0,1)->\nAgent 1:(0,3)->(1,3)->\n");
+  EXPECT_EQ(written(graph, small_plan(), PlanFormat::lacam),
+            "agents=2\nsolver=quadrille\nsolved=1\nsoc=2\nmakespan=1\n"
+            "starts=(0,0),(3,0),\ngoals=(1,0),(3,1),\nsolution=\n" +
+                testing::text_of(testing::data("valid/plan.visualizer")));
   EXPECT_EQ(written(graph, small_plan(), PlanFormat::json),
             testing::text_of(testing::data("valid/plan.json")));
   EXPECT_EQ(written(graph, {{Path{VertexId(1)}}}, PlanFormat::yaml),
@@ -110,8 +129,10 @@ TEST(PlanFormats, WhatIsWrittenIsReadBack) {
     const Graph graph =
         seed % 4 == 0 ? Graph::make(5, {}).value() : random_map(5, 4, 0.3, seed).value().graph();
     const Plan plan = testing::random_plan(graph, seed % 5, seed);
-    for (const PlanFormat format : kAllFormats) {
-      const bool lines = format == PlanFormat::cbsh2 || format == PlanFormat::visualizer;
+    for (const PlanFormat format : kPlanFormats) {
+      const bool has_header = format == PlanFormat::lacam;
+      const bool is_stretched = has_header || format == PlanFormat::visualizer;
+      const bool lines = format != PlanFormat::json && format != PlanFormat::yaml;
       std::stringstream file;
       const auto error = write_plan(file, "out", graph, plan, format);
       if (lines && !graph.layout()) {
@@ -123,15 +144,15 @@ TEST(PlanFormats, WhatIsWrittenIsReadBack) {
       auto again = read_plan(file, "out", graph, format);
       ASSERT_TRUE(again.has_value()) << again.error().to_string() << '\n' << file.str();
       Plan expected = plan;
-      if (format == PlanFormat::visualizer) {
+      if (is_stretched) {
         trim(expected);
         trim(again.value().plan);
       }
       EXPECT_EQ(again->plan, expected) << file.str();
-      if (format == PlanFormat::json || format == PlanFormat::yaml) {
+      if (has_header || !lines) {
         EXPECT_EQ(again->stated.sum_of_costs, plan.cost(Objective::sum_of_costs));
       }
-      if (format == PlanFormat::yaml) {
+      if (has_header || format == PlanFormat::yaml) {
         EXPECT_EQ(again->stated.makespan, plan.cost(Objective::makespan));
       }
     }
@@ -139,7 +160,7 @@ TEST(PlanFormats, WhatIsWrittenIsReadBack) {
 }
 
 TEST(PlanFormats, PlansWithoutPlaceAreNotWritten) {
-  for (const PlanFormat format : kAllFormats)
+  for (const PlanFormat format : kPlanFormats)
     for (const Plan& plan : {Plan{{Path{}}}, Plan{{Path{VertexId(0), VertexId(10)}}}}) {
       std::ostringstream out;
       const auto error = write_plan(out, "out", small_graph(), plan, format);
@@ -158,7 +179,7 @@ TEST(PlanFormats, LineFormatsNeedAGridToRead) {
 }
 
 TEST(PlanFormats, WritersReportAFullDisk) {
-  for (const PlanFormat format : kAllFormats)
+  for (const PlanFormat format : kPlanFormats)
     testing::expect_reports_full_disk([&](std::ostream& out) {
       return write_plan(out, "out", small_graph(), small_plan(), format);
     });

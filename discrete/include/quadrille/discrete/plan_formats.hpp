@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
@@ -24,14 +25,19 @@ namespace quadrille::discrete {
 enum class PlanFormat {
   json,        ///< This project's JSON: a plan, or the result of a solve.
   cbsh2,       ///< `Agent 0: (row,column)->(row,column)->`; grids only.
+  lns2,        ///< The same as MAPF-LNS2 writes it, without the blank; either is read as the other.
   visualizer,  ///< `0:(x,y),(x,y),`, one line per timestep; grids only. Also read behind the header
                ///< of a result of lacam.
+  lacam,       ///< A result of lacam: that, behind the header.
   yaml,        ///< libMultiRobotPlanning's `schedule`.
 };
+inline constexpr std::array kPlanFormats{PlanFormat::json,  PlanFormat::cbsh2,
+                                         PlanFormat::lns2,  PlanFormat::visualizer,
+                                         PlanFormat::lacam, PlanFormat::yaml};
 [[nodiscard]] std::string_view to_string(PlanFormat format) noexcept;  ///< "json" | "cbsh2" | ...
 [[nodiscard]] std::optional<PlanFormat> parse_plan_format(std::string_view text) noexcept;
 /// Guesses from the first characters that are not white space: `{` is json, a digit visualizer,
-/// `Agent ` cbsh2, the header of a result of lacam visualizer, anything else yaml.
+/// `Agent ` cbsh2, the header of a result of lacam lacam, anything else yaml.
 [[nodiscard]] PlanFormat detect_plan_format(std::string_view text);
 /// .json, .yaml and .yml; other extensions mean nothing.
 [[nodiscard]] std::optional<PlanFormat> plan_format_of(const std::filesystem::path& path);
@@ -62,7 +68,7 @@ struct PlanFile {
                                          std::optional<PlanFormat> format = std::nullopt);
 
 /// Writes a plan, with its costs where the format has a place for them. Reading it back gives an
-/// equal plan; visualizer and only visualizer extends all paths to the longest one. Errors: io;
+/// equal plan, but visualizer and lacam extend all paths to the longest one. Errors: io;
 /// invalid_plan if a path is empty, a vertex does not belong to the graph, the format needs a grid,
 /// or the plan begins later than at 0, which json alone can say, or not at 0 .. kMaxNow.
 [[nodiscard]] std::optional<Error> write_plan(std::ostream& out, const std::string& file,
