@@ -80,11 +80,17 @@ TEST_F(TurningTest, ExportsSayWhereRobotsFace) {
     {"vertex": 1, "arrive_ticks": 3, "depart_ticks": 3},
     {"vertex": 5, "arrive_ticks": 4, "depart_ticks": 5},
     {"vertex": 4, "arrive_ticks": 7}]]})");
-  const Finished finished =
-      run({"export", "--map", path("down.map"), "--scen", path("down.scen"), "--agents", "1",
-           "--headings", "4", "--turn", "2", "--to", "multidof", "--rate", "1", path("down.json")});
-  ASSERT_EQ(finished.code, 0) << finished.err;
-  const json points = json::parse(finished.out)[0]["points"];
+  const auto exported_to = [&](const std::string& format, const std::string& plan) {
+    std::vector<std::string> words{
+        "export",   "--map", path("down.map"), "--scen",  path("down.scen"),
+        "--agents", "1",     "--headings",     "4",       "--turn",
+        "2",        "--to",  format,           path(plan)};
+    if (format == "multidof") words.insert(words.end(), {"--rate", "1"});
+    const Finished finished = run(words);
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    return json::parse(finished.out)[0];
+  };
+  const json points = exported_to("multidof", "down.json")["points"];
   // In eighths of a full turn, and per timestep.
   const std::vector<int> facing{0, 0, 1, 2, 2, 2, 1, 0}, turning{0, 1, 1, 0, 0, -1, -1, 0};
   ASSERT_EQ(points.size(), facing.size());
@@ -97,14 +103,26 @@ TEST_F(TurningTest, ExportsSayWhereRobotsFace) {
     EXPECT_NEAR(points[k]["velocities"][0]["angular"]["z"].get<double>(), turning[k] * eighth,
                 1e-12);
   }
-  const Finished orders =
-      run({"export", "--map", path("down.map"), "--scen", path("down.scen"), "--agents", "1",
-           "--headings", "4", "--turn", "2", "--to", "vda5050", path("down.json")});
-  ASSERT_EQ(orders.code, 0) << orders.err;
+  const json order = exported_to("vda5050", "down.json");
   std::vector<double> thetas;
-  const json order = json::parse(orders.out)[0];
   for (const json& node : order["nodes"]) thetas.push_back(node["nodePosition"]["theta"]);
   EXPECT_EQ(thetas, (std::vector<double>{0, 2 * eighth, 2 * eighth, 0}));
+
+  // To the left by way of north: west is half a turn to either side.
+  write("left.json", R"({"quadrille": "plan", "version": 1,
+    "resolution": {"length": 0.01, "time": 1}, "plan": [[
+    {"vertex": 0, "arrive_ticks": 0, "depart_ticks": 0},
+    {"vertex": 3, "arrive_ticks": 2, "depart_ticks": 2},
+    {"vertex": 2, "arrive_ticks": 4}]]})");
+  write("down.scen", "version 1\n0\tdown.map\t1\t2\t0\t0\t0\t0\t0\n");
+  const json left = exported_to("multidof", "left.json")["points"];
+  ASSERT_EQ(left.size(), 5u);
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    SCOPED_TRACE(k);
+    const json& rotation = left[k]["transforms"][0]["rotation"];
+    EXPECT_NEAR(rotation["w"].get<double>(), std::cos(static_cast<double>(k) * eighth / 2), 1e-12);
+    EXPECT_NEAR(left[k]["velocities"][0]["angular"]["z"].get<double>(), k < 4 ? -eighth : 0, 1e-12);
+  }
 }
 
 TEST_F(TurningTest, AnInstanceFileIsTheSame) {
