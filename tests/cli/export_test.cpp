@@ -88,10 +88,10 @@ TEST_F(ExportTest, MessagesHaveTheFieldsOfRos) {
   EXPECT_NEAR(seconds(old[1]["poses"].back()["header"]["stamp"], "secs", "nsecs"), arrive, 1e-9);
 }
 
-/// From east to south, by the map of a grid, on which y grows downwards, and back west.
+/// It waits, goes along y, waits, goes along x and back.
 TEST_F(ExportTest, HeadingsAreAlongTheMoves) {
   write("bend.json", R"({"quadrille": "instance", "version": 1, "roadmap": {
-    "vertices": [[0, 0], [2, 0], [2, 1]], "edges": [[0, 1], [1, 2], {"from": 2, "to": 0}]},
+    "vertices": [[0, 0], [0, 2], [1, 2]], "edges": [[0, 1], [1, 2], [2, 0]]},
     "agents": [{"start": 0, "goal": 0, "name": "forklift", "radius": 0.3}]})");
   write("bend_plan.json", R"({"quadrille": "plan", "version": 1, "resolution": 0.000001, "plan": [[
     {"vertex": 0, "arrive_ticks": 0, "depart_ticks": 1000000},
@@ -106,8 +106,8 @@ TEST_F(ExportTest, HeadingsAreAlongTheMoves) {
   };
   const json poses = exported_to("path")["poses"], multidof = exported_to("multidof");
   EXPECT_EQ(multidof["joint_names"], json({"forklift"}));
-  const double back = std::atan2(-1, -2);
-  const std::vector<double> expected{0, 0, 0, std::acos(0.0), back, back};
+  const double along_y = std::acos(0.0), back = std::atan2(-2, -1);
+  const std::vector<double> expected{along_y, along_y, along_y, 0, back, back};
   ASSERT_EQ(poses.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
     SCOPED_TRACE(k);
