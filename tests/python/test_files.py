@@ -102,7 +102,8 @@ def formats_of(fleet):
     if isinstance(fleet.graph, q.Roadmap):
         return [(None, ".json"), (None, ".xml"), (None, ""), ("json", ".txt"), ("ccbs", ""), ("ccbs", ".json")]
     found = [(None, ".json"), (None, ".yaml"), (None, ".yml"), (None, ""), ("yaml", ".json"), ("json", ".csv")]
-    return found + ([("cbsh2", ".txt"), ("visualizer", "")] if isinstance(fleet.graph, q.Grid) else [])
+    of_grids = [("cbsh2", ".txt"), ("lns2", ""), ("visualizer", ""), ("lacam", "")]
+    return found + (of_grids if isinstance(fleet.graph, q.Grid) else [])
 
 
 def test_what_is_saved_is_read(tmp_path):
