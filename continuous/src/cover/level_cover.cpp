@@ -38,25 +38,21 @@ std::pair<CoverLeaf, CoverLeaf> split(CoverLeaf leaf) {
 }  // namespace
 
 LevelCover::LevelCover(IdVector<AgentId, Cost> free_costs)
-    : free_costs_(std::move(free_costs)), costs_(free_costs_), program_(free_costs_) {
-  for (const AgentId i : IdRange<AgentId>(free_costs_.size())) {
-    parent_.push_back(i);
-    total_ += free_costs_[i];
-  }
+    : free_costs_(std::move(free_costs)),
+      grouping_(free_costs_.size()),
+      costs_(free_costs_),
+      program_(free_costs_) {
+  for (const Cost free_cost : free_costs_) total_ += free_cost;
 }
 
-AgentId LevelCover::root(AgentId i) const {
-  while (parent_[i] != i) i = parent_[i];
-  return i;
-}
+AgentId LevelCover::root(AgentId i) const { return AgentId(grouping_.root(i.index())); }
 
 void LevelCover::add(LevelCore core) {
   std::sort(core.begin(), core.end());
   QUADRILLE_REQUIRE(!core.empty(), "an empty core has no solution");
   for (const Level& level : core) {
     QUADRILLE_REQUIRE(level.cost > free_costs_[level.agent], "free costs hit no core");
-    const AgentId a = root(core.front().agent), b = root(level.agent);
-    parent_[std::max(a, b)] = std::min(a, b);
+    grouping_.join(core.front().agent.index(), level.agent.index());
   }
   if (std::any_of(cores_.begin(), cores_.end(),
                   [&](const KnownCore& known) { return implies(known.levels, core); }))

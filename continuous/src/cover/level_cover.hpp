@@ -8,6 +8,7 @@
 #include "cover/cover_shares.hpp"
 #include "cover/leaf_program.hpp"
 #include "quadrille/core/effort.hpp"
+#include "quadrille/core/grouping.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/limits.hpp"
 
@@ -81,7 +82,7 @@ class LevelCover {
   [[nodiscard]] Cost price(const Group& group, const IdVector<AgentId, Cost>& costs) const;
 
   IdVector<AgentId, Cost> free_costs_;
-  IdVector<AgentId, AgentId> parent_;  // agents that ever shared a core have the same root
+  Grouping grouping_;  // of agents that ever shared a core
   struct KnownCore {
     LevelCore levels;
     std::uint32_t number = 0;

@@ -2,98 +2,124 @@
 #include "joint/joint_groups.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
+
+#include "quadrille/core/grouping.hpp"
+#include "quadrille/solve/apart.hpp"
 
 namespace quadrille::continuous {
 namespace {
 
-/// Where an agent can be on its way to its goal.
-struct Room {
-  std::vector<EdgeId> edges;  // increasing
-  std::vector<char> has_edge, has_vertex;
-};
+/// Where agents of each class can be on the way to their goals. Who can be at one place, or near to
+/// each other, is joined.
+class Whereabouts {
+ public:
+  explicit Whereabouts(Scene& scene)
+      : scene_(scene),
+        instance_(scene.instance()),
+        num_edges_(instance_.roadmap().num_edges()),
+        num_places_(num_edges_ + instance_.roadmap().num_vertices()),
+        grouping_(instance_.num_agents() + instance_.num_classes() * num_places_),
+        is_used_(instance_.num_classes() * num_places_),
+        is_moved_to_(is_used_.size()) {
+    for (const AgentId i : instance_.agent_ids()) roam(i);
+    for (const ClassId c : IdRange<ClassId>(instance_.num_classes())) look_around(c);
+  }
 
-Room room_of(Scene& scene, AgentId i) {
-  const Instance& instance = scene.instance();
-  const Roadmap& roadmap = instance.roadmap();
-  const auto& distances = scene.task(i).distances;
-  const VertexId start = instance.agent(i).start;
-  Room room{{}, std::vector<char>(roadmap.num_edges()), std::vector<char>(roadmap.num_vertices())};
-  std::vector<VertexId> open{start};
-  room.has_vertex[start.index()] = 1;
-  while (!open.empty()) {
-    const VertexId v = open.back();
-    open.pop_back();
-    for (const EdgeId e : instance.out_edges(instance.class_of(i), v)) {
-      const VertexId to = roadmap.edge(e).to;
-      if (distances[to] >= kForever) continue;
-      room.edges.push_back(e);
-      room.has_edge[e.index()] = 1;
-      if (room.has_vertex[to.index()] != 0) continue;
-      room.has_vertex[to.index()] = 1;
-      open.push_back(to);
+  [[nodiscard]] std::vector<JointGroup> groups() const {
+    IdVector<AgentId, std::size_t> number;
+    for (const AgentId i : instance_.agent_ids()) number.push_back(grouping_.root(i.index()));
+    std::vector<JointGroup> groups;
+    std::map<std::size_t, std::size_t> place;  // by root
+    for (auto& agents : solve::groups_by(number)) {
+      place[number[agents.front()]] = groups.size();
+      groups.push_back({std::move(agents)});
+    }
+    std::vector<bool> is_counted(num_places_);
+    for (std::size_t p = 0; p < is_used_.size(); ++p) {
+      const std::size_t at = p % num_places_;
+      if (!is_moved_to_[p] || is_counted[at]) continue;
+      is_counted[at] = true;
+      JointGroup& group = groups[place.at(grouping_.root(instance_.num_agents() + p))];
+      ++(at < num_edges_ ? group.num_edges : group.num_vertices);
+    }
+    return groups;
+  }
+
+ private:
+  [[nodiscard]] std::size_t place_of(ClassId c, EdgeId e) const {
+    return c.index() * num_places_ + e.index();
+  }
+  [[nodiscard]] std::size_t place_of(ClassId c, VertexId v) const {
+    return c.index() * num_places_ + num_edges_ + v.index();
+  }
+  void use(AgentId i, std::size_t place) {
+    is_used_[place] = true;
+    grouping_.join(i.index(), instance_.num_agents() + place);
+  }
+
+  void roam(AgentId i) {
+    scene_.limits().check();
+    const auto& distances = scene_.task(i).distances;
+    const ClassId c = instance_.class_of(i);
+    std::vector<bool> is_seen(instance_.roadmap().num_vertices());
+    std::vector<VertexId> open{instance_.agent(i).start};
+    is_seen[open.front().index()] = true;
+    use(i, place_of(c, open.front()));
+    while (!open.empty()) {
+      const VertexId v = open.back();
+      open.pop_back();
+      for (const EdgeId e : instance_.out_edges(c, v)) {
+        const VertexId to = instance_.roadmap().edge(e).to;
+        if (distances[to] >= kForever) continue;
+        use(i, place_of(c, e));
+        use(i, place_of(c, to));
+        is_moved_to_[place_of(c, e)] = is_moved_to_[place_of(c, to)] = true;
+        if (is_seen[to.index()]) continue;
+        is_seen[to.index()] = true;
+        open.push_back(to);
+      }
     }
   }
-  std::sort(room.edges.begin(), room.edges.end());
-  return room;
-}
 
-/// Whether a move of the first one comes near to a move or stay of the other one.
-bool meets(Scene& scene, ClassId c, const Room& room, ClassId other, const Room& others) {
-  return std::any_of(room.edges.begin(), room.edges.end(), [&](EdgeId e) {
-    const Contacts::Neighbours& near = scene.contacts().near_edge(c, e, other);
-    return std::any_of(near.edges.begin(), near.edges.end(),
-                       [&](EdgeId f) { return others.has_edge[f.index()] != 0; }) ||
-           std::any_of(near.vertices.begin(), near.vertices.end(),
-                       [&](VertexId v) { return others.has_vertex[v.index()] != 0; });
-  });
-}
-
-JointGroup group_of(const Instance& instance, const std::vector<Room>& rooms,
-                    std::vector<AgentId> agents) {
-  JointGroup group{std::move(agents)};
-  std::vector<char> has_edge(instance.roadmap().num_edges());
-  std::vector<char> has_vertex(instance.roadmap().num_vertices());
-  for (const AgentId i : group.agents)
-    for (const EdgeId e : rooms[i.index()].edges) {
-      has_edge[e.index()] = 1;
-      has_vertex[instance.roadmap().edge(e).to.index()] = 1;
+  void look_around(ClassId c) {
+    for (const EdgeId e : IdRange<EdgeId>(num_edges_)) {
+      if (!is_used_[place_of(c, e)]) continue;
+      scene_.limits().check();
+      for (const ClassId d : IdRange<ClassId>(instance_.num_classes())) {
+        const Contacts::Neighbours& near = scene_.contacts().near_edge(c, e, d);
+        for (const EdgeId f : near.edges) meet(place_of(c, e), place_of(d, f));
+        for (const VertexId v : near.vertices) meet(place_of(c, e), place_of(d, v));
+      }
     }
-  group.num_edges = static_cast<std::size_t>(std::count(has_edge.begin(), has_edge.end(), 1));
-  group.num_vertices =
-      static_cast<std::size_t>(std::count(has_vertex.begin(), has_vertex.end(), 1));
-  return group;
-}
+  }
+  void meet(std::size_t place, std::size_t other) {
+    if (is_used_[other])
+      grouping_.join(instance_.num_agents() + place, instance_.num_agents() + other);
+  }
+
+  Scene& scene_;
+  const Instance& instance_;
+  const std::size_t num_edges_, num_places_;  // edges, then vertices
+  Grouping grouping_;                         // of agents, then of places by class
+  std::vector<bool> is_used_;                 // places, by class: some agent can be there
+  std::vector<bool> is_moved_to_;             // of these, edges and where they lead
+};
 
 }  // namespace
 
-std::vector<JointGroup> independent_groups(Scene& scene) {
-  const Instance& instance = scene.instance();
-  std::vector<Room> rooms;
-  for (const AgentId i : instance.agent_ids()) rooms.push_back(room_of(scene, i));
-  // By agent, the first one of its group; no agent has a later first one than itself.
-  IdVector<AgentId, AgentId> first;
-  for (const AgentId i : instance.agent_ids()) {
-    first.push_back(i);
-    for (const AgentId j : IdRange<AgentId>(i.index())) {
-      if (first[i] == first[j]) continue;
-      const ClassId c = instance.class_of(i), d = instance.class_of(j);
-      const Room &own = rooms[i.index()], &other = rooms[j.index()];
-      if (!meets(scene, c, own, d, other) && !meets(scene, d, other, c, own)) continue;
-      const AgentId from = std::max(first[i], first[j]), to = std::min(first[i], first[j]);
-      for (AgentId& known : first)
-        if (known == from) known = to;
-    }
-  }
-  std::vector<JointGroup> groups;
-  for (const AgentId i : instance.agent_ids()) {
-    if (first[i] != i) continue;
-    std::vector<AgentId> agents;
-    for (const AgentId j : instance.agent_ids())
-      if (first[j] == i) agents.push_back(j);
-    groups.push_back(group_of(instance, rooms, std::move(agents)));
-  }
-  return groups;
+std::vector<JointGroup> independent_groups(Scene& scene) { return Whereabouts(scene).groups(); }
+
+bool are_in_one_component(const Instance& instance) {
+  const Roadmap& roadmap = instance.roadmap();
+  Grouping components(roadmap.num_vertices());
+  for (const EdgeId e : IdRange<EdgeId>(roadmap.num_edges()))
+    components.join(roadmap.edge(e).from.index(), roadmap.edge(e).to.index());
+  std::set<std::size_t> roots;
+  for (const Agent& agent : instance.agents()) roots.insert(components.root(agent.start.index()));
+  return roots.size() <= 1;
 }
 
 }  // namespace quadrille::continuous

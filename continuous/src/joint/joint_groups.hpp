@@ -17,8 +17,11 @@ struct JointGroup {
 
 /// Divides the agents into groups, so that no move or stay of one group ever comes near to one of
 /// another: plans of the groups, whatever they are, are a plan of all. Ordered by their first
-/// agents. Looks at all edges near each edge, for each pair of agents: for few agents on small
-/// roadmaps.
+/// agents. Each agent walks over its part of the roadmap once, then all that is near each edge is
+/// looked at, for each pair of classes. Throws LimitReached.
 [[nodiscard]] std::vector<JointGroup> independent_groups(Scene& scene);
+/// Whether all starts are in one weakly connected component of the roadmap, as mostly: then it is
+/// not worth while to look for groups, unless the instance is small. O(V + E).
+[[nodiscard]] bool are_in_one_component(const Instance& instance);
 
 }  // namespace quadrille::continuous

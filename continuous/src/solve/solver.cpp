@@ -3,9 +3,11 @@
 
 #include <memory>
 
+#include "joint/joint_groups.hpp"
 #include "model/since_now.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "quadrille/solve/apart.hpp"
 #include "quadrille/solve/frame.hpp"
 #include "quadrille/solve/time_origin.hpp"
 #include "solve/phases.hpp"
@@ -37,7 +39,9 @@ class Border {
 class Domain {
  public:
   using Plan = continuous::Plan;
+  using Options = SolveOptions;
   using Outcome = SolveOutcome;
+  using Apart = solve::Apart<Domain>;
 
   Domain(const Instance& instance, const SolveOptions& options, const WarmStart& warm)
       : instance_(instance), options_(options), warm_(warm) {
@@ -61,14 +65,56 @@ class Domain {
 
   void search(LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
               Knowledge& known, solve::Pulse<Plan>& pulse) {
+    account_ = account;
+    // What a session leaves to its next solve is about all agents.
+    if (options_.system == System::dpll && warm_.store == nullptr &&
+        !are_in_one_component(instance_)) {
+      store_ = std::make_unique<SceneStore>(instance_.shared_roadmap());
+      const auto groups = groups_of(limits);
+      if (groups.size() > 1) {
+        Apart(*this, options_, account, limits, known, pulse).run(groups);
+        return;
+      }
+    }
     Exchange alone;
     Phases(instance_, options_, warm_, account, {limits, known, pulse, alone}).run();
   }
 
+  // What solve::Apart asks for.
+  [[nodiscard]] Apart::Search search_of(const std::vector<AgentId>& agents) const {
+    std::vector<Agent> tasks;
+    for (const AgentId i : agents) tasks.push_back(instance_.agent(i));
+    return [this, part = instance_.with_agents(std::move(tasks)).value()](
+               const SolveOptions& options, LimitMonitor& limits, Knowledge& known,
+               solve::Pulse<Plan>& pulse) {
+      store_->adopt(part);
+      WarmStart warm;
+      warm.store = store_.get();
+      Exchange alone;
+      Phases(part, options, warm, account_, {limits, known, pulse, alone}).run();
+    };
+  }
+  [[nodiscard]] solve::Infeasibility told(solve::Infeasibility infeasibility) const {
+    return infeasibility.blocked.empty()
+               ? infeasibility
+               : continuous::infeasibility(instance_, infeasibility.blocked);
+  }
+
  private:
+  [[nodiscard]] solve::AgentGroups groups_of(LimitMonitor& limits) {
+    store_->adopt(instance_);
+    Scene scene(instance_, limits, store_.get(), options_.settings);
+    if (!scene.is_complete()) throw LimitReached{};
+    solve::AgentGroups groups;
+    for (JointGroup& group : independent_groups(scene)) groups.push_back(std::move(group.agents));
+    return solve::with_lone_agents_together(std::move(groups));
+  }
+
   const Instance& instance_;
   const SolveOptions& options_;
   const WarmStart& warm_;
+  std::shared_ptr<ResourceAccount> account_;  // of the search
+  std::unique_ptr<SceneStore> store_;         // of groups
 };
 
 }  // namespace

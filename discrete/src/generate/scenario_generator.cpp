@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/octile.hpp"
+#include "quadrille/core/grouping.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/generator.hpp"
 
@@ -23,23 +24,14 @@ std::vector<VertexId> all_vertices(const Graph& graph) {
 
 /// The number of the component of each vertex; components are numbered by their first vertex.
 IdVector<VertexId, std::uint32_t> components(const Graph& graph, std::uint32_t& count) {
-  IdVector<VertexId, std::uint32_t> component(graph.num_vertices(), kNone);
-  std::vector<VertexId> stack;
+  Grouping grouping(graph.num_vertices());
+  for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
+    for (const VertexId w : graph.neighbours(v)) grouping.join(v.index(), w.index());
+  IdVector<VertexId, std::uint32_t> component;
   count = 0;
-  for (const VertexId root : IdRange<VertexId>(graph.num_vertices())) {
-    if (component[root] != kNone) continue;
-    component[root] = count;
-    stack.push_back(root);
-    while (!stack.empty()) {
-      const VertexId v = stack.back();
-      stack.pop_back();
-      for (const VertexId w : graph.neighbours(v))
-        if (component[w] == kNone) {
-          component[w] = count;
-          stack.push_back(w);
-        }
-    }
-    ++count;
+  for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
+    const std::size_t first = grouping.root(v.index());
+    component.push_back(first == v.index() ? count++ : component[VertexId(first)]);
   }
   return component;
 }

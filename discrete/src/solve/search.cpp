@@ -74,7 +74,7 @@ class Search final : private sat::YieldPoint {
     plans_.emplace(PlanSearchContext{instance_, distances, chosen_ ? *chosen_ : instance_,
                                      std::move(first_distances), options_.objective, options_.seed,
                                      part, incumbent_, limits_, tuning_.settings});
-    if (!options_.initial_plan) {
+    if (!known_.plan) {
       enter(Phase::first_plan);
       if (role_ == Role::all)
         while (plans_->start()) yield();

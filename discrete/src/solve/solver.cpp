@@ -9,9 +9,11 @@
 #include "certificate/certify.hpp"
 #include "feasibility/goal_choice.hpp"
 #include "mdd/usages.hpp"
+#include "model/independent_groups.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/solve/apart.hpp"
 #include "quadrille/solve/frame.hpp"
 #include "quadrille/solve/time_origin.hpp"
 #include "solve/portfolio.hpp"
@@ -72,7 +74,9 @@ class Border {
 class Domain {
  public:
   using Plan = discrete::Plan;
+  using Options = SolveOptions;
   using Outcome = SolveOutcome;
+  using Apart = solve::Apart<Domain>;
 
   Domain(const Instance& instance, const SolveOptions& options, const Tuner& tuner)
       : instance_(instance), options_(options), tuner_(tuner) {
@@ -108,10 +112,36 @@ class Domain {
                                std::move(feasibility.vertices)};
       return;
     }
+    account_ = account;
+    // The published systems know nothing of groups, and a certificate is one for all.
+    if (options_.system == System::dpll && !options_.proof) {
+      const auto groups = solve::with_lone_agents_together(independent_groups(instance_));
+      if (groups.size() > 1) {
+        Apart(*this, options_, account, limits, known, pulse).run(groups);
+        return;
+      }
+    }
     solve::Exchange<Message> alone;
     search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone},
                         proof_);
     if (known.has_floor) floor_ = known.floor;
+  }
+
+  // What solve::Apart asks for.
+  [[nodiscard]] Apart::Search search_of(const std::vector<AgentId>& agents) const {
+    std::vector<Agent> tasks;
+    for (const AgentId i : agents) tasks.push_back(instance_.agents()[i]);
+    return [this, part = instance_.with_agents(std::move(tasks)).value()](
+               const SolveOptions& options, LimitMonitor& limits, Knowledge& known,
+               solve::Pulse<Plan>& pulse) {
+      solve::Exchange<Message> alone;
+      ProofDraft none;
+      search_side_by_side(part, options, tuner_, account_, {limits, known, pulse, alone}, none);
+    };
+  }
+  /// Agents are named in no text of a search: whom feasibility names, it has named before.
+  [[nodiscard]] static solve::Infeasibility told(solve::Infeasibility infeasibility) {
+    return infeasibility;
   }
 
   /// Into the outcome, which is complete otherwise.
@@ -137,6 +167,7 @@ class Domain {
   const Instance& instance_;
   const SolveOptions& options_;
   const Tuner& tuner_;
+  std::shared_ptr<ResourceAccount> account_;  // of the search
   ProofDraft proof_;
   Invariant invariant_;
   std::optional<Cost> floor_;  // what agents cost when each is alone

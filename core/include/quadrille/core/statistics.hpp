@@ -30,6 +30,20 @@ struct Statistics {
   /// Where the first plan came from: "given" by the user, "search" for the least cost, or a name of
   /// the domain's (docs/cli.md). Empty: there is none.
   std::string first_plan;
+
+  /// Those of one search more: counts, neither times nor where plans came from.
+  void add_counts(const Statistics& more) noexcept {
+    sat_calls += more.sat_calls;
+    conflicts += more.conflicts;
+    decisions += more.decisions;
+    variables += more.variables;
+    clauses += more.clauses;
+    collision_clauses += more.collision_clauses;
+    checks += more.checks;
+    models_checked += more.models_checked;
+    rejected_models += more.rejected_models;
+    cores += more.cores;
+  }
 };
 
 }  // namespace quadrille
