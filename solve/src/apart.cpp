@@ -2,7 +2,7 @@
 #include "quadrille/solve/apart.hpp"
 
 #include <cstddef>
-#include <map>
+#include <iterator>
 
 namespace quadrille::solve {
 namespace {
@@ -26,17 +26,6 @@ std::vector<Raise> raises_above(Cost begin, const Attribution& attribution) {
 }
 
 }  // namespace
-
-AgentGroups groups_by(const IdVector<AgentId, std::size_t>& number) {
-  AgentGroups groups;
-  std::map<std::size_t, std::size_t> place;
-  for (const AgentId i : IdRange<AgentId>(number.size())) {
-    const std::size_t at = place.emplace(number[i], groups.size()).first->second;
-    if (at == groups.size()) groups.emplace_back();
-    groups[at].push_back(i);
-  }
-  return groups;
-}
 
 AgentGroups with_lone_agents_together(AgentGroups groups) {
   IdVector<AgentId, std::size_t> number;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "quadrille/core/grouping.hpp"
-#include "quadrille/solve/apart.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -33,7 +32,7 @@ class Whereabouts {
     for (const AgentId i : instance_.agent_ids()) number.push_back(grouping_.root(i.index()));
     std::vector<JointGroup> groups;
     std::map<std::size_t, std::size_t> place;  // by root
-    for (auto& agents : solve::groups_by(number)) {
+    for (auto& agents : groups_by(number)) {
       place[number[agents.front()]] = groups.size();
       groups.push_back({std::move(agents)});
     }

@@ -62,11 +62,6 @@ CoreShrinker::Ladder CoreShrinker::ladder(const Level& level, Cost ceiling) cons
   return ladder;
 }
 
-std::size_t CoreShrinker::Ladder::within(Cost rise) const {
-  return static_cast<std::size_t>(std::upper_bound(higher.begin(), higher.end(), lowest + rise) -
-                                  higher.begin());
-}
-
 std::vector<std::size_t> CoreShrinker::Climb::goods() const {
   std::vector<std::size_t> goods;
   for (const Ladder& ladder : ladders) goods.push_back(ladder.good);
@@ -80,31 +75,15 @@ void CoreShrinker::raise(LevelCore& core, const IdVector<AgentId, Cost>& ceiling
   raise_together(climb, ceilings);
   raise_singly(climb, ceilings);
   core = std::move(climb.core);
-  if (core.empty()) return;
-  Cost least = kAnyCost;
-  for (const Ladder& ladder : climb.ladders) least = std::min(least, ladder.risen());
-  usual_rise_ = usual_rise_ == 0 ? least : usual_rise_ + (least - usual_rise_) / 10;
 }
 
 // One test for all levels instead of one for each: the next thresholds, which nearly always
-// succeed, and then about as much as it was with the cores before.
+// succeed.
 void CoreShrinker::raise_together(Climb& climb, const IdVector<AgentId, Cost>& ceilings) {
   std::vector<std::size_t> next;
   for (const Ladder& ladder : climb.ladders)
     next.push_back(std::min<std::size_t>(1, ladder.higher.size()));
   has_raised(climb, next, ceilings);
-  if (usual_rise_ == 0) return;
-  bool has_succeeded = false, has_failed = false;
-  Cost rise = usual_rise_;
-  for (int test = 0; test < settings_.shrink_joint_tests && !(has_succeeded && has_failed);
-       ++test) {
-    std::vector<std::size_t> goods;
-    for (const Ladder& ladder : climb.ladders)
-      goods.push_back(std::max(ladder.good, ladder.within(rise)));
-    const bool succeeds = has_raised(climb, goods, ceilings);
-    (succeeds ? has_succeeded : has_failed) = true;
-    rise = succeeds ? std::min(2 * rise, kAnyCost) : rise / 2;
-  }
 }
 
 // A cover hits a core where that is cheapest: so the level that has risen least is raised next, by

@@ -41,8 +41,6 @@ class CoreShrinker {
       return number == 0 ? lowest : higher[number - 1];
     }
     [[nodiscard]] Cost risen() const { return cost(good) - lowest; }
-    /// How many thresholds are at most so far above where the level began.
-    [[nodiscard]] std::size_t within(Cost rise) const;
   };
   /// A core with the ladders of its levels.
   struct Climb {
@@ -71,7 +69,6 @@ class CoreShrinker {
   LimitMonitor& limits_;
   const Settings& settings_;
   std::vector<AgentId> ceilings_of_core_;
-  Cost usual_rise_ = 0;  // in ticks, of the level of a core that rises least, lately; 0: unknown
   std::int64_t num_shrunk_ = 0, num_dropped_ = 0, num_kept_ = 0;  // cores; levels
 };
 

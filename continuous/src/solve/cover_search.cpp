@@ -89,7 +89,7 @@ class CoverSearch {
         if (!solve_cover()) return report_;  // goes on with it
         continue;
       }
-      if (!learn_cores() && end_without_plans()) return report_;
+      if (!learn_disjoint_cores(above(asked_)) && end_without_plans()) return report_;
       if (!solve_cover()) return report_;
       if (context_.statistics.cores >= next_improvement_) {
         next_improvement_ = kNever;
@@ -124,9 +124,7 @@ class CoverSearch {
   }
 
   bool solve_cover() {
-    const Effort before = cover_.effort();
     const bool is_solved = cover_.solve(limits_);
-    next_cover_ = problem_.effort() + cover_.effort() - before;
     count(cover_.effort(), seen_cover_effort_);
     return is_solved;
   }
@@ -256,21 +254,6 @@ class CoverSearch {
     return ceilings;
   }
 
-  /// After a refuted solve: its core and others. Those of exact covers raise the bound by most.
-  /// Where covers take as long as cores, further ones of costs that hit these by greed come first.
-  /// False: there is no plan.
-  bool learn_cores() {
-    Core below = above(asked_);
-    for (int round = 0;; ++round) {
-      if (!learn_disjoint_cores(std::move(below))) return false;
-      if (problem_.effort() >= next_cover_ || round == settings_.cover_greedy_rounds ||
-          limits_.exhausted())
-        return true;
-      below = above(cover_.completed(cover_.costs()));
-      if (!is_refuted(below)) return true;
-    }
-  }
-
   /// After a refutation of `below`: cores without common agents, as long as the known clauses give
   /// some. False: one is empty.
   bool learn_disjoint_cores(Core below) {
@@ -340,7 +323,6 @@ class CoverSearch {
   bool has_new_cores_ = false;  // that came from others
   std::int64_t next_improvement_ = kNever;
   std::int64_t next_turn_ = 30;
-  Effort next_cover_;                            // the problem's
   IdVector<AgentId, Cost> asked_;                // costs of the last question
   Effort seen_plan_effort_, seen_cover_effort_;  // that were told
 };

@@ -101,11 +101,11 @@ class Domain {
   }
 
  private:
-  [[nodiscard]] solve::AgentGroups groups_of(LimitMonitor& limits) {
+  [[nodiscard]] AgentGroups groups_of(LimitMonitor& limits) {
     store_->adopt(instance_);
     Scene scene(instance_, limits, store_.get(), options_.settings);
     if (!scene.is_complete()) throw LimitReached{};
-    solve::AgentGroups groups;
+    AgentGroups groups;
     for (JointGroup& group : independent_groups(scene)) groups.push_back(std::move(group.agents));
     return solve::with_lone_agents_together(std::move(groups));
   }

@@ -178,16 +178,11 @@ void PairLemmas::raise(PairSearch::Party& party, const PairSearch::Party& other,
   const auto refuted = [&](Ticks tried) {
     return search_.refuted_raise(party, other, tried, effort_for_more() / kStep);
   };
-  Ticks tried = most / settings_.pair_first_raise;
+  const Ticks tried = most / settings_.pair_first_raise;
   Ticks raise = refuted(tried);
   if (raise > tried) raise = std::max(raise, refuted(most));
-  // One tick is what is refuted anyway.
-  for (int lower = 0; raise <= 1 && lower < settings_.pair_lower_raises; ++lower) {
-    tried = tried / 4;
-    raise = std::max(raise, refuted(tried));
-  }
   if (is_second) search_.swap_bans();
-  party.cap += std::max<Ticks>(raise, 1) - 1;
+  party.cap += std::max<Ticks>(raise, 1) - 1;  // one tick is what is refuted anyway
 }
 
 void PairLemmas::add_clause(const PairSearch::Party& i, const PairSearch::Party& j,

@@ -7,7 +7,7 @@
 
 namespace quadrille::discrete {
 
-solve::AgentGroups independent_groups(const Instance& instance) {
+AgentGroups independent_groups(const Instance& instance) {
   const Graph& graph = instance.graph();
   Grouping components(graph.num_vertices());
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
@@ -15,7 +15,7 @@ solve::AgentGroups independent_groups(const Instance& instance) {
   IdVector<AgentId, std::size_t> component;
   for (const AgentId i : instance.agent_ids())
     component.push_back(components.root(instance.agents()[i].start.index()));
-  return solve::groups_by(component);
+  return groups_by(component);
 }
 
 }  // namespace quadrille::discrete

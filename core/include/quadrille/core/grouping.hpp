@@ -6,6 +6,11 @@
 #include <numeric>
 #include <vector>
 
+#include "quadrille/core/export.hpp"
+#include "quadrille/core/ids.hpp"
+
+QUADRILLE_API_BEGIN
+
 namespace quadrille {
 
 /// The elements 0 .. size - 1, each in a group of its own until they are joined (union-find).
@@ -32,4 +37,13 @@ class Grouping {
   mutable std::vector<std::size_t> parent_;  // no larger than the element
 };
 
+/// Agents that never come near to those of other groups, increasing. In the order of their first
+/// ones.
+using AgentGroups = std::vector<std::vector<AgentId>>;
+
+/// The groups of agents 0, 1, .. by a number that those of one group have in common. O(n log n).
+[[nodiscard]] AgentGroups groups_by(const IdVector<AgentId, std::size_t>& number);
+
 }  // namespace quadrille
+
+QUADRILLE_API_END

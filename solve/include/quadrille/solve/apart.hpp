@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "quadrille/core/export.hpp"
+#include "quadrille/core/grouping.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/request.hpp"
 #include "quadrille/solve/knowledge.hpp"
@@ -20,13 +21,7 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::solve {
 
-/// Agents that never come near to those of other groups, increasing. In the order of their first
-/// ones.
-using AgentGroups = std::vector<std::vector<AgentId>>;
-
-/// The groups of agents 0, 1, .. by a number that those of one group have in common.
-[[nodiscard]] AgentGroups groups_by(const IdVector<AgentId, std::size_t>& number);
-/// The same, with all that are alone in one group: their search is short, its set-up is not.
+/// The same groups, with all that are alone in one group: their search is short, its set-up is not.
 [[nodiscard]] AgentGroups with_lone_agents_together(AgentGroups groups);
 
 /// Puts what is known of groups, alone, together: what agents cost, raises and sites. `bounds`: the
