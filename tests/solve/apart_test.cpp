@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "continuous/support/random_instance.hpp"
+#include "continuous/support/roads.hpp"
 #include "faults/instances.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/discrete/verify.hpp"
@@ -394,6 +395,27 @@ TYPED_TEST(Apart, AnInterruptEndsIt) {
   const auto outcome = solve(this->hard_and_easy(), options).value();
   EXPECT_EQ(outcome.status, Status::feasible);
   EXPECT_EQ(outcome.stop, StopReason::interrupt);
+}
+
+// Lanes without a common vertex may cross, and who stands beside a lane is in the way.
+TEST(ApartOnRoadmaps, ComponentsThatComeNearAreOneGroup) {
+  using continuous::test::agent;
+  const auto crossing = continuous::Instance::make(
+      continuous::test::roadmap({{-1000, 0}, {1000, 0}, {0, -1000}, {0, 1000}}, {{0, 1}, {2, 3}}),
+      {agent(0, 1, 100), agent(2, 3, 100)});
+  for (const bool by_clauses : {false, true}) {
+    continuous::SolveOptions options;
+    if (by_clauses) Roadmaps::by_clauses(options);
+    const auto outcome = solve(*crossing, options).value();
+    EXPECT_EQ(outcome.status, Status::optimal);
+    EXPECT_GT(*outcome.cost, 4000);
+  }
+  const auto standing = continuous::Instance::make(
+      continuous::test::roadmap({{0, 0}, {2000, 0}, {1000, 150}}, {{0, 1}}),
+      {agent(0, 1, 100), agent(2, 2, 100)});
+  const auto outcome = solve(*standing, {}).value();
+  EXPECT_EQ(outcome.status, Status::infeasible);
+  EXPECT_EQ(outcome.blocked, (std::vector<AgentId>{AgentId(0), AgentId(1)}));
 }
 
 }  // namespace
