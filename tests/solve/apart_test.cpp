@@ -242,8 +242,8 @@ TYPED_TEST(Apart, TheAnswerIsThatOfEachAlone) {
           << seed << ": " << outcome.explanation;
     }
   }
-  EXPECT_GT(num_optimal, static_cast<int>(cases / 4));
-  EXPECT_GT(num_infeasible, static_cast<int>(cases / 20));
+  EXPECT_GE(num_optimal, static_cast<int>(cases / 4));
+  EXPECT_GE(num_infeasible, static_cast<int>(cases / 20));
 }
 
 TYPED_TEST(Apart, WhatTheBoundIsMadeOfIsThatOfEachAlone) {
@@ -268,7 +268,7 @@ TYPED_TEST(Apart, WhatTheBoundIsMadeOfIsThatOfEachAlone) {
     };
     ASSERT_EQ(find_fault(*outcome.attribution, outcome.lower_bound, least), "") << seed;
   }
-  EXPECT_GT(num_raises, static_cast<int>(cases / 6));
+  EXPECT_GE(num_raises, static_cast<int>(cases / 6));
 }
 
 // The second one has its plan and its bound all the same, and both objectives their use.
