@@ -348,6 +348,38 @@ TYPED_TEST(Apart, AWantedGapIsThatOfTheWhole) {
   EXPECT_TRUE(is_within_gap(90, *outcome.cost, outcome.lower_bound));
 }
 
+// Threads beside the one that is told to stop stop, too.
+TYPED_TEST(Apart, AGapOfTheWholeEndsAllThreads) {
+  typename TypeParam::Options options;
+  options.limits.conflicts = 1;
+  const auto first = solve(this->hard_and_easy(), options).value();
+  ASSERT_EQ(first.status, Status::feasible);
+  const double gap = gap_percent(*first.cost, first.lower_bound);
+  options.limits.conflicts.reset();
+  options.gap_percent = gap;
+  options.initial_plan = first.plan;
+  options.threads = 3;
+  const auto outcome = solve(this->hard_and_easy(), options).value();
+  EXPECT_NE(outcome.status, Status::unknown);
+  EXPECT_TRUE(is_within_gap(gap, *outcome.cost, outcome.lower_bound));
+}
+
+TYPED_TEST(Apart, HowOftenTheUserHearsChangesNothing) {
+  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan}) {
+    typename TypeParam::Options options;
+    options.objective = objective;
+    options.limits.conflicts = 3000;
+    options.progress_interval_s = 1000;
+    options.on_progress = [](const Progress&) {};
+    const auto rarely = solve(this->hard_and_easy(), options).value();
+    options.progress_interval_s = 0;
+    const auto often = solve(this->hard_and_easy(), options).value();
+    EXPECT_EQ(rarely.statistics.conflicts, often.statistics.conflicts);
+    EXPECT_EQ(rarely.lower_bound, often.lower_bound);
+    EXPECT_EQ(rarely.plan, often.plan);
+  }
+}
+
 TYPED_TEST(Apart, TheUserHearsOfTheWhole) {
   const auto whole = this->hard_and_easy();
   typename TypeParam::Options options;

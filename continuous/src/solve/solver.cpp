@@ -67,8 +67,7 @@ class Domain {
               Knowledge& known, solve::Pulse<Plan>& pulse) {
     account_ = account;
     // What a session leaves to its next solve is about all agents.
-    if (options_.system == System::dpll && warm_.store == nullptr &&
-        !are_in_one_component(instance_)) {
+    if (options_.system == System::dpll && warm_.store == nullptr && is_worth_parting()) {
       store_ = std::make_unique<SceneStore>(instance_.shared_roadmap());
       const auto groups = groups_of(limits);
       if (groups.size() > 1) {
@@ -101,6 +100,15 @@ class Domain {
   }
 
  private:
+  /// Questions what is near an edge, for each pair of classes, to find groups: some microseconds
+  /// each, where the search may need only a few of them.
+  static constexpr std::size_t kMostNear = 200'000;
+
+  [[nodiscard]] bool is_worth_parting() const {
+    const std::size_t num_classes = instance_.num_classes();
+    return num_classes * num_classes * instance_.roadmap().num_edges() <= kMostNear &&
+           !are_in_one_component(instance_);
+  }
   [[nodiscard]] AgentGroups groups_of(LimitMonitor& limits) {
     store_->adopt(instance_);
     Scene scene(instance_, limits, store_.get(), options_.settings);

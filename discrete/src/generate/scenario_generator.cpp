@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "formats/octile.hpp"
-#include "quadrille/core/grouping.hpp"
+#include "model/independent_groups.hpp"
 #include "quadrille/core/random.hpp"
 #include "quadrille/discrete/generator.hpp"
 
@@ -21,9 +21,7 @@ std::vector<VertexId> all_vertices(const Graph& graph) {
 
 /// The number of the component of each vertex; components are numbered by their first vertex.
 IdVector<VertexId, std::uint32_t> components(const Graph& graph, std::uint32_t& count) {
-  Grouping grouping(graph.num_vertices());
-  for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
-    for (const VertexId w : graph.neighbours(v)) grouping.join(v.index(), w.index());
+  const Grouping grouping = components_of(graph);
   IdVector<VertexId, std::uint32_t> component;
   count = 0;
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {

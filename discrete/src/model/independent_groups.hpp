@@ -6,6 +6,9 @@
 
 namespace quadrille::discrete {
 
+/// The components of the graph, vertices by their index. O(V + E).
+[[nodiscard]] Grouping components_of(const Graph& graph);
+
 /// Agents in one component of the graph are one group: no others can ever meet. O(V + E).
 [[nodiscard]] AgentGroups independent_groups(const Instance& instance);
 

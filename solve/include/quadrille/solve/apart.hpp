@@ -128,7 +128,12 @@ class Apart {
       look();
       if (std::exchange(phase_, progress.phase) != progress.phase) pulse_.enter(progress.phase);
       pulse_.beat();
-      if (limits_.reason() != StopReason::none || !is_open(part)) limits.stop(StopReason::gap);
+    };
+    // Progress is told when it is due, which depends on the clock; a search ends at yield points.
+    const auto is_enough = [&] {
+      look();
+      pulse_.consider_stop();
+      return limits_.reason() != StopReason::none || !is_open(part);
     };
     part.has_begun = true;
     Known& own = part.known;
@@ -136,7 +141,7 @@ class Apart {
     own.why_open.clear();
     own.statistics = {.first_plan = std::move(own.statistics.first_plan)};
     {
-      Pulse pulse(options, limits, own, true);
+      Pulse pulse(options, limits, own, true, is_enough);
       run_guarded(own, limits, [&] { part.search(options, limits, own, pulse); });
     }
     own.prove(own.lower());  // nobody claims anything of a group

@@ -119,7 +119,9 @@ class Portfolio {
       // Whose plan and bound are wrong has to be seen, and must not be believed.
       Message last;
       if (!failures[worker] && !known.error) last.lower = known.lower();
-      const bool has_proof = !failures[worker] && is_proof(known, request_.gap_percent);
+      const bool is_enough = is_proof(known, request_.gap_percent) ||
+                             (worker == 0 && desk.limits.reason() == StopReason::gap);
+      const bool has_proof = !failures[worker] && is_enough;
       rounds.end(worker, has_proof, std::move(last));
     };
     {

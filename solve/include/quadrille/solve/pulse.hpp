@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/limits.hpp"
@@ -51,13 +52,15 @@ class ProgressReporter {
 template <class Plan>
 class Pulse {
  public:
-  /// All outlive it. `is_told`: whether the user hears of this search.
+  /// All outlive it. `is_told`: whether the user hears of this search. `is_enough`, unless empty,
+  /// is asked at yield points whether the search has to stop for another reason than its own gap.
   Pulse(const Request<Plan>& request, LimitMonitor& limits, const Knowledge<Plan>& known,
-        bool is_told)
+        bool is_told, std::function<bool()> is_enough = {})
       : request_(request),
         limits_(limits),
         known_(known),
         is_told_(is_told),
+        is_enough_(std::move(is_enough)),
         progress_(is_told ? request.on_progress : kNobody, request.progress_interval_s, limits,
                   known) {}
 
@@ -71,9 +74,10 @@ class Pulse {
   }
   /// Ends the search when the bounds meet, or are as close as was asked for.
   void consider_stop() {
-    if (known_.cost && (*known_.cost <= known_.lower() ||
-                        is_within_gap(request_.gap_percent, *known_.cost, known_.lower())))
-      limits_.stop(StopReason::gap);
+    const bool is_close =
+        known_.cost && (*known_.cost <= known_.lower() ||
+                        is_within_gap(request_.gap_percent, *known_.cost, known_.lower()));
+    if (is_close || (is_enough_ && is_enough_())) limits_.stop(StopReason::gap);
   }
 
   /// Of a cheaper plan than at the last call, when that is due.
@@ -93,6 +97,7 @@ class Pulse {
   LimitMonitor& limits_;
   const Knowledge<Plan>& known_;
   const bool is_told_;
+  const std::function<bool()> is_enough_;
   ProgressReporter progress_;
   std::optional<Cost> told_cost_;
   double next_plan_s_ = 0;
