@@ -293,6 +293,10 @@ TYPED_TEST(Apart, CutAnywhereItKeepsWhatItKnows) {
   const auto whole = TypeParam::side_by_side(parts);
   const auto answer = solve(whole, {}).value();
   ASSERT_EQ(answer.status, Status::optimal);
+  typename TypeParam::Options nothing;
+  nothing.limits.conflicts = 0;
+  const Cost free_bound = solve(whole, nothing).value().lower_bound;
+  ASSERT_GT(free_bound, 0);
   int num_feasible = 0;
   for (std::int64_t looks = 1; looks < 400; ++looks)
     for (const std::size_t threads : {1U, 2U}) {
@@ -304,6 +308,7 @@ TYPED_TEST(Apart, CutAnywhereItKeepsWhatItKnows) {
       const auto outcome = solve(whole, options).value();
       ASSERT_FALSE(outcome.internal_error) << outcome.internal_error->message;
       EXPECT_LE(outcome.lower_bound, *answer.cost);
+      EXPECT_GE(outcome.lower_bound, free_bound) << looks;
       if (!outcome.plan) continue;
       ++num_feasible;
       EXPECT_TRUE(TypeParam::is_valid(whole, *outcome.plan));
