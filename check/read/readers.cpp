@@ -13,7 +13,7 @@
 namespace quadrille_check {
 namespace {
 
-constexpr Int kMaxCells = Int{1} << 26, kMaxVertices = Int{1} << 22;
+constexpr Int kMaxCells = Int{1} << 26, kMaxVertices = Int{1} << 23;
 
 Int number(std::string_view text, Int most, const std::string& what) {
   Int value = -1;

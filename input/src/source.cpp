@@ -21,7 +21,7 @@ std::optional<Error> check_map_size(const InputOptions& options, std::int64_t ce
   return Error{ErrorCode::out_of_range,
                "the map has " + std::to_string(cells) + " passable cells, more than " +
                    std::to_string(options.most_vertices) +
-                   ", which are the most that can be solved",
+                   ", which are the most that can be solved: take a coarser map, or a part of it",
                {file, 0}};
 }
 

@@ -207,44 +207,54 @@ TEST_F(LimitsTest, NoPlanIsLostToASignalAfterTheSearch) {
 }
 
 TEST_F(LimitsTest, MapsThatAreTooLargeAreRefusedByName) {
-  // 2^21 vertices can be solved.
-  const std::string large = write_map("large.map", 2048, 1025, 1025);
-  const std::string scen = write("s.scen", "version 1\n0\tlarge.map\t2048\t1025\t0\t0\t9\t0\t9\n");
+  // 2^23 vertices can be solved, by the MDD systems 2^21.
+  const std::string large = write_map("large.map", 4096, 2049, 2049);
+  const std::string scen = write("s.scen", "version 1\n0\tlarge.map\t4096\t2049\t0\t0\t9\t0\t9\n");
   for (const char* command : {"solve", "explain"})
     for (const Words& input : {Words{"--map", large, "--scen", scen, "--agents", "1"},
                                Words{"--roadmap", large, "--task", scen}}) {
       const Finished finished = run(Words{command} + input);
       EXPECT_EQ(finished.code, 65);
       EXPECT_EQ(finished.err, "quadrille: " + large +
-                                  ": the map has 2099200 passable cells, more than 2097152, which "
-                                  "are the most that can be solved\n");
+                                  ": the map has 8392704 passable cells, more than 8388608, which "
+                                  "are the most that can be solved: take a coarser map, or a part "
+                                  "of it\n");
     }
-  const Finished blocked =
-      run({"solve", "--quiet", "--map", write_map("large.map", 2048, 1025, 900), "--scen", scen,
-           "--agents", "1", "--time-limit", "0"});
+  const Words less = {"--quiet", "--map",       write_map("large.map", 4096, 2049, 600),
+                      "--scen",  scen,          "--agents",
+                      "1",       "--time-limit"};
+  const Finished blocked = run(Words{"solve"} + less + Words{"0"});
   EXPECT_THAT(blocked.code, testing::AnyOf(0, 10, 30)) << blocked.err;
+  const Finished mdd = run(Words{"solve", "--system", "smt-cbs"} + less + Words{"60"});
+  EXPECT_EQ(mdd.code, 65);
+  EXPECT_THAT(mdd.err, HasSubstr("the most for the system smt-cbs; dpll takes more"));
 }
 
 TEST_F(LimitsTest, SoAreInstances) {
   std::string rows;
-  for (int y = 0; y < 1025; ++y) rows += (y == 0 ? "\"" : ",\n\"") + std::string(2048, '.') + "\"";
+  for (int y = 0; y < 2049; ++y) rows += (y == 0 ? "\"" : ",\n\"") + std::string(4096, '.') + "\"";
   write("grid.json",
-        "{\"quadrille\": \"instance\", \"version\": 1, \"grid\": {\"width\": 2048, "
-        "\"height\": 1025, \"rows\": [" +
+        "{\"quadrille\": \"instance\", \"version\": 1, \"grid\": {\"width\": 4096, "
+        "\"height\": 2049, \"rows\": [" +
             rows + "]}, \"agents\": []}");
+  const Finished grid = run({"solve", "--instance", path("grid.json")});
+  EXPECT_EQ(grid.code, 65);
+  EXPECT_THAT(grid.err, HasSubstr(path("grid.json") +
+                                  ":1: /grid: there are 8392704 vertices, more than 8388608"));
+  EXPECT_EQ(run({"info", "--instance", path("grid.json")}).code, 0);
+  // What a file only states is refused everywhere.
   write("graph.json",
         "{\"quadrille\": \"instance\", \"version\": 1,\n\"graph\": {\"vertices\": "
-        "2097153, \"edges\": []}, \"agents\": []}");
-  write("map.yaml", "map:\n  dimensions: [2048, 1025]\nagents: []\n");
+        "8388609, \"edges\": []}, \"agents\": []}");
+  write("map.yaml", "map:\n  dimensions: [4096, 2049]\nagents: []\n");
   for (const auto& [name, place] :
-       {std::pair("grid.json", ":1: /grid: there are 2099200"),
-        std::pair("graph.json", ":2: /graph/vertices: there are 2097153"),
-        std::pair("map.yaml", ":2: /map/dimensions: there are 2099200")}) {
-    const Finished finished = run({"solve", "--instance", path(name)});
-    EXPECT_EQ(finished.code, 65);
-    EXPECT_THAT(finished.err, HasSubstr(path(name) + place + " vertices, more than 2097152"));
-    EXPECT_EQ(run({"info", "--instance", path(name)}).code, 0);
-  }
+       {std::pair("graph.json", ":2: /graph/vertices"), std::pair("map.yaml", ":2:")})
+    for (const char* command : {"solve", "info"}) {
+      const Finished finished = run({command, "--instance", path(name)});
+      EXPECT_EQ(finished.code, 65);
+      EXPECT_THAT(finished.err, HasSubstr(path(name) + place));
+      EXPECT_THAT(finished.err, HasSubstr("8388608"));
+    }
 }
 
 TEST_F(LimitsTest, TheLargestMapIsRefusedBeforeItTakesMemory) {

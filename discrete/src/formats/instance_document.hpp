@@ -14,7 +14,7 @@ namespace quadrille::discrete {
 
 /// Sizes that a file only states, with nothing in it to show for them, end here: a few bytes of
 /// text must not cost gigabytes.
-inline constexpr std::int64_t kMaxDeclaredVertices = std::int64_t{1} << 22;
+inline constexpr std::int64_t kMaxDeclaredVertices = std::int64_t{1} << 23;
 
 /// There are at most `most` vertices. Otherwise the checker has an error (out_of_range) at `node`.
 bool has_most_vertices(Checker& checker, Document::Node node, std::int64_t count, std::size_t most);

@@ -27,19 +27,19 @@ struct DecodedUsage {
 
 // Packed as kind (2 bits), timestep (20), vertex (21), to (21). The solver refuses graphs beyond
 // that, and MddPaths paths.
-static_assert(kMaxVertices <= std::size_t{1} << 21);
+static_assert(kMaxMddVertices <= std::size_t{1} << 21);
 inline constexpr Timestep kMaxTimestep = (1 << 20) - 1;
 
 [[nodiscard]] constexpr std::uint64_t encode_usage(const DecodedUsage& u) {
   QUADRILLE_REQUIRE(u.timestep >= 0 && u.timestep <= kMaxTimestep &&
-                        u.vertex.index() < kMaxVertices && u.to.index() < kMaxVertices,
+                        u.vertex.index() < kMaxMddVertices && u.to.index() < kMaxMddVertices,
                     "a usage fits its number");
   return static_cast<std::uint64_t>(u.kind) << 62 | static_cast<std::uint64_t>(u.timestep) << 42 |
          static_cast<std::uint64_t>(u.vertex.value()) << 21 |
          static_cast<std::uint64_t>(u.to.value());
 }
 [[nodiscard]] constexpr DecodedUsage decode_usage(std::uint64_t resource) {
-  constexpr std::uint64_t kVertexMask = kMaxVertices - 1;
+  constexpr std::uint64_t kVertexMask = kMaxMddVertices - 1;
   return {static_cast<UsageKind>(resource >> 62), VertexId(resource >> 21 & kVertexMask),
           VertexId(resource & kVertexMask),
           static_cast<Timestep>(resource >> 42 & static_cast<std::uint64_t>(kMaxTimestep))};

@@ -25,9 +25,16 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   const auto refuse = [](ErrorCode code, std::string message) {
     return Error{code, std::move(message), {}};
   };
-  if (instance.graph().num_vertices() > kMaxVertices)
+  const std::size_t vertices = instance.graph().num_vertices();
+  if (vertices > kMaxVertices)
     return refuse(ErrorCode::out_of_range,
-                  "the solver supports up to " + std::to_string(kMaxVertices) + " vertices");
+                  "the graph has " + std::to_string(vertices) + " vertices, more than " +
+                      std::to_string(kMaxVertices) + ", which are the most that can be solved");
+  if (options.system != System::dpll && vertices > kMaxMddVertices)
+    return refuse(ErrorCode::out_of_range,
+                  "the graph has " + std::to_string(vertices) + " vertices, more than " +
+                      std::to_string(kMaxMddVertices) + ", which are the most for the system " +
+                      std::string(to_string(options.system)) + "; dpll takes more");
   const auto reaches = [](CheckSchedule::Fraction a, CheckSchedule::Fraction b) {
     return static_cast<std::int64_t>(a.numerator) * b.denominator >=
            static_cast<std::int64_t>(b.numerator) * a.denominator;

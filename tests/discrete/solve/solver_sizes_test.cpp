@@ -40,12 +40,22 @@ TEST(SolverSizes, PathsThatAreTooLongForResourceNumbersAreNamed) {
 }
 
 TEST(SolverSizes, GraphsThatAreTooLargeAreAnError) {
-  constexpr std::size_t kTooMany = (std::size_t{1} << 21) + 1;
-  auto graph = std::make_shared<const Graph>(Graph::make(kTooMany, {}).value());
-  const auto instance = Instance::make(graph, {{VertexId(0), VertexId(0)}}).value();
-  const auto outcome = solve(instance, TunedOptions{});
-  ASSERT_FALSE(outcome.has_value());
-  EXPECT_EQ(outcome.error().code, ErrorCode::out_of_range);
+  const auto error_of = [](std::size_t vertices, System system) -> std::optional<Error> {
+    auto graph = std::make_shared<const Graph>(Graph::make(vertices, {}).value());
+    TunedOptions options;
+    options.system = system;
+    auto outcome = solve(Instance::make(graph, {{VertexId(0), VertexId(0)}}).value(), options);
+    if (outcome.has_value()) return std::nullopt;
+    return outcome.error();
+  };
+  for (const System system : {System::dpll, System::dpll_mdd, System::smt_cbs, System::mdd_sat}) {
+    const std::size_t most = std::size_t{1} << (system == System::dpll ? 23 : 21);
+    const auto error = error_of(most + 1, system);
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->code, ErrorCode::out_of_range);
+    EXPECT_NE(error->message.find(std::to_string(most)), std::string::npos);
+    EXPECT_FALSE(error_of(most, system)) << to_string(system);
+  }
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ namespace quadrille::discrete {
 using quadrille::Phase;
 using quadrille::Progress;
 
-/// Graphs with more vertices are not solved.
-inline constexpr std::size_t kMaxVertices = std::size_t{1} << 21;
+/// Graphs with more vertices are not solved, by the systems with MDDs and by any.
+inline constexpr std::size_t kMaxMddVertices = std::size_t{1} << 21;
+inline constexpr std::size_t kMaxVertices = std::size_t{1} << 23;
 
 /// The solving systems; docs/cli.md has a table of them.
 enum class System {
@@ -124,9 +125,9 @@ struct SolveOutcome : Outcome<Plan> {
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range
-/// (an option, `explain` or `proof` with what it is not for, more vertices than kMaxVertices, or
-/// `known_lower_bound` if a plan is found that costs less, or given), invalid_plan (`initial_plan`
-/// or `debug.known_plan` is not a plan of the instance; with the first violation).
+/// (an option, `explain` or `proof` with what it is not for, more vertices than the system takes,
+/// or `known_lower_bound` if a plan is found that costs less, or given), invalid_plan
+/// (`initial_plan` or `debug.known_plan` is not a plan of the instance; with the first violation).
 ///
 /// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with
 /// StopReason::memory, as if a limit had been met; memory that the SAT solver held then may be
