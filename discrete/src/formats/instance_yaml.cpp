@@ -14,6 +14,7 @@
 #include "formats/document.hpp"
 #include "formats/instance_document.hpp"
 #include "formats/text_input.hpp"
+#include "quadrille/text/goals.hpp"
 #include "quadrille/text/names.hpp"
 #include "quadrille/text/sniff.hpp"
 
@@ -153,20 +154,24 @@ class YamlInstanceReader {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> places;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, goal, name, potential;
+      std::optional<Node> start, name;
+      text::GoalNodes goals;
+      goals.plural = "potentialGoals";
       if (!check_.members(a, {{"start", &start},
-                              {"goal", &goal, false},
+                              {"goal", &goals.goal, false},
                               {"name", &name, false},
-                              {"potentialGoals", &potential, false}}))
+                              {"potentialGoals", &goals.goals, false}}))
         return false;
-      if (potential) return check_.fail(*potential, "target assignment is not supported");
-      if (!goal) return check_.fail(a, "the key 'goal' is missing");
       auto& own = names_.agents.emplace_back();
       if (name && !text::read_name(check_, document_, *name, own)) return false;
       places.push_back(a);
-      VertexId from, to;
-      if (!read_end(*start, from) || !read_end(*goal, to)) return false;
-      tasks.push_back({{from, to}, *start, *goal});
+      Agent task;
+      const auto end = [&](Node node, VertexId& vertex) { return read_end(node, vertex); };
+      const auto in_words = [&](VertexId v) { return vertex_name(*graph_, v); };
+      if (!read_end(*start, task.start) ||
+          !text::read_goals(check_, document_, a, goals, end, in_words, task.goals))
+        return false;
+      tasks.push_back({std::move(task), *start, goals.node()});
     }
     return are_distinct(check_, names_.agents, places);
   }
@@ -203,10 +208,6 @@ std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& f
                                          const Instance& instance, const text::Names& names) {
   if (!instance.graph().layout())
     return Error{ErrorCode::invalid_instance, "this YAML format needs a grid", {file, 0}};
-  if (instance.has_goal_sets())
-    return Error{ErrorCode::invalid_instance,
-                 "this YAML format has one goal for each agent, not a set of several",
-                 {file, 0}};
   if (instance.now() != 0)
     return Error{ErrorCode::invalid_instance,
                  "instances of this YAML format begin at timestep 0, and this one at " +
@@ -233,7 +234,10 @@ std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& f
     else
       out << "agent" << i.value();
     out << "\n    start: " << pair(grid.cell_of(task.start))
-        << "\n    goal: " << pair(grid.cell_of(task.goal())) << '\n';
+        << (task.goals.is_single() ? "\n    goal: " : "\n    potentialGoals: [");
+    for (const VertexId& goal : task.goals.vertices())
+      out << (&goal == task.goals.vertices().data() ? "" : ", ") << pair(grid.cell_of(goal));
+    out << (task.goals.is_single() ? "\n" : "]\n");
   }
   return finish_output(out, file);
 }

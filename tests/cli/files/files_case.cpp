@@ -133,7 +133,7 @@ void FilesCase::convert_instance() {
   const Words again = {"convert", "--instance", file, "--to"};
   if (must(again + Words{"json"}, {0}).out != text) fail("the instance is another one");
   must({"info", "--instance", file}, {0});
-  if (input_.in_time || !input_.has_cells || input_.has_goal_sets) {
+  if (input_.in_time || !input_.has_cells) {
     must(again + Words{"yaml"}, {64, 65});
     return;
   }

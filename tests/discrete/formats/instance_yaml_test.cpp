@@ -55,6 +55,36 @@ TEST(InstanceYaml, NamesAreReadAndWritten) {
             "test.yaml:3: /agents/1: agents 0 and 1 are both called 'x'");
 }
 
+TEST(InstanceYaml, AgentsMayHaveSeveralGoals) {
+  const std::string map = "map: {dimensions: [5, 2]}\n";
+  const Instance instance =
+      instance_of(map +
+                  "agents: [{name: x, start: [0, 0], potentialGoals: [[4, 0], [1, 1]]},\n"
+                  " {name: y, start: [1, 0], potentialGoals: [[3, 0]]},"
+                  " {name: z, start: [2, 0], goal: [2, 0]}]\n")
+          .value();
+  const auto goals = [&](std::size_t i) {
+    const auto all = instance.agents()[AgentId(i)].goals.vertices();
+    return std::vector<VertexId>(all.begin(), all.end());
+  };
+  EXPECT_EQ(goals(0), (std::vector{VertexId(4), VertexId(6)}));
+  EXPECT_EQ(goals(1), std::vector{VertexId(3)});
+  EXPECT_EQ(goals(2), std::vector{VertexId(2)});
+  std::stringstream yaml;
+  ASSERT_EQ(write_instance_yaml(yaml, "f", instance), std::nullopt);
+  EXPECT_TRUE(testing::equal(instance, read_instance_yaml(yaml, "f").value())) << yaml.str();
+  for (const auto& [agent, why] :
+       {std::pair("{start: [0, 0]}", ": the key 'goal' is missing"),
+        std::pair("{start: [0, 0], potentialGoals: []}", "there is no goal in the list"),
+        std::pair("{start: [0, 0], goal: [1, 0], potentialGoals: [[2, 0]]}",
+                  "expected either 'goal' or 'potentialGoals'"),
+        std::pair("{start: [0, 0], potentialGoals: [[5, 0]]}", "outside the grid")}) {
+    const auto wrong = instance_of(map + "agents: [" + agent + "]\n");
+    ASSERT_FALSE(wrong.has_value()) << agent;
+    EXPECT_NE(wrong.error().to_string().find(why), std::string::npos) << wrong.error().to_string();
+  }
+}
+
 TEST(InstanceYaml, AliasBombsAreRefusedAtOnce) {
   std::string text = "a: &a [x, x, x, x, x, x, x, x, x]\n";
   for (char c = 'b'; c <= 'z'; ++c) {

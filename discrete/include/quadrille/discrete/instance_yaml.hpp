@@ -18,17 +18,17 @@ QUADRILLE_API_BEGIN
 namespace quadrille::discrete {
 
 /// Reads an instance in the YAML of libMultiRobotPlanning: `map` with `dimensions` and `obstacles`,
-/// and `agents` with `start` and `goal`. Its target assignment (`potentialGoals`) and roadmaps are
-/// refused, as are anchors, aliases, unknown keys and tags other than `!!python/tuple`. Agents keep
-/// the order of the file; their names go to `names`, if that is given. Errors as
-/// read_instance_json.
+/// or an undirected `roadmap`, and `agents` with `start` and `goal`, or `potentialGoals`, any one
+/// of which is a goal. Anchors, aliases, unknown keys and tags other than `!!python/tuple` are
+/// refused. Agents keep the order of the file; their names go to `names`, if that is given. Errors
+/// as read_instance_json.
 [[nodiscard]] Result<Instance> read_instance_yaml(std::istream& in, const std::string& file,
                                                   std::size_t most_vertices = SIZE_MAX,
                                                   text::Names* names = nullptr);
 [[nodiscard]] Result<Instance> read_instance_yaml(const std::filesystem::path& path,
                                                   std::size_t most_vertices = SIZE_MAX);
 /// Writes that YAML with agents named agent0, agent1, ... Errors: io; invalid_instance if the graph
-/// is no grid, if an agent has several goals, or if the instance begins later than at 0.
+/// is no grid, or if the instance begins later than at 0.
 [[nodiscard]] std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& file,
                                                        const Instance& instance,
                                                        const text::Names& names = {});

@@ -5,6 +5,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace quadrille::text {
 /// The members "goal" and "goals" of an agent, of which it has one.
 struct GoalNodes {
   std::optional<Document::Node> goal, goals;
+  std::string_view plural = "goals";  ///< What the format calls the second.
 
   /// What is there. Requires that one is.
   [[nodiscard]] Document::Node node() const { return goal ? *goal : *goals; }
@@ -33,7 +35,8 @@ bool read_goals(Checker& check, const Document& document, Document::Node agent,
                 Goals& goals) {
   if (!nodes.goal && !nodes.goals) return check.fail(agent, "the key 'goal' is missing");
   if (nodes.goal && nodes.goals)
-    return check.fail(*nodes.goals, "expected either 'goal' or 'goals'");
+    return check.fail(*nodes.goals,
+                      "expected either 'goal' or '" + std::string(nodes.plural) + "'");
   if (nodes.goal) {
     VertexId only;
     if (!read_vertex(*nodes.goal, only)) return false;
