@@ -74,8 +74,8 @@ PrimalSearch::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
   }
   if (kGuideEffortPerTimestep * ideal_ > Guide::kMostEffort) turn_ = kNumGuides;
   // Whoever has only a part of the work and a second one beside it leaves this to that one.
-  is_opening_ = state_ == State::searching && is_crowded_ && part_ != Part::first_guide;
-  if (is_opening_ && BeamSearch::is_worth_trying(instance_, *distances_))
+  is_settling_due_ = state_ == State::searching && is_crowded_ && part_ != Part::first_guide;
+  if (is_settling_due_ && BeamSearch::is_worth_trying(instance_, *distances_))
     beam_.emplace(instance_, distances_, seed_);
 }
 
@@ -90,7 +90,7 @@ PrimalSearch::State PrimalSearch::Impl::advance(std::int64_t effort, LimitMonito
       advance_beam(enough - effort_, limits);
       continue;
     }
-    if (is_opening_ || is_turn_of_settling()) {
+    if (is_settling_due_) {
       advance_settling(enough - effort_, limits);
       continue;
     }
@@ -115,10 +115,7 @@ void PrimalSearch::Impl::advance_settling(std::int64_t effort, LimitMonitor& lim
   if (state == Settling::State::found) plan = settling_->plan(limits);
   settling_.reset();
   if (plan) offer(*std::move(plan), kSettling);
-  if (is_opening_)
-    end_opening();
-  else
-    end_turn();
+  end_settling();
 }
 
 void PrimalSearch::Impl::advance_beam(std::int64_t effort, LimitMonitor& limits) {
@@ -128,11 +125,11 @@ void PrimalSearch::Impl::advance_beam(std::int64_t effort, LimitMonitor& limits)
   if (beam_->plan()) offer(*beam_->plan(), kBeamSearch);
   if (!beam_->is_over()) return;
   beam_.reset();
-  if (plan_) end_opening();
+  if (plan_) end_settling();
 }
 
-void PrimalSearch::Impl::end_opening() {
-  is_opening_ = false;
+void PrimalSearch::Impl::end_settling() {
+  is_settling_due_ = false;
   finish_if_over();
 }
 
@@ -158,6 +155,7 @@ void PrimalSearch::Impl::offer(Plan plan, std::string_view origin) {
   const Cost cost = plan.cost(Objective::sum_of_costs);
   if (plan_ && cost >= cost_) return;
   if (!plan_) origin_ = origin;
+  is_settled_ = origin == kSettling;
   plan_ = std::move(plan);
   plan_->now = instance_.now();
   cost_ = cost;
@@ -224,6 +222,8 @@ void PrimalSearch::Impl::end_turn() {
   turn_end_.reset();
   other_.reset();
   ++turn_;
+  if (turn_ == 1 && state_ == State::searching && part_ != Part::first_guide)
+    is_settling_due_ = !is_crowded_;  // Otherwise it was the first of all.
   finish_if_over();
 }
 
@@ -237,9 +237,11 @@ void PrimalSearch::Impl::finish_if_over() {
 bool PrimalSearch::Impl::is_over() const noexcept {
   if (windows_) return false;
   if (part_ == Part::first_guide && turn_ >= 1) return true;
-  if (state_ == State::searching || is_opening_) return false;
+  if (state_ == State::searching || is_settling_due_) return false;
   if (part_ == Part::rest && turn_ >= 1 && !is_dear()) return true;
-  return !plan_ || turn_ >= kNumGuides || 100 * (cost_ - ideal_) <= kGoodPlan * ideal_;
+  const bool is_long = is_settled_ && cost_ > 2 * ideal_;
+  return !plan_ || turn_ >= (is_long ? kTurnsBesideSettling : kNumGuides) ||
+         100 * (cost_ - ideal_) <= kGoodPlan * ideal_;
 }
 
 const Plan& PrimalSearch::Impl::plan() const {

@@ -153,6 +153,45 @@ TEST(PrimalSearch, TellsWhatFoundTheFirstPlan) {
   EXPECT_EQ(searched(crowd(16, 240, 1)).origin(), "settling");
 }
 
+/// A comb: a spine, and a corridor that hangs on each of its vertices. Every vertex but a few is on
+/// no cycle, and a quarter is taken.
+Instance comb(std::size_t corridors, std::size_t length, std::uint64_t seed) {
+  std::vector<Graph::Edge> edges;
+  const std::size_t n = corridors * (length + 1);
+  for (std::size_t c = 0; c < corridors; ++c) {
+    if (c > 0) edges.emplace_back(VertexId(c - 1), VertexId(c));
+    for (std::size_t k = 0; k < length; ++k) {
+      const std::size_t v = corridors + c * length + k;
+      edges.emplace_back(VertexId(k == 0 ? c : v - 1), VertexId(v));
+    }
+  }
+  support::Random random(seed);
+  const auto drawn = [&] {
+    std::vector<std::size_t> all(n);
+    for (std::size_t v = 0; v < n; ++v) all[v] = v;
+    random.shuffle(all);
+    return all;
+  };
+  const auto starts = drawn(), goals = drawn();
+  std::vector<Agent> agents;
+  for (std::size_t i = 0; i < n / 4; ++i)
+    agents.push_back({VertexId(starts[i]), VertexId(goals[i])});
+  return Instance::make(Graph::make(n, edges).value(), std::move(agents)).value();
+}
+
+TEST(PrimalSearch, SettlesAgentsAsSoonAsTheFirstGuideHasFailed) {
+  const Instance instance = comb(20, 15, 1);
+  LimitMonitor limits{Limits{}};
+  PrimalSearch search(instance, distances_of(instance), 0);
+  while (search.state() == State::searching) static_cast<void>(search.advance(1000, limits));
+  EXPECT_EQ(search.origin(), "settling");
+  // A turn of the second guide alone would be more.
+  EXPECT_LE(search.effort(), 200'000);
+  const Cost settled = search.cost();
+  while (!search.is_over()) static_cast<void>(search.advance(1000, limits));
+  EXPECT_LE(3 * search.cost(), settled);
+}
+
 TEST(PrimalSearch, CrowdedBoardsGetPlansThatAreNoDearerThanSettledOnes) {
   for (std::uint64_t seed = 0; seed < scaled(6); ++seed) {
     const auto side = static_cast<std::int32_t>(4 + seed % 8);
