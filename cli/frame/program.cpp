@@ -44,9 +44,9 @@ ExitCode run(int argc, char** argv) {
   program.footer(std::string(kFooter) + kExitCodesHelp);
   program.get_formatter()->column_width(28);
   const std::vector<Subcommand> subcommands = {
-      add_solve(program),    add_explain(program), add_verify(program),  add_info(program),
-      add_generate(program), add_convert(program), add_view(program),    add_execute_check(program),
-      add_simulate(program), add_export(program),  add_campaign(program)};
+      add_solve(program),    add_explain(program),  add_verify(program), add_info(program),
+      add_generate(program), add_convert(program),  add_view(program),   add_execute_check(program),
+      add_simulate(program), add_dispatch(program), add_export(program), add_campaign(program)};
   const CLI::App* active = &program;
   try {
     program.parse(argc, argv);

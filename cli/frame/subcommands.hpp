@@ -16,6 +16,7 @@ namespace quadrille::cli {
 [[nodiscard]] Subcommand add_campaign(CLI::App& program);
 [[nodiscard]] Subcommand add_execute_check(CLI::App& program);
 [[nodiscard]] Subcommand add_simulate(CLI::App& program);
+[[nodiscard]] Subcommand add_dispatch(CLI::App& program);
 [[nodiscard]] Subcommand add_export(CLI::App& program);
 
 }  // namespace quadrille::cli

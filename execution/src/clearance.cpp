@@ -41,13 +41,18 @@ ClearanceWatch::Vector ClearanceWatch::place(AgentId agent, double clock) const 
   const continuous::Path& path = plan_.paths[agent];
   std::size_t k = stops_[agent];
   while (k + 1 < path.size() && real(path[k + 1].arrive) <= clock) ++k;
-  const geometry::Point& from = instance_.roadmap().position(path[k].vertex);
+  const geometry::Place here = instance_.roadmap().place(path[k].vertex);
+  const auto between = [](const geometry::Point& from, const geometry::Point& to, double share) {
+    return Vector{real(from.x) + real(to.x - from.x) * share,
+                  real(from.y) + real(to.y - from.y) * share,
+                  real(from.z) + real(to.z - from.z) * share};
+  };
+  const double behind = real(here.behind) / real(here.whole);
   if (k + 1 == path.size() || clock <= real(path[k].depart))
-    return {real(from.x), real(from.y), real(from.z)};
+    return between(here.from, here.to, behind);
   const geometry::Point& to = instance_.roadmap().position(path[k + 1].vertex);
   const double share = (clock - real(path[k].depart)) / real(path[k + 1].arrive - path[k].depart);
-  return {real(from.x) + real(to.x - from.x) * share, real(from.y) + real(to.y - from.y) * share,
-          real(from.z) + real(to.z - from.z) * share};
+  return between(here.from, to, behind + (1 - behind) * share);
 }
 
 void ClearanceWatch::lay_out(AgentId agent, Ticks before, Ticks after) {

@@ -74,7 +74,7 @@ class Finder {
     const geometry::Point a = instance_.roadmap().position(from);
     const geometry::Point b = instance_.roadmap().position(to);
     const Length reach = instance_.reach(body);
-    Kind kind{body, Motion{a, b, duration}, 0, 0, 0, 0, {}};
+    Kind kind{body, instance_.roadmap().motion(from, to, duration), 0, 0, 0, 0, {}};
     kind.left = std::min(a.x, b.x) - reach;
     kind.right = std::max(a.x, b.x) + reach;
     kind.bottom = std::min(a.y, b.y) - reach;

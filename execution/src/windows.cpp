@@ -24,10 +24,13 @@ std::optional<UnsafeWindow> unsafe_window(const geometry::BodyPair& bodies,
   if (!bodies.can_meet(a, b)) return std::nullopt;
   // The same motions in finer ticks.
   std::int64_t parts = kFinest;
-  while (parts > 1 && std::max(a.duration, b.duration) > geometry::kMaxDuration / parts) parts /= 2;
+  const Ticks longest = std::max(a.behind + a.duration, b.behind + b.duration);
+  while (parts > 1 && longest > geometry::kMaxDuration / parts) parts /= 2;
   geometry::Motion fine_a = a, fine_b = b;
-  fine_a.duration *= parts;
-  fine_b.duration *= parts;
+  for (geometry::Motion* const fine : {&fine_a, &fine_b}) {
+    fine->duration *= parts;
+    fine->behind *= parts;
+  }
   const auto offsets = bodies.unsafe_offsets(fine_a, fine_b);
   if (!offsets) return std::nullopt;
   const Ticks below(floor_div(offsets->first().value(), parts));

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "conversions.hpp"
-#include "place_rounding.hpp"
 #include "quadrille/continuous/quantise_polygon.hpp"
 
 namespace quadrille::fleet {
@@ -113,13 +112,14 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
     return out_of_range(name + "has a speed of " + to_string(entry.spec.speed) +
                         ", which is not supported");
   continuous::Agent agent{entry.start.value_or(VertexId(0)), *entry.goals, *body, *speed};
-  agent.under_way = entry.under_way.has_value();  // and its start is to come
+  // Its start is to come, if it is.
+  agent.under_way = entry.under_way && !entry.under_way->may_wait;
   if (entry.spec.group) {
     if (entry.spec.group->index() < 1 || entry.spec.group->index() > roadmap_.num_groups())
       return invalid(name + "is of a group that the roadmap does not have");
     agent.group = *entry.spec.group;
   }
-  if (entry.under_way && entry.release > begin_)
+  if (agent.under_way && entry.release > begin_)
     return invalid(name + "is under way, and cannot be released later");
   const auto release = time_to_units(entry.release, true, resolution);
   if (!release)
@@ -213,7 +213,7 @@ Result<Fleet::Parts> Fleet::parts() const {
   parts.now = *now;
   auto agents = this->agents();
   if (!agents) return agents.error();
-  auto roads = put_under_way(*agents, parts.off);
+  auto roads = put_under_way(*agents, parts.now);
   if (!roads) return roads.error();
   auto obstacles = obstacles_in_units();
   if (!obstacles) return obstacles.error();
@@ -229,10 +229,8 @@ Result<continuous::Instance> Fleet::instance() const {
   auto instance = continuous::Instance::make(parts->roads, parts->agents, roadmap_.unit_sizes(), {},
                                              parts->obstacles, parts->now);
   if (instance) return instance;
-  Error error = continuous::in_words(instance.error(), parts->roads, parts->agents,
-                                     roadmap_.unit_sizes(), parts->obstacles, parts->now, words());
-  if (error.code == ErrorCode::no_plan) error.message += PlaceRounding(*this).doubt_about_refusal();
-  return error;
+  return continuous::in_words(instance.error(), parts->roads, parts->agents, roadmap_.unit_sizes(),
+                              parts->obstacles, parts->now, words());
 }
 
 }  // namespace quadrille::fleet

@@ -6,7 +6,6 @@
 
 #include "conversions.hpp"
 #include "numbers.hpp"
-#include "place_rounding.hpp"
 #include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/core/usage.hpp"
 
@@ -114,11 +113,6 @@ Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
   outcome.explanation = std::move(solved->explanation);
   outcome.blocked = solved->blocked;
   outcome.bottleneck = solved->bottleneck;
-  if (outcome.status == Status::infeasible) {
-    const Usage used{solved->statistics.wall_s, solved->statistics.cpu_s};
-    outcome.explanation +=
-        PlaceRounding(fleet).doubt_about(solved->blocked, limits_left(asked.limits, used));
-  }
   outcome.statistics = solved->statistics;
   outcome.internal_error = std::move(solved->internal_error);
   if (!solved->plan) return outcome;

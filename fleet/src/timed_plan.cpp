@@ -83,16 +83,13 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
                              in_metres(state.instance.roadmap().position(stop.vertex), resolution),
                              seconds(stop.arrive), seconds(stop.depart)});
     const Cost cost = continuous::cost(plan.paths[i]);
-    if (const auto& begin = fleet.under_way(i)) {
-      // What is left of the move is the first one of the path.
-      const double whole = static_cast<double>(
-          lane_duration(state.instance.roadmap(), state.instance.agent(i), begin->from, begin->to)
-              .value()
-              .value());
-      const auto left =
-          static_cast<double>((plan.paths[i][1].arrive - plan.paths[i][0].arrive).value());
-      path.under_way_ = UnderWay{begin->from, begin->to, (whole - left) / whole};
-    }
+    if (const auto* place = state.instance.roadmap().lane_place(plan.paths[i].front().vertex))
+      path.under_way_ = UnderWay{
+          place->from,
+          place->to,
+          static_cast<double>(place->behind.value()) / static_cast<double>(place->whole.value()),
+          {},
+          fleet.under_way(i)->may_wait};
     // There is a way to the goal: the plan takes one.
     const Cost free = continuous::as_cost(continuous::free_cost(state.instance, i).value());
     path.cost_ = seconds(cost);

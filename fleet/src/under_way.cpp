@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "conversions.hpp"
 #include "lane_duration.hpp"
 #include "numbers.hpp"
 #include "quadrille/fleet/fleet.hpp"
@@ -14,17 +16,6 @@ namespace quadrille::fleet {
 namespace {
 
 Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
-
-/// How far the place is from that fraction of the way; what double cannot tell is nothing.
-double distance_off(const continuous::Point& place, const continuous::Point& from,
-                    const continuous::Point& to, double fraction) {
-  const auto off = [&](continuous::Length at, continuous::Length a, continuous::Length b) {
-    return static_cast<double>((at - a).value()) - fraction * static_cast<double>((b - a).value());
-  };
-  const double distance = std::hypot(off(place.x, from.x, to.x), off(place.y, from.y, to.y),
-                                     off(place.z, from.z, to.z));
-  return distance < 1e-6 ? 0 : distance;
-}
 
 }  // namespace
 
@@ -51,6 +42,8 @@ Robot Robot::from_edge(VertexId from, VertexId to, double fraction) const {
   // lie behind the robot in both parts together.
   QUADRILLE_REQUIRE(entry.under_way && entry.under_way->to == to,
                     "a vertex of the roadmap, or its own place");
+  entry.under_way->may_wait = false;
+  QUADRILLE_REQUIRE(!entry.under_way->begun, "a move that was told by its fraction");
   double& behind = entry.under_way->fraction;
   const bool is_part = fraction >= 0 && fraction <= 1;  // else `instance` refuses it
   behind = is_part ? behind + (1 - behind) * fraction : fraction;
@@ -66,7 +59,7 @@ Robot Robot::from(const TimedPath& path, Seconds time) const {
   if (is_there && (next != stops.begin() || !path.under_way())) return from(next->vertex);
   if (is_there) {
     const UnderWay& begin = *path.under_way();
-    return from_edge(begin.from, begin.to, begin.fraction);
+    return from_edge(begin.from, begin.to, begin.fraction).may_wait(begin.may_wait);
   }
   const Stop& last = *(next - 1);
   const double share = (time - last.depart) / (next->arrive - last.depart);
@@ -76,34 +69,66 @@ Robot Robot::from(const TimedPath& path, Seconds time) const {
   return from_edge(begin.from, begin.to, begin.fraction + (1 - begin.fraction) * share);
 }
 
+Robot Robot::begun(Seconds time) const {
+  Fleet::Entry& entry = fleet_->robots_[id_];
+  QUADRILLE_REQUIRE(entry.under_way.has_value(), "a robot in the middle of a move");
+  QUADRILLE_REQUIRE(std::isfinite(time.value()), "a moment");
+  entry.under_way->begun = time;
+  return *this;
+}
+
+Robot Robot::may_wait(bool may) const {
+  Fleet::Entry& entry = fleet_->robots_[id_];
+  QUADRILLE_REQUIRE(entry.under_way.has_value(), "a robot in the middle of a move");
+  entry.under_way->may_wait = may;
+  return *this;
+}
+
+Result<continuous::LanePlace> Fleet::lane_place(AgentId id, const continuous::Agent& agent,
+                                                continuous::Ticks now) const {
+  const UnderWay& where = *robots_[id].under_way;
+  const std::string name = "'" + this->name(id) + "' ";
+  if (!(where.fraction >= 0 && where.fraction <= 1))
+    return out_of_range(name + "is under way with " + shortest(where.fraction) +
+                        " of its move behind it, which is not from 0 to 1");
+  const auto whole = lane_duration(*roadmap_.in_units(), agent, where.from, where.to);
+  const std::string lane = roadmap_.name(where.from) + " to " + roadmap_.name(where.to);
+  if (!whole)
+    return out_of_range(name + "is under way from " + lane +
+                        ", which takes it less than half a step of " +
+                        to_string(roadmap_.resolution().time) + ", or too long");
+  continuous::LanePlace place{VertexId(), where.from, where.to, 0, *whole};
+  if (!where.begun) {
+    place.behind = continuous::ticks_behind(where.fraction, *whole);
+    return place;
+  }
+  const double behind =
+      static_cast<double>(now.value()) - where.begun->value() / roadmap_.unit_sizes().time;
+  const double nearest = std::round(behind);
+  const double whole_ticks = std::abs(behind - nearest) < 1e-6 ? nearest : std::floor(behind);
+  if (!(whole_ticks >= 0 && whole_ticks < static_cast<double>(whole->value())))
+    return out_of_range(name + "began its move from " + lane + " at " + to_string(*where.begun) +
+                        ", and is not within it at " + to_string(begin_) + ": it takes " +
+                        to_string(in_seconds(*whole, roadmap_.unit_sizes())));
+  place.behind = continuous::Ticks(static_cast<std::int64_t>(whole_ticks));
+  return place;
+}
+
 // A vertex for each place in the middle of a move, with what is left of the move. Nobody else can
 // be there.
 Result<Fleet::Roads> Fleet::put_under_way(std::vector<continuous::Agent>& agents,
-                                          std::vector<double>& off) const {
-  off.assign(agents.size(), 0);
-  if (std::none_of(agents.begin(), agents.end(), [](const auto& a) { return a.under_way; }))
-    return roadmap_.in_units();
-  std::vector<continuous::Point> points = roadmap_.in_units()->positions();
-  std::vector<continuous::Edge> edges = roadmap_.in_units()->edges();
+                                          continuous::Ticks now) const {
+  const auto is_under_way = [](const Entry& robot) { return robot.under_way.has_value(); };
+  if (std::none_of(robots_.begin(), robots_.end(), is_under_way)) return roadmap_.in_units();
+  continuous::RoadmapParts parts(*roadmap_.in_units());
   for (const AgentId id : robot_ids()) {
-    continuous::Agent& agent = agents[id.index()];
-    if (!agent.under_way) continue;
-    const UnderWay& where = *robots_[id].under_way;
-    const std::string name = "'" + this->name(id) + "' ";
-    if (!(where.fraction >= 0 && where.fraction <= 1))
-      return out_of_range(name + "is under way with " + shortest(where.fraction) +
-                          " of its move behind it, which is not from 0 to 1");
-    const continuous::Point from = points[where.from.index()], to = points[where.to.index()];
-    const auto whole = lane_duration(*roadmap_.in_units(), agent, where.from, where.to);
-    if (!whole)
-      return out_of_range(name + "is under way from " + roadmap_.name(where.from) + " to " +
-                          roadmap_.name(where.to) + ", which takes it less than half a step of " +
-                          to_string(roadmap_.resolution().time) + ", or too long");
-    agent.start = continuous::add_place_under_way(points, edges, where.from, where.to, *whole,
-                                                  where.fraction);
-    off[id.index()] = distance_off(points[agent.start.index()], from, to, where.fraction);
+    if (!is_under_way(robots_[id])) continue;
+    const auto place = lane_place(id, agents[id.index()], now);
+    if (!place) return place.error();
+    agents[id.index()].start =
+        continuous::add_lane_place(parts, place->from, place->to, place->whole, place->behind);
   }
-  auto roads = continuous::Roadmap::make(std::move(points), std::move(edges));
+  auto roads = std::move(parts).make();
   if (!roads) return roads.error();
   return std::make_shared<const continuous::Roadmap>(std::move(roads).value());
 }

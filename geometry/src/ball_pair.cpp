@@ -40,9 +40,9 @@ bool meet(const Motion& a, const Motion& b, Ticks offset, Window window, Length 
 // direction in which all corners are too far: FCL's or any other nearest point proposes one.
 bool can_meet(const Motion& a, const Motion& b, Length reach) {
   if (boxes_apart(a, b, reach)) return false;
-  const Parallelogram places = relative_places(a, b);
-  Vec3 corners[4];
-  for (std::size_t i = 0; i < 4; ++i) corners[i] = to_vec3(places.corners[i]);
+  const auto [apart_at_first, step_a, step_b] = sweep(a, b, to_vec3);
+  const Vec3 corners[4] = {apart_at_first, apart_at_first + step_b,
+                           apart_at_first + step_b - step_a, apart_at_first - step_a};
   const Vec3 nearest = nearest_point(corners);
   const double apart = norm(nearest);
   const double error = space_error_bound(a, b, reach);
@@ -51,7 +51,7 @@ bool can_meet(const Motion& a, const Motion& b, Length reach) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3 corner : corners) least = std::min(least, dot(direction, corner));
   if (least >= to_double(reach) + error) return false;
-  return exact::ball_reaches(places, reach);
+  return a.is_part() || b.is_part() || exact::ball_reaches(relative_places(a, b), reach);
 }
 
 bool boxes_apart(const Motion& a, const Motion& b, Length reach) {
@@ -71,9 +71,8 @@ bool boxes_apart(const Motion& a, const Motion& b, Length reach) {
 // is `radius` from the origin: with w and r for what of `apart` and velocity_b is normal to the
 // relative velocity, |w - offset r|^2 = radius^2, whose discriminant is (radius |r|)^2 - |w x r|^2.
 RealInterval likely_offsets(const Motion& a, const Motion& b, Length reach) {
-  const Vec3 apart = to_vec3(b.from - a.from);
-  const Vec3 step_a = to_vec3(a.to - a.from);
-  const Vec3 step_b = to_vec3(b.to - b.from);
+  const Sweep<Vec3> swept = sweep(a, b, to_vec3);
+  const Vec3 &apart = swept.apart, &step_a = swept.step_a, &step_b = swept.step_b;
   const double duration_a = static_cast<double>(a.duration.value());
   const double duration_b = static_cast<double>(b.duration.value());
   const double radius = to_double(reach);

@@ -23,14 +23,19 @@ namespace index = boost::geometry::index;
 using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
 using Box = boost::geometry::model::box<Corner>;
 
-/// From `place` with what is added at the least and at the most.
-Box box_at(const Point& place, const Point& low, const Point& high) {
-  const auto sum = [](Length a, Length b) { return static_cast<double>((a + b).value()); };
-  return {{sum(place.x, low.x), sum(place.y, low.y), sum(place.z, low.z)},
-          {sum(place.x, high.x), sum(place.y, high.y), sum(place.z, high.z)}};
+/// Around the way on which `place` is, with what is added at the least and at the most.
+Box box_at(const Place& place, const Point& low, const Point& high) {
+  const auto least = [&](Length Point::*at) {
+    return static_cast<double>((std::min(place.from.*at, place.to.*at) + low.*at).value());
+  };
+  const auto most = [&](Length Point::*at) {
+    return static_cast<double>((std::max(place.from.*at, place.to.*at) + high.*at).value());
+  };
+  return {{least(&Point::x), least(&Point::y), least(&Point::z)},
+          {most(&Point::x), most(&Point::y), most(&Point::z)}};
 }
 
-Box box_of(const Body& body, const Point& place) {
+Box box_of(const Body& body, const Place& place) {
   if (const Disc* const disc = std::get_if<Disc>(&body)) {
     const Length r = disc->radius;
     return box_at(place, {-r, -r, -r}, {r, r, r});
@@ -53,7 +58,7 @@ class BodyIndex::Tree {
   struct Entry {
     std::size_t number;
     Body body;
-    Point place;
+    Place place;
   };
 
   void add(Entry entry) {
@@ -62,7 +67,7 @@ class BodyIndex::Tree {
   }
 
   [[nodiscard]] std::optional<std::size_t> first_overlap(const Body& body,
-                                                         const Point& place) const {
+                                                         const Place& place) const {
     std::optional<std::size_t> first;
     const auto near = index::intersects(box_of(body, place));
     for (auto at = boxes_.qbegin(near); at != boxes_.qend(); ++at) {
@@ -83,11 +88,11 @@ BodyIndex::~BodyIndex() = default;
 BodyIndex::BodyIndex(BodyIndex&&) noexcept = default;
 BodyIndex& BodyIndex::operator=(BodyIndex&&) noexcept = default;
 
-void BodyIndex::add(std::size_t number, const Body& body, const Point& place) {
+void BodyIndex::add(std::size_t number, const Body& body, const Place& place) {
   tree_->add({number, body, place});
 }
 
-std::optional<std::size_t> BodyIndex::first_overlap(const Body& body, const Point& place) const {
+std::optional<std::size_t> BodyIndex::first_overlap(const Body& body, const Place& place) const {
   return tree_->first_overlap(body, place);
 }
 

@@ -134,7 +134,8 @@ bool BodyPair::collide(const Motion& a, const Motion& b, Ticks offset) const {
 
 bool BodyPair::can_meet(const Motion& a, const Motion& b) const {
   require_valid(a, b);
-  if (is_in_space(a, b)) return balls::can_meet(a, b, reach_);
+  const bool has_parts = a.is_part() || b.is_part();
+  if (is_in_space(a, b) || (has_parts && !shape_)) return balls::can_meet(a, b, reach_);
   const Parallelogram places = relative_places(a, b);
   if (boxes_apart(places, corners(), reach_)) return false;
   if (insides_meet(places, corners())) return true;
@@ -198,13 +199,13 @@ std::optional<TickInterval> BodyPair::unsafe_offsets(const Motion& a, const Moti
 // offset `arrive`, which collides iff the contact reaches beyond `arrive`; one present during [0,
 // leave] is in contact while both are there iff a rest that starts leave - duration early is. So
 // the run of unsafe offsets tells both ends of the contact.
-std::optional<TickInterval> BodyPair::contact_window(const Motion& a, const Point& place) const {
+std::optional<TickInterval> BodyPair::contact_window(const Motion& a, const Place& place) const {
   const std::optional<TickInterval> run = unsafe_offsets(a, rest(place, a.duration));
   if (!run) return std::nullopt;
   return TickInterval{a.duration + run->first() - 1, run->end};
 }
 
-bool BodyPair::overlap(const Point& place_a, const Point& place_b) const {
+bool BodyPair::overlap(const Place& place_a, const Place& place_b) const {
   return collide(rest(place_a, 0), rest(place_b, 0), 0);
 }
 

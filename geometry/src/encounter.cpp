@@ -153,6 +153,9 @@ class Shapes {
 
 /// The share of the leg that is over at a tick.
 double share(const Leg& leg, Ticks tick) {
+  if (leg.whole > 0)
+    return static_cast<double>((leg.stands ? leg.behind : leg.behind + tick - leg.begin).value()) /
+           static_cast<double>(leg.whole.value());
   return leg.end == leg.begin ? 0
                               : static_cast<double>((tick - leg.begin).value()) /
                                     static_cast<double>((leg.end - leg.begin).value());

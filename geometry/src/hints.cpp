@@ -27,9 +27,8 @@ RealInterval inner_fractions(Vec start, Vec step, std::span<const Vec> corners) 
 // bodies graze each other in full motion.
 void include_disc(const Motion& a, const Motion& b, Vec centre, double radius,
                   RealInterval& offsets) {
-  const Vec apart = to_vec(b.from - a.from) - centre;
-  const Vec step_a = to_vec(a.to - a.from);
-  const Vec step_b = to_vec(b.to - b.from);
+  const auto [begin, step_a, step_b] = sweep(a, b, to_vec);
+  const Vec apart = begin - centre;
   const double duration_a = static_cast<double>(a.duration.value());
   const double duration_b = static_cast<double>(b.duration.value());
 
@@ -56,9 +55,8 @@ void include_disc(const Motion& a, const Motion& b, Vec centre, double radius,
 // where the sides of the square enter and leave the polygon, and at corners of the polygon.
 void include_polygon(const Motion& a, const Motion& b, std::span<const Vec> corners,
                      RealInterval& offsets) {
-  const Vec apart = to_vec(b.from - a.from);
-  const Vec step_a = to_vec(a.to - a.from);
-  const Vec step_b = to_vec(b.to - b.from);
+  const Sweep<Vec> swept = sweep(a, b, to_vec);
+  const Vec &apart = swept.apart, &step_a = swept.step_a, &step_b = swept.step_b;
   const auto include = [&](double p, double q) {
     offsets.include(p * static_cast<double>(a.duration.value()) -
                     q * static_cast<double>(b.duration.value()));

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -88,6 +89,26 @@ inline double error_bound(const Motion& a, const Motion& b, Length size) {
   return 32 * std::numeric_limits<double>::epsilon() * static_cast<double>(sum.value());
 }
 
+/// The share of its way that lies behind a body at tick s.
+inline double share_at(const Motion& motion, Ticks s) {
+  return static_cast<double>(motion.done(s).value()) / static_cast<double>(motion.whole().value());
+}
+
+/// What happens within two motions, in doubles: where b is as seen from a when both begin, and how
+/// far each goes until it ends.
+template <class Vector>
+struct Sweep {
+  Vector apart, step_a, step_b;
+};
+template <class ToVector>
+auto sweep(const Motion& a, const Motion& b, const ToVector& to_vector) {
+  const auto way_a = to_vector(a.to - a.from), way_b = to_vector(b.to - b.from);
+  const double first_a = share_at(a, 0), first_b = share_at(b, 0);
+  return Sweep<std::decay_t<decltype(way_a)>>{
+      to_vector(b.from - a.from) + first_b * way_b - first_a * way_a,
+      (share_at(a, a.duration) - first_a) * way_a, (share_at(b, b.duration) - first_b) * way_b};
+}
+
 /// Where b is as seen from a, when the window begins and when it ends; `to_vector` makes doubles of
 /// points.
 template <class ToVector>
@@ -96,14 +117,8 @@ auto relative_ends(const Motion& a, const Motion& b, Ticks offset, Window window
   const auto apart = to_vector(b.from - a.from);
   const auto step_a = to_vector(a.to - a.from);
   const auto step_b = to_vector(b.to - b.from);
-  const auto fraction = [](Ticks time, Ticks duration) {
-    return duration == 0
-               ? 0.0
-               : static_cast<double>(time.value()) / static_cast<double>(duration.value());
-  };
   const auto at = [&](Ticks time) {
-    return apart + fraction(time - offset, b.duration) * step_b -
-           fraction(time, a.duration) * step_a;
+    return apart + share_at(b, time - offset) * step_b - share_at(a, time) * step_a;
   };
   return std::pair(at(window.begin), at(window.end));
 }
@@ -115,7 +130,7 @@ inline RelativePath relative_path(const Motion& a, const Motion& b, Ticks offset
 }
 
 /// The places that b's reference point can take relative to a's at any offset: a parallelogram, in
-/// this order around it, or what is left of one.
+/// this order around it, or what is left of one. Of parts: those of the whole motions.
 struct Parallelogram {
   Point corners[4];
 };

@@ -13,6 +13,7 @@ A place on a grid is ``(x, y)``, column and row. On roadmaps, lengths and times 
 from ._core import __version__
 from ._errors import BodyWarning, FileError, InputError, NoPlanError, RoundingWarning
 from .attribution import Attribution, Charge, Place, Raise, Reason, Site
+from .dispatching import Dispatcher, Orders
 from .fleet import Fleet
 from .graphs import Graph, Grid, PoseGrid, Roadmap
 from .plans import Plan, StepPath, StepPlan, TimedPath, TimedPlan
@@ -25,6 +26,7 @@ __all__ = [
     "Attribution",
     "BodyWarning",
     "Charge",
+    "Dispatcher",
     "FileError",
     "Fleet",
     "Graph",
@@ -32,6 +34,7 @@ __all__ = [
     "InputError",
     "NoPlanError",
     "Obstacle",
+    "Orders",
     "Place",
     "Plan",
     "PoseGrid",

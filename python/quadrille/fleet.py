@@ -68,8 +68,6 @@ class Fleet(Generic[P]):
     errors: there is no plan, as ``solve`` says.
     """
 
-    # Who is under way, as given.
-    _moves: dict[int, Underway] = {}
     # Why there is no plan, of a file: nothing else is known of it.
     _unread: Optional[str] = None
 
@@ -124,7 +122,6 @@ class Fleet(Generic[P]):
         called = [] if names is None else [repr(str(name)) for name in names]
         if isinstance(graph, Roadmap):
             begin, under_way = _starts(graph, starts)
-            self._moves = {agent: Underway(*move) for agent, *move in under_way}
             end, num_goals = _goal_vertices(graph, goals)
             n = len(begin)
             _check_lengths(n, len(num_goals))
@@ -279,6 +276,15 @@ class Fleet(Generic[P]):
         return cast("npt.NDArray[np.bool_]", self._timed("leaves").rules()["leaves"])
 
     @property
+    def _moves(self) -> dict[int, Underway]:
+        """Who begins in the middle of a move, by agent."""
+        moves = self._timed("moves").rules()["moves"]
+        return {
+            agent: Underway(source, target, fraction, None, may_wait)
+            for agent, source, target, fraction, may_wait in moves
+        }
+
+    @property
     def under_way(self) -> npt.NDArray[np.bool_]:
         """On roadmaps: bool[n], who begins in the middle of a move; read-only."""
         return cast("npt.NDArray[np.bool_]", self._timed("under_way").rules()["under_way"])
@@ -384,9 +390,9 @@ class Fleet(Generic[P]):
 
 def _starts(
     graph: Roadmap, starts: Any
-) -> tuple[npt.NDArray[np.int64], list[tuple[int, int, int, float]]]:
-    """Vertices, and who is under way instead: (agent, from, to, fraction)."""
-    under_way: list[tuple[int, int, int, float]] = []
+) -> tuple[npt.NDArray[np.int64], list[tuple[int, int, int, float, Optional[float], bool]]]:
+    """Vertices, and who is under way instead: the agent, and an ``Underway``."""
+    under_way: list[tuple[int, int, int, float, Optional[float], bool]] = []
     if isinstance(starts, np.ndarray) and starts.dtype.kind != "O":
         return graph._vertices(starts, "starts"), under_way
     places = list(starts)
@@ -395,7 +401,8 @@ def _starts(
             continue
         source = graph._vertex(place.source, f"starts[{agent}]")
         target = graph._vertex(place.target, f"starts[{agent}]")
-        under_way.append((agent, source, target, float(place.fraction)))
+        begun = None if place.begun is None else float(place.begun)
+        under_way.append((agent, source, target, float(place.fraction), begun, bool(place.may_wait)))
         places[agent] = place.source
     return graph._vertices(places, "starts"), under_way
 

@@ -384,14 +384,16 @@ class TimedPlan(Plan):
         def place(vertex: int) -> Any:
             return vertex if nodes is None else nodes[vertex]
 
-        def on_the_way(source: int, target: int, fraction: float) -> Underway:
-            return Underway(place(source), place(target), fraction)
+        def on_the_way(
+            source: int, target: int, fraction: float, may_wait: bool = False
+        ) -> Underway:
+            return Underway(place(source), place(target), fraction, None, may_wait)
 
         last = len(stops) - 1
         at = next((k for k in range(last) if stops["depart"][k] >= time), last)
         vertex = int(stops["vertex"][at])
         if at == 0 and begin is not None:
-            return on_the_way(begin.source, begin.target, begin.fraction)
+            return on_the_way(begin.source, begin.target, begin.fraction, begin.may_wait)
         if at == 0 or stops["arrive"][at] <= time:
             return place(vertex)
         depart, arrive = float(stops["depart"][at - 1]), float(stops["arrive"][at])

@@ -51,14 +51,20 @@ class Obstacle:
 @dataclass(frozen=True)
 class Underway:
     """Instead of a start: when the fleet begins the agent is in the middle of the move from ``source`` to
-    ``target`` and finishes it, without a stop, also if there is no such edge any more."""
+    ``target`` and finishes it, without a stop, also if there is no such edge any more. Its place is that
+    point of the edge, exactly."""
 
     source: Any
     """Vertex, or its name."""
     target: Any
-    fraction: float
+    fraction: float = 0.0
     """How much of the move lies behind it, 0 to 1. Rounded down to whole ticks, of which at least one is
     left; where it is follows from that."""
+    begun: Optional[float] = None
+    """Instead of a fraction: when it began the move, on the clock of the fleet's ``now``; negative where
+    that is 0. Rounded up to a whole tick."""
+    may_wait: bool = False
+    """It stands there, and may wait before it goes on."""
 
 
 def obstacle_of(given: tuple[Any, ...]) -> Obstacle:

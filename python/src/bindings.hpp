@@ -11,6 +11,7 @@ void bind_steps(pybind11::module_& module);        ///< The discrete domain.
 void bind_timed(pybind11::module_& module);        ///< The continuous domain.
 void bind_timed_graph(pybind11::module_& module);  ///< A part of it: roadmaps.
 void bind_precedences(pybind11::module_& module);  ///< Of plans of either.
+void bind_dispatching(pybind11::module_& module);  ///< Live fleets.
 void bind_viewing(pybind11::module_& module);      ///< Pages and pictures of either.
 void bind_reading(pybind11::module_& module);      ///< Files of either.
 

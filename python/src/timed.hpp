@@ -88,7 +88,7 @@ class TimedInstance {
 /// Starts and goals are vertices, the goals of the first agent, then those of the next one;
 /// `num_goals`: how many each has; a body is a radius, or float64[k, 2], the corners of a polygon.
 /// `rules`: what rules_of gives, `now`: when all begins, and `under_way`: [(agent, from, to,
-/// fraction)], instead of starts.
+/// fraction, begun or None, may_wait)], instead of starts.
 /// `called`: "agent" and "vertex", functions from a number to what it is called in messages.
 TimedInstance instance_of(const std::shared_ptr<continuous::Roadmap>& roadmap, const Sizes& sizes,
                           const Ints& starts, const Ints& goals,
@@ -104,7 +104,8 @@ py::array speeds_of(const TimedInstance& self);
 /// (relative error, agent, from, to, planned and exact duration) of the largest error; or None.
 py::object duration_error_of(const TimedInstance& self);
 /// `groups`: int64[n]; `releases`, `deadlines`: float64[n], NaN for none; `leaves`, `under_way`:
-/// bool[n]; `obstacles`: [(body, float64[k, 4], leaves)], x, y, arrival and departure of each stop.
+/// bool[n]; `obstacles`: [(body, float64[k, 4], leaves)], x, y, arrival and departure of each stop;
+/// `moves`: [(agent, from, to, fraction, may_wait)] of those that begin in the middle of one.
 py::dict rules_of(const TimedInstance& self);
 
 }  // namespace quadrille::python

@@ -122,17 +122,30 @@ Ticks move_of(const Roadmap& roadmap, VertexId from, VertexId to, const continuo
   return *duration;
 }
 
+/// How many whole ticks of its move lie behind an agent that began it at a time.
+Ticks ticks_since(double begun, Ticks now, Ticks whole, const Resolution& resolution,
+                  const std::string& who) {
+  const double behind = static_cast<double>(now.value()) - begun / resolution.time;
+  const double nearest = std::round(behind);
+  const double ticks = std::abs(behind - nearest) < 1e-6 ? nearest : std::floor(behind);
+  if (!(ticks >= 0 && ticks < static_cast<double>(whole.value())))
+    refuse(who + " began its move at " + decimal(begun) + ", and is not within it at " +
+           decimal(continuous::in_input_units(now, resolution)) + ": it takes " +
+           decimal(continuous::in_input_units(whole, resolution)));
+  return Ticks(static_cast<std::int64_t>(ticks));
+}
+
 /// Agents in the middle of a move get a place of their own each, at the end of the vertices.
 std::shared_ptr<const Roadmap> put_under_way(const py::list& under_way,
                                              const std::shared_ptr<Roadmap>& roadmap,
+                                             const Resolution& resolution, Ticks now,
                                              const Words& words,
                                              std::vector<continuous::Agent>& agents) {
   if (under_way.empty()) return roadmap;
-  std::vector<Point> points = roadmap->positions();
-  std::vector<continuous::Edge> edges = roadmap->edges();
+  continuous::RoadmapParts parts(*roadmap);
   for (const py::handle entry : under_way) {
-    const auto [number, source, target, fraction] =
-        entry.cast<std::tuple<std::size_t, std::int64_t, std::int64_t, double>>();
+    const auto [number, source, target, fraction, begun, may_wait] = entry.cast<
+        std::tuple<std::size_t, std::int64_t, std::int64_t, double, std::optional<double>, bool>>();
     const std::string who = words.agent(AgentId(number));
     const VertexId from = vertex_of(source, roadmap->num_vertices(), who + ": start");
     const VertexId to = vertex_of(target, roadmap->num_vertices(), who + ": start");
@@ -140,11 +153,13 @@ std::shared_ptr<const Roadmap> put_under_way(const py::list& under_way,
       refuse(who + " has a part of its move behind it of " + decimal(fraction) +
              ", which is not from 0 to 1");
     continuous::Agent& made = agents[number];
-    made.under_way = true;
-    made.start = continuous::add_place_under_way(points, edges, from, to,
-                                                 move_of(*roadmap, from, to, made, who), fraction);
+    made.under_way = !may_wait;
+    const Ticks whole = move_of(*roadmap, from, to, made, who);
+    const Ticks behind = begun ? ticks_since(*begun, now, whole, resolution, who)
+                               : continuous::ticks_behind(fraction, whole);
+    made.start = continuous::add_lane_place(parts, from, to, whole, behind);
   }
-  return std::make_shared<Roadmap>(take(Roadmap::make(std::move(points), std::move(edges))));
+  return std::make_shared<Roadmap>(take(std::move(parts).make()));
 }
 
 /// A radius, or float64[k, 2].
@@ -226,12 +241,13 @@ TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& 
     agents.push_back(std::move(made));
   }
   set_rules(rules, resolution, words, agents);
-  const auto roads = put_under_way(rules["under_way"].cast<py::list>(), roadmap, words, agents);
   std::vector<continuous::MovingObstacle> obstacles;
   for (const py::handle obstacle : rules["obstacles"].cast<py::list>())
     obstacles.push_back(obstacle_of(obstacle.cast<py::tuple>(), resolution, obstacles.size()));
   const auto now = moment_of(rules["now"].cast<double>(), resolution, "now: the fleet begins");
   if (!now) refuse("now: the time at which the fleet begins is not a number");
+  const auto roads =
+      put_under_way(rules["under_way"].cast<py::list>(), roadmap, resolution, *now, words, agents);
   auto instance = Instance::make(roads, agents, resolution, {}, obstacles, *now);
   if (instance) return TimedInstance(std::move(instance).value());
   Error error =
@@ -323,6 +339,14 @@ py::dict rules_of(const TimedInstance& self) {
   rules["deadlines"] = frozen(deadlines);
   rules["leaves"] = frozen(leaves);
   rules["under_way"] = frozen(under_way);
+  py::list moves;
+  for (std::size_t at = 0; at < n; ++at)
+    if (const auto* on = self.roadmap()->lane_place(self.agents()[at].start))
+      moves.append(py::make_tuple(
+          at, on->from.index(), on->to.index(),
+          static_cast<double>(on->behind.value()) / static_cast<double>(on->whole.value()),
+          !self.agents()[at].under_way));
+  rules["moves"] = moves;
   rules["obstacles"] = obstacles;
   return rules;
 }

@@ -15,9 +15,7 @@ namespace quadrille::fleet {
 namespace {
 
 using namespace quadrille::units;
-using testing::EndsWith;
 using testing::HasSubstr;
-using testing::Not;
 
 /// A road of five metres, and a robot that takes five seconds for it.
 struct Corridor {
@@ -154,33 +152,73 @@ SolveOutcome beside_a_lane(Point from, Point to, double fraction, int radii,
   return solve(fleet).value();
 }
 
-TEST(UnderWay, WhatRestsOnRoundedPlacesSaysSo) {
-  const char* const rests =
-      "; this rests on the rounding of places in the middle of moves, by up to 0.001 m: it is not "
-      "so with bodies that are smaller by that";
-  // (2.4, 4.4) is 5.01 from (0, 0), and becomes (2, 4), which is 4.47 from it.
+TEST(UnderWay, PlacesInTheMiddleOfMovesAreExact) {
+  // (2.4, 4.4) is 5.01 from (0, 0); the nearest whole place, (2, 4), 4.47.
   const auto start = [](int radii) {
     return beside_a_lane({6_mm, 0_m}, {-12_mm, 22_mm}, 0.2, radii, 0.5686_mps);
   };
   EXPECT_EQ(start(4).status, Status::optimal);
-  EXPECT_EQ(start(5).status, Status::infeasible);
-  EXPECT_THAT(start(5).explanation, HasSubstr("overlap; this rests"));
-  EXPECT_THAT(start(5).explanation, EndsWith(rests));
+  EXPECT_EQ(start(5).status, Status::optimal);
   EXPECT_EQ(start(6).status, Status::infeasible);
-  EXPECT_THAT(start(6).explanation, Not(HasSubstr("rounding")));
-  // The lane passes (0, 0) at a distance of 5; from (-0.2, 6.4), which becomes (0, 6), at 4.85.
+  EXPECT_THAT(start(6).explanation, HasSubstr("overlap"));
+  // The lane passes (0, 0) at a distance of 5; from (0, 6), as (-0.2, 6.4) would be rounded,
+  // at 4.85.
   const auto pass = [](double fraction, int radii) {
     return beside_a_lane({-5_mm, 10_mm}, {11_mm, -2_mm}, fraction, radii, 0.1_mps);
   };
-  EXPECT_EQ(pass(0.3, 4).status, Status::optimal);
-  EXPECT_EQ(pass(0.3, 5).status, Status::infeasible);
-  EXPECT_THAT(pass(0.3, 5).explanation, EndsWith(rests));
-  EXPECT_EQ(pass(0.3, 6).status, Status::infeasible);
-  EXPECT_THAT(pass(0.3, 6).explanation, Not(HasSubstr("rounding")));
-  // (-1, 7) is not rounded.
-  EXPECT_EQ(pass(0.25, 5).status, Status::optimal);
-  EXPECT_EQ(pass(0.25, 6).status, Status::infeasible);
-  EXPECT_THAT(pass(0.25, 6).explanation, Not(HasSubstr("rounding")));
+  for (const double fraction : {0.25, 0.3}) {
+    EXPECT_EQ(pass(fraction, 4).status, Status::optimal);
+    EXPECT_EQ(pass(fraction, 5).status, Status::optimal);
+    EXPECT_EQ(pass(fraction, 6).status, Status::infeasible);
+  }
+}
+
+TEST(UnderWay, AMoveIsToldByWhenItBegan) {
+  Corridor c;
+  c.fleet[c.robot].from_edge(c.a, c.b).begun(-1.25_s);
+  const TimedPlan plan = c.plan();
+  EXPECT_EQ(plan[c.robot].cost(), 3.75_s);
+  EXPECT_EQ(plan[c.robot].under_way(), (UnderWay{c.a, c.b, 0.25}));
+  // On the fleet's clock, and never further than it is.
+  c.fleet.begins_at(100_s);
+  c.fleet[c.robot].from_edge(c.a, c.b).begun(98.996_s);
+  EXPECT_EQ(c.plan()[c.robot].cost(), 4_s);
+  c.fleet[c.robot].from_edge(c.a, c.b).begun(100_s);
+  EXPECT_EQ(c.plan()[c.robot].cost(), 5_s);
+  for (const Seconds wrong : {95_s, 90_s, 100.01_s}) {
+    c.fleet[c.robot].from_edge(c.a, c.b).begun(wrong);
+    EXPECT_EQ(c.fleet.instance().error().message,
+              "'amr' began its move from a to b at " + to_string(wrong) +
+                  ", and is not within it at 100 s: it takes 5 s");
+  }
+}
+
+// Two robots come together at one place, the one on the lane first; it would have to wait.
+TEST(UnderWay, WhoStandsWithinItsLaneMayWait) {
+  RoadmapBuilder roads({.length = 1_mm, .time = 10_ms});
+  const VertexId a = roads.vertex(0_m, 0_m, "a"), b = roads.vertex(5_m, 0_m, "b"),
+                 c = roads.vertex(5_m, 5_m, "c"), d = roads.vertex(10_m, 0_m, "d");
+  roads.lane(a, b);
+  roads.road(b, c);
+  roads.road(b, d);
+  Fleet fleet(roads.build().value());
+  const auto amr = fleet.robot({.name = "amr", .body = Disc(0.5_m), .speed = 1_mps}).to(d);
+  const auto agv = fleet.robot({.name = "agv", .body = Disc(0.5_m), .speed = 1_mps});
+  amr.from_edge(a, b).begun(-3.5_s);
+  agv.from(b).to(c).release(4_s);
+  EXPECT_EQ(solve(fleet).value().status, Status::infeasible);
+  amr.may_wait();
+  const TimedPlan plan = solve(fleet).value().plan.value();
+  const TimedPath& path = plan[amr];
+  EXPECT_EQ(path.stops().front().place, (Point{3.5_m, 0_m}));
+  EXPECT_GT(path.stops().front().depart, 3_s);
+  EXPECT_TRUE(path.under_way()->may_wait);
+  // It is still there, and on its way later; then it finishes its move.
+  fleet[amr].from(path, 1_s);
+  EXPECT_EQ(fleet.under_way(amr), (UnderWay{a, b, 0.7, {}, true}));
+  fleet[amr].from(path, path.stops().front().depart + 0.5_s);
+  EXPECT_NEAR(fleet.under_way(amr)->fraction, 0.8, 1e-12);
+  EXPECT_FALSE(fleet.under_way(amr)->may_wait);
 }
 
 TEST(UnderWay, RoundedDurationsAreTold) {

@@ -37,13 +37,13 @@ Contacts::Window Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
   Pair& p = pair(a, b);
   return p.windows.get(e.index(), v.index(), [&] {
     limits_.check();
-    return p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().position(v));
+    return p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().place(v));
   });
 }
 
 bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
   return pairs_[a.index() * instance_.num_classes() + b.index()]->bodies.overlap(
-      instance_.roadmap().position(v), instance_.roadmap().position(w));
+      instance_.roadmap().place(v), instance_.roadmap().place(w));
 }
 
 // One tree is enough for all classes. Edges between the same two vertices are one line, in whatever
@@ -68,7 +68,8 @@ const Contacts::Volumes& Contacts::volumes() {
     motions.push_back(instance_.motion(ClassId(0), edges[k]));
   }
   begins.push_back(edges.size());
-  for (const Point& position : roadmap.positions()) motions.push_back(geometry::rest(position, 1));
+  for (const VertexId v : IdRange<VertexId>(roadmap.num_vertices()))
+    motions.push_back(geometry::rest(roadmap.place(v), 1));
   volumes_ = std::make_shared<const Volumes>(
       Volumes{geometry::SweptVolumes(std::move(motions)), std::move(edges), std::move(begins)});
   if (store_ != nullptr) store_->keep(volumes_);
@@ -99,7 +100,7 @@ const Contacts::Neighbours& Contacts::near(
             if (is_listed(b, all.segment_edges[k])) made->edges.push_back(all.segment_edges[k]);
       } else {
         const VertexId v(index - num_segments);
-        if (is_sure || bodies.can_meet(motion, geometry::rest(roadmap.position(v), 1)))
+        if (is_sure || bodies.can_meet(motion, geometry::rest(roadmap.place(v), 1)))
           made->vertices.push_back(v);
       }
     }
@@ -115,7 +116,7 @@ const Contacts::Neighbours& Contacts::near_edge(ClassId a, EdgeId e, ClassId b) 
 
 const Contacts::Neighbours& Contacts::near_vertex(ClassId a, VertexId v, ClassId b) {
   return near(pair(a, b).near_vertices, v.value(), a,
-              geometry::rest(instance_.roadmap().position(v), 1), b);
+              geometry::rest(instance_.roadmap().place(v), 1), b);
 }
 
 }  // namespace quadrille::continuous

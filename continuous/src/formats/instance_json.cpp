@@ -42,7 +42,7 @@ class InstanceReader {
         (now && !read_time(*now, now_)) || !read_roadmap(*roadmap) || !read_agents(*agents) ||
         (obstacles && !read_obstacles(*obstacles)) || (groups && !read_group_names(*groups)))
       return check_.error();
-    auto made = Roadmap::make(std::move(positions_), std::move(edges_));
+    auto made = Roadmap::make(std::move(positions_), std::move(edges_), std::move(lane_places_));
     if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
     auto instance = Instance::make(std::move(made).value(), std::move(agents_), resolution_,
                                    places_, std::move(obstacles_), now_);
@@ -64,17 +64,39 @@ class InstanceReader {
   }
 
   bool read_roadmap(Node node) {
-    std::optional<Node> vertices, edges, names;
-    if (!check_.members(node,
-                        {{"vertices", &vertices}, {"edges", &edges}, {"names", &names, false}}) ||
+    std::optional<Node> vertices, edges, names, lane_places;
+    if (!check_.members(node, {{"vertices", &vertices},
+                               {"edges", &edges},
+                               {"names", &names, false},
+                               {"lane_places", &lane_places, false}}) ||
         !check_.array(*vertices, "vertices") || !check_.array(*edges, "edges"))
       return false;
     for (Node v = document_.first(*vertices); v < document_.next(*vertices); v = document_.next(v))
       if (!read_vertex(v)) return false;
     for (Node e = document_.first(*edges); e < document_.next(*edges); e = document_.next(e))
       if (!read_edge(e)) return false;
+    if (lane_places && !read_lane_places(*lane_places)) return false;
     return !names ||
            read_vertex_names(check_, document_, *names, positions_.size(), names_.vertices);
+  }
+
+  bool read_lane_places(Node list) {
+    if (!check_.array(list, "places in the middle of moves")) return false;
+    for (Node p = document_.first(list); p < document_.next(list); p = document_.next(p)) {
+      std::optional<Node> vertex, from, to, behind, whole;
+      LanePlace place;
+      if (!check_.members(p, {{"vertex", &vertex},
+                              {"from", &from},
+                              {"to", &to},
+                              {"behind", &behind},
+                              {"whole", &whole}}) ||
+          !read_vertex_number(*vertex, place.vertex) || !read_vertex_number(*from, place.from) ||
+          !read_vertex_number(*to, place.to) || !read_time(*behind, place.behind) ||
+          !read_time(*whole, place.whole))
+        return false;
+      lane_places_.push_back(place);
+    }
+    return true;
   }
 
   bool read_group_names(Node node) {
@@ -371,6 +393,7 @@ class InstanceReader {
   std::size_t num_coordinates_ = 0;  // of a point; 0: there was none yet
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
+  std::vector<LanePlace> lane_places_;
   std::vector<Agent> agents_;
   std::vector<SourcePlace> places_;
   std::vector<MovingObstacle> obstacles_;

@@ -70,6 +70,23 @@ std::string obstacles_json(const Instance& instance) {
   return text + "\n  ]";
 }
 
+/// The member of a roadmap, if there are any.
+std::string lane_places_json(const Instance& instance) {
+  const auto number = [&](Ticks ticks) {
+    return json_number(in_input_units(ticks, instance.resolution()));
+  };
+  std::string text;
+  const char* separator = ",\n    \"lane_places\": [\n      ";
+  for (const LanePlace& place : instance.roadmap().lane_places()) {
+    text += separator + ("{\"vertex\": " + std::to_string(place.vertex.index())) +
+            ", \"from\": " + std::to_string(place.from.index()) +
+            ", \"to\": " + std::to_string(place.to.index()) +
+            ", \"behind\": " + number(place.behind) + ", \"whole\": " + number(place.whole) + "}";
+    separator = ",\n      ";
+  }
+  return text + (text.empty() ? "" : "\n    ]");
+}
+
 /// The members about names, if there are any.
 std::string vertex_names_json(const text::Names& names) {
   std::string text;
@@ -112,8 +129,8 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
     out << separator << "      " << edge_json(edge, resolution);
     separator = ",\n";
   }
-  out << (*separator == ',' ? "\n    ]" : "]") << vertex_names_json(names)
-      << "\n  },\n  \"agents\": [";
+  out << (*separator == ',' ? "\n    ]" : "]") << lane_places_json(instance)
+      << vertex_names_json(names) << "\n  },\n  \"agents\": [";
   separator = "\n";
   for (const AgentId i : instance.agent_ids()) {
     const Agent& agent = instance.agent(i);

@@ -100,11 +100,11 @@ std::optional<Error> Finder::find_overlap(const PlaceOf& place_of, const std::st
   for (std::size_t j = 0; j < agents_.size(); ++j) {
     const VertexId* const w = place_of(agents_[j]);
     if (w == nullptr) continue;
-    if (const auto i = placed.first_overlap(agents_[j].body, roads_->position(*w)))
+    if (const auto i = placed.first_overlap(agents_[j].body, roads_->place(*w)))
       return no_plan("the " + what + " of " + name(*i) + " at " +
                      words_.vertex(*place_of(agents_[*i])) + " and " + name(j) + " at " +
                      words_.vertex(*w) + " overlap");
-    placed.add(j, agents_[j].body, roads_->position(*w));
+    placed.add(j, agents_[j].body, roads_->place(*w));
   }
   return std::nullopt;
 }
@@ -116,7 +116,7 @@ std::optional<Error> Finder::find_obstacle() const {
       return out_of_range(words_.obstacle(o) + " is too large");
     if (obstacle.path.empty()) continue;
     for (std::size_t i = 0; i < agents_.size(); ++i)
-      if (is_in_the_way(obstacle, now_, agents_[i].body, roads_->position(agents_[i].start)))
+      if (is_in_the_way(obstacle, now_, agents_[i].body, roads_->place(agents_[i].start)))
         return no_plan(words_.obstacle(o) + " is at the start of " + name(i) + " at " +
                        words_.vertex(agents_[i].start));
   }

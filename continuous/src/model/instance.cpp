@@ -108,7 +108,7 @@ std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent
   for (std::size_t j = 0; j < agents.size(); ++j) {
     const VertexId* const place = place_of(agents[j]);
     if (place == nullptr) continue;
-    const Point& here = roadmap.position(*place);
+    const geometry::Place here = roadmap.place(*place);
     if (const auto i = placed.first_overlap(agents[j].body, here)) {
       at = j;
       return no_plan("the " + what + " of agents " + std::to_string(*i) + " and " +
@@ -168,7 +168,7 @@ std::optional<std::size_t> find_blocked(const Roadmap& roadmap, const std::vecto
   if (!leg) return std::nullopt;
   if (!leg->is_moving) return starts.first_overlap(obstacle.body, obstacle.path[leg->stop].at);
   for (std::size_t i = 0; i < agents.size(); ++i)
-    if (is_in_the_way(obstacle, now, agents[i].body, roadmap.position(agents[i].start))) return i;
+    if (is_in_the_way(obstacle, now, agents[i].body, roadmap.place(agents[i].start))) return i;
   return std::nullopt;
 }
 
@@ -178,7 +178,7 @@ std::optional<Error> check_obstacles(const Roadmap& roadmap, const std::vector<A
                                      Ticks now, bool is_new) {
   geometry::BodyIndex starts;
   for (std::size_t i = 0; !obstacles.empty() && i < agents.size(); ++i)
-    starts.add(i, agents[i].body, roadmap.position(agents[i].start));
+    starts.add(i, agents[i].body, roadmap.place(agents[i].start));
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     if (is_new)
       if (auto error = check_obstacle(obstacles[o], o)) return error;
@@ -299,6 +299,7 @@ Result<Instance> Instance::build(std::shared_ptr<const Roadmap> roadmap, std::ve
   Instance instance;
   instance.now_ = now;
   instance.is_flat_ = is_flat;
+  const Length rounding = roadmap->lane_places().empty() ? Length(0) : Length(1);
   std::map<Speed, std::size_t> speeds;
   std::map<std::tuple<std::vector<Length>, Speed, std::size_t>, ClassId> classes;
   std::map<GroupId, std::shared_ptr<const Ways>> ways;  // null: all edges
@@ -324,8 +325,8 @@ Result<Instance> Instance::build(std::shared_ptr<const Roadmap> roadmap, std::ve
     const auto key = std::make_tuple(numbers_of(agent.body), agent.speed, group);
     const auto [known, is_new_class] = classes.try_emplace(key, instance.classes_.next_id());
     if (is_new_class)
-      instance.classes_.push_back({agent.body, geometry::enclosing_radius(agent.body), agent.speed,
-                                   speed->second, agent.group, open->second});
+      instance.classes_.push_back({agent.body, geometry::enclosing_radius(agent.body) + rounding,
+                                   agent.speed, speed->second, agent.group, open->second});
     instance.class_of_.push_back(known->second);
   }
   instance.roadmap_ = std::move(roadmap);

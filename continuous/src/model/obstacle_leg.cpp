@@ -16,7 +16,7 @@ std::optional<ObstacleLeg> leg_at(const MovingObstacle& obstacle, Ticks tick) {
 }
 
 bool is_in_the_way(const MovingObstacle& obstacle, Ticks tick, const Body& body,
-                   const Point& place) {
+                   const geometry::Place& place) {
   const auto leg = leg_at(obstacle, tick);
   if (!leg) return false;
   const MovingObstacle::Stop& from = obstacle.path[leg->stop];

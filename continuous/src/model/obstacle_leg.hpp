@@ -20,6 +20,6 @@ struct ObstacleLeg {
 
 /// Whether the interiors of the obstacle and of a body at a place meet at that moment.
 [[nodiscard]] bool is_in_the_way(const MovingObstacle& obstacle, Ticks tick, const Body& body,
-                                 const Point& place);
+                                 const geometry::Place& place);
 
 }  // namespace quadrille::continuous

@@ -6,9 +6,10 @@
 #include <cstdint>
 
 namespace quadrille::continuous {
-namespace {
 
 Ticks ticks_behind(double fraction, Ticks whole) {
+  QUADRILLE_REQUIRE(fraction >= 0 && fraction <= 1, "a part of the move");
+  QUADRILLE_REQUIRE(whole >= 1, "a move that takes some time");
   const double ticks = fraction * static_cast<double>(whole.value());
   const double nearest = std::round(ticks);
   const bool is_meant = std::abs(ticks - nearest) <= 1e-9 * nearest;
@@ -16,7 +17,7 @@ Ticks ticks_behind(double fraction, Ticks whole) {
   return Ticks(std::clamp<std::int64_t>(behind, 0, whole.value() - 1));
 }
 
-Point place_between(const Point& from, const Point& to, Ticks behind, Ticks whole) {
+Point nearest_point(const Point& from, const Point& to, Ticks behind, Ticks whole) {
   const long double share =
       static_cast<long double>(behind.value()) / static_cast<long double>(whole.value());
   const auto between = [&](Length a, Length b) {
@@ -26,18 +27,16 @@ Point place_between(const Point& from, const Point& to, Ticks behind, Ticks whol
   return {between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
 }
 
-}  // namespace
-
-VertexId add_place_under_way(std::vector<Point>& vertices, std::vector<Edge>& edges, VertexId from,
-                             VertexId to, Ticks whole, double fraction) {
+VertexId add_lane_place(RoadmapParts& parts, VertexId from, VertexId to, Ticks whole,
+                        Ticks behind) {
   for (const VertexId v : {from, to})
-    QUADRILLE_REQUIRE(v.index() < vertices.size(), "a vertex of the roadmap");
-  QUADRILLE_REQUIRE(fraction >= 0 && fraction <= 1, "a part of the move");
-  QUADRILLE_REQUIRE(whole >= 1, "a move that takes some time");
-  const Ticks behind = ticks_behind(fraction, whole);
-  const VertexId place(vertices.size());
-  vertices.push_back(place_between(vertices[from.index()], vertices[to.index()], behind, whole));
-  edges.push_back({place, to, whole - behind});
+    QUADRILLE_REQUIRE(v.index() < parts.vertices.size(), "a vertex of the roadmap");
+  QUADRILLE_REQUIRE(0 <= behind && behind < whole, "a part of the move");
+  const VertexId place(parts.vertices.size());
+  parts.vertices.push_back(
+      nearest_point(parts.vertices[from.index()], parts.vertices[to.index()], behind, whole));
+  parts.edges.push_back({place, to, whole - behind});
+  parts.lane_places.push_back({place, from, to, behind, whole});
   return place;
 }
 

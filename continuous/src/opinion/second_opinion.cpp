@@ -52,18 +52,29 @@ std::string find_fault(const Instance& instance, AgentId i, const Path& path) {
   return "";
 }
 
+/// From a place, which may be in the middle of a move, to a vertex.
+Leg way(const geometry::Place& from, const geometry::Place& to, Ticks begin, Ticks end) {
+  if (from.from == from.to) return {from.from, to.from, begin, end};
+  return {from.from, to.from, begin, end, from.behind, from.whole};
+}
+
 /// Where a body is as long as it is anywhere, leg after leg; if it stays, until `horizon`.
 template <class Stops, class Place>
 std::vector<Leg> legs_of(const Stops& stops, const Place& place, bool leaves, Ticks horizon) {
   std::vector<Leg> legs;
   for (std::size_t k = 0; k < stops.size(); ++k) {
-    const Point here = place(stops[k]);
-    if (k > 0) legs.push_back({place(stops[k - 1]), here, stops[k - 1].depart, stops[k].arrive});
+    const geometry::Place here = place(stops[k]);
+    const bool is_on_lane = here.from != here.to;
+    if (k > 0) legs.push_back(way(place(stops[k - 1]), here, stops[k - 1].depart, stops[k].arrive));
     const bool stays = k + 1 == stops.size() && !leaves;
     const Ticks until = stays ? horizon : stops[k].depart;
     // Passing through a place belongs to the moves before and after it; what is somewhere for one
     // moment of its life is in nobody's way, docs/continuous.md.
-    if (until > stops[k].arrive) legs.push_back({here, here, stops[k].arrive, until});
+    if (until > stops[k].arrive && is_on_lane)
+      legs.push_back(
+          {here.from, here.to, stops[k].arrive, until, here.behind, here.whole, /*stands=*/true});
+    else if (until > stops[k].arrive)
+      legs.push_back({here.from, here.from, stops[k].arrive, until});
   }
   return legs;
 }
@@ -83,8 +94,8 @@ class Opinion {
     check_paths();
     for (const MovingObstacle& obstacle : instance_.obstacles())
       obstacles_.push_back(legs_of(
-          obstacle.path, [](const MovingObstacle::Stop& stop) { return stop.at; }, obstacle.leaves,
-          horizon_));
+          obstacle.path, [](const MovingObstacle::Stop& stop) { return geometry::Place(stop.at); },
+          obstacle.leaves, horizon_));
     for (const AgentId i : instance_.agent_ids()) {
       for (const AgentId j : instance_.agent_ids())
         if (i < j) compare({i, j, {}}, between(i, j), legs_[i], legs_[j]);
@@ -123,7 +134,7 @@ class Opinion {
       }
     }
     legs_ = IdVector<AgentId, std::vector<Leg>>(instance_.num_agents());
-    const auto place = [&](const Stop& stop) { return instance_.roadmap().position(stop.vertex); };
+    const auto place = [&](const Stop& stop) { return instance_.roadmap().place(stop.vertex); };
     for (const AgentId i : sound)
       legs_[i] = legs_of(plan_.paths[i], place, instance_.agent(i).leaves, horizon_);
   }

@@ -29,7 +29,7 @@ class ObstacleBans {
         bans_.push_back(Ban::start(e, starts_against(*offsets, begin)));
     }
     for (const VertexId v : vertices())
-      if (const auto window = bodies_.contact_window(motion, position(v)))
+      if (const auto window = bodies_.contact_window(motion, place(v)))
         bans_.push_back(Ban::stay(v, window->shifted(begin)));
   }
 
@@ -44,7 +44,7 @@ class ObstacleBans {
         bans_.push_back(Ban::start(e, starts_meeting(*window, begin, end)));
     }
     for (const VertexId v : vertices())
-      if (bodies_.overlap(at, position(v))) bans_.push_back(Ban::stay(v, {begin, end}));
+      if (bodies_.overlap(at, place(v))) bans_.push_back(Ban::stay(v, {begin, end}));
   }
 
  private:
@@ -56,7 +56,7 @@ class ObstacleBans {
     return IdRange<VertexId>(instance_.roadmap().num_vertices());
   }
   [[nodiscard]] bool may_use(EdgeId e) const { return instance_.may_use(class_, e); }
-  [[nodiscard]] const Point& position(VertexId v) const { return instance_.roadmap().position(v); }
+  [[nodiscard]] geometry::Place place(VertexId v) const { return instance_.roadmap().place(v); }
 
   const Instance& instance_;
   const ClassId class_;

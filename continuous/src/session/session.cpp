@@ -70,24 +70,21 @@ std::optional<Ticks> Session::Parts::duration(const Edge& edge, const Agent& age
 }
 
 std::shared_ptr<const Roadmap> Session::Parts::roads(std::vector<Agent>& agents) const {
-  std::vector<Point> points = roadmap->positions();
-  std::vector<Edge> edges = roadmap->edges();
+  RoadmapParts parts(*roadmap);
   for (const auto& [member, task] : now.tasks) {
     agents.push_back(task.agent);
     if (!task.under_way) continue;
     const Edge& edge = roadmap->edge(task.under_way->edge);
     const Ticks whole = duration(edge, task.agent).value();
-    const double share =
-        static_cast<double>(task.under_way->behind.value()) / static_cast<double>(whole.value());
-    agents.back().start = add_place_under_way(points, edges, edge.from, edge.to, whole, share);
+    agents.back().start = add_lane_place(parts, edge.from, edge.to, whole, task.under_way->behind);
   }
-  const bool has_places = points.size() > roadmap->num_vertices();
+  const bool has_places = parts.vertices.size() > roadmap->num_vertices();
   if (!has_places && now.closed.empty()) return roadmap;
   const std::vector<EdgeId> closed(now.closed.begin(), now.closed.end());
   // Places lie between points that are in range.
-  return std::make_shared<const Roadmap>(
-      has_places ? Roadmap::make(std::move(points), std::move(edges)).value().with_closed(closed)
-                 : roadmap->with_closed(closed));
+  return std::make_shared<const Roadmap>(has_places
+                                             ? std::move(parts).make().value().with_closed(closed)
+                                             : roadmap->with_closed(closed));
 }
 
 Session::Session(std::shared_ptr<const Roadmap> roadmap, Resolution resolution,

@@ -144,9 +144,9 @@ std::string LemmaAuditor::audit_goal_bans(const Obstacle& o, AgentId resident, V
   for (const Ban& ban : o.bans) {
     bool holds = false;
     if (ban.kind == Ban::Kind::stay) {
-      holds = ban.when.begin >= tick - 1 &&
-              pair.overlap(instance.roadmap().position(VertexId(ban.place)),
-                           instance.roadmap().position(goal));
+      holds =
+          ban.when.begin >= tick - 1 && pair.overlap(instance.roadmap().place(VertexId(ban.place)),
+                                                     instance.roadmap().place(goal));
     } else {
       const Ticks duration = instance.duration(instance.class_of(o.agent), EdgeId(ban.place));
       const Ticks arrive = std::max(ban.when.begin, tick - 1);
@@ -237,8 +237,8 @@ std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
 bool LemmaAuditor::all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b) const {
   const Instance& instance = model_.instance();
   if (a.is_end() && b.is_end())
-    return bodies(i, j).overlap(instance.roadmap().position(VertexId(a.place)),
-                                instance.roadmap().position(VertexId(b.place)));
+    return bodies(i, j).overlap(instance.roadmap().place(VertexId(a.place)),
+                                instance.roadmap().place(VertexId(b.place)));
   if (a.kind == Ban::Kind::stay) return b.kind == Ban::Kind::start && all_collide(j, b, i, a);
   if (a.when.end >= kForever || b.when.end >= kForever) return false;
   if (b.kind == Ban::Kind::start) {
@@ -261,7 +261,7 @@ bool LemmaAuditor::collides(AgentId i, EdgeId e, Ticks start, AgentId j, VertexI
                             Ticks arrive, Ticks leave) const {
   const Instance& instance = model_.instance();
   return bodies(i, j).collide(instance.motion(instance.class_of(i), e),
-                              geometry::rest(instance.roadmap().position(place), leave - arrive),
+                              geometry::rest(instance.roadmap().place(place), leave - arrive),
                               arrive - start);
 }
 

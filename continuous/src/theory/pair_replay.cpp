@@ -113,9 +113,7 @@ bool PairReplay::may_be_at(const Party& party, std::uint32_t vertex, Ticks from,
 
 // A move is looked at as a whole: the two collide, if not now, then later or before.
 bool PairReplay::collide(const State& a, const State& b) const {
-  const auto position = [&](const State& s) {
-    return instance_.roadmap().position(VertexId(s.place));
-  };
+  const auto place = [&](const State& s) { return instance_.roadmap().place(VertexId(s.place)); };
   const auto motion = [&](const Party& party, const State& s) {
     return instance_.motion(instance_.class_of(party.agent), EdgeId(s.place));
   };
@@ -126,11 +124,9 @@ bool PairReplay::collide(const State& a, const State& b) const {
   const bool a_moves = a.kind == Kind::moves, b_moves = b.kind == Kind::moves;
   if (a_moves && b_moves)
     return bodies_.collide(motion(first_, a), motion(second_, b), a.progress - b.progress);
-  if (a_moves)
-    return bodies_.collide(motion(first_, a), geometry::rest(position(b), 1), a.progress);
-  if (b_moves)
-    return swapped_.collide(motion(second_, b), geometry::rest(position(a), 1), b.progress);
-  return bodies_.overlap(position(a), position(b));
+  if (a_moves) return bodies_.collide(motion(first_, a), geometry::rest(place(b), 1), a.progress);
+  if (b_moves) return swapped_.collide(motion(second_, b), geometry::rest(place(a), 1), b.progress);
+  return bodies_.overlap(place(a), place(b));
 }
 
 bool PairReplay::may_use(const Party& party, std::uint32_t edge) const {

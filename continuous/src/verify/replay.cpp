@@ -42,8 +42,8 @@ RealStep real_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) {
     return static_cast<long double>((p.from.*axis).value()) +
            static_cast<long double>((p.to.*axis - p.from.*axis).value()) *
-               static_cast<long double>((tick - p.begin).value()) /
-               static_cast<long double>((p.end - p.begin).value());
+               static_cast<long double>(p.done(tick).value()) /
+               static_cast<long double>(p.all().value());
   };
   const auto apart = [&](Ticks tick) {
     return RealPoint{at(b, tick, &Point::x) - at(a, tick, &Point::x),
@@ -55,10 +55,10 @@ RealStep real_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
 
 /// The same, exactly: multiplied by both durations, positions are integers.
 ExactStep exact_step(const Piece& a, const Piece& b, Ticks begin, Ticks end) {
-  const Integer duration_a = (a.end - a.begin).value(), duration_b = (b.end - b.begin).value();
+  const Integer duration_a = a.all().value(), duration_b = b.all().value();
   const auto at = [](const Piece& p, Ticks tick, Length Point::*axis) -> Integer {
-    return Integer((p.from.*axis).value()) * (p.end - p.begin).value() +
-           Integer((p.to.*axis - p.from.*axis).value()) * (tick - p.begin).value();
+    return Integer((p.from.*axis).value()) * p.all().value() +
+           Integer((p.to.*axis - p.from.*axis).value()) * p.done(tick).value();
   };
   const auto apart = [&](Ticks tick, Length Point::*axis) -> Integer {
     return at(b, tick, axis) * duration_a - at(a, tick, axis) * duration_b;

@@ -14,7 +14,8 @@ std::size_t Trip::size() const { return path_ != nullptr ? path_->size() : obsta
 Trip::At Trip::at(std::size_t k) const {
   if (path_ != nullptr) {
     const Stop& stop = (*path_)[k];
-    return {stop.arrive, stop.depart, roadmap_->position(stop.vertex), stop.vertex};
+    return {stop.arrive, stop.depart, roadmap_->position(stop.vertex), stop.vertex,
+            roadmap_->lane_place(stop.vertex)};
   }
   const MovingObstacle::Stop& stop = obstacle_->path[k];
   return {stop.arrive, stop.depart, stop.at, VertexId()};
@@ -27,6 +28,16 @@ std::optional<Piece> Trip::next() {
     if (!has_stood_) {
       has_stood_ = true;
       const Ticks depart = is_last && !leaves_ ? horizon_ : here.depart;
+      if (depart > here.arrive && here.on_lane != nullptr)
+        return Piece{here.arrive,
+                     depart,
+                     roadmap_->position(here.on_lane->from),
+                     roadmap_->position(here.on_lane->to),
+                     here.vertex,
+                     here.vertex,
+                     here.on_lane->behind,
+                     here.on_lane->whole,
+                     true};
       if (depart > here.arrive)
         return Piece{here.arrive, depart, here.place, here.place, here.vertex, here.vertex};
     }
@@ -34,6 +45,10 @@ std::optional<Piece> Trip::next() {
     ++stop_;
     if (is_last) break;
     const At there = at(stop_);
+    if (here.on_lane != nullptr)
+      return Piece{here.depart,          there.arrive,       roadmap_->position(here.on_lane->from),
+                   there.place,          here.vertex,        there.vertex,
+                   here.on_lane->behind, here.on_lane->whole};
     return Piece{here.depart, there.arrive, here.place, there.place, here.vertex, there.vertex};
   }
   return std::nullopt;

@@ -10,11 +10,18 @@
 
 namespace quadrille::continuous {
 
-/// A stretch of a way along which somebody goes straight, or stands (from == to).
+/// A stretch of a way along which somebody goes straight, or stands (from == to, or `stands`).
 struct Piece {
   Ticks begin, end;
   Point from, to;
   VertexId start, goal;  ///< Of an obstacle: none.
+  Ticks behind = 0;      ///< Ticks of the way from `from` to `to` that are over at `begin`,
+  Ticks whole = 0;       ///< of so many; 0: end - begin.
+  bool stands = false;   ///< On that way.
+
+  /// Of the whole way so many ticks lie behind at a tick, of so many.
+  [[nodiscard]] Ticks done(Ticks tick) const { return stands ? behind : behind + (tick - begin); }
+  [[nodiscard]] Ticks all() const { return whole > 0 ? whole : end - begin; }
 };
 
 /// "stands at vertex 3", "moves from vertex 3 to vertex 4"
@@ -37,6 +44,7 @@ class Trip {
     Ticks arrive, depart;
     Point place;
     VertexId vertex;
+    const LanePlace* on_lane = nullptr;
   };
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] At at(std::size_t k) const;

@@ -35,15 +35,14 @@ struct ScaledPath {
 };
 
 ScaledPath scaled_path(const Motion& a, const Motion& b, Ticks offset, Window window) {
-  const Ticks unit_a = a.is_rest() ? Ticks{1} : a.duration;
-  const Ticks unit_b = b.is_rest() ? Ticks{1} : b.duration;
+  const Ticks unit_a = a.whole(), unit_b = b.whole();
   const Integer scale = Integer(unit_a.value()) * unit_b.value();
   const Point apart = b.from - a.from;
   const Point step_a = a.to - a.from;
   const Point step_b = b.to - b.from;
   const auto at = [&](Ticks time) {
-    const Integer done_a = Integer(time.value()) * unit_b.value();
-    const Integer done_b = Integer((time - offset).value()) * unit_a.value();
+    const Integer done_a = Integer(a.done(time).value()) * unit_b.value();
+    const Integer done_b = Integer(b.done(time - offset).value()) * unit_a.value();
     const auto coordinate = [&](Length Point::*of) -> Integer {
       return scale * (apart.*of).value() + done_b * (step_b.*of).value() -
              done_a * (step_a.*of).value();

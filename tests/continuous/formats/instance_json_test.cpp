@@ -86,6 +86,41 @@ TEST(RoadmapJson, ReadsMovesInProgress) {
             "f:1: agent 0 is under way, and cannot be released later");
 }
 
+TEST(RoadmapJson, ReadsPlacesInTheMiddleOfMoves) {
+  const auto read = [](const std::string& point, const std::string& place) {
+    std::istringstream file(
+        "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": 0.1, \"roadmap\": "
+        "{\"vertices\": [[0, 0], [1, 0], " +
+        point +
+        "], \"edges\": [[0, 1, 3], [2, 1, 2]], \"lane_places\": [{\"vertex\": 2, \"from\": 0, " +
+        place + "}]}, \"agents\": [{\"start\": 2, \"goal\": 1, \"radius\": 0.5}]}");
+    return read_instance_json(file, "f");
+  };
+  const std::string third = "\"to\": 1, \"behind\": 1, \"whole\": 3";
+  const Instance instance = read("[0.3, 0]", third).value();
+  EXPECT_EQ(instance.roadmap().place(VertexId(2)), geometry::Place({0, 0}, {10, 0}, 10, 30));
+  EXPECT_EQ(instance.motion(ClassId(0), EdgeId(1)), (geometry::Motion{{0, 0}, {10, 0}, 20, 10}));
+  std::ostringstream written;
+  EXPECT_FALSE(write_instance_json(written, "f", instance));
+  std::istringstream again(written.str());
+  EXPECT_EQ(read_instance_json(again, "f").value().roadmap().lane_places(),
+            instance.roadmap().lane_places());
+  const auto error = [&](const std::string& point, const std::string& place) {
+    return read(point, place).error().to_string();
+  };
+  const std::string in_the_middle = "f:1: /roadmap: vertex 2 is in the middle of a move, but ";
+  EXPECT_EQ(error("[0.4, 0]", third),
+            in_the_middle + "its coordinates are not those of that place");
+  EXPECT_EQ(error("[0.3, 0]", "\"to\": 1, \"behind\": 1, \"whole\": 4"),
+            in_the_middle + "the edge from it is not the rest of the move");
+  EXPECT_EQ(error("[0.3, 0]", "\"to\": 0, \"behind\": 1, \"whole\": 3"),
+            in_the_middle + "that is not one between two other vertices");
+  EXPECT_EQ(error("[0.3, 0]", "\"to\": 1, \"behind\": 3, \"whole\": 3"),
+            in_the_middle + "30 of 30 ticks lie behind it");
+  EXPECT_EQ(error("[0.3, 0]", "\"to\": 1, \"behind\": 1"),
+            "f:1: /roadmap/lane_places/0: the key 'whole' is missing");
+}
+
 TEST(RoadmapJson, RefusesWhatIsWrongWithTheRulesOfFleets) {
   const std::vector<test::Fault> faults = {
       {"[1, 2]}", "[1, 64]}", "f:9: /roadmap/edges/4/groups/1: 64 is not between 0 and 63"},

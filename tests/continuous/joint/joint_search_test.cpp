@@ -38,14 +38,15 @@ MovingObstacle tiny_obstacle(Draw& draw, const Roadmap& roadmap) {
   return obstacle;
 }
 
-/// An agent begins in the middle of a move.
-void put_under_way(Draw& draw, std::vector<Point>& points, std::vector<Edge>& edges, Agent& agent) {
-  if (edges.empty()) return;
-  const Edge edge =
-      edges[static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(edges.size()) - 1))];
-  agent.start = add_place_under_way(points, edges, edge.from, edge.to, draw.ticks(2, 6),
-                                    static_cast<double>(draw.number(0, 9)) / 10);
-  agent.under_way = true;
+/// An agent begins in the middle of a move, and goes on at once or may wait.
+void put_under_way(Draw& draw, RoadmapParts& parts, std::size_t num_edges, Agent& agent) {
+  if (num_edges == 0) return;
+  const Edge edge = parts.edges[static_cast<std::size_t>(
+      draw.number(0, static_cast<std::int64_t>(num_edges) - 1))];
+  const Ticks whole = draw.ticks(2, 6);
+  const double fraction = static_cast<double>(draw.number(0, 9)) / 10;
+  agent.start = add_lane_place(parts, edge.from, edge.to, whole, ticks_behind(fraction, whole));
+  agent.under_way = draw.chance(60);
   agent.release = 0;
 }
 
@@ -93,15 +94,18 @@ Instance tiny_instance(std::uint32_t seed, std::int64_t max_vertices, std::int64
     if (has_groups)
       for (Agent& a : agents) a.group = group();
     std::vector<MovingObstacle> obstacles;
+    RoadmapParts parts;
+    parts.vertices = points;
+    parts.edges = edges;
     if (clock == Clock::all) {
       for (Agent& a : agents) {
         if (last.chance(25)) a.release = last.ticks(1, 9);
         if (last.chance(25)) a.deadline = a.release + last.ticks(3, 25);
         a.leaves = last.chance(15);
-        if (last.chance(20)) put_under_way(last, points, edges, a);
+        if (last.chance(20)) put_under_way(last, parts, edges.size(), a);
       }
     }
-    auto roadmap = Roadmap::make(points, edges);
+    auto roadmap = std::move(parts).make();
     if (!roadmap) continue;
     if (clock == Clock::all && last.chance(60))
       for (std::int64_t k = last.number(1, 2); k > 0; --k)

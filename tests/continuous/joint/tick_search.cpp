@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "continuous/support/meeting.hpp"
+#include "continuous/support/whole_places.hpp"
 
 namespace quadrille::continuous::test {
 namespace {
@@ -43,7 +44,7 @@ std::vector<Element> steps_of(const MovingObstacle& obstacle, Ticks end) {
 class Search {
  public:
   Search(const Instance& instance, Objective objective, std::size_t max_states)
-      : instance_(instance), meetings_(instance), objective_(objective), max_states_(max_states) {
+      : instance_(instance), meetings_(instance_), objective_(objective), max_states_(max_states) {
     for (const Agent& a : instance.agents())
       last_ = std::max({last_, a.release, a.deadline ? *a.deadline + 1 : Ticks{0},
                         a.under_way ? Ticks{1} : Ticks{0}});
@@ -163,7 +164,7 @@ class Search {
 
   static constexpr Ticks kEnd = 1'000'000'000;  // later than all else
 
-  const Instance& instance_;
+  const Instance instance_;
   Meetings meetings_;
   const Objective objective_;
   const std::size_t max_states_;
@@ -176,7 +177,7 @@ class Search {
 }  // namespace
 
 TickSearch search_ticks(const Instance& instance, Objective objective, std::size_t max_states) {
-  return Search(instance, objective, max_states).run();
+  return Search(with_whole_places(instance), objective, max_states).run();
 }
 
 }  // namespace quadrille::continuous::test

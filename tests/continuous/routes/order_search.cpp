@@ -8,6 +8,7 @@
 
 #include "continuous/support/differences.hpp"
 #include "continuous/support/meeting.hpp"
+#include "continuous/support/whole_places.hpp"
 
 namespace quadrille::continuous::test {
 namespace {
@@ -74,7 +75,7 @@ class Oracle {
  public:
   Oracle(const Instance& instance, Objective objective, std::size_t max_moves)
       : instance_(instance),
-        meetings_(instance),
+        meetings_(instance_),
         is_sum_(objective == Objective::sum_of_costs),
         capacity_(instance.num_agents() * max_moves + 1) {
     for (const AgentId i : instance.agent_ids()) walks_.push_back(walks(instance, i, max_moves));
@@ -349,7 +350,7 @@ class Oracle {
     }
   }
 
-  const Instance& instance_;
+  const Instance instance_;
   Meetings meetings_;
   const bool is_sum_;
   const std::size_t capacity_;
@@ -364,7 +365,7 @@ class Oracle {
 }  // namespace
 
 OrderSearch search_orders(const Instance& instance, Objective objective, std::size_t max_moves) {
-  return Oracle(instance, objective, max_moves).search();
+  return Oracle(with_whole_places(instance), objective, max_moves).search();
 }
 
 std::vector<Plan> known_plans(const Instance& instance, std::size_t max_moves) {

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/continuous/under_way.hpp"
 
 namespace quadrille::continuous::test {
 namespace {
@@ -130,30 +131,20 @@ void add_goals(Draw& draw, std::size_t num_vertices, int percent, std::vector<Ag
 /// Some agents begin in the middle of a move, which need not be open to them.
 std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
                                              std::vector<Agent>& agents) {
-  std::vector<Point> points = roadmap.positions();
-  std::vector<Edge> edges = roadmap.edges();
+  RoadmapParts parts(roadmap);
   for (Agent& agent : agents) {
     if (roadmap.num_edges() == 0 || !draw.chance(60)) continue;
-    const Edge edge = edges[static_cast<std::size_t>(
+    const Edge edge = parts.edges[static_cast<std::size_t>(
         draw.number(0, static_cast<std::int64_t>(roadmap.num_edges()) - 1))];
     const Point from = roadmap.position(edge.from), to = roadmap.position(edge.to);
     const auto whole = edge.duration ? edge.duration : travel_time(from, to, agent.speed);
     if (!whole) continue;
     const Ticks left = draw.ticks(1, whole->value());
-    const auto between = [&](Length a, Length b) {
-      return Length(static_cast<std::int64_t>(
-          std::lround(static_cast<double>(b.value()) + static_cast<double>((a - b).value()) *
-                                                           static_cast<double>(left.value()) /
-                                                           static_cast<double>(whole->value()))));
-    };
-    agent.start = VertexId(points.size());
+    agent.start = add_lane_place(parts, edge.from, edge.to, *whole, *whole - left);
     agent.release = 0;
-    agent.under_way = true;
-    points.push_back({between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)});
-    edges.push_back({agent.start, edge.to, left});
+    agent.under_way = left.value() % 4 != 0;  // the others may wait there
   }
-  return std::make_shared<const Roadmap>(
-      Roadmap::make(std::move(points), std::move(edges)).value());
+  return std::make_shared<const Roadmap>(std::move(parts).make().value());
 }
 
 std::string describe(const Point& p) {

@@ -45,7 +45,8 @@ struct Agent {
   bool leaves = false;
   /// At Instance::now it is moving: its start is a place in the middle of a move, where it is then,
   /// and it goes on at once. The start is a vertex of its own, without edges that lead there and
-  /// with one that leads on, whose duration is what is left of the move. It has no release.
+  /// with one that leads on, whose duration is what is left of the move. It has no release. An
+  /// agent that may wait in the middle of a move starts at such a vertex without this.
   bool under_way = false;
 
   /// Requires that there is one goal only.
@@ -130,7 +131,9 @@ class Instance {
   [[nodiscard]] std::size_t num_classes() const noexcept { return classes_.size(); }
   [[nodiscard]] ClassId class_of(AgentId i) const { return class_of_[i]; }
   [[nodiscard]] const Body& body(ClassId c) const { return classes_[c].body; }
-  /// geometry::enclosing_radius(body(c)).
+  /// An agent is nowhere further than that from Roadmap::position of where it stands, or from the
+  /// line between those of the ends of its move: geometry::enclosing_radius(body(c)), and one more
+  /// where places in the middle of moves are rounded.
   [[nodiscard]] Length reach(ClassId c) const { return classes_[c].reach; }
   [[nodiscard]] Ticks duration(ClassId c, EdgeId e) const {
     return durations_[classes_[c].durations][e.index()];
@@ -150,7 +153,7 @@ class Instance {
   }
   [[nodiscard]] geometry::Motion motion(ClassId c, EdgeId e) const {
     const Edge& edge = roadmap_->edge(e);
-    return {roadmap_->position(edge.from), roadmap_->position(edge.to), duration(c, e)};
+    return roadmap_->motion(edge.from, edge.to, duration(c, e));
   }
 
  private:

@@ -12,7 +12,8 @@
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
-#include "quadrille/geometry/point.hpp"
+#include "quadrille/geometry/motion.hpp"
+#include "quadrille/geometry/place.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -65,6 +66,17 @@ struct Edge {
   friend bool operator==(const Edge&, const Edge&) = default;
 };
 
+/// A vertex in the middle of a move from one vertex to another one, which takes `whole` ticks, of
+/// which `behind` lie behind whoever is there. Where it is follows from that, exactly. No edge
+/// leads to it, and one leads on: the rest of the move.
+struct LanePlace {
+  VertexId vertex;
+  VertexId from, to;
+  Ticks behind = 0;  ///< 0 <= behind < whole.
+  Ticks whole = 1;
+  friend bool operator==(const LanePlace&, const LanePlace&) = default;
+};
+
 /// The edges at each vertex, by id: those that leave it, or those that lead to it.
 class EdgeLists {
  public:
@@ -90,7 +102,10 @@ class Roadmap {
   /// from a vertex to itself, of length zero without a duration, or open to nobody. Vertices and
   /// edges are named by their index. Parallel edges are allowed, and several vertices in the same
   /// place.
-  [[nodiscard]] static Result<Roadmap> make(std::vector<Point> vertices, std::vector<Edge> edges);
+  /// `lane_places`: vertices in the middle of moves, whose coordinates are the exact ones rounded
+  /// to the nearest length unit. Errors: invalid_instance for one that is not as LanePlace says.
+  [[nodiscard]] static Result<Roadmap> make(std::vector<Point> vertices, std::vector<Edge> edges,
+                                            std::vector<LanePlace> lane_places = {});
 
   /// The same one, but these edges are open to nobody; all ids stay the same. No file can hold it.
   /// Requires edges that exist. Linear.
@@ -98,7 +113,20 @@ class Roadmap {
 
   [[nodiscard]] std::size_t num_vertices() const noexcept { return positions_.size(); }
   [[nodiscard]] std::size_t num_edges() const noexcept { return edges_.size(); }
+  /// Of a vertex in the middle of a move to the nearest length unit, see `place`.
   [[nodiscard]] const Point& position(VertexId v) const { return positions_[v.index()]; }
+  /// Where whoever stands there is, exactly.
+  [[nodiscard]] geometry::Place place(VertexId v) const {
+    const LanePlace* const on_lane = lane_place(v);
+    if (on_lane == nullptr) return position(v);
+    return {position(on_lane->from), position(on_lane->to), on_lane->behind, on_lane->whole};
+  }
+  /// The move in so many ticks from one vertex to another one.
+  [[nodiscard]] geometry::Motion motion(VertexId from, VertexId to, Ticks duration) const;
+  /// Null unless the vertex is in the middle of a move. Logarithmic.
+  [[nodiscard]] const LanePlace* lane_place(VertexId v) const;
+  /// By vertex.
+  [[nodiscard]] const std::vector<LanePlace>& lane_places() const noexcept { return lane_places_; }
   [[nodiscard]] const Edge& edge(EdgeId e) const { return edges_[e.index()]; }
   /// Whether no vertex has a height: all of them are in the plane z = 0.
   [[nodiscard]] bool is_flat() const noexcept { return is_flat_; }
@@ -110,10 +138,12 @@ class Roadmap {
   [[nodiscard]] const std::vector<Edge>& edges() const noexcept { return edges_; }
 
  private:
-  Roadmap(std::vector<Point> positions, std::vector<Edge> edges);
+  Roadmap(std::vector<Point> positions, std::vector<Edge> edges,
+          std::vector<LanePlace> lane_places);
 
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
+  std::vector<LanePlace> lane_places_;
   bool is_flat_ = true;
   EdgeLists out_, in_;
 };

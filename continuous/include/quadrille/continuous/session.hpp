@@ -48,8 +48,8 @@ class Session {
   [[nodiscard]] std::optional<Error> change(MemberId member, const Agent& agent);
   /// The member begins in the middle of a move along the edge, of which it has `behind` ticks
   /// behind it, and finishes the move without a stop. Its place is the point of the edge that many
-  /// ticks from its tail, to the nearest length unit in each coordinate. In instances and plans
-  /// that is a vertex after those of the roadmap. A closed edge will do. Errors: invalid_instance
+  /// ticks from its tail, exactly. In instances and plans that is a vertex after those of the
+  /// roadmap. A closed edge will do. Errors: invalid_instance
   /// for an edge that does not exist or is not for the member's group; out_of_range for `behind`
   /// outside [0, duration).
   [[nodiscard]] std::optional<Error> put_under_way(MemberId member, EdgeId edge, Ticks behind);

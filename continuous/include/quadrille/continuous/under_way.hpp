@@ -10,17 +10,35 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
-/// Appends to what a roadmap will be made of the place of an agent in the middle of a move, as
-/// Agent::under_way needs it: a vertex to which no edge leads, and an edge for the rest of the
-/// move. Returns the vertex.
-///
-/// `fraction` of the move between the two vertices, which takes `whole` ticks, lies behind the
-/// agent. That is rounded down to whole ticks, where a number that differs from one by a billionth
-/// is meant to be that, and at least one tick is left: the agent is never taken to be further than
-/// it is, but for that last tick. The place is rounded to the nearest length unit. Requires two of
-/// the vertices, a fraction in [0, 1] and at least one tick.
-VertexId add_place_under_way(std::vector<Point>& vertices, std::vector<Edge>& edges, VertexId from,
-                             VertexId to, Ticks whole, double fraction);
+/// What a roadmap will be made of, with places of agents in the middle of moves.
+struct RoadmapParts {
+  std::vector<Point> vertices;
+  std::vector<Edge> edges;
+  std::vector<LanePlace> lane_places;
+
+  RoadmapParts() = default;
+  explicit RoadmapParts(const Roadmap& roadmap)
+      : vertices(roadmap.positions()), edges(roadmap.edges()), lane_places(roadmap.lane_places()) {}
+  /// Roadmap::make.
+  [[nodiscard]] Result<Roadmap> make() && {
+    return Roadmap::make(std::move(vertices), std::move(edges), std::move(lane_places));
+  }
+};
+
+/// Appends the place of an agent in the middle of a move between the two vertices: a vertex to
+/// which no edge leads, and an edge for the rest of the move, open to all. Returns the vertex. An
+/// agent that starts there with Agent::under_way goes on at once, without it the agent may wait
+/// there. The place is exact. Requires two of the vertices, not in the middle of moves, and 0 <=
+/// behind < whole.
+VertexId add_lane_place(RoadmapParts& parts, VertexId from, VertexId to, Ticks whole, Ticks behind);
+
+/// So many whole ticks of a move that takes `whole` lie behind an agent that has `fraction` of it
+/// behind it: rounded down, where a number that differs from a whole one by a billionth is meant to
+/// be that, and at least one tick is left. Requires a fraction in [0, 1] and at least one tick.
+[[nodiscard]] Ticks ticks_behind(double fraction, Ticks whole);
+
+/// The point behind / whole of the way, to the nearest length unit in each coordinate.
+[[nodiscard]] Point nearest_point(const Point& from, const Point& to, Ticks behind, Ticks whole);
 
 }  // namespace quadrille::continuous
 

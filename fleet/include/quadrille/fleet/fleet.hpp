@@ -74,10 +74,12 @@ struct MovingObstacle {
 class Fleet;
 class TimedPath;
 
-/// A move in progress: `fraction` of it, 0 .. 1, lies behind.
+/// A move in progress: `fraction` of it, 0 .. 1, lies behind, or it was begun at a given time.
 struct UnderWay {
   VertexId from, to;
   double fraction = 0;
+  std::optional<Seconds> begun = {};  ///< Instead of a fraction.
+  bool may_wait = false;              ///< It stands there, and need not go on at once.
   friend bool operator==(const UnderWay&, const UnderWay&) = default;
 };
 
@@ -88,7 +90,8 @@ class Robot {
   /// Where it begins. Requires a vertex of the roadmap, or the place in the middle of a move where
   /// this robot begins as it is, which changes nothing.
   Robot from(VertexId start) const;  // NOLINT: part of a chain
-  /// Where it is at this time when it follows the path: at a vertex, or in the middle of a move.
+  /// Where it is at this time when it follows the path: at a vertex, or in the middle of a move;
+  /// where it stands within its lane it may wait still.
   /// For planning again while robots are under way, as often as there is need, also within one
   /// move. Before its first stop it is where the path begins, after the end where it ends. Requires
   /// a path whose vertices the roadmap has, and a finite time.
@@ -97,10 +100,18 @@ class Robot {
   /// lies behind it, 0 .. 1, and it finishes the move, without a stop; also if the lane has been
   /// closed meanwhile. What lies behind is rounded down to whole steps of time, and at least one
   /// step is left: it is never taken to be further than it is, but for that last step. Its place
-  /// follows from that, and is rounded to the resolution. Requires two vertices of the roadmap.
+  /// follows from that, exactly. Requires two vertices of the roadmap.
   /// `from` may also be the place in the middle of a move to `to` where this robot begins until
-  /// now: then `fraction` is one of what was left of the move, so that it must not be told twice.
-  Robot from_edge(VertexId from, VertexId to, double fraction) const;  // NOLINT: part of a chain
+  /// now, told by a fraction as well: then `fraction` is one of what was left of the move, so that
+  /// it must not be told twice.
+  Robot from_edge(VertexId from, VertexId to,
+                  double fraction = 0) const;  // NOLINT: part of a chain
+  /// After from_edge, and instead of a fraction: when it began the move, on the clock of
+  /// Fleet::begins_at, rounded up to a whole step, and so negative where the fleet begins at 0 s.
+  /// Requires that it is under way, and a finite time.
+  Robot begun(Seconds time) const;  // NOLINT: part of a chain
+  /// After from_edge: it stands within its lane, and may wait there before it goes on.
+  Robot may_wait(bool may = true) const;  // NOLINT: part of a chain
   /// Where it goes, and stays. Requires a vertex of the roadmap.
   Robot to(VertexId goal) const { return to_any({goal}); }  // NOLINT: part of a chain
   /// Where it may go: it ends at any one of these, in any order, and stays there. Requires vertices
@@ -185,13 +196,11 @@ class Fleet {
   /// have, an obstacle without stops, whose times do not increase, or that vanishes when it
   /// appears; out_of_range for sizes, speeds and times that are not supported at this resolution;
   /// no_plan for starts that overlap, also with an obstacle, goals that overlap of robots that have
-  /// no other one, and robots that can reach no goal, or none by the deadline; where that is so
-  /// only because places in the middle of moves are rounded, it says so.
+  /// no other one, and robots that can reach no goal, or none by the deadline.
   [[nodiscard]] Result<continuous::Instance> instance() const;
 
  private:
   friend class Robot;
-  friend class PlaceRounding;
   struct Entry {
     RobotSpec spec;
     std::optional<VertexId> start = {};
@@ -202,20 +211,20 @@ class Fleet {
     bool leaves = false;
   };
   using Roads = std::shared_ptr<const continuous::Roadmap>;
-  /// What an instance is made of. `off`: how far from where it is said to be each agent begins,
-  /// because places in the middle of moves are rounded; in length units.
+  /// What an instance is made of.
   struct Parts {
     std::vector<continuous::Agent> agents;
     Roads roads;
     std::vector<continuous::MovingObstacle> obstacles;
-    std::vector<double> off;
     continuous::Ticks now = 0;
   };
   [[nodiscard]] Result<Parts> parts() const;
   [[nodiscard]] Result<std::vector<continuous::Agent>> agents() const;
   [[nodiscard]] Result<continuous::Agent> agent(AgentId id) const;
+  [[nodiscard]] Result<continuous::LanePlace> lane_place(AgentId id, const continuous::Agent& agent,
+                                                         continuous::Ticks now) const;
   [[nodiscard]] Result<Roads> put_under_way(std::vector<continuous::Agent>& agents,
-                                            std::vector<double>& off) const;
+                                            continuous::Ticks now) const;
   [[nodiscard]] Result<std::vector<continuous::MovingObstacle>> obstacles_in_units() const;
   [[nodiscard]] Result<continuous::Ticks> begin_in_units() const;
   [[nodiscard]] continuous::Words words() const;

@@ -58,8 +58,6 @@ struct SolveOptions : Choices {
   Seconds plan_interval = Seconds(1);
 };
 
-/// Infeasible: the explanation also says whether that rests on the rounding of places in the middle
-/// of moves.
 struct SolveOutcome : Outcome<TimedPlan, Seconds> {
   /// What is not as it was asked for, in sentences: that durations are rounded by
   /// continuous::kNotableDurationError or more.

@@ -7,6 +7,7 @@
 
 #include "quadrille/core/export.hpp"
 #include "quadrille/geometry/body.hpp"
+#include "quadrille/geometry/place.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -22,11 +23,11 @@ class BodyIndex {
   BodyIndex& operator=(BodyIndex&&) noexcept;
 
   /// Requires a place in range and a radius in [1, kMaxLength]. The body is copied.
-  void add(std::size_t number, const Body& body, const Point& place);
+  void add(std::size_t number, const Body& body, const Place& place);
   /// The least number of a body that is there and whose interior meets that of this one; both are
   /// balls unless all are in the plane. Requirements as of `add`.
   [[nodiscard]] std::optional<std::size_t> first_overlap(const Body& body,
-                                                         const Point& place) const;
+                                                         const Place& place) const;
 
  private:
   class Tree;

@@ -57,17 +57,18 @@ class BodyPair {
   /// motion gives begin = -1, one at its very end end = duration + 1, because there the end of the
   /// motion itself belongs to the contact. Not empty.
   [[nodiscard]] std::optional<TickInterval> contact_window(const Motion& a,
-                                                           const Point& place) const;
+                                                           const Place& place) const;
 
   /// Whether the interiors meet when a is at `place_a` and b at `place_b`.
-  [[nodiscard]] bool overlap(const Point& place_a, const Point& place_b) const;
+  [[nodiscard]] bool overlap(const Place& place_a, const Place& place_b) const;
 
   /// The smallest gap over all moments at which both motions run, b starting `offset` ticks after
   /// a; none if there is no such moment.
   [[nodiscard]] std::optional<Gap> gap(const Motion& a, const Motion& b, Ticks offset) const;
 
   /// Whether the motions collide at some offset, real ones included: whether the areas that the two
-  /// bodies sweep have a common interior point.
+  /// bodies sweep have a common interior point. Of a part of a motion (Motion::is_part) it may be
+  /// said where only the whole motion collides.
   [[nodiscard]] bool can_meet(const Motion& a, const Motion& b) const;
 
   /// The same pair, b first.
@@ -98,8 +99,8 @@ class BodyPair {
 }
 
 /// BodyPair(body_a, body_b).overlap(place_a, place_b).
-[[nodiscard]] inline bool bodies_overlap(const Body& body_a, const Point& place_a,
-                                         const Body& body_b, const Point& place_b) {
+[[nodiscard]] inline bool bodies_overlap(const Body& body_a, const Place& place_a,
+                                         const Body& body_b, const Place& place_b) {
   return BodyPair(body_a, body_b).overlap(place_a, place_b);
 }
 

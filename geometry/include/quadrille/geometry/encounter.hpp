@@ -21,10 +21,14 @@ enum class Encounter {
 [[nodiscard]] std::string_view to_string(Encounter encounter) noexcept;  ///< "clear" | ...
 
 /// Straight and at constant speed from `from` at tick `begin` to `to` at tick `end`, both included;
-/// a stay if the places are the same, a moment if the ticks are. Of any length.
+/// a stay if the places are the same, a moment if the ticks are. Of any length. With `whole` > 0 it
+/// is a part of that way, which takes so many ticks, of which `behind` are over at `begin`; then it
+/// goes on until `end`, or stands there.
 struct Leg {
   Point from, to;
   Ticks begin = 0, end = 0;
+  Ticks behind = 0, whole = 0;
+  bool stands = false;
 };
 
 /// A second opinion on two bodies that move, for checks: conservative advancement on FCL's

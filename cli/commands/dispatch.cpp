@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "frame/arguments.hpp"
+#include "frame/subcommands.hpp"
+#include "roadmap/dispatch_roadmap.hpp"
+
+namespace quadrille::cli {
+namespace {
+
+constexpr const char* kFooter =
+    "Robots start where the agents of the instance do. Whoever has no task gets one at any\n"
+    "vertex; robots are held up at random, and never collide (docs/dispatch.md). The gap of a\n"
+    "call is by how much its paths are longer than they could be without the others.\n"
+    "\n"
+    "Example:\n"
+    "  quadrille dispatch --instance discs.json --steps 600 --step 0.5 --delays 0.02\n"
+    "\n";
+
+constexpr std::int64_t kMaxSteps = 10'000'000;
+
+}  // namespace
+
+Subcommand add_dispatch(CLI::App& program) {
+  CLI::App* app = program.add_subcommand(
+      "dispatch", "Let a fleet on a roadmap work, with tasks that keep coming");
+  const auto arguments = std::make_shared<DispatchArguments>();
+  add_input_options(*app, arguments->input);
+  add_roadmap_options(*app, arguments->roadmap);
+  add_integer(*app, "--steps", arguments->steps, 1, kMaxSteps,
+              "Calls of the dispatcher; default 1000");
+  add_positive(*app, "--step", arguments->step,
+               "Time from one call to the next, in the instance's unit of time; default 1");
+  app->add_flag("--own-tasks", arguments->has_own_tasks,
+                "The goals of the agents are all there is to do; default: random tasks");
+  add_positive(*app, "--service", arguments->service,
+               "Time that a task takes at its goal; default 0");
+  add_share(*app, "--delays", arguments->pauses,
+            "Chance per tick that a robot which goes on pauses; default 0");
+  add_positive(*app, "--longest", arguments->longest, "Longest pause; default 3");
+  add_positive(*app, "--effort", arguments->effort,
+               "For looking for paths, per call: nominal milliseconds, counted in steps;\n"
+               "default 20");
+  add_positive(*app, "--reach", arguments->reach,
+               "How far a robot may go beyond where it was last seen, as time on its course;\n"
+               "default: any");
+  add_positive(*app, "--patience", arguments->patience,
+               "Robots that are later are planned for from where they are; default: twice --step");
+  add_seconds(*app, "--call-limit", arguments->wall,
+              "Seconds of wall clock per call for looking for paths; default: none");
+  app->add_flag("--no-improvement", arguments->does_not_improve,
+                "What is left of the effort is not used to make paths cheaper");
+  add_integer(*app, "--seed", arguments->seed, 0, 2'000'000'000,
+              "Seed of tasks and pauses; default 0");
+  add_file(*app, "--json", arguments->json, "Write the report as JSON; - is standard output");
+  app->add_flag("--quiet", arguments->quiet, "Print nothing but errors and what is asked for");
+  app->footer(std::string(kFooter) + kExitCodesHelp);
+  return {app, [app, arguments] {
+            if (!is_roadmap(arguments->input, arguments->roadmap))
+              return usage_error(*app,
+                                 "dispatch needs a roadmap: --roadmap, or an --instance with one");
+            return dispatch_on_roadmap(*app, *arguments);
+          }};
+}
+
+}  // namespace quadrille::cli

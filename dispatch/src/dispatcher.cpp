@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/dispatch/dispatcher.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "origin.hpp"
+#include "quadrille/continuous/free_cost.hpp"
+#include "quadrille/continuous/replanner.hpp"
+#include "quadrille/continuous/verify.hpp"
+#include "right_of_way.hpp"
+#include "robot.hpp"
+#include "work.hpp"
+
+namespace quadrille::dispatch {
+namespace {
+
+/// Who looked for a path in vain tries again after so many calls at most.
+constexpr std::int64_t kMostPatience = 16;
+
+std::string name(AgentId robot) { return "robot " + std::to_string(robot.index()); }
+Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
+
+}  // namespace
+
+class Dispatcher::Parts {
+ public:
+  Parts(const Instance& instance, const Options& options)
+      : options_(options),
+        roadmap_(instance.shared_roadmap()),
+        resolution_(instance.resolution()),
+        replanner_(roadmap_) {
+    for (const continuous::Agent& agent : instance.agents()) {
+      Robot& robot = robots_.emplace_back();
+      robot.agent = agent;
+      robot.agent.goals = agent.start;
+      robot.course = {{agent.start, 0, 0}};
+    }
+  }
+
+  std::vector<Robot>& robots() { return robots_; }
+  [[nodiscard]] Ticks now() const { return now_; }
+
+  std::optional<Error> assign(AgentId id, Task task) {
+    if (id.index() >= robots_.size()) return invalid("there is no " + name(id));
+    if (task.service < 0 || task.service > geometry::kMaxDuration ||
+        (task.deadline && *task.deadline < 0))
+      return out_of_range("the task of " + name(id) + " has a time that is negative or too long");
+    if (auto error = refuse(robots_[id.index()].agent, task.goals)) {
+      error->message = name(id) + ": " + error->message;
+      return error;
+    }
+    robots_[id.index()].tasks.push_back({std::move(task), num_assigned_++});
+    return std::nullopt;
+  }
+
+  News tick(Ticks duration, const Limits& limits) {
+    News news;
+    ++call_;
+    for (Robot& robot : robots_) {
+      robot.clock = clock_of(robot);
+      robot.limit = std::max(robot.limit, robot.clock);
+    }
+    finish_tasks(news);
+    const Ticks patience = options_.patience > 0 ? options_.patience : 2 * duration;
+    if (now_ - earliest_that_moves() > patience) news.has_new_origin = begin_anew();
+    plan(limits, news);
+    release(duration);
+    for (const Robot& robot : robots_) news.num_waiting += robot.wants_path() ? 1 : 0;
+    return news;
+  }
+
+ private:
+  /// By one that is alone.
+  [[nodiscard]] std::optional<Error> refuse(continuous::Agent agent, const Goals& goals) const {
+    agent.goals = goals;
+    const auto alone = Instance::make(roadmap_, {std::move(agent)}, resolution_);
+    if (!alone) return alone.error();
+    return std::nullopt;
+  }
+
+  void finish_tasks(News& news) {
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      Robot& robot = robots_[i];
+      if (robot.is_bound && !robot.busy_until && robot.has_arrived())
+        robot.busy_until = now_ + robot.tasks.front().task.service;
+      if (!robot.busy_until || *robot.busy_until > now_) continue;
+      news.served.push_back(AgentId(i));
+      robot.tasks.pop_front();
+      robot.busy_until.reset();
+      robot.is_bound = false;
+      robot.next_try = 0;
+      robot.patience = 1;
+    }
+  }
+
+  /// As the others see it: whoever has arrived is at rest, and late for nothing.
+  [[nodiscard]] Ticks clock_of(const Robot& robot) const {
+    return robot.has_arrived() ? std::max(robot.clock, now_) : robot.clock;
+  }
+  /// Of those that have moved since all was planned anew; those that have not may be broken, and
+  /// nothing is gained by planning for them once more.
+  [[nodiscard]] Ticks earliest_that_moves() const {
+    Ticks earliest = now_;
+    for (const Robot& robot : robots_)
+      if (robot.clock != robot.clock_at_origin) earliest = std::min(earliest, clock_of(robot));
+    return earliest;
+  }
+
+  [[nodiscard]] std::vector<Course> courses() const {
+    std::vector<Course> courses;
+    for (const Robot& robot : robots_) courses.push_back(robot.course);
+    return courses;
+  }
+  [[nodiscard]] std::vector<continuous::Agent> agents() const {
+    std::vector<continuous::Agent> agents;
+    for (const Robot& robot : robots_) agents.push_back(robot.agent);
+    return agents;
+  }
+  [[nodiscard]] Traffic traffic() const {
+    Traffic traffic{roadmap_, resolution_, agents(), origin_, {}};
+    for (const Robot& robot : robots_) traffic.clocks.push_back(clock_of(robot));
+    return traffic;
+  }
+
+  bool begin_anew() {
+    std::vector<Ticks> clocks, limits;
+    for (const Robot& robot : robots_) {
+      clocks.push_back(robot.clock);
+      limits.push_back(robot.limit);
+    }
+    NewOrigin made = move_origin(courses(), clocks, limits, now_);
+    const auto snapshot =
+        take_snapshot_of_ends(roadmap_, resolution_, agents(), made.courses, now_);
+    if (!snapshot || !continuous::verify(snapshot->instance, snapshot->plan).valid()) return false;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      Robot& robot = robots_[i];
+      robot.course = std::move(made.courses[i]);
+      robot.clock = robot.clock_at_origin = made.clocks[i];
+      robot.limit = now_;
+      robot.is_held = end_of(robot.course) > now_;
+    }
+    origin_ = now_;
+    return true;
+  }
+
+  /// New courses from now on, if there is need of any, and if they can be put into force.
+  void plan(const Limits& limits, News& news) {
+    const Work work = next_work(robots_, *roadmap_, call_);
+    if (options_.effort <= Effort() || (work.order.empty() && !options_.improves)) return;
+    std::vector<continuous::Agent> agents = this->agents();
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      agents[i].goals = work.goals[i];
+      agents[i].release = robots_[i].busy_until.value_or(Ticks(0));
+    }
+    const std::vector<Course> before = courses();
+    const auto snapshot = take_snapshot(roadmap_, resolution_, std::move(agents), before, now_);
+    if (!snapshot) return;
+    replanner_.begin(snapshot->instance, snapshot->plan, limits);
+    send(work);
+    if (options_.improves && replanner_.effort() < options_.effort)
+      replanner_.improve(options_.effort - replanner_.effort());
+    news.effort = replanner_.effort();
+    adopt(*snapshot, before, news);
+  }
+
+  void send(const Work& work) {
+    sent_.clear();
+    for (const AgentId i : work.order) {
+      if (replanner_.effort() >= options_.effort) break;
+      const Robot& robot = robots_[i.index()];
+      const auto may_push = [&](AgentId j) {
+        const Robot& other = robots_[j.index()];
+        if (other.busy_until) return false;
+        return !other.is_bound || is_more_urgent(robot, other);
+      };
+      const bool is_sent = robot.is_bound ? replanner_.send(i) : replanner_.send(i, may_push);
+      sent_.emplace_back(i, is_sent);
+    }
+  }
+
+  void adopt(const Snapshot& snapshot, const std::vector<Course>& before, News& news) {
+    const continuous::Plan plan = replanner_.plan();
+    std::vector<Course> after = before;
+    for (const AgentId i : snapshot.instance.agent_ids()) {
+      if (plan.paths[i] == snapshot.plan.paths[i]) continue;
+      news.has_new_plan = true;
+      after[i.index()] = joined(until(before[i.index()], now_), snapshot.course(plan.paths[i]));
+    }
+    if (news.has_new_plan) {
+      const auto allowed = find_limits(traffic(), after);
+      const auto keeps = [&](std::size_t i) { return (*allowed)[i] >= robots_[i].limit; };
+      bool is_kept = allowed.has_value();
+      for (std::size_t i = 0; is_kept && i < robots_.size(); ++i) is_kept = keeps(i);
+      news.was_too_late = !is_kept;
+      news.has_new_plan = is_kept;
+    }
+    for (const auto& [id, is_sent] : sent_) {
+      Robot& robot = robots_[id.index()];
+      const bool is_done = is_sent && !news.was_too_late;
+      robot.patience = is_done ? 1 : std::min(2 * robot.patience, kMostPatience);
+      if (!is_done && !robot.is_bound) robot.next_try = call_ + robot.patience;
+      if (is_done) robot.is_held = false;
+      if (is_done && !robot.is_bound) ++news.num_sent;
+    }
+    for (const AgentId i : snapshot.instance.agent_ids()) {
+      Robot& robot = robots_[i.index()];
+      if (news.has_new_plan) robot.course = std::move(after[i.index()]);
+      if (!robot.tasks.empty() && !robot.busy_until)
+        robot.is_bound = robot.tasks.front().task.goals.contains(robot.course.back().spot.from);
+      if (!robot.is_bound || robot.busy_until) continue;
+      news.cost += continuous::as_cost(std::max(Ticks(0), end_of(robot.course) - now_));
+      news.lower_bound += replanner_.free_cost(i);
+    }
+  }
+
+  /// Everybody may go on for so long, if the others allow it.
+  void release(Ticks duration) {
+    const auto allowed = find_limits(traffic(), courses());
+    QUADRILLE_REQUIRE(allowed.has_value(), "the courses in force do not collide");
+    now_ += duration;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      Robot& robot = robots_[i];
+      Ticks limit = std::min((*allowed)[i], now_);
+      if (options_.reach > 0 && !robot.has_arrived())
+        limit = std::min(limit, robot.clock + options_.reach);
+      robot.limit = std::max(robot.limit, limit);
+    }
+    forget();
+  }
+
+  /// What lies before all clocks.
+  void forget() {
+    Ticks earliest = now_;
+    for (const Robot& robot : robots_) earliest = std::min(earliest, clock_of(robot));
+    for (Robot& robot : robots_) {
+      std::size_t passed = 0;
+      while (passed + 1 < robot.course.size() && robot.course[passed + 1].arrive <= earliest)
+        ++passed;
+      robot.course.erase(robot.course.begin(),
+                         robot.course.begin() + static_cast<std::ptrdiff_t>(passed));
+    }
+  }
+
+  const Options options_;
+  const std::shared_ptr<const Roadmap> roadmap_;
+  const continuous::Resolution resolution_;
+  continuous::Replanner replanner_;
+  std::vector<Robot> robots_;
+  std::vector<std::pair<AgentId, bool>> sent_;  // of this call: whether it got a path
+  Ticks now_ = 0, origin_ = 0;
+  std::int64_t call_ = 0;
+  std::uint64_t num_assigned_ = 0;
+};
+
+Result<Dispatcher> Dispatcher::make(std::shared_ptr<const Roadmap> roadmap,
+                                    std::vector<continuous::Agent> robots,
+                                    continuous::Resolution resolution, const Options& options) {
+  for (continuous::Agent& robot : robots) {
+    robot.goals = robot.start;
+    robot.release = 0;
+    robot.deadline.reset();
+    robot.leaves = false;
+    robot.under_way = false;
+  }
+  const auto instance = Instance::make(std::move(roadmap), std::move(robots), resolution);
+  if (!instance) return instance.error();
+  if (instance->roadmap().num_vertices() < 2)
+    return invalid("there has to be somewhere to go: two vertices");
+  if (!instance->roadmap().lane_places().empty())
+    return invalid("robots begin at vertices, and not in the middle of moves");
+  return Dispatcher(std::make_unique<Parts>(*instance, options));
+}
+
+Dispatcher::Dispatcher(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Dispatcher::~Dispatcher() = default;
+Dispatcher::Dispatcher(Dispatcher&&) noexcept = default;
+Dispatcher& Dispatcher::operator=(Dispatcher&&) noexcept = default;
+
+std::size_t Dispatcher::num_robots() const noexcept { return parts_->robots().size(); }
+
+std::optional<Error> Dispatcher::assign(AgentId robot, Task task) {
+  return parts_->assign(robot, std::move(task));
+}
+
+std::optional<Error> Dispatcher::cancel(AgentId robot) {
+  if (robot.index() >= num_robots()) return invalid("there is no " + name(robot));
+  Robot& one = parts_->robots()[robot.index()];
+  one.tasks.clear();
+  one.busy_until.reset();
+  one.is_bound = false;
+  return std::nullopt;
+}
+
+std::optional<Error> Dispatcher::report(AgentId robot, Ticks clock) {
+  if (robot.index() >= num_robots()) return invalid("there is no " + name(robot));
+  Robot& one = parts_->robots()[robot.index()];
+  if (clock < one.clock)
+    return out_of_range("the clock of " + name(robot) + " goes back from " +
+                        std::to_string(one.clock.value()) + " to " + std::to_string(clock.value()));
+  if (clock > one.limit)
+    return out_of_range(name(robot) + " has gone on to " + std::to_string(clock.value()) +
+                        ", and was allowed to go to " + std::to_string(one.limit.value()));
+  one.clock = clock;
+  return std::nullopt;
+}
+
+News Dispatcher::tick(Ticks duration, const Limits& limits) {
+  QUADRILLE_REQUIRE(duration >= 1, "time goes on");
+  return parts_->tick(duration, limits);
+}
+
+const Course& Dispatcher::course(AgentId robot) const {
+  return parts_->robots().at(robot.index()).course;
+}
+Ticks Dispatcher::clock(AgentId robot) const { return parts_->robots().at(robot.index()).clock; }
+Ticks Dispatcher::limit(AgentId robot) const { return parts_->robots().at(robot.index()).limit; }
+Ticks Dispatcher::now() const noexcept { return parts_->now(); }
+std::size_t Dispatcher::num_tasks(AgentId robot) const {
+  return parts_->robots().at(robot.index()).tasks.size();
+}
+
+}  // namespace quadrille::dispatch

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/dispatch/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "quadrille/core/contract.hpp"
+
+namespace quadrille::dispatch {
+namespace {
+
+double number(continuous::Length length) { return static_cast<double>(length.value()); }
+
+/// Places in doubles are off by less than that share of a radius.
+constexpr double kTolerance = 1e-9;
+
+}  // namespace
+
+Simulation::Simulation(Dispatcher& dispatcher, std::shared_ptr<const continuous::Roadmap> roadmap,
+                       std::vector<continuous::Agent> robots, const SimulationOptions& options)
+    : dispatcher_(dispatcher),
+      roadmap_(std::move(roadmap)),
+      options_(options),
+      random_(options.seed),
+      robots_(std::move(robots)),
+      clocks_(robots_.size(), 0),
+      paused_until_(robots_.size(), 0),
+      since_(robots_.size()) {
+  QUADRILLE_REQUIRE(robots_.size() == dispatcher.num_robots(), "the robots of the dispatcher");
+  QUADRILLE_REQUIRE(options.step >= 1 && options.longest_pause >= 1, "at least one tick");
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    radii_.push_back(number(geometry::enclosing_radius(robots_[i].body)));
+    are_discs_.push_back(std::holds_alternative<continuous::Disc>(robots_[i].body));
+    clocks_[i] = dispatcher.clock(AgentId(i));
+    since_[i].resize(dispatcher.num_tasks(AgentId(i)), 0);
+  }
+}
+
+void Simulation::draw_tasks() {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    // A vertex that it cannot reach is refused, and another one drawn.
+    for (int tries = 0; tries < 100 && dispatcher_.num_tasks(AgentId(i)) == 0; ++tries) {
+      const VertexId goal(static_cast<std::size_t>(random_.below(roadmap_->num_vertices())));
+      if (!dispatcher_.assign(AgentId(i), {goal, options_.service, {}})) since_[i].push_back(time_);
+    }
+  }
+}
+
+News Simulation::step(const Limits& limits) {
+  if (options_.has_random_tasks) draw_tasks();
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+    QUADRILLE_REQUIRE(!dispatcher_.report(AgentId(i), clocks_[i]), "a robot that obeys");
+  News news = dispatcher_.tick(options_.step, limits);
+  for (std::size_t i = 0; i < robots_.size(); ++i) clocks_[i] = dispatcher_.clock(AgentId(i));
+  for (const AgentId robot : news.served) {
+    std::vector<Ticks>& since = since_[robot.index()];
+    service_times_.push_back(time_ - since.front());
+    since.erase(since.begin());
+  }
+  for (Ticks t = 0; t < options_.step; t += 1) {
+    go_on();
+    look();
+  }
+  return news;
+}
+
+void Simulation::go_on() {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (clocks_[i] >= dispatcher_.limit(AgentId(i)) || time_ < paused_until_[i]) continue;
+    const bool is_held =
+        options_.pause_chance > 0 &&
+        random_.below(1'000'000) < static_cast<std::uint64_t>(1e6 * options_.pause_chance);
+    if (is_held)
+      paused_until_[i] = time_ + 1 +
+                         Ticks(static_cast<std::int64_t>(random_.below(
+                             static_cast<std::uint64_t>(options_.longest_pause.value()))));
+    else
+      clocks_[i] += 1;
+  }
+  time_ += 1;
+}
+
+Simulation::Place Simulation::place(std::size_t robot) const {
+  const Spot spot = spot_at(dispatcher_.course(AgentId(robot)), clocks_[robot]);
+  const continuous::Point &from = roadmap_->position(spot.from), &to = roadmap_->position(spot.to);
+  const double share =
+      static_cast<double>(spot.behind.value()) / static_cast<double>(spot.whole.value());
+  const auto at = [&](continuous::Length a, continuous::Length b) {
+    return number(a) + share * number(b - a);
+  };
+  return {at(from.x, to.x), at(from.y, to.y), at(from.z, to.z)};
+}
+
+// In between two looks everybody goes straight and evenly.
+void Simulation::look() {
+  std::vector<Place> after;
+  for (std::size_t i = 0; i < robots_.size(); ++i) after.push_back(place(i));
+  if (before_.empty()) before_ = after;
+  std::vector<std::size_t> order(robots_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto left = [&](std::size_t i) { return std::min(before_[i].x, after[i].x) - radii_[i]; };
+  const auto right = [&](std::size_t i) { return std::max(before_[i].x, after[i].x) + radii_[i]; };
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return std::pair(left(i), i) < std::pair(left(j), j);
+  });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (std::size_t l = k + 1; l < order.size() && left(order[l]) < right(order[k]); ++l) {
+      const std::size_t i = order[k], j = order[l];
+      if (!are_discs_[i] || !are_discs_[j]) continue;
+      const auto apart = [&](const std::vector<Place>& places) {
+        return Place{places[j].x - places[i].x, places[j].y - places[i].y,
+                     places[j].z - places[i].z};
+      };
+      const Place from = apart(before_), to = apart(after);
+      const Place way{to.x - from.x, to.y - from.y, to.z - from.z};
+      const double square = way.x * way.x + way.y * way.y + way.z * way.z;
+      const double along = from.x * way.x + from.y * way.y + from.z * way.z;
+      const double share = square > 0 ? std::clamp(-along / square, 0.0, 1.0) : 0;
+      const double distance =
+          std::hypot(from.x + share * way.x, from.y + share * way.y, from.z + share * way.z);
+      const double reach = radii_[i] + radii_[j];
+      if (distance < reach * (1 - kTolerance) - kTolerance) ++num_contacts_;
+    }
+  before_ = std::move(after);
+}
+
+}  // namespace quadrille::dispatch

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "work.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "quadrille/geometry/body_index.hpp"
+
+namespace quadrille::dispatch {
+namespace {
+
+/// The end of its course, which it need not leave, with another vertex: as a set it may be where
+/// another one has its goal.
+Goals anywhere(const Robot& robot) {
+  const VertexId end = robot.course.back().spot.from;
+  return Goals({end, VertexId(end.index() == 0 ? 1 : 0)});
+}
+
+}  // namespace
+
+Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
+               std::int64_t call) {
+  Work work;
+  std::vector<std::size_t> waiting;
+  geometry::BodyIndex taken;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const Robot& robot = robots[i];
+    work.goals.push_back(anywhere(robot));
+    if (robot.wants_path()) waiting.push_back(i);
+    const bool keeps = robot.is_bound || robot.busy_until;
+    if (!keeps) continue;
+    taken.add(i, robot.agent.body, roadmap.place(robot.course.back().spot.from));
+    if (!robot.is_bound || robot.busy_until) continue;
+    if (robot.is_held) work.order.push_back(AgentId(i));
+    work.goals.back() = robot.tasks.front().task.goals;
+  }
+  std::stable_sort(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
+    return is_more_urgent(robots[a], robots[b]);
+  });
+  for (const std::size_t i : waiting) {
+    const Robot& robot = robots[i];
+    std::vector<VertexId> free;
+    for (const VertexId v : robot.tasks.front().task.goals.vertices())
+      if (!taken.first_overlap(robot.agent.body, roadmap.place(v))) free.push_back(v);
+    if (free.empty()) continue;
+    if (free.size() == 1) taken.add(i, robot.agent.body, roadmap.place(free.front()));
+    if (robot.next_try > call) continue;
+    work.goals[i] = Goals(std::move(free));
+    work.order.push_back(AgentId(i));
+  }
+  return work;
+}
+
+}  // namespace quadrille::dispatch

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "robot.hpp"
+
+namespace quadrille::dispatch {
+
+/// Who is to get a path, the most urgent first, and where each robot may go.
+struct Work {
+  std::vector<AgentId> order;
+  std::vector<Goals> goals;  ///< By robot.
+};
+
+/// Of robots that are sent to one place, or to places that overlap, one goes at a time: others get
+/// no path before it is done there. Robots that need no path have the end of their course as a
+/// goal, and another vertex beside it.
+[[nodiscard]] Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
+                             std::int64_t call);
+
+}  // namespace quadrille::dispatch

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "quadrille/continuous/instance.hpp"
+
+namespace quadrille::continuous::test {
+
+/// The same instance in length units so small that places in the middle of moves have whole
+/// coordinates: they are vertices as any other, and the rest of a move is an edge as any other. For
+/// oracles, which know nothing of places that are not whole. The places of the roadmap may be so
+/// many that a unit would be too small: then its `make` fails.
+[[nodiscard]] inline Instance with_whole_places(const Instance& instance) {
+  const Roadmap& roadmap = instance.roadmap();
+  if (roadmap.lane_places().empty()) return instance;
+  std::int64_t scale = 1;
+  for (const LanePlace& place : roadmap.lane_places()) scale = std::lcm(scale, place.whole.value());
+  const auto scaled = [&](const Point& p) { return Point{scale * p.x, scale * p.y, scale * p.z}; };
+  std::vector<Point> points;
+  for (const Point& p : roadmap.positions()) points.push_back(scaled(p));
+  for (const LanePlace& place : roadmap.lane_places()) {
+    const Point &from = points[place.from.index()], &to = points[place.to.index()];
+    const auto between = [&](Length a, Length b) {
+      return a + Length((b - a).value() / place.whole.value() * place.behind.value());
+    };
+    points[place.vertex.index()] = {between(from.x, to.x), between(from.y, to.y),
+                                    between(from.z, to.z)};
+  }
+  const auto larger = [&](const Body& body) -> Body {
+    if (const auto* const disc = std::get_if<Disc>(&body)) return Disc{scale * disc->radius};
+    std::vector<Point> corners;
+    for (const Point& corner : std::get<ConvexPolygon>(body).vertices())
+      corners.push_back(scaled(corner));
+    return ConvexPolygon::make(std::move(corners)).value();
+  };
+  std::vector<Agent> agents(instance.agents().begin(), instance.agents().end());
+  for (Agent& agent : agents) {
+    agent.body = larger(agent.body);
+    agent.speed = scale * agent.speed;
+  }
+  std::vector<MovingObstacle> obstacles = instance.obstacles();
+  for (MovingObstacle& obstacle : obstacles) {
+    obstacle.body = larger(obstacle.body);
+    for (MovingObstacle::Stop& stop : obstacle.path) stop.at = scaled(stop.at);
+  }
+  return Instance::make(Roadmap::make(std::move(points), roadmap.edges()).value(),
+                        std::move(agents), instance.resolution(), {}, std::move(obstacles),
+                        instance.now())
+      .value();
+}
+
+}  // namespace quadrille::continuous::test

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "quadrille/dispatch/dispatcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dispatch/simulated_fleet.hpp"
+#include "dispatch/towns.hpp"
+#include "support/environment.hpp"
+
+namespace quadrille::dispatch::test {
+namespace {
+
+using continuous::Agent;
+
+Options quick() {
+  Options options;
+  options.effort = Effort::microseconds(3'000);
+  options.improves = false;
+  return options;
+}
+
+/// Everybody always has a task; the number of those that were done.
+struct Tally {
+  std::size_t num_served = 0, longest_idle = 0, num_origins = 0, num_too_late = 0;
+};
+
+Tally run_for(SimulatedFleet& fleet, std::size_t steps, Ticks duration, std::uint64_t seed,
+              std::size_t num_places) {
+  support::Random random(seed);
+  Tally run;
+  Dispatcher& dispatcher = fleet.dispatcher();
+  for (std::size_t step = 0; step < steps; ++step) {
+    for (std::size_t i = 0; i < dispatcher.num_robots(); ++i) {
+      if (dispatcher.num_tasks(AgentId(i)) > 0) continue;
+      const Task task{VertexId(random.below(num_places)),
+                      Ticks(static_cast<std::int64_t>(random.below(30)))};
+      EXPECT_FALSE(dispatcher.assign(AgentId(i), task));
+    }
+    const News news = fleet.step(duration);
+    run.num_served += news.served.size();
+    run.num_origins += news.has_new_origin ? 1 : 0;
+    run.num_too_late += news.was_too_late ? 1 : 0;
+    EXPECT_LE(news.lower_bound, news.cost);
+    if (fleet.referee().num_contacts() > 0) {
+      ADD_FAILURE() << "contact in step " << step << ", gap " << fleet.referee().least_gap();
+      break;
+    }
+    for (std::size_t i = 0; i < dispatcher.num_robots(); ++i)
+      run.longest_idle = std::max(run.longest_idle, fleet.idle(AgentId(i)));
+  }
+  return run;
+}
+
+TEST(Dispatcher, SendsRobotsToTheirGoals) {
+  const auto roadmap = grid(5, 4, 0, 1);
+  SimulatedFleet fleet(roadmap, robots_on(*roadmap, 6, 1), quick(), {}, 1);
+  const Tally run = run_for(fleet, support::scaled(600), 10, 1, 20);
+  EXPECT_EQ(fleet.referee().num_contacts(), 0U);
+  EXPECT_GT(run.num_served,
+            support::scaled(300));  // a way of three lanes takes four calls, and six go at once
+  EXPECT_LT(run.longest_idle, 60U);
+}
+
+// Roads of uneven length, so that places in the middle of moves are nowhere whole; robots of two
+// sizes and speeds, 30 % of the time held up.
+TEST(Dispatcher, KeepsRobotsApartThatAreLate) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const auto roadmap = grid(6, 5, 150, seed);
+    Options options = quick();
+    options.improves = seed == 4;
+    SimulatedFleet fleet(roadmap, robots_on(*roadmap, 10, seed), options, {2, 40, {}}, seed);
+    const Tally run = run_for(fleet, support::scaled(800), 10, seed, 30);
+    EXPECT_EQ(fleet.referee().num_contacts(), 0U) << seed;
+    EXPECT_GT(run.num_served, support::scaled(800) / 4) << seed;
+    EXPECT_GT(run.num_origins, support::scaled(800) / 10) << seed;
+    EXPECT_LT(run.longest_idle, 200U) << seed;
+  }
+}
+
+TEST(Dispatcher, HasAPlanWithoutTimeToMakeOne) {
+  const auto roadmap = grid(5, 4, 100, 5);
+  Options none;
+  none.effort = Effort();
+  SimulatedFleet still(roadmap, robots_on(*roadmap, 6, 5), none, {}, 5);
+  EXPECT_EQ(run_for(still, 50, 10, 5, 20).num_served, 0U);
+  // A deadline that is over ends the search, and nothing else.
+  SimulatedFleet hasty(roadmap, robots_on(*roadmap, 6, 5), {}, {3, 20, {}}, 5);
+  Limits over;
+  over.wall_s = 0;
+  for (int round = 0; round < 20; ++round) {
+    static_cast<void>(run_for(hasty, 10, 10, static_cast<std::uint64_t>(round), 20));
+    for (int k = 0; k < 10; ++k) {
+      const News news = hasty.step(10, over);
+      EXPECT_EQ(news.num_sent, 0U);
+    }
+  }
+  EXPECT_EQ(hasty.referee().num_contacts(), 0U);
+}
+
+TEST(Dispatcher, GoesOnWhereRobotsStopForEver) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto roadmap = grid(7, 6, 150, seed);
+    Delays delays{1, 20, std::vector<Ticks>(9, -1)};
+    delays.breaks[0] = 333;
+    delays.breaks[4] = 1'007;
+    SimulatedFleet fleet(roadmap, robots_on(*roadmap, 9, seed), quick(), delays, seed);
+    const Tally early = run_for(fleet, 150, 10, seed, 42);
+    const Tally late = run_for(fleet, support::scaled(200), 10, seed, 42);
+    EXPECT_EQ(fleet.referee().num_contacts(), 0U) << seed;
+    EXPECT_GT(early.num_served + late.num_served, 0U) << seed;
+  }
+}
+
+TEST(Dispatcher, OnePlaceIsForOneAtATime) {
+  const auto roadmap = grid(4, 3, 0, 1);
+  SimulatedFleet fleet(roadmap, robots_on(*roadmap, 4, 3), {}, {}, 3);
+  Dispatcher& dispatcher = fleet.dispatcher();
+  const VertexId station(5);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_FALSE(dispatcher.assign(AgentId(i), {station, 40}));
+    EXPECT_FALSE(dispatcher.assign(AgentId(i), {VertexId(2 * i), 0}));
+  }
+  std::vector<AgentId> served;
+  for (int step = 0; step < 200; ++step)
+    for (const AgentId robot : fleet.step(10).served) served.push_back(robot);
+  EXPECT_EQ(served.size(), 8U);
+  EXPECT_EQ(fleet.referee().num_contacts(), 0U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(dispatcher.num_tasks(AgentId(i)), 0U);
+    EXPECT_EQ(dispatcher.course(AgentId(i)).back().spot, Spot(VertexId(2 * i)));
+  }
+}
+
+TEST(Dispatcher, WhoIsUrgentGoesFirst) {
+  const auto roadmap = grid(3, 2, 0, 1);
+  std::vector<Agent> robots = robots_on(*roadmap, 2, 3);
+  robots[0].start = VertexId(0);
+  robots[1].start = VertexId(2);
+  for (const bool is_second_urgent : {false, true}) {
+    SimulatedFleet fleet(roadmap, robots, {}, {}, 3);
+    EXPECT_FALSE(fleet.dispatcher().assign(AgentId(0), {VertexId(1), 100}));
+    EXPECT_FALSE(fleet.dispatcher().assign(
+        AgentId(1),
+        {VertexId(1), 100, is_second_urgent ? std::optional(Ticks(50)) : std::nullopt}));
+    std::vector<AgentId> served;
+    for (int step = 0; step < 60; ++step)
+      for (const AgentId robot : fleet.step(10).served) served.push_back(robot);
+    // Both are done there: whoever is done and idle steps aside.
+    ASSERT_EQ(served.size(), 2U);
+    EXPECT_EQ(served.front(), AgentId(is_second_urgent ? 1 : 0));
+  }
+}
+
+TEST(Dispatcher, SaysTheSameAgain) {
+  const auto roadmap = grid(6, 5, 150, 7);
+  std::vector<Course> courses[2];
+  for (std::vector<Course>& end : courses) {
+    SimulatedFleet fleet(roadmap, robots_on(*roadmap, 9, 7), {}, {2, 30, {}}, 7);
+    static_cast<void>(run_for(fleet, 60, 10, 7, 30));
+    for (std::size_t i = 0; i < 9; ++i) end.push_back(fleet.dispatcher().course(AgentId(i)));
+  }
+  EXPECT_EQ(courses[0], courses[1]);
+}
+
+TEST(Dispatcher, RefusesWhatMakesNoSense) {
+  const auto roadmap = grid(3, 2, 0, 1);
+  std::vector<Agent> robots = robots_on(*roadmap, 2, 1);
+  robots[1].start = robots[0].start;
+  EXPECT_EQ(Dispatcher::make(roadmap, robots).error().message,
+            "the starts of agents 0 and 1 overlap");
+  Dispatcher dispatcher = Dispatcher::make(roadmap, robots_on(*roadmap, 2, 1)).value();
+  EXPECT_EQ(dispatcher.assign(AgentId(2), {VertexId(0)})->message, "there is no robot 2");
+  EXPECT_EQ(dispatcher.assign(AgentId(1), {VertexId(6)})->message,
+            "robot 1: agent 0 names vertex 6, but there are 6 vertices");
+  EXPECT_EQ(dispatcher.assign(AgentId(1), {VertexId(0), -1})->message,
+            "the task of robot 1 has a time that is negative or too long");
+  EXPECT_EQ(dispatcher.report(AgentId(0), 1)->message,
+            "robot 0 has gone on to 1, and was allowed to go to 0");
+  static_cast<void>(dispatcher.tick(10));
+  EXPECT_FALSE(dispatcher.report(AgentId(0), 10));
+  EXPECT_EQ(dispatcher.report(AgentId(0), 9)->message,
+            "the clock of robot 0 goes back from 10 to 9");
+}
+
+TEST(Dispatcher, TasksCanBeTakenBack) {
+  const auto roadmap = grid(5, 1, 0, 1);
+  std::vector<Agent> robots = robots_on(*roadmap, 1, 1);
+  robots[0].start = VertexId(0);
+  SimulatedFleet fleet(roadmap, robots, {}, {}, 1);
+  EXPECT_FALSE(fleet.dispatcher().assign(AgentId(0), {VertexId(4)}));
+  static_cast<void>(fleet.step(10));
+  EXPECT_FALSE(fleet.dispatcher().cancel(AgentId(0)));
+  EXPECT_FALSE(fleet.dispatcher().assign(AgentId(0), {VertexId(0)}));
+  std::size_t served = 0;
+  for (int step = 0; step < 30; ++step) served += fleet.step(10).served.size();
+  EXPECT_EQ(served, 1U);
+  EXPECT_EQ(fleet.dispatcher().course(AgentId(0)).back().spot, Spot(VertexId(0)));
+}
+
+}  // namespace
+}  // namespace quadrille::dispatch::test

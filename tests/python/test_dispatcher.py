@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""Live fleets, and moves in progress that are told exactly."""
+
+import copy
+import random
+
+import numpy as np
+import pytest
+
+import quadrille as q
+
+
+def crossings(**kwargs):
+    xy = [(5 * (i % 4), 5 * (i // 4)) for i in range(12)]
+    edges = [(i, i + 1) for i in range(12) if i % 4 < 3] + [(i, i + 4) for i in range(8)]
+    return q.Roadmap(xy, edges, both_ways=True, **kwargs)
+
+
+def standing(starts=(0, 1, 2, 3), **kwargs):
+    return q.Fleet(crossings(), list(starts), list(starts), radius=0.6, **kwargs)
+
+
+def least_distance(before, after):
+    """Of two points that go straight from one time to the other: each float[2, 2]."""
+    start, way = before[1] - before[0], (after[1] - after[0]) - (before[1] - before[0])
+    square = float(way @ way)
+    share = min(1.0, max(0.0, -float(start @ way) / square)) if square > 0 else 0.0
+    return float(np.linalg.norm(start + share * way))
+
+
+def test_robots_that_are_late_never_touch():
+    dispatcher, draw = q.Dispatcher(standing(), effort=0.005, improves=False), random.Random(1)
+    served = 0
+    for _ in range(400):
+        for robot in range(4):
+            if dispatcher.num_tasks(robot) == 0:
+                dispatcher.assign(robot, draw.randrange(12), service=draw.random())
+        orders = dispatcher.tick(0.5)
+        served += len(orders.served)
+        assert orders.gap_percent >= 0
+        clocks = [dispatcher.clock(robot) for robot in range(4)]
+        places = [dispatcher.at(robot, clocks[robot]) for robot in range(4)]
+        is_late = [draw.random() < 0.3 for _ in range(4)]
+        for _ in range(5):
+            for robot in range(4):
+                if not is_late[robot]:
+                    clocks[robot] = min(clocks[robot] + 0.1, dispatcher.limit(robot))
+            after = [dispatcher.at(robot, clocks[robot]) for robot in range(4)]
+            for i in range(4):
+                for j in range(i):
+                    pair = np.array([places[i], places[j]]), np.array([after[i], after[j]])
+                    assert least_distance(*pair) > 1.2 - 1e-6
+            places = after
+        for robot in range(4):
+            dispatcher.report(robot, clocks[robot])
+    assert served > 20
+
+
+def test_first_tasks_names_and_turns():
+    fleet = q.Fleet(crossings(), [0, 3], [3, 0], radius=0.6, names=["amr", "agv"])
+    dispatcher = q.Dispatcher(fleet)
+    assert len(dispatcher) == 2
+    assert dispatcher.num_tasks("amr") == 1
+    dispatcher.assign("agv", [5, 6], service=1, deadline=60)
+    served = []
+    for _ in range(200):
+        served += dispatcher.tick(0.5).served
+        for robot in range(2):
+            dispatcher.report(robot, dispatcher.limit(robot))
+    assert sorted(served) == [0, 1, 1]
+    stops = dispatcher.course("agv")
+    assert stops["source"][-1] in (5, 6) and stops["source"][-1] == stops["target"][-1]
+    assert dispatcher.now == pytest.approx(100)
+    with pytest.raises(ValueError):
+        stops["arrive"] = 0
+
+
+def test_what_makes_no_sense_is_refused():
+    dispatcher = q.Dispatcher(standing())
+    with pytest.raises(q.InputError, match="there is no vertex 12 among 12"):
+        dispatcher.assign(0, 12)
+    with pytest.raises(IndexError, match="there is no agent 4 among 4"):
+        dispatcher.assign(4, 0)
+    with pytest.raises(q.InputError, match="there is no agent called 'x'"):
+        dispatcher.clock("x")
+    with pytest.raises(q.InputError, match="was allowed to go to 0"):
+        dispatcher.report(0, 1)
+    with pytest.raises(q.InputError, match="time has to go on"):
+        dispatcher.tick(0)
+    with pytest.raises(q.InputError, match="a dispatcher needs a roadmap"):
+        q.Dispatcher(q.Fleet(q.Grid(np.ones((2, 2), dtype=bool)), [(0, 0)], [(1, 0)]))
+    with pytest.raises(q.InputError, match="in the middle of a move"):
+        q.Dispatcher(q.Fleet(crossings(), [q.Underway(0, 1, 0.5)], [1], radius=0.6))
+
+
+def test_moves_are_told_by_when_they_began():
+    roads = q.Roadmap([(0, 0), (5, 0)], [(0, 1)])
+    fleet = q.Fleet(roads, [q.Underway(0, 1, begun=-1.25)], [1], radius=0.3)
+    assert q.solve(fleet).cost == pytest.approx(3.75)
+    later = q.Fleet(roads, [q.Underway(0, 1, begun=98)], [1], radius=0.3, now=100)
+    plan = q.solve(later).plan
+    assert plan[0].cost == pytest.approx(3)
+    again = plan.start_at(0, 101)
+    assert (again.source, again.target) == (0, 1)
+    assert again.fraction == pytest.approx(0.6)
+    with pytest.raises(q.InputError, match="began its move at 90, and is not within it at 100: it takes 5"):
+        q.Fleet(roads, [q.Underway(0, 1, begun=90)], [1], radius=0.3, now=100)
+
+
+def test_who_stands_within_its_lane_may_wait():
+    roads = q.Roadmap([(0, 0), (5, 0), (5, 5), (10, 0)], [(0, 1), (1, 2), (1, 3)])
+
+    def solved(may_wait):
+        start = q.Underway(0, 1, begun=-3.5, may_wait=may_wait)
+        return q.solve(q.Fleet(roads, [start, 1], [3, 2], radius=0.5, release=[0, 4]))
+
+    assert solved(False).status == "infeasible"
+    plan = solved(True).plan
+    assert plan[0].stops["depart"][0] > 3
+    assert plan.start_at(0, 1).may_wait
+    assert not plan.start_at(0, plan[0].stops["depart"][0] + 0.5).may_wait
+    assert copy.copy(plan.start_at(0, 1)) == plan.start_at(0, 1)
