@@ -10,6 +10,7 @@
 
 #include "exports/export.hpp"
 #include "rules/checker.hpp"
+#include "timed/checker.hpp"
 
 namespace quadrille_check {
 namespace {
@@ -95,8 +96,7 @@ Arguments parse(const std::vector<std::string>& words) {
   return arguments;
 }
 
-Instance read_instance(const Arguments& arguments) {
-  if (arguments.has("--instance")) return read_json(arguments.get("--instance"));
+Instance read_grid(const Arguments& arguments) {
   const std::string count = arguments.get("--agents");
   int agents = -1;
   const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), agents);
@@ -124,19 +124,42 @@ std::string text_of(const Verdict& verdict) {
   return text;
 }
 
-int check(const Arguments& arguments, const std::string& content) {
-  const Instance instance = read_instance(arguments);
-  Checker checker(instance);
+template <class AnyChecker>
+Verdict verdict_of(AnyChecker& checker, const Arguments& arguments, const std::string& content) {
   RecordReader reader(content);
-  Verdict verdict;
   try {
     for (Record record; reader.next(record);) checker.check(record);
-    verdict = checker.verdict();
+    const Verdict verdict = checker.verdict();
     const bool wants_makespan = arguments.get("--objective") == "makespan";
     require(verdict.is_makespan == wants_makespan, "the certificate is about another objective");
+    return verdict;
   } catch (const Rejected& rejected) {
     throw Rejected("record " + std::to_string(reader.number()) + ": " + rejected.what());
   }
+}
+
+int finish(const Verdict& verdict) {
+  std::cout << text_of(verdict) << '\n';
+  return std::cout.flush() ? kVerified : kOutput;
+}
+
+int check_timed(const Arguments& arguments, const Json& root, const std::string& content) {
+  if (!arguments.cnf.empty() || !arguments.opb.empty())
+    throw UsageError("there are no exports for roadmaps");
+  const Road road = read_road(root);
+  TimedChecker checker(road);
+  return finish(verdict_of(checker, arguments, content));
+}
+
+int check(const Arguments& arguments, const std::string& content) {
+  const bool is_json = arguments.has("--instance");
+  const std::string file = arguments.get("--instance");
+  const Json root = is_json ? read_json_file(file) : Json();
+  if (is_json && root.kind == '{' && root.find("roadmap") != nullptr)
+    return check_timed(arguments, root, content);
+  const Instance instance = is_json ? instance_of(root, file) : read_grid(arguments);
+  Checker checker(instance);
+  const Verdict verdict = verdict_of(checker, arguments, content);
   const bool are_written =
       (arguments.cnf.empty() || export_lrat(content, arguments.cnf, arguments.lrat)) &&
       (arguments.opb.empty() || export_pb(content, checker, arguments.opb, arguments.pbp));
@@ -144,8 +167,7 @@ int check(const Arguments& arguments, const std::string& content) {
     std::cerr << "quadrille-check: an export cannot be written\n";
     return kOutput;
   }
-  std::cout << text_of(verdict) << '\n';
-  return std::cout.flush() ? kVerified : kOutput;
+  return finish(verdict);
 }
 
 int run(const std::vector<std::string>& words) {

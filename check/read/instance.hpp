@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "read/basics.hpp"
+#include "read/json.hpp"
 
 namespace quadrille_check {
 
@@ -76,6 +77,8 @@ class Distances {
                                      int num_agents, const std::string& passable,
                                      const std::string& blocked);
 [[nodiscard]] Instance read_json(const std::string& file);
+/// Of a file's content.
+[[nodiscard]] Instance instance_of(const Json& root, const std::string& file);
 
 /// A file's content. Throws BadInput.
 [[nodiscard]] std::string read_file(const std::string& name);

@@ -2,6 +2,7 @@
 #include "read/json.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace quadrille_check {
 namespace {
@@ -35,23 +36,37 @@ class Parser {
   Json value(int depth) {
     expect(depth <= 32, "less depth");
     Json json;
-    json.kind = is_digit(next()) ? '0' : text_.c_str()[at_];
+    const char first = next();
+    json.kind = is_digit(first) || first == '-' ? '0' : first;
     if (json.kind == '"') {
       json.content = text();
     } else if (json.kind == '{' || json.kind == '[') {
       read_members(json, depth);
     } else {
-      expect(json.kind == '0', "an object, a list, a text or a natural number");
-      const bool leads = text_[at_] == '0';
-      for (; is_digit(text_.c_str()[at_]); ++at_) {
-        expect(json.value < kEndOfTime && !(leads && at_ > 0 && is_digit(text_[at_ - 1])),
-               "a smaller number, without leading zeros");
-        json.value = 10 * json.value + (text_[at_] - '0');
-      }
-      const char c = text_.c_str()[at_];
-      expect(c != '.' && c != 'e' && c != 'E', "a natural number");
+      expect(json.kind == '0', "an object, a list, a text or a number");
+      read_number(json);
     }
     return json;
+  }
+
+  void read_number(Json& json) {
+    const std::size_t begin = at_, end = text_.find_first_not_of("0123456789+-.eE", at_);
+    const std::string number = text_.substr(begin, end - begin);
+    at_ += number.size();
+    const auto digits = std::min(number.find_first_not_of("0123456789"), number.size());
+    const std::size_t sign = number[0] == '-' ? 1 : 0;
+    const auto is_at = [&](std::size_t k, auto what) {
+      return k < number.size() && what(number[k]);
+    };
+    expect(is_at(sign, is_digit) && !(number[sign] == '0' && is_at(sign + 1, is_digit)),
+           "a number, without leading zeros");
+    const auto point = number.find('.');
+    expect(point == std::string::npos || is_at(point + 1, is_digit), "digits after the point");
+    const auto [rest, error] =
+        std::from_chars(number.data(), number.data() + number.size(), json.real);
+    expect(error == std::errc() && rest == number.data() + number.size(), "a number");
+    if (digits == number.size() && json.real < static_cast<double>(kEndOfTime))
+      json.value = static_cast<Int>(json.real);
   }
 
   void read_members(Json& json, int depth) {
@@ -117,9 +132,13 @@ const std::string& Json::text() const {
   return content;
 }
 Int Json::number(Int least, Int most) const {
-  expect(kind == '0' && value >= least && value <= most,
-         "a number from " + std::to_string(least) + " to " + std::to_string(most));
-  return value;
+  expect(kind == '0' && value && *value >= least && *value <= most,
+         "a natural number from " + std::to_string(least) + " to " + std::to_string(most));
+  return *value;
+}
+double Json::any_number() const {
+  expect(kind == '0', "a number");
+  return real;
 }
 
 Json parse_json(const std::string& text) { return Parser(text).document(); }

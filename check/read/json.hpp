@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,14 +10,15 @@
 
 namespace quadrille_check {
 
-/// As much of JSON as instances need: objects, lists, texts and natural numbers. All functions
+/// As much of JSON as instances need: objects, lists, texts and numbers. All functions
 /// throw BadInput when the value is of another kind.
 struct Json {
   char kind = '0';                 // { [ " or 0
   std::vector<std::string> names;  // of the members of an object
   std::vector<Json> members;
   std::string content;
-  Int value = 0;
+  std::optional<Int> value;  // of a natural number that is small
+  double real = 0;           // of any number
 
   [[nodiscard]] const Json* find(const std::string& key) const;  ///< Null: there is none.
   [[nodiscard]] const Json& at(const std::string& key) const;
@@ -25,8 +27,11 @@ struct Json {
   [[nodiscard]] std::vector<const Json*> list() const;
   [[nodiscard]] const std::string& text() const;
   [[nodiscard]] Int number(Int least, Int most) const;
+  [[nodiscard]] double any_number() const;
 };
 
 [[nodiscard]] Json parse_json(const std::string& text);
+/// Throws BadInput with the name of the file.
+[[nodiscard]] Json read_json_file(const std::string& file);
 
 }  // namespace quadrille_check

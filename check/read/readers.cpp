@@ -168,10 +168,19 @@ int place_of(const Instance& instance, const Json& json) {
 
 }  // namespace
 
-Instance read_json(const std::string& file) {
+Instance read_json(const std::string& file) { return instance_of(read_json_file(file), file); }
+
+Json read_json_file(const std::string& file) {
   const std::string text = read_file(file);
   try {
-    const Json root = parse_json(text);
+    return parse_json(text);
+  } catch (const BadInput& error) {
+    throw BadInput(file + ": " + error.what());
+  }
+}
+
+Instance instance_of(const Json& root, const std::string& file) {
+  try {
     root.only({"quadrille", "version", "now", "grid", "graph", "agents"});
     // Costs and the times of certificates count from there.
     if (const Json* now = root.find("now")) static_cast<void>(now->number(0, 1'000'000'000));

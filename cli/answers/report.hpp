@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "frame/exit_codes.hpp"
+#include "quadrille/core/certificate.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/core/result.hpp"
@@ -78,6 +79,25 @@ using Json = nlohmann::ordered_json;
 template <class T>
 [[nodiscard]] Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
+}
+/// What is said of a certificate; null if there is nothing to say. `to_json(claim)`: an object with
+/// the claim, which is absent if there is no plan.
+template <class ToJson>
+[[nodiscard]] Json proof_json(const CertifiedOutcome& outcome, const ToJson& to_json) {
+  if (!outcome.no_certificate.empty()) return {{"none", outcome.no_certificate}};
+  if (!outcome.certificate) return nullptr;
+  Json json = to_json(outcome.certificate->claim);
+  json["bytes"] = outcome.certificate->bytes.size();
+  return json;
+}
+/// The same as a line of text; `print(claim)`.
+template <class Print>
+[[nodiscard]] std::string describe_proof(const CertifiedOutcome& outcome, const Print& print) {
+  if (!outcome.no_certificate.empty()) return "proof      none: " + outcome.no_certificate + "\n";
+  if (!outcome.certificate) return "";
+  const Certificate& made = *outcome.certificate;
+  return "proof      no plan" + (made.claim ? " costs less than " + print(*made.claim) : "") +
+         ", " + std::to_string(made.bytes.size()) + " bytes\n";
 }
 /// null for an empty text.
 [[nodiscard]] Json text_or_null(const std::string& text);

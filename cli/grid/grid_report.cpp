@@ -81,15 +81,10 @@ std::string result_json(const discrete::Instance* instance, const SolveArguments
   json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
   if (options.explain && instance != nullptr)
     add_explanation(json, outcome.attribution, notes.reasons, names_of(*instance));
-  if (options.proof) {
-    Json proof(nullptr);
-    if (outcome.certificate)
-      proof = {{"claim", or_null(outcome.certificate->claim)},
-               {"bytes", outcome.certificate->bytes.size()}};
-    else if (!outcome.no_certificate.empty())
-      proof = {{"none", outcome.no_certificate}};
-    json.add("proof", proof);
-  }
+  if (options.proof)
+    json.add("proof", proof_json(outcome, [](const std::optional<Cost>& claim) {
+               return Json{{"claim", or_null(claim)}};
+             }));
   if (outcome.plan && outcome.plan->now > 0) json.add("now", outcome.plan->now);
   if (arguments.history) add_history(json, notes.history);
   return json.finish(

@@ -129,14 +129,7 @@ class GridSolve {
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const discrete::VerifyReport& replay) const {
     std::string text = describe_outcome(objective(), outcome, replay);
-    if (outcome.certificate)
-      text += fmt::format("proof      no plan{}, {} bytes\n",
-                          outcome.certificate->claim
-                              ? fmt::format(" costs less than {}", *outcome.certificate->claim)
-                              : "",
-                          outcome.certificate->bytes.size());
-    if (!outcome.no_certificate.empty())
-      text += fmt::format("proof      none: {}\n", outcome.no_certificate);
+    text += describe_proof(outcome, [](Cost claim) { return std::to_string(claim); });
     if (outcome.attribution)
       text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
                                    kMaxSites);

@@ -88,6 +88,7 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
   json["threads"] = options.threads;
   json["race"] = options.race;
   json["explain"] = options.explain;
+  json["proof"] = text_or_null(arguments.proof);
   json["seed"] = options.seed;
   add_limits(json, options.limits);
   json["audit"] = options.debug.audit;
@@ -128,6 +129,12 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   json.add("duration_error", error ? Json(error->relative) : Json(nullptr));
   json.add("least_clearance", outcome.plan ? clearance_json(*instance, check) : Json(nullptr));
   if (!notes.second_opinion.is_null()) json.add("second_opinion", notes.second_opinion);
+  if (options.proof)
+    json.add("proof", proof_json(outcome, [&](const std::optional<Cost>& ticks) {
+               return Json{{"claim", ticks ? time(*ticks) : Json(nullptr)},
+                           {"claim_ticks", or_null(ticks)},
+                           {"without", {"pairs", "bounds of joint search", "bounds of routes"}}};
+             }));
   if (arguments.history) add_history(json, notes.history);
   return json.finish(outcome.statistics, options.seed, options_json(arguments, options),
                      outcome.plan ? plan_to_json(*instance, *outcome.plan) : "null");

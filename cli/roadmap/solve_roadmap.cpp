@@ -42,8 +42,6 @@ std::string check(const CLI::App& app, const SolveArguments& arguments) {
     wrong = "--race needs --threads";
   if (wrong.empty() && arguments.options.explain && arguments.threads.value_or(1) > 1)
     wrong = "--explain needs one thread";
-  if (wrong.empty() && !arguments.proof.empty())
-    wrong = "--proof needs a grid or a graph: there are no certificates for roadmaps yet";
   return wrong;
 }
 
@@ -59,6 +57,7 @@ std::optional<SolveOptions> options_of(const SolveArguments& arguments) {
   if (arguments.seed) options.seed = static_cast<std::uint32_t>(*arguments.seed);
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
   options.explain = arguments.options.explain;
+  options.proof = !arguments.proof.empty();
   options.debug.audit = arguments.options.debug.audit;
   return options;
 }
@@ -123,9 +122,18 @@ class RoadmapSolve {
   [[nodiscard]] Result<std::string> drawing(const continuous::Plan& plan) const {
     return view::picture(instance(), plan, arguments_.picture.options, input_.cells_or_null());
   }
+  [[nodiscard]] std::optional<Result<std::string>> proof(const SolveOutcome& outcome) const {
+    if (!outcome.certificate) return std::nullopt;
+    return outcome.certificate->bytes;
+  }
   [[nodiscard]] std::string describe(const SolveOutcome& outcome,
                                      const continuous::VerifyReport& replay) const {
     std::string text = describe_outcome(instance(), objective(), outcome, replay) + notes_.opinion;
+    text += describe_proof(outcome, [&](Cost claim) {
+      return fmt::format("{}", continuous::in_input_units(claim, instance().resolution()));
+    });
+    if (options_.proof)
+      text += "           without pairs, and without the bounds of joint search and routes\n";
     if (outcome.attribution)
       text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
                                    kMaxSites);

@@ -39,6 +39,8 @@ class LeafCertificate {
   };
   /// Requires that bound() was called since they changed.
   [[nodiscard]] Rest take_off(Cost margin, std::span<const std::uint32_t> columns);
+  /// Of a column.
+  [[nodiscard]] Cost units(std::uint32_t column) const { return units_[column]; }
   /// The largest one.
   [[nodiscard]] Cost largest() const;
 

@@ -27,6 +27,19 @@ constexpr std::size_t kMostCells = 1 << 22;
 
 }  // namespace
 
+std::pair<CoverLeaf, CoverLeaf> split(CoverLeaf leaf) {
+  const Level level = *leaf.branch;
+  leaf.branch.reset();
+  auto range = std::lower_bound(leaf.ranges.begin(), leaf.ranges.end(), level.agent,
+                                [](const auto& r, AgentId i) { return r.agent < i; });
+  if (range == leaf.ranges.end() || range->agent != level.agent)
+    range = leaf.ranges.insert(range, {level.agent});
+  CoverLeaf below = leaf;
+  below.ranges[static_cast<std::size_t>(range - leaf.ranges.begin())].high = level.cost;
+  range->low = level.cost;
+  return {std::move(below), std::move(leaf)};
+}
+
 LeafProgram::LeafProgram(const IdVector<AgentId, Cost>& free_costs)
     : free_costs_(free_costs),
       low_(free_costs),
@@ -282,6 +295,15 @@ bool LeafProgram::add_sums() {
     is_more = true;
   }
   return is_more;
+}
+
+std::vector<std::pair<std::size_t, Cost>> LeafProgram::core_units() const {
+  std::vector<std::pair<std::size_t, Cost>> units;
+  for (std::size_t c = 0; c < table_->num_cores(); ++c)
+    if (const Cost own = certificate_.units(simplex_.num_lows() + static_cast<std::uint32_t>(c));
+        own > 0)
+      units.emplace_back(c, own);
+  return units;
 }
 
 Cost LeafProgram::certified_bound(const std::vector<double>& multipliers) {

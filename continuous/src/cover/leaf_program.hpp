@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cover/core_table.hpp"
@@ -58,6 +59,9 @@ struct CoverLeaf {
   std::shared_ptr<const Solution> solution;
 };
 
+/// Its parts below `branch`, and from there on. Requires a branch.
+[[nodiscard]] std::pair<CoverLeaf, CoverLeaf> split(CoverLeaf leaf);
+
 /// A sum that follows from the cores of a group of agents.
 struct CoverSum {
   LevelSum sum;
@@ -100,6 +104,9 @@ class LeafProgram {
   /// What the agents of the cores pay at least above their free costs in the leaf that was solved
   /// last, from multipliers of its solution's columns; of any quality, but then it is low.
   [[nodiscard]] Cost certified_bound(const std::vector<double>& multipliers);
+  /// Of the leaf that was solved last: whole multipliers of cores, in fractions of a tick, that its
+  /// bound follows from where there are no sums; none is 0.
+  [[nodiscard]] std::vector<std::pair<std::size_t, Cost>> core_units() const;
   /// Whether the last solution was integral: then `costs` hit all cores, and none of the leaf that
   /// do are cheaper, as far as floating point can tell.
   [[nodiscard]] bool is_integral() const noexcept { return is_integral_; }

@@ -21,20 +21,6 @@ bool implies(const LevelCore& a, const LevelCore& b) {
   });
 }
 
-/// Below the level at which the leaf is to be split, and from there on.
-std::pair<CoverLeaf, CoverLeaf> split(CoverLeaf leaf) {
-  const Level level = *leaf.branch;
-  leaf.branch.reset();
-  auto range = std::lower_bound(leaf.ranges.begin(), leaf.ranges.end(), level.agent,
-                                [](const auto& r, AgentId i) { return r.agent < i; });
-  if (range == leaf.ranges.end() || range->agent != level.agent)
-    range = leaf.ranges.insert(range, {level.agent});
-  CoverLeaf below = leaf;
-  below.ranges[static_cast<std::size_t>(range - leaf.ranges.begin())].high = level.cost;
-  range->low = level.cost;
-  return {std::move(below), std::move(leaf)};
-}
-
 }  // namespace
 
 LevelCover::LevelCover(IdVector<AgentId, Cost> free_costs)
@@ -97,7 +83,9 @@ bool LevelCover::solve(LimitMonitor& limits, Effort most_effort) {
   total_ = 0;
   for (const Cost cost : free_costs_) total_ += cost;
   is_exact_ = true;
+  proved_.clear();
   for (const Group& group : groups_) {
+    proved_.push_back({group.table, group.bound()});
     for (const AgentId i : group.agents) costs_[i] = group.best[i];
     total_ += group.bound();
     is_exact_ = is_exact_ && group.bound() == group.cost;
@@ -168,6 +156,20 @@ std::vector<CoverShare> LevelCover::shares() const {
       shares.push_back(std::move(share));
   }
   return shares;
+}
+
+std::vector<ProvedCover> LevelCover::proved() const {
+  std::vector<ProvedCover> proved;
+  for (const auto& [table, bound] : proved_) {
+    if (bound == 0) continue;
+    ProvedCover& cover = proved.emplace_back();
+    cover.bound = bound;
+    for (std::size_t c = 0; c < table.num_cores(); ++c) {
+      LevelCore& core = cover.cores.emplace_back();
+      for (const std::uint32_t r : table.rows_of(c)) core.push_back(table.rows()[r]);
+    }
+  }
+  return proved;
 }
 
 IdVector<AgentId, Cost> LevelCover::completed(IdVector<AgentId, Cost> costs) const {

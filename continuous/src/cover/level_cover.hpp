@@ -14,6 +14,12 @@
 
 namespace quadrille::continuous {
 
+/// Of some agents: in all costs that hit these cores, they pay `bound` above their free costs.
+struct ProvedCover {
+  std::vector<LevelCore> cores;
+  Cost bound = 0;
+};
+
 /// The hitting set problem of the cost search: costs of the agents, none below its free cost, such
 /// that each core has an agent that reaches its level, and that the sum of the costs is least.
 ///
@@ -51,6 +57,10 @@ class LevelCover {
   /// came after the last call of solve may have their shares, too. A linear program for each group
   /// of agents.
   [[nodiscard]] std::vector<CoverShare> shares() const;
+
+  /// What the total is made of: for each group of agents of the last call of solve that returned
+  /// true, the cores that it knew.
+  [[nodiscard]] std::vector<ProvedCover> proved() const;
 
   [[nodiscard]] std::int64_t num_programs() const noexcept { return num_programs_; }
   /// Of all linear programs so far.
@@ -90,6 +100,11 @@ class LevelCover {
   std::vector<KnownCore> cores_;
   std::uint32_t next_number_ = 0;
   std::vector<Group> groups_;  // of the last solve, for their trees
+  struct Proved {
+    CoreTable table;
+    Cost bound = 0;
+  };
+  std::vector<Proved> proved_;  // by group, of the last solve that was complete
   IdVector<AgentId, Cost> costs_;
   Cost total_ = 0;
   bool is_exact_ = true;

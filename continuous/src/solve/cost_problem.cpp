@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "quadrille/core/contract.hpp"
+#include "quadrille/sat/proof_log.hpp"
 
 namespace quadrille::continuous {
 
@@ -27,7 +28,8 @@ CostProblem::CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& th
       theory_in_search_(theory_in_search),
       yield_point_(yield_point),
       auditor_(auditor),
-      writer_(engine) {}
+      writer_(engine),
+      keeps_ceilings_(engine.proof() != nullptr) {}
 
 Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
   using Search = Question::Search;
@@ -39,6 +41,8 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
   // What quick tests ask is often hopeless, and a search of a pair would find no answer; but where
   // one has, the levels of the two and of a third agent would rise tick by tick without it.
   if (question.search == Search::quick) asked.pairs = PairLemmas::Scope::proven;
+  // Certificates have no rule for two agents at once.
+  if (engine_.proof() != nullptr) asked.pairs = PairLemmas::Scope::none;
   std::vector<Level> assumed = question.below;
   IdVector<AgentId, Cost> ceilings(model_.instance().num_agents(), kAnyCost);
   if (!question.ceilings.empty() && !is_known_only) ceilings = question.ceilings;
@@ -117,9 +121,14 @@ std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const 
   return at->cost;
 }
 
-void CostProblem::add_core(const std::vector<Level>& core,
-                           const IdVector<AgentId, Cost>& ceilings) {
+void CostProblem::add_core(const std::vector<Level>& core, const IdVector<AgentId, Cost>& ceilings,
+                           const std::vector<AgentId>& resting_on) {
   const std::vector<Lit> clause = clause_of(core);
+  if (sat::ProofLog* const log = engine_.proof()) {
+    std::vector<sat::ProofLog::Beyond> beyond;
+    for (const AgentId i : resting_on) beyond.push_back({i, model_.above(i, ceilings[i], writer_)});
+    log->conclude(clause, beyond);
+  }
   if (auditor_ != nullptr) {
     std::vector<Lit> given;
     for (const AgentId i : model_.instance().agent_ids())
@@ -129,6 +138,10 @@ void CostProblem::add_core(const std::vector<Level>& core,
   }
   if (clause.empty()) return;
   engine_.add_clause({sat::why::Core{}, clause, {}, false});
+}
+
+void CostProblem::claim(Cost bound) {
+  if (sat::ProofLog* const log = engine_.proof()) log->claim_by_core(bound, engine_.core());
 }
 
 void CostProblem::take_core(const std::vector<Level>& core) {

@@ -62,7 +62,11 @@ class CostProblem {
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;
   /// Tells the engine that one of the levels is reached in every plan that is cheaper than the
   /// incumbent, because it is in those that keep to the ceilings. An empty core is audited only.
-  void add_core(const std::vector<Level>& core, const IdVector<AgentId, Cost>& ceilings);
+  /// `resting_on`: the agents whose ceilings it rests on, if the engine's log has to know.
+  void add_core(const std::vector<Level>& core, const IdVector<AgentId, Cost>& ceilings,
+                const std::vector<AgentId>& resting_on);
+  /// Tells the engine's log that no plan costs less than this, by the last core.
+  void claim(Cost bound);
 
   /// A core that another search of the same instance has found: it holds in every plan that is
   /// cheaper than an incumbent which is known here, too. It is not audited.
@@ -90,7 +94,7 @@ class CostProblem {
   sat::CoreAuditor* const auditor_;
   lazy::EngineWriter writer_;
   std::vector<Level> core_;
-  bool keeps_ceilings_ = false;
+  bool keeps_ceilings_;
   std::vector<AgentId> ceilings_of_core_;
 };
 

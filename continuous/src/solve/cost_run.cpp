@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "quadrille/core/free_bound.hpp"
+#include "quadrille/sat/proof_log.hpp"
 #include "solve/cost_problem.hpp"
 #include "solve/cover_search.hpp"
 #include "solve/lemma_keeper.hpp"
@@ -20,9 +22,11 @@ namespace {
 
 class CostRun final : private sat::YieldPoint, private Correspondent {
  public:
-  CostRun(const SolveOptions& options, const Desk& desk, const WarmStart& warm)
+  CostRun(const SolveOptions& options, const Desk& desk, const WarmStart& warm,
+          std::optional<ProofDraft>& proof)
       : options_(options),
         warm_(warm),
+        proof_(proof),
         limits_(desk.limits),
         known_(desk.known),
         pulse_(desk.pulse),
@@ -50,6 +54,12 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
       keeper.emplace(model, engine_options.observer);
       engine_options.observer = &*keeper;
     }
+    std::optional<sat::ProofLog> log;
+    if (options_.proof) {
+      log.emplace(engine_options.observer);
+      engine_options.observer = engine_options.proof = &*log;
+      engine_options.derivations = &*log;
+    }
     sat::Engine engine(in_search ? &theory : nullptr, engine_options);
     engine_ = &engine;
     CostProblem problem(model, engine, theory, in_search, this,
@@ -57,7 +67,9 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     const Cost spared = options_.debug.known_plan ? cost_of(*options_.debug.known_plan) : 0;
     CostTrace trace;
     CostTrace* const traced = recorder ? &trace : nullptr;
+    std::vector<ProvedCover> covers;
     const auto conclude = [&](bool has_plan) {
+      if (log) keep_proof(model, engine, covers);
       if (keeper) leave(*keeper);
       if (recorder) explain(model, *recorder, std::move(trace), has_plan);
       engine.add_statistics(known_.statistics);
@@ -70,11 +82,11 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
       take_up(warm_.learned.lemmas, model, writer);
       const CostReport begin{sat::SearchEnd::stopped, known_.lower(),
                              known_.plan ? std::optional<Plan>(*known_.plan) : std::nullopt};
-      report =
-          options_.objective == Objective::sum_of_costs
-              ? search_by_covers({problem, begin, spared, exchange_.role(), options_.seed, limits_,
-                                  known_.statistics, *this, warm_.learned.cores, traced})
-              : search_makespan(problem, begin, limits_, known_.statistics, *this, traced);
+      report = options_.objective == Objective::sum_of_costs
+                   ? search_by_covers({problem, begin, spared, exchange_.role(), options_.seed,
+                                       limits_, known_.statistics, *this, warm_.learned.cores,
+                                       traced, log ? &covers : nullptr})
+                   : search_makespan(problem, begin, limits_, known_.statistics, *this, traced);
     } catch (const LimitReached&) {
       conclude(known_.plan != nullptr);
       throw;
@@ -100,6 +112,12 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     known_.attribution->sites = collision_sites(model, recorder);
   }
 
+  void keep_proof(Model& model, const sat::Engine& engine, const std::vector<ProvedCover>& covers) {
+    const auto free_cost = [&](AgentId i) { return model.free_cost(i); };
+    const Cost floor = free_bound(model.instance().agent_ids(), options_.objective, free_cost);
+    proof_ = draft_proof(model, engine, covers, options_.objective, floor);
+  }
+
   void leave(const LemmaKeeper& keeper) {
     Learned learned{keeper.stock(), std::move(learned_cores_)};
     *warm_.learned_after = std::move(learned);
@@ -123,7 +141,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
   }
   void report_core(const LevelCore& core) override {
     if (warm_.learned_after != nullptr) learned_cores_.push_back(core);
-    if (exchange_.has_others() && !options_.debug.audit)
+    if (exchange_.has_others() && !options_.debug.audit && !options_.proof)
       cores_.push_back(std::make_shared<const LevelCore>(core));
   }
   void add_effort(Effort effort) override {
@@ -172,6 +190,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
 
   const SolveOptions& options_;
   const WarmStart& warm_;
+  std::optional<ProofDraft>& proof_;
   LimitMonitor& limits_;
   Knowledge& known_;
   solve::Pulse<Plan>& pulse_;
@@ -187,8 +206,8 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
 }  // namespace
 
 void search_costs(Scene& scene, const SolveOptions& options, const Desk& desk,
-                  const WarmStart& warm) {
-  CostRun(options, desk, warm).run(scene);
+                  const WarmStart& warm, std::optional<ProofDraft>& proof) {
+  CostRun(options, desk, warm, proof).run(scene);
 }
 
 }  // namespace quadrille::continuous

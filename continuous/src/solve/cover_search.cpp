@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "cover/level_cover.hpp"
 #include "primal/plan_improver.hpp"
 #include "quadrille/core/random.hpp"
 #include "solve/core_shrinker.hpp"
@@ -59,6 +58,8 @@ class CoverSearch {
                         {}});
     return raises;
   }
+
+  [[nodiscard]] std::vector<ProvedCover> covers() const { return cover_.proved(); }
 
   CostReport run() {
     raise_bound(cover_.total());
@@ -271,7 +272,7 @@ class CoverSearch {
 
   /// What was refuted with the ceilings. False: it is empty.
   bool learn(const Core& core, const IdVector<AgentId, Cost>& ceilings) {
-    problem_.add_core(core, ceilings);
+    problem_.add_core(core, ceilings, shrinker_.ceilings_of_core());
     if (core.empty()) return false;
     ++context_.statistics.cores;
     if (context_.trace != nullptr) trace(core);
@@ -333,6 +334,7 @@ CostReport search_by_covers(const SumSearchContext& context) {
   CoverSearch search(context);
   const auto trace = [&] {
     if (context.trace != nullptr) context.trace->raises = search.raises();
+    if (context.covers != nullptr) *context.covers = search.covers();
   };
   try {
     CostReport report = search.run();

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cover/level_cover.hpp"
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/core/statistics.hpp"
 #include "solve/cost_problem.hpp"
@@ -37,6 +38,8 @@ struct SumSearchContext {
   /// To be tried before others: it need not be known that they are cores.
   std::span<const LevelCore> candidates;
   CostTrace* trace = nullptr;  ///< Filled in unless null, also when a limit is met.
+  /// Likewise: what the bound of the last cover rests on.
+  std::vector<ProvedCover>* covers = nullptr;
 };
 
 /// Finds a plan of least sum of costs by implicit hitting sets (Davies and Bacchus 2011, CP): the

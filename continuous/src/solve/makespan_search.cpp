@@ -65,6 +65,7 @@ CostReport search_makespan(CostProblem& problem, const CostReport& known, LimitM
       if (trace != nullptr && least > report.lower_bound)
         add_raise(*trace, least - report.lower_bound, core);
       report.lower_bound = std::max(report.lower_bound, least);
+      problem.claim(least);
       LevelCore next;
       for (const auto& level : core)
         if (const auto threshold = problem.next_threshold(level.agent, report.lower_bound))

@@ -85,7 +85,7 @@ void Phases::run() {
       look_at_routes(scene))
     return;
   if (!find_some_plan(scene, is_joint_first))
-    search_side_by_side(scene, options_, account_, desk_, kUsualPace, warm_);
+    search_side_by_side(scene, options_, account_, desk_, kUsualPace, warm_, proof_);
 }
 
 bool Phases::are_kept_off(const Scene& scene) {
@@ -109,7 +109,7 @@ Cost Phases::bound_of_all(const Scene& scene, const GroupBound& group) const {
 
 bool Phases::take_warm_start(Scene& scene) {
   for (const GroupBound& group : warm_.bounds)
-    if (learn(bound_of_all(scene, group), std::nullopt, "")) return true;
+    if (learn(unless_proof(bound_of_all(scene, group)), std::nullopt, "")) return true;
   for (const auto& draft : warm_.drafts) {
     desk_.pulse.enter(Phase::first_plan);
     if (learn(known_.floor, complete_plan(scene, draft), "mended")) return true;
@@ -120,13 +120,14 @@ bool Phases::take_warm_start(Scene& scene) {
 bool Phases::search_jointly(Scene& scene, const std::vector<JointGroup>& groups) {
   desk_.pulse.enter(Phase::joint_search);
   SmallReport report = search_small_groups(scene, groups, options_.objective, options_.joint_work);
-  return is_blocked(report.blocked) || learn(report.lower_bound, std::move(report.plan), "joint");
+  return is_blocked(report.blocked) ||
+         learn(unless_proof(report.lower_bound), std::move(report.plan), "joint");
 }
 
 bool Phases::look_at_routes(Scene& scene) {
   desk_.pulse.enter(Phase::routes);
   auto routes = search_routes(scene, options_.objective, options_.route_work);
-  return learn(routes.lower_bound, std::move(routes.plan), "routes");
+  return learn(unless_proof(routes.lower_bound), std::move(routes.plan), "routes");
 }
 
 bool Phases::find_some_plan(Scene& scene, bool was_joint) {

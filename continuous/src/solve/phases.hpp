@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "certificate/certify.hpp"
 #include "joint/joint_groups.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "solve/desk.hpp"
@@ -21,16 +22,18 @@ namespace quadrille::continuous {
 /// for the least cost, and that search.
 class Phases {
  public:
-  /// `account`: that of the limits of `desk`, where all that is found and proved is left. All
-  /// outlive this.
+  /// `account`: that of the limits of `desk`, where all that is found and proved is left. `proof`:
+  /// see search_side_by_side. All outlive this.
   Phases(const Instance& instance, const SolveOptions& options, const WarmStart& warm,
-         const std::shared_ptr<ResourceAccount>& account, const Desk& desk)
+         const std::shared_ptr<ResourceAccount>& account, const Desk& desk,
+         std::optional<ProofDraft>& proof)
       : instance_(instance),
         options_(options),
         warm_(warm),
         account_(account),
         desk_(desk),
-        known_(desk.known) {}
+        known_(desk.known),
+        proof_(proof) {}
 
   /// Throws LimitReached, and what callbacks throw.
   void run();
@@ -53,6 +56,10 @@ class Phases {
 
   /// What a group costs, and the others when each is alone.
   [[nodiscard]] Cost bound_of_all(const Scene& scene, const GroupBound& group) const;
+  /// What of a bound counts that no clauses prove: a certificate would say nothing of it.
+  [[nodiscard]] Cost unless_proof(Cost bound) const {
+    return options_.proof ? known_.floor : bound;
+  }
   void keep_cheaper(std::optional<Plan> plan, const char* source);
 
   const Instance& instance_;
@@ -61,6 +68,7 @@ class Phases {
   const std::shared_ptr<ResourceAccount>& account_;
   const Desk desk_;
   Knowledge& known_;
+  std::optional<ProofDraft>& proof_;
 };
 
 }  // namespace quadrille::continuous

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "certificate/certify.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "solve/desk.hpp"
 #include "solve/warm_start.hpp"
@@ -20,9 +22,11 @@ inline constexpr solve::Pace kUsualPace{Effort::microseconds(100'000), 4};
 /// first one with `scene` and `warm` raises the bound; the second one makes the plan cheaper, and
 /// then finds cores for the first one, as further ones do: of costs that are drawn at random around
 /// the last ones, which gives other cores than covers do, without waiting for these. They exchange
-/// bounds, plans and cores; see solve::Portfolio. `account`: that of `desk.limits`.
+/// bounds, plans and cores; see solve::Portfolio. `account`: that of `desk.limits`. With
+/// SolveOptions::proof they exchange no cores, and `proof` is that of the best bound.
 void search_side_by_side(Scene& scene, const SolveOptions& options,
                          const std::shared_ptr<ResourceAccount>& account, const Desk& desk,
-                         const solve::Pace& pace = kUsualPace, const WarmStart& warm = {});
+                         const solve::Pace& pace, const WarmStart& warm,
+                         std::optional<ProofDraft>& proof);
 
 }  // namespace quadrille::continuous

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "certificate/certify.hpp"
 #include "joint/joint_groups.hpp"
 #include "model/since_now.hpp"
 #include "quadrille/continuous/free_cost.hpp"
@@ -67,7 +68,9 @@ class Domain {
               Knowledge& known, solve::Pulse<Plan>& pulse) {
     account_ = account;
     // What a session leaves to its next solve is about all agents.
-    if (options_.system == System::dpll && warm_.store == nullptr && is_worth_parting()) {
+    // And a certificate is one for all.
+    if (options_.system == System::dpll && warm_.store == nullptr && !options_.proof &&
+        is_worth_parting()) {
       store_ = std::make_unique<SceneStore>(instance_.shared_roadmap());
       const auto groups = groups_of(limits);
       if (groups.size() > 1) {
@@ -76,7 +79,8 @@ class Domain {
       }
     }
     Exchange alone;
-    Phases(instance_, options_, warm_, account, {limits, known, pulse, alone}).run();
+    Phases(instance_, options_, warm_, account, {limits, known, pulse, alone}, proof_).run();
+    if (known.has_floor) floor_ = known.floor;
   }
 
   // What solve::Apart asks for.
@@ -90,7 +94,8 @@ class Domain {
       WarmStart warm;
       warm.store = store_.get();
       Exchange alone;
-      Phases(part, options, warm, account_, {limits, known, pulse, alone}).run();
+      std::optional<ProofDraft> none;
+      Phases(part, options, warm, account_, {limits, known, pulse, alone}, none).run();
     };
   }
   [[nodiscard]] solve::Infeasibility told(solve::Infeasibility infeasibility) const {
@@ -99,7 +104,27 @@ class Domain {
                : continuous::infeasibility(instance_, infeasibility.blocked);
   }
 
+  /// Into the outcome, which is complete otherwise.
+  void certify(SolveOutcome& outcome) {
+    const bool is_exhausted = proof_ && proof_->is_exhausted;
+    if (outcome.internal_error || (proof_ && !proof_->fault.empty())) {
+      outcome.no_certificate =
+          outcome.internal_error ? outcome.internal_error->message : std::move(proof_->fault);
+    } else if (outcome.status == Status::infeasible && !is_exhausted) {
+      outcome.no_certificate =
+          "clauses did not show that there is no plan, and certificates know of nothing else";
+    } else {
+      if (!proof_) proof_.emplace().bound = floor_.value_or(bound_without_claim(outcome));
+      outcome.certificate =
+          continuous::certify(instance_, options_.objective, *proof_, outcome.plan);
+    }
+  }
+
  private:
+  /// Of a solve that a limit ended before the search began.
+  [[nodiscard]] Cost bound_without_claim(const SolveOutcome& outcome) const {
+    return options_.known_lower_bound ? 0 : outcome.lower_bound;
+  }
   /// Questions what is near an edge, for each pair of classes, to find groups: some microseconds
   /// each, where the search may need only a few of them.
   static constexpr std::size_t kMostNear = 200'000;
@@ -123,6 +148,8 @@ class Domain {
   const WarmStart& warm_;
   std::shared_ptr<ResourceAccount> account_;  // of the search
   std::unique_ptr<SceneStore> store_;         // of groups
+  std::optional<ProofDraft> proof_;
+  std::optional<Cost> floor_;  // what agents cost when each is alone
 };
 
 }  // namespace
@@ -150,8 +177,13 @@ Result<SolveOutcome> search_from_0(const Instance& instance, const SolveOptions&
 
 Result<SolveOutcome> solve_from_0(const Instance& instance, const SolveOptions& options,
                                   const WarmStart& warm) {
+  if (options.proof)
+    if (const std::string what = why_no_certificate(instance); !what.empty())
+      return Error{ErrorCode::out_of_range, "certificates have no rule yet for " + what, {}};
   Domain domain(instance, options, warm);
-  return solve::Frame<Domain>(domain, options).solve();
+  auto outcome = solve::Frame<Domain>(domain, options).solve();
+  if (outcome && options.proof) domain.certify(outcome.value());
+  return outcome;
 }
 
 }  // namespace quadrille::continuous

@@ -35,7 +35,7 @@ PairLemmas::Party PairLemmas::in_time(Party party) const {
 // the same two collide without end. After a refutation every other collision becomes clauses: where
 // the two have no plan at all, caps would rise for ever, and clauses may prove it.
 bool PairLemmas::note(Record& record, const Party& i, const Party& j, FormulaWriter& writer) {
-  if (scope_ == Scope::proven && !record.is_proven) return false;
+  if (scope_ == Scope::none || (scope_ == Scope::proven && !record.is_proven)) return false;
   if (has_choice(i.agent) || has_choice(j.agent)) return false;
   if (++record.count < std::max(record.next_try, settings_.pair_first_try)) return false;
   if (i.cap >= kAnyCost || j.cap >= kAnyCost) return false;

@@ -26,9 +26,9 @@ class PairLemmas {
     Cost cap = 0;                             ///< kAnyCost: none.
     std::span<const ObstacleId> active = {};  ///< Obstacles whose literals are false.
   };
-  /// Pairs that are searched: all, or those whose last search refuted something. Collisions of
-  /// others do not count.
-  enum class Scope { all, proven };
+  /// Pairs that are searched: all, or those whose last search refuted something, or none.
+  /// Collisions of others do not count.
+  enum class Scope { all, proven, none };
   void set_scope(Scope scope) noexcept { scope_ = scope; }
   /// To be told of each collision of two agents with i.agent < j.agent. True: a clause was added
   /// that says that one of the caps is not kept, or that some active obstacle is allowed.

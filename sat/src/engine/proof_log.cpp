@@ -21,9 +21,9 @@ std::uint64_t hash(const Literals& literals, const Dimacs& dimacs) {
   return h;
 }
 
-std::vector<int> sorted_negations(std::span<const Lit> lits) {
+std::vector<int> sorted_numbers(std::span<const Lit> lits, int sign = 1) {
   std::vector<int> clause;
-  for (const Lit lit : lits) clause.push_back(-lit.dimacs());
+  for (const Lit lit : lits) clause.push_back(sign * lit.dimacs());
   std::sort(clause.begin(), clause.end());
   return clause;
 }
@@ -95,22 +95,24 @@ void ProofLog::on_lemma(const Lemma& lemma) {
   PassingObserver::on_lemma(lemma);
   Index index = kNone;
   if (lemma.is<why::Core>()) {
-    std::vector<int> clause;
-    for (const Lit lit : lemma.clause) clause.push_back(lit.dimacs());
-    std::sort(clause.begin(), clause.end());
-    if (const auto refuted = find_refuted(std::move(clause)))
+    if (const auto refuted = find(lemma.clause))
       index = *refuted;
     else
       fail("a core was never refuted");
   } else {
-    index = begin(Kind::lemma);
-    put(whys_.size());
-    put(lemma.clause.size());
-    for (const Lit lit : lemma.clause) put(folded(lit.dimacs()));
-    whys_.push_back(lemma.why);
+    index = begin_lemma(lemma.why, lemma.clause);
   }
   lemmas_.push_back(index);
   announced_.emplace(hash(lemma.clause, [](Lit lit) { return lit.dimacs(); }), index);
+}
+
+ProofLog::Index ProofLog::begin_lemma(const Why& why, std::span<const Lit> clause) {
+  const Index index = begin(Kind::lemma);
+  put(whys_.size());
+  put(clause.size());
+  for (const Lit lit : clause) put(folded(lit.dimacs()));
+  whys_.push_back(why);
+  return index;
 }
 
 // The solver may be given clauses in another order than that in which they were announced.
@@ -155,6 +157,7 @@ std::optional<ProofLog::Index> ProofLog::derive(std::vector<Index>& indices, Num
   put(antecedents.size());
   for (const Number antecedent : antecedents) put(index - indices[antecedent]);
   set(indices, number, index);
+  if (clause.empty()) refuted_[std::vector<int>()] = index;
   return index;
 }
 
@@ -192,6 +195,28 @@ std::optional<ProofLog::Index> ProofLog::find_refuted(std::vector<int> clause) c
   const auto found = refuted_.find(clause);
   if (found == refuted_.end()) return std::nullopt;
   return found->second;
+}
+
+std::optional<ProofLog::Index> ProofLog::find(std::span<const Lit> clause) const {
+  return find_refuted(sorted_numbers(clause));
+}
+
+void ProofLog::conclude(std::span<const Lit> clause, std::span<const Beyond> beyond) {
+  std::vector<Lit> whole(clause.begin(), clause.end());
+  for (const Beyond& agent : beyond) whole.push_back(agent.lit);
+  const auto refuted = find(whole);
+  if (!refuted) return fail("a core was never refuted");
+  if (beyond.empty()) return;
+  std::vector<Index> antecedents;
+  for (const auto& [agent, lit] : beyond)
+    antecedents.push_back(begin_lemma(why::Ceiling{agent}, std::vector{~lit}));
+  antecedents.push_back(*refuted);
+  const Index index = begin(Kind::derived);
+  put(clause.size());
+  for (const Lit lit : clause) put(folded(lit.dimacs()));
+  put(antecedents.size());
+  for (const Index antecedent : antecedents) put(index - antecedent);
+  refuted_[sorted_numbers(clause)] = index;
 }
 
 // ---- by counters --------------------------------------------------------------------------------
@@ -278,7 +303,7 @@ void ProofLog::claim_by_excess(int sum, Cost bound, Lit refuted) {
 }
 
 void ProofLog::claim_by_core(Cost bound, std::span<const Lit> core) {
-  const auto clause = find_refuted(sorted_negations(core));
+  const auto clause = find_refuted(sorted_numbers(core, -1));
   if (!clause) return fail("a claim was never refuted");
   offer({bound, 0, clause, 0, 0});
 }

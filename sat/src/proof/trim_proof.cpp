@@ -22,19 +22,43 @@ class Trimmer {
     const bool is_free = claim.bound <= free_bound;
     if (!log_.fault().empty()) fail(log_.fault());
     if (!is_free && fault_.empty()) {
+      if (claim.refuted) wanted_.push_back(*claim.refuted);
       mark(claim);
-      find_last_uses();
-      for (Index at = 0; at < log_.num_entries() && fault_.empty(); ++at)
-        if (is_needed_[at]) write(at);
+      write_needed();
     }
-    if (fault_.empty() && !nodes_.fault().empty()) fail(nodes_.fault());
-    if (!fault_.empty()) return Error{ErrorCode::internal, "no certificate: " + fault_, {}};
+    if (auto error = find_fault()) return *std::move(error);
     const Cost bound = is_free ? free_bound : claim.bound;
     writer_.record('q', {bound, !is_free && claim.refuted ? numbers_[*claim.refuted] : 0});
     return TrimmedProof{bound, std::move(writer_.text())};
   }
 
+  Result<TrimmedClauses> trim(std::span<const Index> wanted) {
+    if (!log_.fault().empty()) fail(log_.fault());
+    wanted_.assign(wanted.begin(), wanted.end());
+    if (fault_.empty()) {
+      mark({});
+      write_needed();
+    }
+    if (auto error = find_fault()) return *std::move(error);
+    TrimmedClauses trimmed;
+    for (const Index index : wanted) trimmed.numbers.push_back(numbers_[index]);
+    trimmed.records = std::move(writer_.text());
+    return trimmed;
+  }
+
  private:
+  std::optional<Error> find_fault() {
+    if (!nodes_.fault().empty()) fail(nodes_.fault());
+    if (fault_.empty()) return std::nullopt;
+    return Error{ErrorCode::internal, "no certificate: " + fault_, {}};
+  }
+
+  void write_needed() {
+    find_last_uses();
+    for (Index at = 0; at < log_.num_entries() && fault_.empty(); ++at)
+      if (is_needed_[at]) write(at);
+  }
+
   void fail(std::string what) {
     if (fault_.empty()) fault_ = std::move(what);
   }
@@ -45,7 +69,7 @@ class Trimmer {
     is_needed_.assign(size, false);
     int pass = claim.pass;
     Index end = claim.end;
-    if (claim.refuted) is_needed_[*claim.refuted] = true;
+    for (const Index index : wanted_) is_needed_[index] = true;
     for (Index at = 0; at < size && claim.excess != 0; ++at) {
       const ProofLog::Entry entry = log_.entry(at);
       if (entry.kind != Kind::excess || log_.excess(entry.number).sum != claim.excess) continue;
@@ -73,7 +97,7 @@ class Trimmer {
       for (const Index antecedent : entry.antecedents) last_use_[antecedent] = at;
       if (entry.kind == Kind::core) last_use_[log_.core(entry.number).clause] = at;
     }
-    if (log_.claim().refuted) last_use_[*log_.claim().refuted] = log_.num_entries();
+    for (const Index index : wanted_) last_use_[index] = log_.num_entries();
     numbers_.assign(log_.num_entries(), 0);
   }
 
@@ -94,10 +118,12 @@ class Trimmer {
   void write_lemma(Index at, const ProofLog::Entry& entry) {
     const Why& why = log_.why(entry.number);
     ProofMeanings::Rule rule;
-    if (std::holds_alternative<why::Counter>(why))
+    if (std::holds_alternative<why::Counter>(why)) {
       rule.number = nodes_.rule_of(entry.clause);
-    else
+    } else {
+      meanings_.prepare(why, entry.clause, writer_);
       rule = meanings_.rule_of(why, entry.clause);
+    }
     if (rule.number == 0)
       return fail("there is no rule for a lemma that is needed: " + std::string(to_string(why)));
     nodes_.declare(entry.clause);
@@ -178,6 +204,7 @@ class Trimmer {
   const ProofMeanings& meanings_;
   CertificateWriter writer_;
   CounterNodes nodes_;
+  std::vector<Index> wanted_;
   std::vector<bool> is_needed_;
   std::vector<Index> last_use_;
   std::vector<std::int64_t> numbers_;  // of clauses, by entry
@@ -189,6 +216,11 @@ class Trimmer {
 Result<TrimmedProof> trim_proof(const ProofLog& log, const ProofMeanings& meanings,
                                 int num_variables, Cost free_bound) {
   return Trimmer(log, meanings, num_variables).trim(free_bound);
+}
+
+Result<TrimmedClauses> trim_clauses(const ProofLog& log, const ProofMeanings& meanings,
+                                    int num_variables, std::span<const ProofLog::Index> wanted) {
+  return Trimmer(log, meanings, num_variables).trim(wanted);
 }
 
 }  // namespace quadrille::sat

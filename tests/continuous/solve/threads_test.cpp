@@ -52,18 +52,19 @@ struct Start {
     known.take(std::make_shared<const Plan>(*std::move(plan)), its_cost);
   }
   Settlement search(const solve::Pace& pace) {
-    search_side_by_side(scene, options, account, {limits, known, pulse, alone}, pace);
+    search_side_by_side(scene, options, account, {limits, known, pulse, alone}, pace, {}, no_proof);
     return settle(known, options.gap_percent);
   }
   Settlement search_beside(Exchange& exchange) {
     solve::run_guarded(known, limits, [&] {
-      search_costs(scene, options, {limits, known, pulse, exchange});
+      search_costs(scene, options, {limits, known, pulse, exchange}, {}, no_proof);
     });
     return settle(known, options.gap_percent);
   }
 
   const SolveOptions& options;
   std::shared_ptr<ResourceAccount> account;
+  std::optional<ProofDraft> no_proof;
   LimitMonitor limits;
   Scene scene;
   Knowledge known;

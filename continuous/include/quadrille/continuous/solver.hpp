@@ -8,6 +8,7 @@
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/certificate.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/request.hpp"
 #include "quadrille/core/result.hpp"
@@ -43,19 +44,26 @@ struct SolveOptions : Request<Plan> {
   /// Effort for the joint search of small instances, which comes before everything else: about 10^8
   /// take a second. 0: none.
   std::int64_t joint_work = 200'000'000;
+  /// Keep all that the lower bound follows from, for SolveOutcome::certificate. No two agents are
+  /// searched together then by clauses; of joint search and of routes only the plans count, as do
+  /// those of a session, and searches side by side tell each other no cores. Discs and spheres
+  /// only, without goal sets and moving obstacles. Takes 1 to 3 MB of memory per second and thread.
+  bool proof = false;
 };
 
 /// Infeasible: the agents that block each other, and the vertices that each of them has to pass on
-/// whatever way, in the order in which the first one comes to them.
-using SolveOutcome = Outcome<Plan>;
+/// whatever way, in the order in which the first one comes to them. With `proof` there is a
+/// certificate, or a word why there is none.
+struct SolveOutcome : Outcome<Plan>, CertifiedOutcome {};
 
 /// Finds a plan of least cost among all plans whose departures are at whole ticks. `infeasible` is
 /// a proof: found at once for two agents that cannot pass each other, and for all agents if they
 /// are few on a small roadmap. On other instances without a plan the search may also go on until a
 /// limit ends it: `unknown` then. If a limit ends the search and
 /// some plan is known, that is `feasible`. Deterministic for the same instance, options and seed as
-/// long as no limit is met. Does not print. Thread-safe. Errors: out_of_range (an option,
-/// or `known_lower_bound` if a plan is found that costs less, or given), invalid_plan
+/// long as no limit is met. Does not print. Thread-safe. Errors: out_of_range (an option, `proof`
+/// with what it is not for, or `known_lower_bound` if a plan is found that costs less, or given),
+/// invalid_plan
 /// (`initial_plan` or `debug.known_plan` is not a plan of the instance; with the first violation).
 ///
 /// When memory runs out before a limit is met, the outcome is `feasible` or `unknown` with

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "quadrille/core/certificate.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/request.hpp"
 #include "quadrille/core/result.hpp"
@@ -107,21 +108,9 @@ struct SolveOptions : Request<Plan> {
   bool proof = false;
 };
 
-/// That no plan costs less than `claim`, or that there is none, in a form that the program
-/// quadrille-check checks; with the plan, if there is one. docs/certificates.md.
-struct Certificate {
-  std::optional<Cost> claim;  ///< Absent: there is no plan.
-  std::string bytes;          ///< A file's content, binary.
-};
-
-/// Infeasible: see Feasibility. `explain` is for dpll.
-struct SolveOutcome : Outcome<Plan> {
-  /// With `proof`. Its claim is the lower bound, or less where that rests on `known_lower_bound`,
-  /// or where memory ran out in the search.
-  std::optional<Certificate> certificate;
-  /// With `proof`: why there is none. Else empty.
-  std::string no_certificate;
-};
+/// Infeasible: see Feasibility. `explain` is for dpll. With `proof` there is a certificate, or a
+/// word why there is none.
+struct SolveOutcome : Outcome<Plan>, CertifiedOutcome {};
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range

@@ -60,6 +60,9 @@ class ProofMeanings {
   virtual ~ProofMeanings() = default;
   /// Writes what the variable means. False: it is none of this domain.
   [[nodiscard]] virtual bool declare(int variable, CertificateWriter& writer) const = 0;
+  /// Writes what the rule of a lemma needs besides, before `rule_of` is asked for it.
+  virtual void prepare(const Why& /*why*/, std::span<const Lit> /*clause*/,
+                       CertificateWriter& /*writer*/) const {}
   struct Rule {
     int number = 0;  ///< 0: there is no rule for such a lemma.
     std::vector<std::int64_t> parameters;
@@ -86,6 +89,16 @@ struct TrimmedProof {
   Cost claim = 0;  ///< No plan costs less.
   std::string records;
 };
+/// The records of clauses alone.
+struct TrimmedClauses {
+  std::string records;
+  std::vector<CertificateWriter::ClauseNumber>
+      numbers;  ///< Of those that were asked for, in order.
+};
+/// Of all that was noted, what the `wanted` clauses rest on. Otherwise as trim_proof.
+[[nodiscard]] Result<TrimmedClauses> trim_clauses(const ProofLog& log,
+                                                  const ProofMeanings& meanings, int num_variables,
+                                                  std::span<const ProofLog::Index> wanted);
 /// Of all that was noted, what the best claim rests on, with the claim at the end. `free_bound`:
 /// what plans cost at least when each agent is alone; the claim if there is no better one.
 /// `num_variables`: of the engine. Deterministic; linear in the size of the log. Errors: internal,

@@ -83,6 +83,15 @@ class ProofLog final : public PassingObserver, public DerivationObserver {
   void add_core(int pass, int counter, Cost lift, std::vector<ProofItem> softs);
   /// `sum` is over what the pass has left open.
   void add_excess(int pass, int sum, Cost bound);
+  /// That an agent costs more than its ceiling, which no plan does that is looked for.
+  struct Beyond {
+    AgentId agent;
+    Lit lit;
+  };
+  /// The clause follows from its refutation together with `beyond`. To be told before it is
+  /// announced as a lemma (why::Core). What it rests on are lemmas (why::Ceiling) that the solver
+  /// does not have.
+  void conclude(std::span<const Lit> clause, std::span<const Beyond> beyond);
   /// No plan costs less than `bound`: by the cores of a pass, ...
   void claim_by_cores(int pass, Cost bound);
   /// ... because the excess `sum` is refuted to be less by the core of the last verdict, ...
@@ -146,6 +155,9 @@ class ProofLog final : public PassingObserver, public DerivationObserver {
   [[nodiscard]] const Output* output_of(int variable) const;
   /// Invalid: it was never asked for.
   [[nodiscard]] Lit find_output(int sum, std::size_t item, int k) const;
+  /// Where a clause was refuted or concluded, the last time; the empty one also if the clauses
+  /// contradict each other.
+  [[nodiscard]] std::optional<Index> find(std::span<const Lit> clause) const;
   /// The best one; its bound is 0 if there was none.
   [[nodiscard]] const Claim& claim() const noexcept { return claim_; }
   /// Why no certificate can be made of it, which is an error of the program; empty otherwise.
@@ -174,6 +186,7 @@ class ProofLog final : public PassingObserver, public DerivationObserver {
                               std::span<const Number> antecedents);
   void refute(std::vector<Index>& indices, Number number, Clause clause,
               std::span<const Number> antecedents);
+  [[nodiscard]] Index begin_lemma(const Why& why, std::span<const Lit> clause);
   [[nodiscard]] std::optional<Index> find_refuted(std::vector<int> clause) const;
   void offer(const Claim& claim);
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include <cstdlib>
+#include <utility>
+
+#include "timed/rules.hpp"
+
+namespace quadrille_check {
+namespace {
+
+/// A sparse numbering would make a small file take much memory.
+constexpr Int kMostUnused = 1'000'000;
+constexpr Int kBans = 4;
+
+}  // namespace
+
+int TimedMeanings::agent(Int number) const {
+  require(number >= 0 && number < static_cast<Int>(road_.agents.size()), "no such agent");
+  return static_cast<int>(number);
+}
+
+// f variable agent 4 bans, of four numbers each; c variable agent cost
+void TimedMeanings::add(const Record& record) {
+  const auto& values = record.values;
+  require(values.size() >= 3, "the record is too short");
+  TimedVariable made;
+  made.agent = agent(values[1]);
+  if (record.tag == 'c') {
+    require(values.size() == 3 && values[2] >= 0 && values[2] < kNever,
+            "a cost has an agent and a number");
+    made.kind = TimedVariable::Kind::costs_at_most;
+    made.number = values[2];
+  } else {
+    require(values[2] == kBans && values.size() % 4 == 3, "a ban has four numbers");
+    made.kind = TimedVariable::Kind::does_not;
+    for (std::size_t k = 3; k < values.size(); k += 4) {
+      const std::size_t size = values[k] == 0 ? road_.edges.size() : road_.points.size();
+      require((values[k] == 0 || values[k] == 1) && values[k + 1] >= 0 &&
+                  values[k + 1] < static_cast<Int>(size),
+              "no such place");
+      const Int end = values[k + 3] == -1 ? kNever : values[k + 3];
+      require(values[k + 2] > -kNever && values[k + 2] < end && end <= kNever,
+              "a ban ends after it begins");
+      made.bans.push_back({values[k] == 1, static_cast<int>(values[k + 1]), values[k + 2], end});
+    }
+  }
+  require(values[0] > 0 && values[0] <= num_variables() + kMostUnused, "no such variable");
+  const auto index = static_cast<std::size_t>(values[0]);
+  if (variables_.size() <= index) variables_.resize(index + 1);
+  require(variables_[index].kind == TimedVariable::Kind::none, "a variable has two meanings");
+  variables_[index] = std::move(made);
+}
+
+const TimedVariable& TimedMeanings::variable(Int lit) const {
+  require(lit != 0 && lit >= -num_variables() && lit <= num_variables(), "no such variable");
+  const TimedVariable& found = variables_[static_cast<std::size_t>(std::abs(lit))];
+  require(found.kind != TimedVariable::Kind::none, "a variable without a meaning");
+  return found;
+}
+
+std::optional<std::pair<int, Int>> TimedMeanings::at_least(Int lit) const {
+  const TimedVariable& x = variable(lit);
+  if (lit > 0 || x.kind != TimedVariable::Kind::costs_at_most) return std::nullopt;
+  return std::pair(x.agent, x.number + 1);
+}
+
+}  // namespace quadrille_check

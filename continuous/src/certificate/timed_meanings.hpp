@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "quadrille/sat/certificate.hpp"
+#include "theory/model.hpp"
+
+namespace quadrille::continuous {
+
+/// What the literals and lemmas of continuous time mean, for certificates (docs/certificates.md).
+class TimedMeanings final : public sat::ProofMeanings {
+ public:
+  /// `model` outlives it. `num_variables`: of the engine.
+  TimedMeanings(const Model& model, int num_variables);
+
+  [[nodiscard]] bool declare(int variable, sat::CertificateWriter& writer) const override;
+  void prepare(const sat::Why& why, std::span<const sat::Lit> clause,
+               sat::CertificateWriter& writer) const override;
+  [[nodiscard]] Rule rule_of(const sat::Why& why, std::span<const sat::Lit> clause) const override;
+  [[nodiscard]] sat::Lit cost_above(AgentId /*agent*/, Cost /*cost*/) const override { return {}; }
+
+ private:
+  static void declare_bans(int variable, const Obstacle& obstacle, sat::CertificateWriter& writer);
+  /// The obstacles that other agents at their goals are to this one, by the literals of a clause
+  /// about its paths.
+  [[nodiscard]] std::vector<ObstacleId> goals_around(AgentId agent,
+                                                     std::span<const sat::Lit> clause) const;
+
+  const Model& model_;
+  std::map<std::pair<AgentId, int>, ObstacleId> goals_;  // by agent and literal
+  // Obstacles at goals have no variable in the solver.
+  mutable std::map<ObstacleId, int> variables_;
+  mutable int num_variables_;
+};
+
+}  // namespace quadrille::continuous
