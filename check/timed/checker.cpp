@@ -42,6 +42,9 @@ void TimedChecker::check(const Record& record) {
     case 'd':
       for (const Int number : record.values) clauses_.remove(number);
       return;
+    case 'b':
+      require(record.values.size() == 1 && cover_.bound() == 0, "costs are raised before trees");
+      return rules_.raise_free_cost(clauses_[record.values[0]]);
     case 't':
       return cover_.add(record.values);
     case 'z':
@@ -132,6 +135,7 @@ std::vector<Motion> replay(const Road& road, int agent, const std::vector<Int>& 
   Int at = task.start, time = 0;
   for (std::size_t k = 0; k < path.size(); k += 3) {
     const Int to = path[k], depart = path[k + 1], arrive = path[k + 2];
+    require(!task.under_way || k > 0 || depart == 0, "a path of the plan waits before it goes on");
     require(depart >= time && depart >= task.release && arrive > depart && arrive < kNever,
             "a path of the plan goes back in time, or begins before its release");
     const auto& edges = road.out[static_cast<std::size_t>(at)];
@@ -142,14 +146,14 @@ std::vector<Motion> replay(const Road& road, int agent, const std::vector<Int>& 
                                  road.duration(agent, e) == arrive - depart;
                         }),
             "a path of the plan has a move that there is not");
-    motions.push_back({point(at), point(at), time, depart, task.radius});
-    motions.push_back({point(at), point(to), depart, arrive, task.radius});
+    motions.push_back({point(at), point(at), time, depart, task.body});
+    motions.push_back({point(at), point(to), depart, arrive, task.body});
     at = to;
     time = arrive;
   }
   require(at == task.goal && time <= task.deadline,
           "a path of the plan ends elsewhere, or too late");
-  motions.push_back({point(at), point(at), time, kNever, task.radius});
+  motions.push_back({point(at), point(at), time, task.leaves ? time : kNever, task.body});
   return motions;
 }
 
@@ -175,6 +179,8 @@ Int cost_of(const Road& road, const std::vector<std::vector<Int>>& paths, bool i
     cost = is_makespan ? std::max(cost, own) : cost + own;
     for (std::size_t j = 0; j < i; ++j)
       require(!do_collide(motions[i], motions[j]), "two agents of the plan collide");
+    for (const std::vector<Motion>& obstacle : road.obstacles)
+      require(!do_collide(motions[i], obstacle), "an agent of the plan collides with an obstacle");
   }
   return cost;
 }

@@ -119,7 +119,7 @@ std::optional<Int> TimedPaths::arrival(int agent, std::span<const TimedBan* cons
     queue.pop();
     const SafeStay here = all.stays(vertex)[stay];
     if (time > here.reached) continue;
-    if (vertex == task.goal && here.until == kNever) return time;
+    if (vertex == task.goal && (here.until == kNever || task.leaves)) return time;
     for (const int edge : road_.out[static_cast<std::size_t>(vertex)]) {
       if (!road_.may_use(agent, edge)) continue;
       const Int duration = road_.duration(agent, edge);
@@ -128,6 +128,7 @@ std::optional<Int> TimedPaths::arrival(int agent, std::span<const TimedBan* cons
       for (std::size_t k = 0; k < there.size(); ++k) {
         const Int begin =
             all.first_start(edge, std::max({time, task.release, there[k].from - duration}));
+        if (task.under_way && vertex == task.start && begin > 0) continue;
         if (begin <= here.until && begin < kNever && begin + duration <= there[k].until)
           reach(to, k, begin + duration);
       }

@@ -3,6 +3,7 @@
 // (docs/continuous.md).
 #include "timed/road.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -42,12 +43,12 @@ class Reader {
                 "group_names"});
     if (root_.at("quadrille").text() != "instance" || root_.at("version").number(1, 1) != 1)
       throw BadInput("no instance of version 1");
-    if (const Json* obstacles = root_.find("obstacles"))
-      if (!obstacles->list().empty()) throw BadInput("there is no rule yet for moving obstacles");
     read_resolution();
     if (const Json* now = root_.find("now")) now_ = time(*now);
     read_roadmap(root_.at("roadmap"));
     for (const Json* agent : root_.at("agents").list()) read_agent(*agent);
+    if (const Json* obstacles = root_.find("obstacles"))
+      for (const Json* obstacle : obstacles->list()) read_obstacle(*obstacle);
     return std::move(road_);
   }
 
@@ -71,19 +72,21 @@ class Reader {
 
   void read_roadmap(const Json& roadmap) {
     roadmap.only({"vertices", "edges", "names"});
-    for (const Json* vertex : roadmap.at("vertices").list()) {
-      Road::Point point{};
-      const auto coordinates = vertex->list();
-      if (coordinates.size() != 2 && coordinates.size() != 3)
-        throw BadInput("a vertex has two or three coordinates");
-      for (std::size_t k = 0; k < coordinates.size(); ++k)
-        point[k] =
-            whole(std::round(divided(coordinates[k]->any_number(), length_)), -kMost, "coordinate");
-      road_.points.push_back(point);
-    }
+    for (const Json* vertex : roadmap.at("vertices").list()) road_.points.push_back(point(*vertex));
     road_.out.resize(road_.points.size());
     road_.in.resize(road_.points.size());
     for (const Json* edge : roadmap.at("edges").list()) read_edge(*edge);
+  }
+
+  [[nodiscard]] Point point(const Json& json) const {
+    const auto coordinates = json.list();
+    if (coordinates.size() != 2 && coordinates.size() != 3)
+      throw BadInput("a point has two or three coordinates");
+    Point point{};
+    for (std::size_t k = 0; k < coordinates.size(); ++k)
+      point[k] =
+          whole(std::round(divided(coordinates[k]->any_number(), length_)), -kMost, "coordinate");
+    return point;
   }
 
   [[nodiscard]] int vertex(const Json& json) const {
@@ -121,21 +124,66 @@ class Reader {
     road_.edges.push_back(edge);
   }
 
+  [[nodiscard]] static bool is_chosen(const Json* json, const char* no, const char* yes) {
+    if (json == nullptr) return false;
+    if (json->text() != no && json->text() != yes) throw BadInput("no such choice");
+    return json->text() == yes;
+  }
+
+  [[nodiscard]] Body body(const Json& json) const {
+    const Json* const radius = json.find("radius");
+    if (radius != nullptr)
+      return {whole(std::floor(divided(radius->any_number(), length_)), 1, "radius"), nullptr};
+    std::vector<Point> corners;
+    for (const Json* corner : json.at("polygon").list()) {
+      const auto both = corner->list();
+      if (both.size() != 2) throw BadInput("a corner has two coordinates");
+      const auto part = [&](const Json& number) {
+        return whole(std::trunc(divided(number.any_number(), length_)), -kMost, "corner");
+      };
+      corners.push_back({part(*both[0]), part(*both[1]), 0});
+    }
+    if (corners.size() < 3 || std::any_of(road_.points.begin(), road_.points.end(),
+                                          [](const Point& point) { return point[2] != 0; }))
+      throw BadInput("a polygon has three corners, and no vertex a height");
+    return {0, std::make_shared<const std::vector<Point>>(std::move(corners))};
+  }
+
+  void read_obstacle(const Json& json) {
+    json.only({"radius", "polygon", "path", "at_end"});
+    const Body own = body(json);
+    std::vector<Motion>& motions = road_.obstacles.emplace_back();
+    const bool leaves = is_chosen(json.find("at_end"), "stay", "leave");
+    const auto stops = json.at("path").list();
+    if (stops.empty()) throw BadInput("an obstacle has no stops");
+    for (const Json* stop : stops) {
+      stop->only({"vertex", "at", "arrive", "depart"});
+      const Json* const place = stop->find("at");
+      const Point there = place != nullptr
+                              ? point(*place)
+                              : road_.points[static_cast<std::size_t>(vertex(stop->at("vertex")))];
+      const Int arrive = time(stop->at("arrive")) - now_;
+      const Json* const until = stop->find("depart");
+      const Int depart = until != nullptr ? time(*until) - now_ : arrive;
+      if (depart < arrive || (!motions.empty() && arrive <= motions.back().end))
+        throw BadInput("an obstacle goes back in time");
+      if (!motions.empty())
+        motions.push_back({motions.back().to, there, motions.back().end, arrive, own});
+      motions.push_back({there, there, arrive, depart, own});
+    }
+    if (!leaves) motions.back().end = kNever;
+  }
+
   void read_agent(const Json& json) {
     json.only({"start", "goal", "goals", "radius", "polygon", "speed", "group", "release",
                "deadline", "at_start", "at_goal", "name"});
     if (json.find("goal") == nullptr) throw BadInput("there is no rule yet for several goals");
-    if (json.find("radius") == nullptr) throw BadInput("there is no rule yet for polygons");
-    const auto is_other = [&](const char* key) {
-      const Json* const value = json.find(key);
-      return value != nullptr && value->text() != "stay";
-    };
-    if (is_other("at_start") || is_other("at_goal"))
-      throw BadInput("there is no rule yet for agents that are under way, or that leave");
     Road::Agent agent;
+    agent.under_way = is_chosen(json.find("at_start"), "stay", "under_way");
+    agent.leaves = is_chosen(json.find("at_goal"), "stay", "leave");
     agent.start = vertex(json.at("start"));
     agent.goal = vertex(json.at("goal"));
-    agent.radius = whole(std::floor(divided(json.at("radius").any_number(), length_)), 1, "radius");
+    agent.body = body(json);
     if (const Json* speed = json.find("speed")) {
       const double value = speed->any_number();
       const double units = length_ == time_ ? value : multiplied(divided(value, length_), time_);

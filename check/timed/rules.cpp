@@ -14,11 +14,11 @@ Motion move(const Road& road, int agent, int edge, Int begin) {
   const Road::Edge& e = road.edges[static_cast<std::size_t>(edge)];
   return {road.points[static_cast<std::size_t>(e.from)],
           road.points[static_cast<std::size_t>(e.to)], begin, begin + road.duration(agent, edge),
-          road.agents[static_cast<std::size_t>(agent)].radius};
+          road.agents[static_cast<std::size_t>(agent)].body};
 }
 Motion stay(const Road& road, int agent, int vertex, Int begin, Int end) {
   const Road::Point& at = road.points[static_cast<std::size_t>(vertex)];
-  return {at, at, begin, end, road.agents[static_cast<std::size_t>(agent)].radius};
+  return {at, at, begin, end, road.agents[static_cast<std::size_t>(agent)].body};
 }
 
 }  // namespace
@@ -69,8 +69,9 @@ bool TimedRules::has_no_path(std::span<const Int> parameters, std::span<const In
   }
   for (const Int variable : parameters.subspan(1)) {
     const TimedVariable& x = meanings_.variable(variable);
-    if (x.agent != agent || !std::any_of(clause.begin(), clause.end(),
-                                         [&](Int lit) { return is_kept_out(lit, variable); }))
+    const auto is_due_to = [&](Int lit) { return is_kept_out(lit, variable); };
+    if (x.agent != agent || (std::none_of(clause.begin(), clause.end(), is_due_to) &&
+                             !is_kept_out_by_obstacles(variable)))
       return false;
     keep(x);
   }
@@ -89,25 +90,27 @@ bool TimedRules::is_encounter(std::span<const Int> clause) const {
   });
 }
 
-// Which starts meet, and which moments of a move, are convex sets: the extreme ones decide.
+// By convexity the extreme starts of the other one decide.
 bool TimedRules::do_all_meet(int i, const TimedBan& a, int j, const TimedBan& b) const {
-  if (a.is_stay) return !b.is_stay && do_all_meet(j, b, i, a);
-  if (a.end == kNever || b.end == kNever) return false;
-  const Int first = a.begin, last = a.end - 1;
-  const auto meet = [&](Int start, const Motion& other) {
-    return do_meet(move(road_, i, a.place, start), other);
+  if (b.is_stay) return !a.is_stay && do_all_meet(j, b, i, a);
+  return b.end < kNever && is_in_the_way(move(road_, j, b.place, b.begin), i, a) &&
+         is_in_the_way(move(road_, j, b.place, b.end - 1), i, a);
+}
+
+// The starts that meet a motion are an interval, and so are the moments at which it is in contact
+// with a place: the extreme ones decide. Of one that stands for ever both have no end.
+bool TimedRules::is_in_the_way(const Motion& other, int i, const TimedBan& ban) const {
+  const bool is_for_ever = ban.end == kNever;
+  if (is_for_ever && other.end < kNever) return false;
+  if (!ban.is_stay)
+    return do_meet(move(road_, i, ban.place, std::max<Int>(ban.begin, 0)), other) &&
+           (is_for_ever || do_meet(move(road_, i, ban.place, ban.end - 1), other));
+  // A stay that breaks the ban is there at one of the ticks between, or else from one to the next.
+  const auto is_met = [&](Int begin, Int end) {
+    return do_meet(stay(road_, i, ban.place, begin, end), other);
   };
-  if (!b.is_stay)
-    return meet(first, move(road_, j, b.place, b.end - 1)) &&
-           meet(last, move(road_, j, b.place, b.begin));
-  // A stay that breaks the ban is there at one of the moments between, or else the whole tick.
-  Int early = b.begin + 1, late = b.end - 1;
-  const Int width = late < early ? 1 : 0;
-  if (width == 1) early = late = b.begin;
-  for (const Int start : {first, last})
-    for (const Int moment : {early, late})
-      if (!meet(start, stay(road_, j, b.place, moment, moment + width))) return false;
-  return true;
+  if (ban.end == ban.begin + 1) return is_met(ban.begin, ban.end);
+  return is_met(ban.begin + 1, ban.begin + 1) && (is_for_ever || is_met(ban.end - 1, ban.end - 1));
 }
 
 // "The agent does none of that" while another one, which costs less, rests at its goal.
@@ -116,23 +119,41 @@ bool TimedRules::is_kept_out(Int lit, Int variable) {
   const TimedVariable& x = meanings_.variable(variable);
   if (!resident || resident->first == x.agent || x.kind != TimedVariable::Kind::does_not)
     return false;
+  const Road::Agent& other = road_.agents[static_cast<std::size_t>(resident->first)];
+  if (other.leaves) return false;
   if (kept_out_.count({lit, variable}) != 0) return true;
+  const Motion resting =
+      stay(road_, resident->first, other.goal, std::max<Int>(resident->second - 1, 0), kNever);
   for (const TimedBan& ban : x.bans)
-    if (!is_kept_out(x.agent, ban, resident->first, resident->second - 1)) return false;
+    if (!is_in_the_way(resting, x.agent, ban)) return false;
   kept_out_.insert({lit, variable});
   return true;
 }
 
-// The resident is there from `from` on, at the latest. Who sets out later meets it no less: the
-// contact ends later.
-bool TimedRules::is_kept_out(int i, const TimedBan& ban, int resident, Int from) const {
-  const int goal = road_.agents[static_cast<std::size_t>(resident)].goal;
-  if (ban.is_stay)
-    return ban.begin >= from &&
-           do_meet(stay(road_, i, ban.place, from, from), stay(road_, resident, goal, from, from));
-  const Motion moving = move(road_, i, ban.place, std::max<Int>(ban.begin, 0));
-  const Int meeting = std::max(from, moving.begin);
-  return meeting <= moving.end && do_meet(moving, stay(road_, resident, goal, meeting, moving.end));
+// Each of its bans by one stretch of an obstacle's path.
+bool TimedRules::is_kept_out_by_obstacles(Int variable) {
+  const TimedVariable& x = meanings_.variable(variable);
+  if (x.kind != TimedVariable::Kind::does_not) return false;
+  if (kept_out_.count({0, variable}) != 0) return true;
+  for (const TimedBan& ban : x.bans)
+    if (std::none_of(road_.obstacles.begin(), road_.obstacles.end(), [&](const auto& motions) {
+          return std::any_of(motions.begin(), motions.end(), [&](const Motion& motion) {
+            return is_in_the_way(motion, x.agent, ban);
+          });
+        }))
+      return false;
+  kept_out_.insert({0, variable});
+  return true;
+}
+
+void TimedRules::raise_free_cost(std::span<const Int> clause) {
+  require(clause.size() == 1, "a cost that an agent has at least is said by one literal");
+  const auto level = meanings_.at_least(clause[0]);
+  require(level.has_value(), "a literal says nothing of a cost");
+  Int& known = free_costs_[static_cast<std::size_t>(level->first)];
+  if (level->second <= known) return;
+  free_sum_ += level->second - known;
+  known = level->second;
 }
 
 // Who costs more than that, while the others cost what they do at least, is in no plan that counts.

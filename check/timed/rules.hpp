@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "read/records.hpp"
+#include "timed/meeting.hpp"
 #include "timed/road.hpp"
 
 namespace quadrille_check {
@@ -76,6 +77,8 @@ class TimedRules {
   [[nodiscard]] bool holds(Int rule, std::span<const Int> parameters, std::span<const Int> clause);
   /// Plans count that cost less than this. To be called once, before any rule is asked for.
   void count_below(Int cost, bool is_makespan);
+  /// The clause says that an agent costs at least so much.
+  void raise_free_cost(std::span<const Int> clause);
   [[nodiscard]] const std::vector<Int>& free_costs() const { return free_costs_; }
   [[nodiscard]] Int free_sum() const { return free_sum_; }
 
@@ -85,7 +88,9 @@ class TimedRules {
   [[nodiscard]] bool is_ceiling(std::span<const Int> clause) const;
   [[nodiscard]] bool do_all_meet(int i, const TimedBan& a, int j, const TimedBan& b) const;
   [[nodiscard]] bool is_kept_out(Int lit, Int variable);
-  [[nodiscard]] bool is_kept_out(int i, const TimedBan& ban, int resident, Int from) const;
+  [[nodiscard]] bool is_kept_out_by_obstacles(Int variable);
+  /// Whether all that breaks the ban, by agent i, meets this motion.
+  [[nodiscard]] bool is_in_the_way(const Motion& other, int i, const TimedBan& ban) const;
 
   const Road& road_;
   const TimedMeanings& meanings_;
@@ -94,7 +99,7 @@ class TimedRules {
   Int free_sum_ = 0;
   std::optional<Int> below_;
   bool is_makespan_ = false;
-  std::set<std::pair<Int, Int>> kept_out_;
+  std::set<std::pair<Int, Int>> kept_out_;  // literals, or 0: by obstacles, and variables
 };
 
 }  // namespace quadrille_check

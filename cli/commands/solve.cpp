@@ -175,8 +175,8 @@ void add_output_options(CLI::App& app, SolveArguments& arguments) {
       ->group(group);
   add_picture_options(app, arguments.picture, group);
   add_file(app, "--proof", arguments.proof,
-           "Write why no plan is cheaper, or why there is none, for quadrille-check; with a\n"
-           "roadmap for discs only; - is standard output")
+           "Write why no plan is cheaper, or why there is none, for quadrille-check;\n"
+           "- is standard output")
       ->group(group);
   app.add_flag("--quiet", arguments.quiet, "Print nothing but errors and what is asked for")
       ->group(group);

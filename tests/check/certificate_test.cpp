@@ -25,8 +25,10 @@ using quadrille_check::Int;
 using quadrille_check::Record;
 using quadrille_check::support::Answer;
 using quadrille_check::support::ask;
+using quadrille_check::support::bytes_of;
 using quadrille_check::support::checked;
 using quadrille_check::support::Interpretation;
+using quadrille_check::support::mutate;
 using quadrille_check::support::places;
 using quadrille_check::support::records_of;
 using quadrille_check::support::text_of;
@@ -189,58 +191,6 @@ TEST(Certificate, KnowsOneGoalForEachAgent) {
 }
 
 // ---- mutations ----------------------------------------------------------------------------------
-
-/// One change to a random record, of a kind that might matter.
-void mutate(std::vector<Record>& records, Random& random) {
-  const std::size_t at = random.below(records.size());
-  Record& record = records[at];
-  switch (random.below(7)) {
-    case 0:
-      records.erase(records.begin() + static_cast<std::ptrdiff_t>(at));
-      return;
-    case 1:
-      records.insert(records.begin() + static_cast<std::ptrdiff_t>(random.below(records.size())),
-                     Record(record));
-      return;
-    case 2:
-      std::swap(records[at], records[random.below(records.size())]);
-      return;
-    case 3:
-      if (!record.values.empty())
-        record.values.erase(record.values.begin() +
-                            static_cast<std::ptrdiff_t>(random.below(record.values.size())));
-      return;
-    case 4:
-      if (!record.values.empty()) {
-        Int& value = record.values[random.below(record.values.size())];
-        value = -value;
-      }
-      return;
-    case 5:
-      record.tag = records[random.below(records.size())].tag;
-      return;
-    default:
-      if (!record.values.empty())
-        record.values[random.below(record.values.size())] +=
-            random.percent(50) ? 1 : -static_cast<Int>(random.between(1, 3));
-  }
-}
-
-/// As a file in the binary form, which may say what the text form cannot.
-std::string bytes_of(const std::vector<Record>& records) {
-  std::string bytes = "qcert 1 bin\n";
-  const auto put = [&](std::uint64_t value) {
-    for (; value >= 128; value >>= 7) bytes += static_cast<char>(value | 128);
-    bytes += static_cast<char>(value);
-  };
-  for (const Record& record : records) {
-    bytes += record.tag;
-    put(record.values.size());
-    for (const Int value : record.values)
-      put(static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63));
-  }
-  return bytes;
-}
 
 TEST(Certificate, CannotBeBrokenToProveTooMuch) {
   std::size_t accepted = 0, tried = 0;

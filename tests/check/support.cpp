@@ -10,6 +10,7 @@ namespace quadrille_check::support {
 namespace discrete = quadrille::discrete;
 using quadrille::AgentId;
 using quadrille::VertexId;
+using quadrille::support::Random;
 
 std::vector<int> places(const discrete::Instance& instance, const discrete::Path& path) {
   std::vector<int> places;
@@ -165,6 +166,56 @@ Int Interpretation::value(Int number) const {
 
 bool Interpretation::is_true(std::span<const Int> clause) const {
   return std::any_of(clause.begin(), clause.end(), [&](Int lit) { return is_true(lit); });
+}
+
+void mutate(std::vector<Record>& records, Random& random) {
+  const std::size_t at = random.below(records.size());
+  Record& record = records[at];
+  switch (random.below(7)) {
+    case 0:
+      records.erase(records.begin() + static_cast<std::ptrdiff_t>(at));
+      return;
+    case 1:
+      records.insert(records.begin() + static_cast<std::ptrdiff_t>(random.below(records.size())),
+                     Record(record));
+      return;
+    case 2:
+      std::swap(records[at], records[random.below(records.size())]);
+      return;
+    case 3:
+      if (!record.values.empty())
+        record.values.erase(record.values.begin() +
+                            static_cast<std::ptrdiff_t>(random.below(record.values.size())));
+      return;
+    case 4:
+      if (!record.values.empty()) {
+        Int& value = record.values[random.below(record.values.size())];
+        value = -value;
+      }
+      return;
+    case 5:
+      record.tag = records[random.below(records.size())].tag;
+      return;
+    default:
+      if (!record.values.empty())
+        record.values[random.below(record.values.size())] +=
+            random.percent(50) ? 1 : -static_cast<Int>(random.between(1, 3));
+  }
+}
+
+std::string bytes_of(const std::vector<Record>& records) {
+  std::string bytes = "qcert 1 bin\n";
+  const auto put = [&](std::uint64_t value) {
+    for (; value >= 128; value >>= 7) bytes += static_cast<char>(value | 128);
+    bytes += static_cast<char>(value);
+  };
+  for (const Record& record : records) {
+    bytes += record.tag;
+    put(record.values.size());
+    for (const Int value : record.values)
+      put(static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63));
+  }
+  return bytes;
 }
 
 }  // namespace quadrille_check::support

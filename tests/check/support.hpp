@@ -7,6 +7,7 @@
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
 #include "rules/checker.hpp"
+#include "support/random.hpp"
 
 namespace quadrille_check::support {
 
@@ -36,6 +37,11 @@ struct Answer {
 [[nodiscard]] std::vector<Record> records_of(const std::string& certificate);
 /// As a certificate in the text form.
 [[nodiscard]] std::string text_of(const std::vector<Record>& records);
+
+/// In the binary form, which may say what the text form cannot.
+[[nodiscard]] std::string bytes_of(const std::vector<Record>& records);
+/// One change to a random record, of a kind that might matter.
+void mutate(std::vector<Record>& records, quadrille::support::Random& random);
 
 /// What variables and nodes are in one plan, given by its paths.
 class Interpretation {

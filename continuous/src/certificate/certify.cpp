@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "certificate/timed_meanings.hpp"
@@ -141,6 +140,18 @@ ProofDraft draft_proof(Model& model, const sat::Engine& engine, std::span<const 
   return DraftMaker(model, engine).draft(covers, objective, free_bound);
 }
 
+ProofDraft draft_without_search(const Instance& instance, Cost bound) {
+  ProofDraft draft;
+  draft.bound = bound;
+  if (instance.obstacles().empty()) return draft;
+  LimitMonitor unlimited{Limits()};
+  const Scene scene(instance, unlimited);
+  CertificateWriter writer;
+  Standing(scene, 0).write(writer);
+  draft.records = std::move(writer.text());
+  return draft;
+}
+
 Certificate certify(const Instance& instance, Objective objective, const ProofDraft& draft,
                     const std::optional<Plan>& plan) {
   CertificateWriter head, tail;
@@ -164,14 +175,7 @@ Certificate certify(const Instance& instance, Objective objective, const ProofDr
 }
 
 std::string why_no_certificate(const Instance& instance) {
-  if (instance.has_goal_sets()) return "agents with several goals";
-  if (!instance.obstacles().empty()) return "moving obstacles";
-  for (const Agent& agent : instance.agents()) {
-    if (std::holds_alternative<ConvexPolygon>(agent.body)) return "polygons";
-    if (agent.under_way) return "agents that are under way";
-    if (agent.leaves) return "agents that leave";
-  }
-  return "";
+  return instance.has_goal_sets() ? "agents with several goals" : "";
 }
 
 }  // namespace quadrille::continuous

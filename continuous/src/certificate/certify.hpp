@@ -30,8 +30,11 @@ struct ProofDraft {
                                      std::span<const ProvedCover> covers, Objective objective,
                                      Cost free_bound);
 
-/// A certificate of the draft's claim, with the plan if there is one; nullopt if it is a claim that
-/// there is no plan and the draft does not say so.
+/// Where no search was needed, or none began: what agents cost when each is alone is `bound` or
+/// more.
+[[nodiscard]] ProofDraft draft_without_search(const Instance& instance, Cost bound);
+
+/// A certificate of the draft's claim, with the plan if there is one.
 [[nodiscard]] Certificate certify(const Instance& instance, Objective objective,
                                   const ProofDraft& draft, const std::optional<Plan>& plan);
 

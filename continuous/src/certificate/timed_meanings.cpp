@@ -8,14 +8,14 @@ namespace why = sat::why;
 
 namespace {
 
-constexpr int kPathRule = 11, kEncounterRule = 12, kCeilingRule = 13;
-/// Of a record `f`: bans follow.
-constexpr int kBans = 4;
+constexpr int kEncounterRule = 12, kCeilingRule = 13;
 
 }  // namespace
 
 TimedMeanings::TimedMeanings(const Model& model, int num_variables)
-    : model_(model), num_variables_(num_variables) {
+    : model_(model),
+      standing_(model.scene(), num_variables),
+      num_variables_(standing_.last_variable()) {
   for (const auto& goal : model.goal_obstacles())
     goals_[{goal.agent, model.obstacles()[goal.obstacle].allowed.dimacs()}] = goal.obstacle;
 }
@@ -31,7 +31,7 @@ bool TimedMeanings::declare(int variable, CertificateWriter& writer) const {
     case Kind::rest:  // of agents with several goals
       return false;
     case Kind::usage:
-      declare_bans(variable, model_.obstacles()[meaning.obstacle], writer);
+      declare(variable, model_.obstacles()[meaning.obstacle], writer);
       return true;
     case Kind::cost:
       writer.negate(variable);
@@ -39,18 +39,6 @@ bool TimedMeanings::declare(int variable, CertificateWriter& writer) const {
       return true;
   }
   return false;
-}
-
-void TimedMeanings::declare_bans(int variable, const Obstacle& obstacle,
-                                 CertificateWriter& writer) {
-  std::vector<std::int64_t> values{variable, agent_number(obstacle.agent), kBans};
-  for (const Ban& ban : obstacle.bans) {
-    values.push_back(ban.kind == Ban::Kind::stay ? 1 : 0);
-    values.push_back(static_cast<std::int64_t>(ban.place));
-    values.push_back(ban.when.begin.value());
-    values.push_back(ban.when.end >= kForever ? -1 : ban.when.end.value());
-  }
-  writer.record('f', values);
 }
 
 std::vector<ObstacleId> TimedMeanings::goals_around(AgentId agent,
@@ -69,7 +57,7 @@ void TimedMeanings::prepare(const sat::Why& reason, std::span<const sat::Lit> cl
   for (const ObstacleId goal : goals_around(path->agent, clause))
     if (const auto [made, is_new] = variables_.try_emplace(goal, num_variables_ + 1); is_new) {
       ++num_variables_;
-      declare_bans(made->second, model_.obstacles()[goal], writer);
+      declare(made->second, model_.obstacles()[goal], writer);
     }
 }
 
@@ -77,6 +65,8 @@ sat::ProofMeanings::Rule TimedMeanings::rule_of(const sat::Why& reason,
                                                 std::span<const sat::Lit> clause) const {
   if (const auto* path = std::get_if<why::Path>(&reason)) {
     Rule rule{kPathRule, {agent_number(path->agent)}};
+    if (const int standing = standing_.variable(path->agent); standing != 0)
+      rule.parameters.push_back(standing);
     for (const ObstacleId goal : goals_around(path->agent, clause))
       rule.parameters.push_back(variables_.at(goal));
     return rule;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificate/standing.hpp"
 #include "quadrille/sat/certificate.hpp"
 #include "theory/model.hpp"
 
@@ -18,6 +19,7 @@ class TimedMeanings final : public sat::ProofMeanings {
   /// `model` outlives it. `num_variables`: of the engine.
   TimedMeanings(const Model& model, int num_variables);
 
+  void begin(sat::CertificateWriter& writer) const override { standing_.write(writer); }
   [[nodiscard]] bool declare(int variable, sat::CertificateWriter& writer) const override;
   void prepare(const sat::Why& why, std::span<const sat::Lit> clause,
                sat::CertificateWriter& writer) const override;
@@ -25,13 +27,16 @@ class TimedMeanings final : public sat::ProofMeanings {
   [[nodiscard]] sat::Lit cost_above(AgentId /*agent*/, Cost /*cost*/) const override { return {}; }
 
  private:
-  static void declare_bans(int variable, const Obstacle& obstacle, sat::CertificateWriter& writer);
+  static void declare(int variable, const Obstacle& obstacle, sat::CertificateWriter& writer) {
+    declare_bans(variable, obstacle.agent, obstacle.bans, writer);
+  }
   /// The obstacles that other agents at their goals are to this one, by the literals of a clause
   /// about its paths.
   [[nodiscard]] std::vector<ObstacleId> goals_around(AgentId agent,
                                                      std::span<const sat::Lit> clause) const;
 
   const Model& model_;
+  const Standing standing_;
   std::map<std::pair<AgentId, int>, ObstacleId> goals_;  // by agent and literal
   // Obstacles at goals have no variable in the solver.
   mutable std::map<ObstacleId, int> variables_;

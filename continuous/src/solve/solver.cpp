@@ -114,7 +114,8 @@ class Domain {
       outcome.no_certificate =
           "clauses did not show that there is no plan, and certificates know of nothing else";
     } else {
-      if (!proof_) proof_.emplace().bound = floor_.value_or(bound_without_claim(outcome));
+      if (!proof_)
+        proof_ = draft_without_search(instance_, floor_.value_or(bound_without_claim(outcome)));
       outcome.certificate =
           continuous::certify(instance_, options_.objective, *proof_, outcome.plan);
     }

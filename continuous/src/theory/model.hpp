@@ -38,6 +38,7 @@ class Model final : public lazy::Vocabulary {
   explicit Model(Scene& scene);
 
   [[nodiscard]] Scene& scene() noexcept { return scene_; }
+  [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   // Of the scene:
   [[nodiscard]] const Instance& instance() const noexcept { return scene_.instance(); }
   [[nodiscard]] LimitMonitor& limits() noexcept { return scene_.limits(); }

@@ -36,6 +36,7 @@ class Trimmer {
     if (!log_.fault().empty()) fail(log_.fault());
     wanted_.assign(wanted.begin(), wanted.end());
     if (fault_.empty()) {
+      meanings_.begin(writer_);
       mark({});
       write_needed();
     }

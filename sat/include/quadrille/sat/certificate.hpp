@@ -60,6 +60,8 @@ class ProofMeanings {
   virtual ~ProofMeanings() = default;
   /// Writes what the variable means. False: it is none of this domain.
   [[nodiscard]] virtual bool declare(int variable, CertificateWriter& writer) const = 0;
+  /// Writes what comes before all clauses, and perhaps some.
+  virtual void begin(CertificateWriter& /*writer*/) const {}
   /// Writes what the rule of a lemma needs besides, before `rule_of` is asked for it.
   virtual void prepare(const Why& /*why*/, std::span<const Lit> /*clause*/,
                        CertificateWriter& /*writer*/) const {}
