@@ -176,6 +176,7 @@ Int cost_of(const Road& road, const std::vector<std::vector<Int>>& paths, bool i
   for (std::size_t i = 0; i < paths.size(); ++i) {
     motions.push_back(replay(road, static_cast<int>(i), paths[i]));
     const Int own = motions.back().back().begin;
+    require(own <= kNever - cost, "the plan is too long");
     cost = is_makespan ? std::max(cost, own) : cost + own;
     for (std::size_t j = 0; j < i; ++j)
       require(!do_collide(motions[i], motions[j]), "two agents of the plan collide");

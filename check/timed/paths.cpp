@@ -30,20 +30,21 @@ class Bans {
     const auto [known, is_new] = safe_.try_emplace(vertex);
     std::vector<SafeStay>& safe = known->second;
     if (!is_new) return safe;
-    std::vector<Int> begins{0};
-    const auto bans = stays_.find(vertex);
-    if (bans != stays_.end())
-      for (const TimedBan& ban : bans->second)
-        if (ban.end > 0 && ban.end < kNever) begins.push_back(ban.end);
-    std::sort(begins.begin(), begins.end());
-    begins.erase(std::unique(begins.begin(), begins.end()), begins.end());
-    for (const Int from : begins) {
-      Int until = kNever;
-      if (bans != stays_.end())
-        for (const TimedBan& ban : bans->second)
-          if (ban.end > from) until = std::min(until, ban.begin);
+    std::vector<TimedBan> bans;
+    if (const auto at = stays_.find(vertex); at != stays_.end()) bans = at->second;
+    std::sort(bans.begin(), bans.end(),
+              [](const TimedBan& a, const TimedBan& b) { return a.end > b.end; });
+    // Of those that end after it, the first one begins at `until`.
+    Int until = kNever;
+    const auto add = [&](Int from) {
       if (until >= from) safe.push_back({from, until, kNever});
+    };
+    for (std::size_t k = 0; k < bans.size() && bans[k].end > 0; ++k) {
+      if (bans[k].end < kNever && (k == 0 || bans[k - 1].end > bans[k].end)) add(bans[k].end);
+      until = std::min(until, bans[k].begin);
     }
+    add(0);
+    std::reverse(safe.begin(), safe.end());
     return safe;
   }
 

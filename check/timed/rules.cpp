@@ -8,6 +8,8 @@
 namespace quadrille_check {
 namespace {
 
+/// Of two agents' bans: no search makes so many, and no file keeps the checker for hours.
+constexpr std::size_t kMostPairs = 1'000'000;
 constexpr Int kPaths = 11, kEncounter = 12, kCeiling = 13;
 
 Motion move(const Road& road, int agent, int edge, Int begin) {
@@ -82,6 +84,7 @@ bool TimedRules::has_no_path(std::span<const Int> parameters, std::span<const In
 bool TimedRules::is_encounter(std::span<const Int> clause) const {
   if (clause.size() != 2 || clause[0] < 0 || clause[1] < 0) return false;
   const TimedVariable &x = meanings_.variable(clause[0]), &y = meanings_.variable(clause[1]);
+  if (x.bans.size() * y.bans.size() > kMostPairs) return false;
   if (x.agent == y.agent || x.kind != TimedVariable::Kind::does_not || x.kind != y.kind)
     return false;
   return std::all_of(x.bans.begin(), x.bans.end(), [&](const TimedBan& a) {
@@ -152,6 +155,7 @@ void TimedRules::raise_free_cost(std::span<const Int> clause) {
   require(level.has_value(), "a literal says nothing of a cost");
   Int& known = free_costs_[static_cast<std::size_t>(level->first)];
   if (level->second <= known) return;
+  require(level->second <= kNever - free_sum_, "a cost is too large");
   free_sum_ += level->second - known;
   known = level->second;
 }

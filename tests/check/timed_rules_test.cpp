@@ -360,6 +360,75 @@ TEST(TimedRules, ClaimsAreNoMoreThanWhatWasProved) {
   EXPECT_FALSE(accepts(kLane, late + "z 1\n"));
 }
 
+// A pocket beside the middle of a lane, in which one of two agents waits.
+TEST(TimedRules, PlansAreReplayed) {
+  const auto pocket = [](const std::string& first, const std::string& more = "") {
+    return read_road(parse_json(R"({"quadrille": "instance", "version": 1, "resolution": 1,
+        "roadmap": {"vertices": [[0, 0], [10, 0], [20, 0], [10, 10]],
+        "edges": [[0, 1], [1, 0], [1, 2], [2, 1], [1, 3], [3, 1]]}, "agents": [
+        {"start": 0, "goal": 2, "radius": 3)" +
+                                first + R"(}, {"start": 2, "goal": 0, "radius": 3}])" + more +
+                                "}"));
+  };
+  const Road road = pocket("");
+  const auto verdict = [](const Road& on, const std::string& first, const std::string& second,
+                          const std::string& claim = "q 40 0") {
+    return ask(on, "qcert 1 text\ni 2 0\n" + claim + "\np 0 " + first + "\np 1 " + second + "\n");
+  };
+  const std::string passes = "1 0 10 3 10 20 1 20 30 2 30 40", lane = "1 9 19 0 19 29";
+  const Answer answer = verdict(road, passes, lane);
+  ASSERT_TRUE(answer.is_verified) << answer.reason;
+  EXPECT_EQ(answer.verdict.cost, 40 + 29);
+  const auto refusal = [&](const std::string& first, const std::string& second) {
+    return verdict(road, first, second).reason;
+  };
+  EXPECT_NE(refusal(passes, "1 8 18 0 18 28").find("collide"), std::string::npos);
+  EXPECT_NE(refusal(passes, "1 0 10 0 10 20").find("collide"), std::string::npos);
+  EXPECT_NE(refusal("1 0 10 2 10 20", lane).find("collide"), std::string::npos);
+  EXPECT_NE(refusal("1 0 10 3 10 20 1 20 30 2 30 39", lane).find("not"), std::string::npos);
+  EXPECT_NE(refusal("1 0 10 3 9 19 1 20 30 2 30 40", lane).find("back"), std::string::npos);
+  EXPECT_NE(refusal("3 0 10 1 20 30 2 30 40", lane).find("not"), std::string::npos);
+  EXPECT_NE(refusal("1 0 10 3 10 20", lane).find("ends elsewhere"), std::string::npos);
+  EXPECT_NE(verdict(road, passes, lane, "u 90\nq 80 0").reason.find("more than"),
+            std::string::npos);
+  EXPECT_TRUE(verdict(pocket(R"(, "deadline": 40)"), passes, lane).is_verified);
+  EXPECT_FALSE(verdict(pocket(R"(, "deadline": 39)"), passes, lane).is_verified);
+  EXPECT_FALSE(verdict(pocket(R"(, "release": 1)"), passes, lane).is_verified);
+  // What is in the way of the pocket until it is too late, or in time.
+  const auto obstacle = [](int end) {
+    return R"(, "obstacles": [{"radius": 1, "path": [{"at": [10, 10], "arrive": 0, "depart": )" +
+           std::to_string(end) + R"(}], "at_end": "leave"}])";
+  };
+  EXPECT_TRUE(verdict(pocket("", obstacle(16)), passes, lane).is_verified);
+  EXPECT_FALSE(verdict(pocket("", obstacle(17)), passes, lane).is_verified);
+}
+
+TEST(TimedRules, MovingObstaclesAreInTheWay) {
+  // One stands at (10, 10) until 16, nearer than 4 to whoever has been on the way there for 6
+  // ticks.
+  const Road road = read_road(parse_json(R"({"quadrille": "instance", "version": 1, "resolution": 1,
+      "roadmap": {"vertices": [[0, 0], [10, 0], [10, 10]], "edges": [[0, 1], [1, 2]]},
+      "agents": [{"start": 1, "goal": 2, "radius": 3}], "obstacles": [{"radius": 1, "path":
+      [{"at": [10, 10], "arrive": 0, "depart": 16}], "at_end": "leave"}]})"));
+  const auto clause = [](const std::string& ban, const std::string& rule) {
+    return "f 1 0 4 " + ban + "\nc 2 0 19\nc 3 0 20\n" + rule;
+  };
+  const std::string passes = "a 11 0 1 | -3\n";
+  EXPECT_TRUE(accepts(road, clause("0 1 0 10", "a 11 0 1 | -2\n")));
+  EXPECT_FALSE(accepts(road, clause("0 1 0 10", passes)));  // it may set out at 10
+  EXPECT_FALSE(accepts(road, clause("0 1 0 11", passes)));  // the obstacle has left by then
+  EXPECT_FALSE(accepts(road, clause("0 0 0 10", "a 11 0 1 | -2\n")));
+  EXPECT_FALSE(accepts(road, clause("0 1 0 -1", passes)));
+  EXPECT_TRUE(accepts(road, "f 1 0 4 1 2 0 16\nc 2 0 15\na 11 0 1 | -2\n"));
+  EXPECT_FALSE(accepts(road, "f 1 0 4 1 2 0 16\nc 2 0 16\na 11 0 1 | -2\n"));
+  EXPECT_FALSE(accepts(road, "f 1 0 4 1 2 0 18\nc 2 0 15\na 11 0 1 | -2\n"));
+  // What an agent costs alone is more then.
+  const std::string raised = clause("0 1 0 10", "a 11 0 1 | -2\n");
+  EXPECT_TRUE(accepts(road, raised + "b 1\nq 20 0\n"));
+  EXPECT_FALSE(accepts(road, raised + "b 1\nq 21 0\n"));
+  EXPECT_FALSE(accepts(road, "f 1 0 4 0 1 0 10\nc 2 0 19\na 11 0 | -2 -1\nb 1\n"));
+}
+
 // ---- trees --------------------------------------------------------------------------------------
 
 /// Cores with the variables that they are made of, and what the least costs are that hit them.

@@ -10,7 +10,9 @@
 
 #include "check/timed_support.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "quadrille/continuous/session.hpp"
 #include "quadrille/continuous/solver.hpp"
+#include "quadrille/core/grouping.hpp"
 #include "support/environment.hpp"
 #include "support/random.hpp"
 
@@ -182,6 +184,104 @@ TEST(TimedCertificate, IsTheSameEachTime) {
   }
 }
 
+/// Components are solved apart without a certificate.
+bool is_connected(const Instance& instance) {
+  const Roadmap& roadmap = instance.roadmap();
+  Grouping grouping(roadmap.num_vertices());
+  for (std::size_t e = 0; e < roadmap.num_edges(); ++e)
+    grouping.join(roadmap.edge(EdgeId(e)).from.index(), roadmap.edge(EdgeId(e)).to.index());
+  for (std::size_t v = 1; v < roadmap.num_vertices(); ++v)
+    if (grouping.root(v) != grouping.root(0)) return false;
+  return true;
+}
+
+TEST(TimedCertificate, LeavesTheSearchWithoutPairsAsItIs) {
+  std::size_t compared = 0;
+  for (std::uint32_t seed = 60'000; seed < 60'000 + scaled(300); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Case c = draw(seed);
+    if (!is_connected(c.instance)) continue;
+    c.options.threads = 1;
+    c.options.joint_work = c.options.route_work = 0;
+    c.options.settings.pair_first_try = std::int64_t{1} << 40;  // never
+    const SolveOutcome a = solve(c.instance, c.options).value();
+    c.options.proof = false;
+    const SolveOutcome b = solve(c.instance, c.options).value();
+    EXPECT_FALSE(b.certificate);
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.cost, b.cost);
+    EXPECT_EQ(a.lower_bound, b.lower_bound);
+    EXPECT_EQ(a.plan, b.plan);
+    EXPECT_EQ(a.statistics.conflicts, b.statistics.conflicts);
+    EXPECT_EQ(a.statistics.decisions, b.statistics.decisions);
+    EXPECT_EQ(a.statistics.clauses, b.statistics.clauses);
+    EXPECT_EQ(a.statistics.cores, b.statistics.cores);
+    compared += a.statistics.conflicts > 0 ? 1 : 0;
+  }
+  EXPECT_GT(compared, 0U);
+}
+
+// Times and costs of certificates count from the moment at which the instance begins.
+TEST(TimedCertificate, IsThatOfTheInstanceBegunAt0) {
+  for (std::uint32_t seed = 70'000; seed < 70'000 + scaled(60); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Case c = draw(seed);
+    std::vector<Agent> agents;
+    constexpr Ticks kNow = 1'000'000;
+    for (Agent agent : c.instance.agents()) {
+      if (agent.release > 0) agent.release += kNow;
+      if (agent.deadline) *agent.deadline += kNow;
+      agents.push_back(agent);
+    }
+    std::vector<MovingObstacle> obstacles = c.instance.obstacles();
+    for (MovingObstacle& obstacle : obstacles)
+      for (MovingObstacle::Stop& stop : obstacle.path) {
+        stop.arrive += kNow;
+        stop.depart += kNow;
+      }
+    const Instance later = Instance::make(c.instance.shared_roadmap(), std::move(agents),
+                                          c.instance.resolution(), {}, std::move(obstacles), kNow)
+                               .value();
+    const SolveOutcome a = solve(c.instance, c.options).value();
+    const SolveOutcome b = solve(later, c.options).value();
+    ASSERT_EQ(a.status, b.status);
+    ASSERT_EQ(a.certificate.has_value(), b.certificate.has_value());
+    if (!b.certificate) continue;
+    EXPECT_EQ(a.certificate->bytes, b.certificate->bytes);
+    const Answer answer = ask(checked(later), b.certificate->bytes);
+    EXPECT_TRUE(answer.is_verified) << answer.reason;
+  }
+}
+
+TEST(TimedCertificate, OfASessionRestsOnNoEarlierAnswer) {
+  std::size_t solved = 0;
+  for (std::uint32_t seed = 80'000; seed < 80'000 + scaled(60); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Case c = draw(seed);
+    Session session(c.instance.shared_roadmap(), c.instance.resolution(), c.instance.obstacles());
+    std::vector<MemberId> members;
+    for (const Agent& agent : c.instance.agents())
+      if (auto member = session.add(agent)) members.push_back(member.value());
+    Random random(seed);
+    for (int round = 0; round < 4 && !members.empty(); ++round) {
+      const auto instance = session.instance();
+      const auto outcome = session.solve(c.options);
+      if (instance && outcome && outcome->certificate) {
+        ++solved;
+        const Answer answer = ask(checked(*instance), outcome->certificate->bytes);
+        EXPECT_TRUE(answer.is_verified) << answer.reason;
+        EXPECT_EQ(answer.verdict.bound, outcome->lower_bound);
+        EXPECT_EQ(answer.verdict.cost, outcome->cost);
+      }
+      const MemberId member = members[random.below(members.size())];
+      Agent agent = session.agent(member);
+      agent.release = Ticks(static_cast<std::int64_t>(random.below(9)));
+      if (!agent.under_way) static_cast<void>(session.change(member, agent));
+    }
+  }
+  EXPECT_GT(solved, 0U);
+}
+
 TEST(TimedCertificate, ProvesTheBoundThatALimitLeaves) {
   std::size_t below = 0, without_plan = 0;
   for (std::uint32_t seed = 30'000; seed < 30'000 + scaled(30); ++seed) {
@@ -220,7 +320,8 @@ TEST(TimedCertificate, DoesNotProveWhatTheUserClaims) {
     if (!claimed || !claimed->certificate) continue;  // the claim is refuted
     ++claims;
     EXPECT_LE(*claimed->certificate->claim, plain.lower_bound);
-    EXPECT_TRUE(ask(checked(c.instance), claimed->certificate->bytes).is_verified);
+    const Answer answer = ask(checked(c.instance), claimed->certificate->bytes);
+    EXPECT_TRUE(answer.is_verified) << answer.reason;
   }
   EXPECT_GT(claims, 0);
 }

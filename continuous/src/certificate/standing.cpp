@@ -60,7 +60,8 @@ void Standing::write(CertificateWriter& writer) const {
     const int bans_variable = variable(agent), cost_variable = bans_variable + 1;
     declare_bans(bans_variable, agent, bans, writer);
     const Cost cost = scene_.free_cost(agent);
-    if (cost == 0) continue;
+    // Where it has no way at all, a limit came before that was seen.
+    if (cost == 0 || cost >= kAnyCost) continue;
     writer.negate(cost_variable);
     ProofMeanings::declare_cost(cost_variable, agent, cost - 1, writer);
     const sat::Lit clause[] = {sat::Lit::from_dimacs(cost_variable)};
