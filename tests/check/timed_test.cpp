@@ -10,6 +10,7 @@
 
 #include "check/timed_support.hpp"
 #include "continuous/support/random_instance.hpp"
+#include "continuous/support/whole_places.hpp"
 #include "quadrille/continuous/session.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/core/grouping.hpp"
@@ -46,7 +47,8 @@ Case draw(std::uint32_t seed) {
   asked.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
   asked.under_way_percent = 10;
   asked.max_radius = 6;
-  Case drawn{random_instance(seed, asked), {}};
+  // The checker reads no places between whole coordinates.
+  Case drawn{with_whole_places(random_instance(seed, asked)), {}};
   drawn.options.proof = true;
   drawn.options.seed = static_cast<std::uint32_t>(random.below(3));
   if (random.percent(25)) drawn.options.objective = Objective::makespan;
@@ -337,6 +339,20 @@ TEST(TimedCertificate, RefusesWhatThereIsNoRuleFor) {
   EXPECT_EQ(refusal(1), "");
   asked.goal_sets_percent = 100;
   EXPECT_NE(refusal(1).find("several goals"), std::string::npos);
+  // In the middle of a move of five ticks, two of which lie behind.
+  auto roadmap =
+      Roadmap::make({{0, 0}, {10, 0}, {4, 0}},
+                    {{VertexId(0), VertexId(1), Ticks{5}}, {VertexId(2), VertexId(1), Ticks{3}}},
+                    {{VertexId(2), VertexId(0), VertexId(1), 2, 5}});
+  ASSERT_TRUE(roadmap.has_value()) << roadmap.error().to_string();
+  Agent agent;
+  agent.start = VertexId(2);
+  agent.goals = VertexId(1);
+  const Instance under_way = Instance::make(std::move(roadmap).value(), {agent}).value();
+  EXPECT_TRUE(solve(under_way, SolveOptions()).has_value());
+  const auto outcome = solve(under_way, options);
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_NE(outcome.error().message.find("middle of moves"), std::string::npos);
 }
 
 // ---- mutations ----------------------------------------------------------------------------------
