@@ -356,8 +356,23 @@ TEST(TimedRules, ClaimsAreNoMoreThanWhatWasProved) {
   EXPECT_FALSE(accepts(kLane, late + "q 41 1\n"));
   EXPECT_EQ(rejection(kLane, late + "q 20 1\n", true), "");
   EXPECT_NE(rejection(kLane, late + "q 20 2\n", true), "");
-  // That there is no plan is about all plans.
   EXPECT_FALSE(accepts(kLane, late + "z 1\n"));
+}
+
+TEST(TimedRules, ThereIsNoPlanByAnEmptyClauseAboutAllPlans) {
+  const auto hurried = [](const std::string& deadline) {
+    return lanes(R"({"start": 0, "goal": 2, "radius": 3, "deadline": )" + deadline +
+                 R"(}, {"start": 2, "goal": 0, "radius": 3, "deadline": )" + deadline + "}");
+  };
+  const std::string proof =
+      "f 1 0 4 0 0 0 1\nf 2 1 4 0 3 0 1\na 12 | 1 2\na 11 0 | -1\na 11 1 | -2\nl 0 2 3 1\n";
+  EXPECT_TRUE(accepts(hurried("20"), proof + "z 4\n"));
+  EXPECT_FALSE(accepts(hurried("21"), proof + "z 4\n"));
+  EXPECT_FALSE(accepts(hurried("20"), proof + "z 1\n"));
+  EXPECT_FALSE(accepts(hurried("20"), "u 90\n" + proof + "z 4\n"));
+  EXPECT_TRUE(accepts(hurried("20"), "u 90\n" + proof + "q 90 4\n"));
+  EXPECT_FALSE(accepts(hurried("20"), "u 90\n" + proof + "q 91 4\n"));
+  EXPECT_FALSE(accepts(hurried("20"), proof + "z 4\nq 40 0\n"));
 }
 
 // A pocket beside the middle of a lane, in which one of two agents waits.
