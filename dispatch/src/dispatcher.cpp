@@ -18,6 +18,8 @@ namespace {
 
 /// Who looked for a path in vain tries again after so many calls at most.
 constexpr std::int64_t kMostPatience = 16;
+/// In calls, where nothing else was asked for: how late a robot may be.
+constexpr std::int64_t kPatience = 8;
 
 std::string name(AgentId robot) { return "robot " + std::to_string(robot.index()); }
 Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
@@ -64,7 +66,7 @@ class Dispatcher::Parts {
       robot.limit = std::max(robot.limit, robot.clock);
     }
     finish_tasks(news);
-    const Ticks patience = options_.patience > 0 ? options_.patience : 2 * duration;
+    const Ticks patience = options_.patience > 0 ? options_.patience : kPatience * duration;
     if (now_ - earliest_that_moves() > patience) news.has_new_origin = begin_anew();
     plan(limits, news);
     release(duration);
@@ -148,7 +150,7 @@ class Dispatcher::Parts {
 
   /// New courses from now on, if there is need of any, and if they can be put into force.
   void plan(const Limits& limits, News& news) {
-    const Work work = next_work(robots_, *roadmap_, call_);
+    const Work work = next_work(robots_, *roadmap_, call_, now_);
     if (options_.effort <= Effort() || (work.order.empty() && !options_.improves)) return;
     std::vector<continuous::Agent> agents = this->agents();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
@@ -176,7 +178,7 @@ class Dispatcher::Parts {
         if (other.busy_until) return false;
         return !other.is_bound || is_more_urgent(robot, other);
       };
-      const bool is_sent = robot.is_bound ? replanner_.send(i) : replanner_.send(i, may_push);
+      const bool is_sent = robot.wants_path() ? replanner_.send(i, may_push) : replanner_.send(i);
       sent_.emplace_back(i, is_sent);
     }
   }
@@ -200,10 +202,11 @@ class Dispatcher::Parts {
     for (const auto& [id, is_sent] : sent_) {
       Robot& robot = robots_[id.index()];
       const bool is_done = is_sent && !news.was_too_late;
-      robot.patience = is_done ? 1 : std::min(2 * robot.patience, kMostPatience);
-      if (!is_done && !robot.is_bound) robot.next_try = call_ + robot.patience;
       if (is_done) robot.is_held = false;
-      if (is_done && !robot.is_bound) ++news.num_sent;
+      if (!robot.wants_path()) continue;
+      if (is_done) ++news.num_sent;
+      robot.patience = is_done ? 1 : std::min(2 * robot.patience, kMostPatience);
+      if (!is_done) robot.next_try = call_ + robot.patience;
     }
     for (const AgentId i : snapshot.instance.agent_ids()) {
       Robot& robot = robots_[i.index()];

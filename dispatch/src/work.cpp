@@ -19,19 +19,27 @@ Goals anywhere(const Robot& robot) {
 }  // namespace
 
 Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
-               std::int64_t call) {
+               std::int64_t call, Ticks now) {
   Work work;
   std::vector<std::size_t> waiting;
+  std::vector<AgentId> held;
   geometry::BodyIndex taken;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const Robot& robot = robots[i];
     work.goals.push_back(anywhere(robot));
     if (robot.wants_path()) waiting.push_back(i);
     const bool keeps = robot.is_bound || robot.busy_until;
+    if (robot.is_held && !keeps && !robot.wants_path()) {
+      held.emplace_back(i);
+      // It need not go anywhere: where it stands, or its lane ends, will do.
+      const VertexId here = spot_at(robot.course, now).to;
+      if (here != robot.course.back().spot.from)
+        work.goals.back() = Goals({robot.course.back().spot.from, here});
+    }
     if (!keeps) continue;
     taken.add(i, robot.agent.body, roadmap.place(robot.course.back().spot.from));
     if (!robot.is_bound || robot.busy_until) continue;
-    if (robot.is_held) work.order.push_back(AgentId(i));
+    if (robot.is_held) held.emplace_back(i);
     work.goals.back() = robot.tasks.front().task.goals;
   }
   std::stable_sort(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
@@ -48,6 +56,7 @@ Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap
     work.goals[i] = Goals(std::move(free));
     work.order.push_back(AgentId(i));
   }
+  work.order.insert(work.order.end(), held.begin(), held.end());
   return work;
 }
 

@@ -8,7 +8,8 @@
 
 namespace quadrille::dispatch {
 
-/// Who is to get a path, the most urgent first, and where each robot may go.
+/// Who is to get a path, the most urgent first, then those that have one and wait on it for others
+/// that are late; and where each robot may go.
 struct Work {
   std::vector<AgentId> order;
   std::vector<Goals> goals;  ///< By robot.
@@ -18,6 +19,6 @@ struct Work {
 /// no path before it is done there. Robots that need no path have the end of their course as a
 /// goal, and another vertex beside it.
 [[nodiscard]] Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
-                             std::int64_t call);
+                             std::int64_t call, Ticks now);
 
 }  // namespace quadrille::dispatch

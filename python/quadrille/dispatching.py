@@ -54,7 +54,7 @@ class Dispatcher:
         effort: For looking for paths, per call: nominal seconds, counted in steps, so that the same
             calls give the same answers. With 0 nobody gets a new path.
         reach: How far an agent may go beyond where it was last seen, as time on its course; 0: any.
-        patience: An agent that is later is planned for from where it is; 0: the time of two calls.
+        patience: An agent that is later is planned for from where it is; 0: the time of eight calls.
         improves: Whether what is left of the effort makes paths cheaper.
 
     Raises:

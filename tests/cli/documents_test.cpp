@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 constexpr const char* kCommands[] = {"solve",    "explain", "verify",  "info",
                                      "generate", "convert", "view",    "execute-check",
-                                     "simulate", "export",  "campaign"};
+                                     "simulate", "dispatch", "export", "campaign"};
 
 class DocumentsTest : public CliTest {
  protected:

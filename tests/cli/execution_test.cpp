@@ -106,6 +106,41 @@ TEST_F(ExecutionCliTest, SimulateMeasuresClearanceOnARoadmap) {
             report["plan_makespan"].get<double>());
 }
 
+TEST_F(ExecutionCliTest, DispatchLetsAFleetWork) {
+  const std::vector<std::string> generated = {"generate", "--kind",   "roadmap", "--vertices", "40",
+                                              "--agents", "5",        "--seed",  "3",
+                                              "--instance-output", path("roads.json")};
+  ASSERT_EQ(run(generated).code, 0) << run(generated).err;
+  const std::vector<std::string> asked = {
+      "dispatch", "--instance", path("roads.json"), "--steps", "150",         "--delays",
+      "0.01",     "--longest",  "5",                "--json",  "-", "--effort", "3"};
+  const Finished finished = run(asked);
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  json report = json::parse(finished.out);
+  EXPECT_EQ(report["quadrille"], "dispatch");
+  EXPECT_EQ(report["robots"], 5);
+  EXPECT_EQ(report["calls"], 150);
+  EXPECT_EQ(report["contacts"], 0);
+  EXPECT_GT(report["tasks_done"], 5);
+  EXPECT_GE(report["gap_percent_mean"].get<double>(), 0);
+  // The same again, but for the time that calls take.
+  json again = json::parse(run(asked).out);
+  for (json* const one : {&report, &again})
+    for (const char* key : {"call_s_mean", "call_s_95", "call_s_longest"}) one->erase(key);
+  EXPECT_EQ(report, again);
+}
+
+TEST_F(ExecutionCliTest, DispatchEndsWhenAllThereIsToDoIsDone) {
+  const Finished finished = run(discs("dispatch", {"--own-tasks", "--json", "-"}));
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  const json report = json::parse(finished.out);
+  EXPECT_EQ(report["tasks_done"], report["robots"]);
+  EXPECT_LT(report["calls"], 1000);
+  EXPECT_EQ(run(square("dispatch")).code, 64);
+  EXPECT_THAT(run(square("dispatch")).err, HasSubstr("dispatch needs a roadmap"));
+  EXPECT_THAT(run(discs("dispatch", {"--step", "1e30"})).err, HasSubstr("--step is too long"));
+}
+
 TEST_F(ExecutionCliTest, WrongOptionsAreRefused) {
   solve_to_plan(square("solve"));
   const auto refuses = [&](const std::vector<std::string>& more, const std::string& why) {

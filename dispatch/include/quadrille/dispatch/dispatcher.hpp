@@ -32,7 +32,7 @@ struct Options {
   /// How far a robot may go beyond where it was last seen, in ticks of its clock; 0: as far as the
   /// others allow. What a robot that is late has been allowed by then it is taken to have done.
   Ticks reach = 0;
-  /// A robot that is later than that is planned for from where it is; 0: twice a call's time.
+  /// A robot that is later than that is planned for from where it is; 0: that of eight calls.
   Ticks patience = 0;
   /// What is left of the effort makes paths cheaper.
   bool improves = true;

@@ -21,7 +21,7 @@ struct DispatchOptions {
   /// gets a new path.
   Seconds effort = Seconds(0.02);
   Seconds reach = {};     ///< How far a robot may go beyond where it was last seen; 0 s: any.
-  Seconds patience = {};  ///< Who is later is planned for from where it is; 0 s: two calls.
+  Seconds patience = {};  ///< Who is later is planned for from where it is; 0 s: eight calls.
   bool improves = true;   ///< What is left of the effort makes paths cheaper.
 };
 
