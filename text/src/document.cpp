@@ -147,6 +147,13 @@ bool Checker::integer(Document::Node node, std::int64_t min, std::int64_t max,
                         std::to_string(max) + ", found " + kind_name(document_.kind(node)));
 }
 
+bool Checker::boolean(Document::Node node, bool& value) {
+  if (document_.kind(node) != Document::Kind::boolean)
+    return fail(node, "expected true or false, found " + kind_name(document_.kind(node)));
+  value = document_.boolean(node);
+  return true;
+}
+
 bool Checker::number(Document::Node node, double& value) {
   const Document::Kind kind = document_.kind(node);
   if (kind != Document::Kind::integer && kind != Document::Kind::real)

@@ -60,7 +60,7 @@ class JsonHandler {
 
   // The events of nlohmann's SAX interface.
   bool null() { return builder_.add_opaque(Document::Kind::null, line()); }
-  bool boolean(bool) { return builder_.add_opaque(Document::Kind::boolean, line()); }
+  bool boolean(bool value) { return builder_.add_boolean(value, line()); }
   bool number_integer(std::int64_t value) {
     // Only numbers with a sign come here. -0 is a number, but no integer anywhere.
     return value == 0 ? number_float(-0.0, {}) : builder_.add_integer(value, line());

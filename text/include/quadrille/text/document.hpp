@@ -35,6 +35,8 @@ class Document {
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
   [[nodiscard]] Kind kind(Node node) const { return static_cast<Kind>(items_[node].kind); }
   [[nodiscard]] long line(Node node) const { return items_[node].line; }
+  /// Requires a boolean of a JSON file.
+  [[nodiscard]] bool boolean(Node node) const { return items_[node].payload != 0; }
   /// Requires an integer.
   [[nodiscard]] std::int64_t integer(Node node) const { return items_[node].payload; }
   /// Requires an integer or a real number.
@@ -77,7 +79,10 @@ class DocumentBuilder {
   bool add_real(double value, long line) {
     return add(Document::Kind::real, std::bit_cast<std::int64_t>(value), line);
   }
-  /// Null or a boolean, whose values no format needs.
+  bool add_boolean(bool value, long line) {
+    return add(Document::Kind::boolean, value ? 1 : 0, line);
+  }
+  /// Null, or what no format needs.
   bool add_opaque(Document::Kind kind, long line) { return add(kind, 0, line); }
   bool add_text(std::string_view text, long line);
   bool open(Document::Kind container, long line);
@@ -136,6 +141,7 @@ class Checker {
   /// Integer or real, and finite.
   bool number(Document::Node node, double& value);
   bool text(Document::Node node, std::string_view& value);
+  bool boolean(Document::Node node, bool& value);
   /// Two integers in an array.
   bool pair(Document::Node node, std::int64_t max, std::int64_t& first, std::int64_t& second);
 
