@@ -47,7 +47,7 @@ _quadrille() {
     return
   fi
 
-  local instance="--map --scen --agents --instance --passable --blocked --share-goals
+  local instance="--map --scen --agents --instance --passable --blocked --share-goals --leave --robust
     --roadmap --task --radius --speed --neighbourhood --level --vehicle-type --resolution --headings --turn"
   local options=
   case $command in

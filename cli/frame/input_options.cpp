@@ -9,6 +9,7 @@
 
 #include "frame/arguments.hpp"
 #include "quadrille/continuous/grid.hpp"
+#include "quadrille/discrete/instance.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -71,6 +72,12 @@ void add_input_options(CLI::App& app, InputOptions& options) {
               "Map letters that are blocked besides @, O and T");
   for (const char* name : {"--passable", "--blocked"}) app.get_option(name)->group(group);
   add_sharing(app, options.sharing).group(group);
+  app.add_flag("--leave", options.leave, "On grids and graphs: all agents vanish at their goals")
+      ->group(group);
+  add_integer(app, "--robust", options.robust, 0, discrete::kMaxRuleTime - 1,
+              "On grids and graphs: nobody is in a place within K timesteps after another agent")
+      ->type_name("K")
+      ->group(group);
 }
 
 void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {

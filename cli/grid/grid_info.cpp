@@ -158,9 +158,10 @@ ExitCode print_grid_info(const InputOptions& options) {
   console.print(describe_shape(shape_of(instance.graph())));
   console.print(describe_distances(instance));
   const discrete::Feasibility verdict = check_feasibility(instance);
-  console.print(!verdict.is_decided ? "feasible   not known: too many choices of goals\n"
-                : verdict.feasible  ? "feasible   yes, some plan exists\n"
-                                    : fmt::format("feasible   no: {}\n", verdict.reason));
+  console.print(!instance.is_plain()  ? "feasible   not known: the instance has rules\n"
+                : !verdict.is_decided ? "feasible   not known: too many choices of goals\n"
+                : verdict.feasible    ? "feasible   yes, some plan exists\n"
+                                      : fmt::format("feasible   no: {}\n", verdict.reason));
   return finish(console);
 }
 

@@ -206,6 +206,8 @@ ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments, InputWatch& 
     return usage_error(app, "some agents have several goals, which needs --system dpll");
   if (input->instance.has_goal_sets() && arguments.options.proof)
     return usage_error(app, "some agents have several goals, which --proof does not know yet");
+  if (!input->instance.is_plain() && (arguments.options.proof || arguments.options.explain))
+    return usage_error(app, "the instance has rules, which --proof and explanations do not know");
   return solve_and_deliver(GridSolve(arguments, *input, used), arguments);
 }
 

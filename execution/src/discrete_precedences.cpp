@@ -41,6 +41,11 @@ std::vector<TimedMove> moves_of(AgentId agent, const discrete::Path& path, Times
 }  // namespace
 
 Result<Precedences> precedences(const discrete::Instance& instance, const discrete::Plan& plan) {
+  if (!instance.is_plain())
+    return Error{ErrorCode::out_of_range,
+                 "the execution of plans on grids and graphs knows no rules such as agents that "
+                 "leave, blockages or robust plans",
+                 {}};
   const auto report = discrete::verify(instance, plan);
   if (!report.valid()) return Error{ErrorCode::invalid_plan, report.violations.front().message, {}};
   Precedences result;

@@ -22,6 +22,18 @@ std::string name_other_map(const discrete::Scenario& scenario, const std::string
   return named.stem() == std::filesystem::path(map).stem() ? "" : named.string();
 }
 
+/// With the rules that options give to all agents.
+Result<discrete::Instance> with_rules(const discrete::Instance& instance,
+                                      const InputOptions& options) {
+  if (!options.leave && !options.robust) return instance;
+  std::vector<discrete::Agent> agents(instance.agents().begin(), instance.agents().end());
+  for (discrete::Agent& agent : agents) agent.leaves = agent.leaves || options.leave;
+  discrete::Rules rules = instance.rules();
+  if (options.robust) rules.robust = static_cast<Timestep>(*options.robust);
+  return discrete::Instance::make(instance.shared_graph(), std::move(agents), instance.now(),
+                                  std::move(rules));
+}
+
 Result<GridInput> load_map(const InputOptions& options) {
   auto map = discrete::read_map(std::filesystem::path(options.map), options.letters);
   if (!map) return with_letters_hint(map.error());
@@ -39,6 +51,7 @@ Result<GridInput> load_map(const InputOptions& options) {
       options.agents ? static_cast<std::size_t>(*options.agents) : scenario->rows.size();
   auto instance = discrete::make_instance(std::move(graph), *scenario, agents);
   if (instance) instance = with_shared_goals(std::move(instance).value(), options);
+  if (instance) instance = with_rules(*instance, options);
   if (!instance) return instance.error();
   return GridInput{std::move(instance.value()),
                    options.map,
@@ -111,6 +124,8 @@ Result<GridInput> load_grid_input(const InputOptions& options) {
     instance = instance->with_agents(std::move(agents));
     names.agents.resize(static_cast<std::size_t>(*options.agents));
   }
+  if (instance) instance = with_rules(*instance, options);
+  if (!instance) return instance.error();
   return GridInput{
       std::move(instance.value()), options.instance, options.instance, 0, {}, "", std::move(names)};
 }

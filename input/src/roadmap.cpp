@@ -230,6 +230,7 @@ bool is_roadmap(InputOptions& input, const RoadmapOptions& options) {
 
 std::string check_roadmap_options(const RoadmapOptions& options, const InputOptions& input,
                                   Need need) {
+  if (input.leave || input.robust) return kRulesNeedGrid;
   if (options.headings) return check_turning_options(options, input, need);
   const auto has_task = [&] {
     return !options.task.empty() || (input.instance_text && is_robot_runners(*input.instance_text));

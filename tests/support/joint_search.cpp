@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "support/ruled_search.hpp"
+
 namespace quadrille::discrete::support {
 namespace {
 
@@ -222,6 +224,7 @@ std::string replay_step(const Instance& instance, const At& at, std::size_t t) {
 
 JointAnswer joint_search(const Instance& instance, Objective objective, std::size_t max_states) {
   max_states = std::min<std::size_t>(max_states, kNoState);
+  if (!instance.is_plain()) return ruled_search(instance, objective, max_states);
   JointSearch search(instance, objective);
   const std::size_t num_states = search.count_states(max_states);
   if (num_states > max_states) return {};
@@ -229,6 +232,7 @@ JointAnswer joint_search(const Instance& instance, Objective objective, std::siz
 }
 
 std::string replay(const Instance& instance, const Plan& plan) {
+  if (!instance.is_plain()) return replay_rules(instance, plan);
   if (plan.paths.size() != instance.num_agents()) return "not one path per agent";
   std::size_t length = 1;
   for (const AgentId i : instance.agent_ids()) {

@@ -95,6 +95,7 @@ std::string find_fault_of_plan(const Instance& instance, Objective objective,
 /// The instance without a vertex that is nobody's start or only goal; nullopt if it is.
 std::optional<Instance> without_vertex(const Instance& instance, VertexId vertex) {
   const Graph& graph = instance.graph();
+  if (!instance.is_plain()) return std::nullopt;
   for (const Agent& task : instance.agents())
     if (task.start == vertex || task.goals == Goals(vertex)) return std::nullopt;
   const auto renumber = [vertex](VertexId v) { return v < vertex ? v : VertexId(v.index() - 1); };
@@ -258,7 +259,7 @@ Instance without_agent(const Instance& instance, AgentId agent) {
   std::vector<Agent> tasks;
   for (const AgentId i : instance.agent_ids())
     if (i != agent) tasks.push_back(instance.agents()[i]);
-  return Instance::make(instance.shared_graph(), std::move(tasks)).value();
+  return instance.with_agents(std::move(tasks)).value();
 }
 
 Instance shrink(Instance instance, const std::function<bool(const Instance&)>& fails) {

@@ -25,8 +25,18 @@ std::string name_of(Violation::Kind kind) {
       return "wrong goal";
     case Violation::Kind::not_adjacent:
       return "jump";
+    case Violation::Kind::too_early:
+      return "too early";
+    case Violation::Kind::too_late:
+      return "too late";
+    case Violation::Kind::waypoint:
+      return "waypoint missed";
+    case Violation::Kind::obstacle:
+      return "blocked";
     case Violation::Kind::vertex:
       return "vertex conflict";
+    case Violation::Kind::too_close:
+      return "too close in time";
     case Violation::Kind::swap:
       return "swap conflict";
   }
@@ -74,7 +84,8 @@ void add_map(const discrete::Graph& graph, Scene& scene) {
   scene.places = lay_out(graph);
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
     for (const VertexId w : graph.neighbours(v))
-      if (v < w) scene.links.push_back({v.index(), w.index()});
+      if (const bool is_one_way = !graph.adjacent(w, v); is_one_way || v < w)
+        scene.links.push_back({v.index(), w.index(), is_one_way});
 }
 
 }  // namespace
@@ -87,9 +98,9 @@ Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan)
     const discrete::Agent& task = instance.agents()[i];
     const bool has_path = i.index() < plan.paths.size() && !plan.paths[i].empty();
     const auto goal = goal_shown(task.goals, has_path ? plan.paths[i].back() : VertexId());
-    SceneAgent agent{task.start.index(), goal.index(), 0, {}, {}, {}};
+    SceneAgent agent{task.start.index(), goal.index(), 0, {}, {}, {}, task.leaves};
     const Timestep alone = distances_to_nearest(instance.graph(), task.goals)[task.start];
-    if (alone != discrete::kUnreachable) agent.free_cost = alone;
+    if (alone != discrete::kUnreachable && instance.is_plain()) agent.free_cost = alone;
     if (i.index() < plan.paths.size())
       agent.stops = stops_of(instance.graph(), plan.paths[i], plan.now);
     if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive - scene.now;

@@ -74,6 +74,11 @@ Feasibility as_answer(const Component& component, Obstruction obstruction) {
 }  // namespace feasibility
 
 Feasibility check_feasibility(const Instance& instance) {
+  if (!instance.is_plain()) {
+    Feasibility open;
+    open.is_decided = false;
+    return open;
+  }
   if (instance.has_goal_sets()) return choose_goals(instance, nullptr).feasibility;
   using namespace feasibility;
   const Graph& graph = instance.graph();

@@ -76,10 +76,10 @@ bool read_now(Checker& checker, Document::Node node, Timestep& now) {
 }
 
 Result<Instance> make_instance(Checker& checker, Graph graph, const std::vector<PlacedTask>& tasks,
-                               Timestep now) {
+                               Timestep now, Rules rules) {
   const auto start = [](const Agent& agent) { return &agent.start; };
   const auto only_goal = [](const Agent& agent) {
-    return agent.goals.is_single() ? agent.goals.vertices().data() : nullptr;
+    return agent.goals.is_single() && !agent.leaves ? agent.goals.vertices().data() : nullptr;
   };
   if (!all_distinct(checker, graph, tasks, start, &PlacedTask::start, "start") ||
       !all_distinct(checker, graph, tasks, only_goal, &PlacedTask::goal, "goal"))
@@ -87,7 +87,7 @@ Result<Instance> make_instance(Checker& checker, Graph graph, const std::vector<
   std::vector<Agent> plain;
   plain.reserve(tasks.size());
   for (const PlacedTask& placed : tasks) plain.push_back(placed.task);
-  return Instance::make(std::move(graph), std::move(plain), now);
+  return Instance::make(std::move(graph), std::move(plain), now, std::move(rules));
 }
 
 }  // namespace quadrille::discrete

@@ -42,9 +42,9 @@ struct PlacedTask {
 bool read_now(Checker& checker, Document::Node node, Timestep& now);
 
 /// The instance of these tasks. Errors (invalid_instance): two equal starts, or two equal goals of
-/// agents that have no other one, at the later of the two places.
+/// agents that stay there and have no other one, at the later of the two places.
 [[nodiscard]] Result<Instance> make_instance(Checker& checker, Graph graph,
-                                             const std::vector<PlacedTask>& tasks,
-                                             Timestep now = 0);
+                                             const std::vector<PlacedTask>& tasks, Timestep now = 0,
+                                             Rules rules = {});
 
 }  // namespace quadrille::discrete

@@ -10,6 +10,7 @@
 
 #include "formats/document.hpp"
 #include "formats/instance_document.hpp"
+#include "formats/rules_document.hpp"
 #include "formats/text_input.hpp"
 #include "quadrille/discrete/movingai.hpp"
 #include "quadrille/text/goals.hpp"
@@ -27,13 +28,15 @@ class JsonInstanceReader {
       : document_(document), check_(document), most_vertices_(most_vertices) {}
 
   Result<Instance> run(text::Names* names) {
-    std::optional<Node> kind, version, now, graph, grid, agents;
+    std::optional<Node> kind, version, now, graph, grid, agents, obstacles, robust;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"now", &now, false},
                                           {"graph", &graph, false},
                                           {"grid", &grid, false},
-                                          {"agents", &agents}}) ||
+                                          {"agents", &agents},
+                                          {"obstacles", &obstacles, false},
+                                          {"robust", &robust, false}}) ||
         !read_version(*kind, *version) || (now && !read_now(check_, *now, now_)))
       return check_.error();
     if (graph.has_value() == grid.has_value()) {
@@ -42,8 +45,13 @@ class JsonInstanceReader {
     }
     if (graph ? !read_graph(*graph) : !read_grid(*grid)) return check_.error();
     std::vector<PlacedTask> tasks;
-    if (!read_agents(*agents, tasks)) return check_.error();
-    auto instance = make_instance(check_, std::move(*graph_), tasks, now_);
+    Rules rules;
+    RulesReader reader(check_, document_, *graph_, now_);
+    if (!read_agents(*agents, reader, tasks) ||
+        (obstacles && !reader.read_obstacles(*obstacles, rules.blockages)) ||
+        (robust && !reader.read_robust(*robust, rules.robust)))
+      return check_.error();
+    auto instance = make_instance(check_, std::move(*graph_), tasks, now_, std::move(rules));
     if (instance && names != nullptr) *names = std::move(names_);
     return instance;
   }
@@ -59,12 +67,18 @@ class JsonInstanceReader {
   }
 
   bool read_graph(Node node) {
-    std::optional<Node> vertices, edges;
+    std::optional<Node> vertices, edges, directed, one_way;
     std::int64_t count = 0;
-    if (!check_.members(node, {{"vertices", &vertices}, {"edges", &edges}}) ||
+    bool is_directed = false;
+    if (!check_.members(node, {{"vertices", &vertices},
+                               {"edges", &edges},
+                               {"directed", &directed, false},
+                               {"one_way", &one_way, false}}) ||
         !check_.integer(*vertices, 0, kMaxDeclaredVertices, count) ||
-        !check_.array(*edges, "edges"))
+        !check_.array(*edges, "edges") || (directed && !check_.boolean(*directed, is_directed)))
       return false;
+    if (is_directed && one_way)
+      return check_.fail(*one_way, "all edges of a directed graph lead one way");
     if (!has_most_vertices(check_, *vertices, count, most_vertices_)) return false;
     std::vector<Graph::Edge> list;
     std::vector<std::tuple<std::int64_t, std::int64_t, Node>> sorted;
@@ -78,10 +92,24 @@ class JsonInstanceReader {
       if (a == b) return check_.fail(e, ErrorCode::invalid_instance, "the edge is a loop");
       list.emplace_back(VertexId(static_cast<std::size_t>(a)),
                         VertexId(static_cast<std::size_t>(b)));
-      sorted.emplace_back(std::min(a, b), std::max(a, b), e);
+      if (is_directed)
+        sorted.emplace_back(a, b, e);
+      else
+        sorted.emplace_back(std::min(a, b), std::max(a, b), e);
     }
     if (!no_edge_twice(sorted)) return false;
-    auto graph = Graph::make(static_cast<std::size_t>(count), list);
+    const auto size = static_cast<std::size_t>(count);
+    auto graph = is_directed ? Graph::make_directed(size, list) : Graph::make(size, list);
+    if (!graph) return check_.fail(node, graph.error().code, graph.error().message);
+    graph_ = std::move(graph).value();
+    return !one_way || read_one_way(*one_way);
+  }
+
+  /// The edges that lead from their first place to their second only.
+  bool read_one_way(Node node) {
+    std::vector<Graph::Edge> arcs;
+    if (!read_edges(check_, document_, *graph_, node, arcs)) return false;
+    auto graph = graph_->with_one_way(arcs);
     if (!graph) return check_.fail(node, graph.error().code, graph.error().message);
     graph_ = std::move(graph).value();
     return true;
@@ -101,9 +129,12 @@ class JsonInstanceReader {
   }
 
   bool read_grid(Node node) {
-    std::optional<Node> width, height, rows;
+    std::optional<Node> width, height, rows, one_way;
     std::int64_t w = 0, h = 0;
-    if (!check_.members(node, {{"width", &width}, {"height", &height}, {"rows", &rows}}) ||
+    if (!check_.members(node, {{"width", &width},
+                               {"height", &height},
+                               {"rows", &rows},
+                               {"one_way", &one_way, false}}) ||
         !check_.integer(*width, 1, kMaxMapCells, w) || !check_.integer(*height, 1, kMaxMapCells, h))
       return false;
     if (w * h > kMaxMapCells)
@@ -128,18 +159,23 @@ class JsonInstanceReader {
     const auto count = std::count(passable.begin(), passable.end(), true);
     if (!has_most_vertices(check_, node, count, most_vertices_)) return false;
     graph_ = Graph::grid(static_cast<std::int32_t>(w), static_cast<std::int32_t>(h), passable);
-    return true;
+    return !one_way || read_one_way(*one_way);
   }
 
-  bool read_agents(Node agents, std::vector<PlacedTask>& tasks) {
+  bool read_agents(Node agents, RulesReader& reader, std::vector<PlacedTask>& tasks) {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> places;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
       std::optional<Node> start, name;
       text::GoalNodes goals;
+      RulesReader::OfAgent rules;
       if (!check_.members(a, {{"start", &start},
                               {"goal", &goals.goal, false},
                               {"goals", &goals.goals, false},
+                              {"release", &rules.release, false},
+                              {"deadline", &rules.deadline, false},
+                              {"at_goal", &rules.at_goal, false},
+                              {"waypoints", &rules.waypoints, false},
                               {"name", &name, false}}))
         return false;
       auto& own = names_.agents.emplace_back();
@@ -151,7 +187,8 @@ class JsonInstanceReader {
       };
       const auto in_words = [&](VertexId v) { return vertex_name(*graph_, v); };
       if (!vertex(*start, task.start) ||
-          !text::read_goals(check_, document_, a, goals, vertex, in_words, task.goals))
+          !text::read_goals(check_, document_, a, goals, vertex, in_words, task.goals) ||
+          !reader.read_agent(rules, task))
         return false;
       tasks.push_back({std::move(task), *start, goals.node()});
     }
@@ -166,7 +203,8 @@ class JsonInstanceReader {
   text::Names names_;
 };
 
-void write_grid(std::ostream& out, const GridLayout& grid) {
+void write_grid(std::ostream& out, const Graph& graph) {
+  const GridLayout& grid = *graph.layout();
   out << "  \"grid\": {\n    \"width\": " << grid.width() << ",\n    \"height\": " << grid.height()
       << ",\n    \"rows\": [";
   std::string row;
@@ -175,7 +213,9 @@ void write_grid(std::ostream& out, const GridLayout& grid) {
     for (std::int32_t x = 0; x < grid.width(); ++x) row += grid.vertex_at({x, y}) ? '.' : '@';
     out << (y == 0 ? "\n      \"" : ",\n      \"") << row << '"';
   }
-  out << "\n    ]\n  }";
+  out << "\n    ]";
+  write_one_way(out, graph);
+  out << "\n  }";
 }
 
 void write_graph(std::ostream& out, const Graph& graph) {
@@ -183,11 +223,13 @@ void write_graph(std::ostream& out, const Graph& graph) {
   bool first = true;
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
     for (const VertexId w : graph.neighbours(v)) {
-      if (w < v) continue;
+      if (w < v && graph.adjacent(w, v)) continue;
       out << (first ? "\n      [" : ",\n      [") << v.value() << ", " << w.value() << ']';
       first = false;
     }
-  out << (first ? "]\n  }" : "\n    ]\n  }");
+  out << (first ? "]" : "\n    ]");
+  write_one_way(out, graph);
+  out << "\n  }";
 }
 
 }  // namespace
@@ -217,20 +259,18 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion << ",\n";
   if (instance.now() > 0) out << "  \"now\": " << instance.now() << ",\n";
   if (graph.layout())
-    write_grid(out, *graph.layout());
+    write_grid(out, graph);
   else
     write_graph(out, graph);
-  const auto place = [&](VertexId v) {
-    if (!graph.layout()) return std::to_string(v.value());
-    const Cell cell = graph.layout()->cell_of(v);
-    return "[" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + "]";
-  };
+  write_rules(out, graph, instance.rules());
+  const auto place = [&](VertexId v) { return place_in_json(graph, v); };
   out << ",\n  \"agents\": [";
   bool first = true;
   for (const AgentId i : instance.agent_ids()) {
     const Agent& task = instance.agents()[i];
     out << (first ? "\n" : ",\n") << "    {\"start\": " << place(task.start) << ", ";
     text::write_goals(out, task.goals, place);
+    write_agent_rules(out, graph, task);
     if (const std::string* name = names.agent(i.index()))
       out << ", \"name\": " << text::quoted_json(*name);
     out << '}';

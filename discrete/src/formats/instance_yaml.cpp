@@ -208,6 +208,10 @@ std::optional<Error> write_instance_yaml(std::ostream& out, const std::string& f
                                          const Instance& instance, const text::Names& names) {
   if (!instance.graph().layout())
     return Error{ErrorCode::invalid_instance, "this YAML format needs a grid", {file, 0}};
+  if (!instance.is_plain())
+    return Error{ErrorCode::invalid_instance,
+                 "this YAML format knows no rules, such as one-way edges or agents that leave",
+                 {file, 0}};
   if (instance.now() != 0)
     return Error{ErrorCode::invalid_instance,
                  "instances of this YAML format begin at timestep 0, and this one at " +

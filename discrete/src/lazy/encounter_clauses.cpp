@@ -9,19 +9,37 @@ namespace quadrille::discrete {
 
 std::vector<ObstacleId> EncounterClauses::exclude(const Encounter& e, Timestep cap,
                                                   FormulaWriter& writer) {
-  if (e.kind == Encounter::Kind::rest && paths_.path(e.second).back() == e.vertex)
+  const auto& agents = model_.instance().agents();
+  if (e.kind == Encounter::Kind::rest && paths_.path(e.second).back() == e.vertex &&
+      !agents[e.second].leaves)
     return {model_.end(e.first, e.vertex, writer), model_.end(e.second, e.vertex, writer)};
-  if (e.kind == Encounter::Kind::rest && cap - model_.price(e.vertex) <= e.timestep)
-    return {model_.keep_off_goal(e.second, e.first, {e.vertex, e.timestep}, writer)};
-  if (e.kind != Encounter::Kind::rest)
+  // The other one keeps off from `robust` timesteps before the rest on.
+  const Timestep rest_from = e.second_timestep() + model_.instance().rules().robust;
+  if (e.kind == Encounter::Kind::rest && cap - model_.price(e.vertex) <= rest_from &&
+      !model_.distances(e.second).is_inevitable(e.vertex, e.second_timestep()))
+    return {model_.keep_off_goal(e.second, e.first, {e.vertex, rest_from}, writer)};
+  const bool may_widen =
+      e.gap == 0 && agents[e.first].waypoints.empty() && agents[e.second].waypoints.empty();
+  if (e.kind != Encounter::Kind::rest && may_widen)
     if (auto usages = exclude_corridor(e, writer); !usages.empty()) return usages;
   if (e.kind == Encounter::Kind::swap)
     return {model_.edge(e.first, e.vertex, e.to, e.timestep, writer),
             model_.edge(e.second, e.vertex, e.to, e.timestep, writer)};
-  if (e.kind == Encounter::Kind::vertex)
+  if (e.kind == Encounter::Kind::vertex && may_widen)
     if (auto usages = exclude_rectangle(e, writer); !usages.empty()) return usages;
-  return {model_.point(e.first, {e.vertex, e.timestep}, writer),
-          model_.point(e.second, {e.vertex, e.timestep}, writer)};
+  return exclude_windows(e, writer);
+}
+
+std::vector<ObstacleId> EncounterClauses::exclude_windows(const Encounter& e,
+                                                          FormulaWriter& writer) {
+  std::vector<ObstacleId> usages;
+  const Timestep first = std::min(e.timestep, e.second_timestep());
+  for (const AgentId i : {e.first, e.second})
+    if (!model_.distances(i).is_inevitable(e.vertex, first))
+      usages.push_back(model_.window(i, e.vertex, first, writer));
+  // Clauses about two come with the windows.
+  if (usages.size() < 2) write(usages, sat::why::Vertex{}, writer);
+  return usages;
 }
 
 std::vector<ObstacleId> EncounterClauses::exclude_corridor(const Encounter& e,

@@ -12,9 +12,9 @@
 namespace quadrille::discrete {
 
 /// Turns collisions of current paths into clauses over usage literals, the widest that are known to
-/// hold. A collision with an agent at rest excludes its goal for ever, or that two
-/// agents end there; one where two paths cross,
-/// the crossing of a whole rectangle; one in a corridor, that both pass it in these times.
+/// hold. A collision with an agent at rest excludes its goal for ever, or that two agents end
+/// there; one where two paths cross, the crossing of a whole rectangle; one in a corridor, that
+/// both pass it in these times.
 class EncounterClauses {
  public:
   /// Both outlive the object.
@@ -30,6 +30,8 @@ class EncounterClauses {
   /// Each returns nothing if it does not apply.
   std::vector<ObstacleId> exclude_corridor(const Encounter& encounter, FormulaWriter& writer);
   std::vector<ObstacleId> exclude_rectangle(const Encounter& encounter, FormulaWriter& writer);
+  /// Without the window of an agent that is there whatever it does.
+  std::vector<ObstacleId> exclude_windows(const Encounter& encounter, FormulaWriter& writer);
   void write(std::vector<ObstacleId>& usages, const sat::Why& why, FormulaWriter& writer);
 
   LazyModel& model_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
+#include <span>
 
 namespace quadrille::discrete {
 
@@ -21,8 +23,13 @@ class ExplicitPaths::AgentFormula final : public MddPaths::Formula {
     return model_.new_vertex(agent_, {v, t}, writer_);
   }
   Lit delay_at_least(Timestep delay) override {
-    const Timestep free_cost = model_.distances(agent_).free_cost();
-    return model_.cost_above(agent_, free_cost + delay - 1, writer_);
+    const AgentDistances& d = model_.distances(agent_);
+    const Timestep cost = d.length() + delay;
+    if (cost > d.free_cost()) return model_.cost_above(agent_, cost - 1, writer_);
+    // Nobody costs less: a literal that is true.
+    const Lit truth = model_.new_vertex(agent_, {d.start_state(), 0}, writer_);
+    add(std::span(&truth, 1));
+    return truth;
   }
   void add(std::span<const Lit> clause) override {
     writer_.add({sat::why::ExplicitPath{agent_}, clause, {}, false});
@@ -38,9 +45,10 @@ class ExplicitPaths::AgentFormula final : public MddPaths::Formula {
 std::int64_t ExplicitPaths::size(AgentId agent, Timestep max_delay) const {
   const AgentDistances& d = model_.distances(agent);
   std::int64_t size = 0;
-  for (const VertexId v : IdRange<VertexId>(model_.instance().graph().num_vertices())) {
+  for (const VertexId v : IdRange<VertexId>(d.states().num_vertices())) {
     if (d.from_start(v) == kUnreachable) continue;
-    const Timestep slack = d.from_start(v) + d.to_goal(v) - d.free_cost();
+    if (d.to_goal(v) == kUnreachable) continue;
+    const Timestep slack = d.from_start(v) + d.to_goal(v) - d.length();
     size += std::max(0, max_delay - slack + 1);
   }
   return size;
@@ -49,24 +57,58 @@ std::int64_t ExplicitPaths::size(AgentId agent, Timestep max_delay) const {
 void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer) {
   Agent& a = agents_[agent];
   // The clauses of MddPaths lead to one goal, without a price.
+  const AgentDistances& d = model_.distances(agent);
   const Goals& goals = model_.instance().agents()[agent].goals;
   if (!goals.is_single() || model_.price(goals.only()) > 0) return;
   if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
-  const Timestep delay = cap - model_.distances(agent).free_cost();
+  const Timestep delay = cap - d.length();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;
   if (delay <= old_cap) return;
   if (price_.lemmas * size(agent, delay) > price_.variables * a.num_lemmas) {
     a.next_look = 2 * a.num_lemmas;
     return;
   }
-  const Graph& graph = model_.instance().graph();
-  if (!a.paths) a.paths.emplace(graph, model_.instance().agents()[agent]);
+  const Graph& graph = d.states();
+  if (!a.paths)
+    a.paths.emplace(graph, discrete::Agent{d.start_state(), d.goal_state(goals.only())});
   AgentFormula formula(model_, agent, writer);
   if (!a.paths->extend(graph, delay, formula, nullptr)) {
     a.next_look = INT64_MAX;
     return;
   }
+  if (d.has_bans()) add_bans(agent, old_cap, writer);
   for (const ObstacleId id : a.obstacles) link(agent, id, old_cap, writer);
+}
+
+Lit ExplicitPaths::gone(AgentId agent, VertexId state, Timestep t, FormulaWriter& writer) {
+  const AgentDistances& d = model_.distances(agent);
+  if (!d.leaves() || !d.is_goal(state) || t <= d.free_cost()) return {};
+  return ~model_.cost_above(agent, t - 1, writer);
+}
+
+void ExplicitPaths::add_bans(AgentId agent, Timestep old_cap, FormulaWriter& writer) {
+  const AgentDistances& d = model_.distances(agent);
+  const MddPaths& paths = *agents_[agent].paths;
+  const auto add = [&](std::initializer_list<Lit> lits) {
+    std::vector<Lit> clause;
+    for (const Lit lit : lits)
+      if (lit.valid()) clause.push_back(lit);
+    writer.add({sat::why::ExplicitPath{agent}, clause, {}, false});
+  };
+  for (Timestep slack = old_cap + 1; slack <= paths.cap(); ++slack)
+    for (const VertexId v : IdRange<VertexId>(d.states().num_vertices())) {
+      if (d.to_goal(v) == kUnreachable) continue;
+      const Timestep t = d.time(v, slack);
+      const Lit here = paths.at(v, t);
+      if (!here.valid()) continue;
+      if (d.is_banned(d.place(v), t)) add({~here, gone(agent, v, t, writer)});
+      if (t == 0) continue;
+      // Steps into the new layer come from it or from older ones.
+      for (const VertexId u : d.states().predecessors(v))
+        if (const Lit before = paths.at(u, t - 1);
+            before.valid() && d.is_step_banned(d.place(u), d.place(v), t - 1))
+          add({~before, ~here});
+    }
 }
 
 void ExplicitPaths::link_new_obstacles(FormulaWriter& writer) {
@@ -80,13 +122,18 @@ void ExplicitPaths::link_new_obstacles(FormulaWriter& writer) {
 
 void ExplicitPaths::link(AgentId agent, ObstacleId id, Timestep old_cap, FormulaWriter& writer) {
   const MddPaths& paths = *agents_[agent].paths;
+  const AgentDistances& d = model_.distances(agent);
   const Obstacle o = model_.obstacles()[id];
   const auto is_new = [&](VertexId v, Timestep t) { return paths.mdd().slack(v, t) > old_cap; };
+  // Of a state.
   const auto visit = [&](VertexId v, Timestep t) {
     const Lit at = paths.at(v, t);
     if (!at.valid() || !is_new(v, t)) return;
-    const std::array clause{~at, o.allowed};
-    writer.add({sat::why::ExplicitPath{agent}, clause, {}, false});
+    const std::array clause{~at, o.allowed, gone(agent, v, t, writer)};
+    writer.add({sat::why::ExplicitPath{agent},
+                std::span(clause).first(clause.back().valid() ? 3 : 2),
+                {},
+                false});
   };
   const auto move = [&](VertexId v, VertexId w) {
     const Lit from = paths.at(v, o.first), to = paths.at(w, o.first + 1);
@@ -96,20 +143,22 @@ void ExplicitPaths::link(AgentId agent, ObstacleId id, Timestep old_cap, Formula
   };
   switch (o.kind) {
     case Obstacle::Kind::point:
-      visit(o.vertex, o.first);
+      d.for_each_state(o.vertex, [&](VertexId state) { visit(state, o.first); });
       break;
     case Obstacle::Kind::edge:
-      move(o.vertex, o.to);
-      move(o.to, o.vertex);
+      d.for_each_step(o.vertex, o.to, move);
+      d.for_each_step(o.to, o.vertex, move);
       break;
-    case Obstacle::Kind::range: {
-      const AgentDistances& d = model_.distances(agent);
-      const Timestep end = d.free_cost() + paths.cap() - d.to_goal(o.vertex);
-      for (Timestep t = o.first; t <= std::min(o.last, end); ++t) visit(o.vertex, t);
+    case Obstacle::Kind::range:
+      d.for_each_state(o.vertex, [&](VertexId state) {
+        if (d.to_goal(state) == kUnreachable) return;
+        const Timestep end = d.time(state, paths.cap());
+        for (Timestep t = o.first; t <= std::min(o.last, end); ++t) visit(state, t);
+      });
       break;
-    }
     case Obstacle::Kind::barrier:
-      for (const Visit& v : model_.obstacles().visits(o)) visit(v.vertex, v.timestep);
+      for (const Visit& v : model_.obstacles().visits(o))
+        d.for_each_state(v.vertex, [&](VertexId state) { visit(state, v.timestep); });
       break;
     case Obstacle::Kind::end:  // path lemmas say what follows
       break;

@@ -18,6 +18,8 @@ namespace quadrille::discrete {
 ///
 /// X(v,t) implies all usage literals of obstacles that (v,t) is part of, so the explicit paths keep
 /// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
+/// Agents
+/// whose goals are several or have prices have none.
 class ExplicitPaths {
  public:
   /// As many `variables` are worth as many path `lemmas`, at least 1. No variables: no explicit
@@ -43,7 +45,14 @@ class ExplicitPaths {
   };
   class AgentFormula;
 
+  // Delays count from the length of the way to the goal, as those of MddPaths do.
+
   [[nodiscard]] std::int64_t size(AgentId agent, Timestep max_delay) const;
+  /// X is false where rules forbid to be, for X beyond the delay `old_cap`.
+  void add_bans(AgentId agent, Timestep old_cap, FormulaWriter& writer);
+  /// Of an agent that leaves: "it arrives before `t`", for its goal, where X stays true when it is
+  /// gone. Invalid: X means by itself that it is there.
+  [[nodiscard]] sat::Lit gone(AgentId agent, VertexId state, Timestep t, FormulaWriter& writer);
   /// X implies what the obstacle's literal says, for X beyond the delay `old_cap`.
   void link(AgentId agent, ObstacleId id, Timestep old_cap, FormulaWriter& writer);
 

@@ -277,14 +277,16 @@ std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
   const Cost cost = arrival(path) + model_.price(path.back());
   switch (var.kind) {
     case VariableKind::usage:  // the negated variable: the agent does it
-      return model_.obstacles().hits(var.obstacle, path) != lit.positive();
+      return model_.obstacles().hits(var.obstacle, path,
+                                     model_.instance().agents()[var.agent].leaves) !=
+             lit.positive();
     case VariableKind::cost:  // the negated variable: the agent costs more
       return (cost >= var.cost) != lit.positive();
     case VariableKind::rest:
       return (path.back() == var.goal && cost < var.cost) == lit.positive();
     case VariableKind::own:
-      return (position(path, model_.visit(var).timestep) == model_.visit(var).vertex) ==
-             lit.positive();
+      return (model_.distances(var.agent).state_at(path, model_.visit(var).timestep) ==
+              model_.visit(var).vertex) == lit.positive();
     case VariableKind::auxiliary:
       break;
   }
@@ -300,7 +302,8 @@ std::string LazyAuditor::describe(Clause clause) const {
     text += lit.positive() != is_negated ? " +" : " -";
     if (var.kind == VariableKind::own) {
       const Visit visit = model_.visit(var);
-      text += "at(" + agent + "," + vertex_name(model_.instance().graph(), visit.vertex) + "," +
+      const VertexId place = model_.distances(var.agent).place(visit.vertex);
+      text += "at(" + agent + "," + vertex_name(model_.instance().graph(), place) + "," +
               std::to_string(visit.timestep) + ")";
     } else if (var.kind == VariableKind::auxiliary) {
       text += "v" + std::to_string(lit.variable());

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "paths/lone_agents.hpp"
+
 namespace quadrille::discrete {
 
 using sat::Lit;
@@ -14,9 +16,14 @@ LazyModel::LazyModel(const Instance& instance, std::shared_ptr<const GoalDistanc
       instance_(instance),
       goal_distances_(std::move(distances)),
       prices_(std::move(prices)) {
+  if (!instance.rules().blockages.empty())
+    blocked_ = std::make_shared<const BlockedTimes>(instance);
   distances_.reserve(instance.num_agents());
   for (const AgentId i : instance.agent_ids())
-    distances_.emplace_back(instance, *goal_distances_, i, prices_.get());
+    distances_.emplace_back(instance, *goal_distances_, i, prices_.get(), blocked_.get());
+  if (instance.is_plain()) return;
+  LoneAgents lone(instance.graph().num_vertices(), nullptr);
+  for (AgentDistances& own : distances_) own.set_free_cost(*lone.find_cost(own));
 }
 
 Lit LazyModel::new_vertex(AgentId agent, Visit visit, FormulaWriter& writer) {
@@ -45,6 +52,17 @@ ObstacleId LazyModel::point(AgentId agent, Visit visit, FormulaWriter& writer) {
   Users& users = points_[static_cast<std::uint64_t>(visit.timestep) << 32 | visit.vertex.value()];
   if (const auto known = find_user(users, agent)) return *known;
   const ObstacleId made = obstacles_.add_point(agent, make_usage(agent, writer), visit);
+  join(users, made, sat::why::Vertex{}, writer);
+  return made;
+}
+
+ObstacleId LazyModel::window(AgentId agent, VertexId v, Timestep first, FormulaWriter& writer) {
+  const Timestep robust = instance_.rules().robust;
+  if (robust == 0) return point(agent, {v, first}, writer);
+  Users& users = windows_[static_cast<std::uint64_t>(first) << 32 | v.value()];
+  if (const auto known = find_user(users, agent)) return *known;
+  const ObstacleId made =
+      obstacles_.add_range(agent, make_usage(agent, writer), v, first, first + robust);
   join(users, made, sat::why::Vertex{}, writer);
   return made;
 }
@@ -91,8 +109,9 @@ ObstacleId LazyModel::keep_off_goal(AgentId agent, AgentId resident, Visit goal,
     rest.may_end = obstacles_[end(resident, goal.vertex, writer)].allowed;
   return goal_obstacle(agent, rest, writer,
                        [&](Lit allowed) {
-                         return obstacles_.add_range(agent, allowed, goal.vertex, goal.timestep,
-                                                     kForever);
+                         const Timestep robust = instance_.rules().robust;
+                         return obstacles_.add_range(agent, allowed, goal.vertex,
+                                                     std::max(0, goal.timestep - robust), kForever);
                        })
       .first;
 }

@@ -21,8 +21,8 @@ using lazy::FormulaWriter;
 /// and literals of explicit paths.
 class LazyModel final : public lazy::Vocabulary {
  public:
-  /// Requires that all goals can be reached, and the distances of `instance`, which outlives the
-  /// model. With prices, which are those of the distances, costs include them.
+  /// Requires that all agents have a path when they are alone, and the distances of `instance`,
+  /// which outlives the model. With prices, which are those of the distances, costs include them.
   LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
             std::shared_ptr<const GoalPrices> prices = nullptr);
 
@@ -37,14 +37,21 @@ class LazyModel final : public lazy::Vocabulary {
   [[nodiscard]] Cost free_cost(AgentId agent) const override {
     return distances(agent).free_cost();
   }
+  [[nodiscard]] Cost cost_bound(AgentId agent) const override {
+    const auto deadline = distances(agent).deadline();
+    return deadline ? Cost{*deadline} + 1 : lazy::kNoCap;
+  }
   /// The literal "the agent costs more than `cost`". Requires cost >= the free cost.
   [[nodiscard]] sat::Lit cost_above(AgentId agent, Timestep cost, FormulaWriter& writer) {
     return at_least(agent, Cost{cost} + 1, writer);
   }
 
-  // The obstacle of a usage, made at the first call. Different agents' points (edges, ends) of the
-  // same place and time exclude each other by clauses that come with them.
+  // The obstacle of a usage, made at the first call. Different agents' points (windows, edges,
+  // ends) of the same place and time exclude each other by clauses that come with them.
   [[nodiscard]] ObstacleId point(AgentId agent, Visit visit, FormulaWriter& writer);
+  /// Being in `v` at any timestep from `first` on that is too near to it for another agent to be
+  /// there; where rules do not keep agents apart in time, a point.
+  [[nodiscard]] ObstacleId window(AgentId agent, VertexId v, Timestep first, FormulaWriter& writer);
   [[nodiscard]] ObstacleId edge(AgentId agent, VertexId u, VertexId v, Timestep t,
                                 FormulaWriter& writer);
   [[nodiscard]] ObstacleId range(AgentId agent, VertexId v, Timestep first, Timestep last,
@@ -55,8 +62,8 @@ class LazyModel final : public lazy::Vocabulary {
                                    FormulaWriter& writer);
   /// End in that goal, for an agent that shares it with others: of these only one may.
   [[nodiscard]] ObstacleId end(AgentId agent, VertexId goal, FormulaWriter& writer);
-  /// Keeps `agent` away from a goal of `resident` from its timestep on while that rests there and
-  /// costs no more than if it had arrived then.
+  /// Keeps `agent` away from a goal of `resident` from its timestep on, or as long before as rules
+  /// ask for, while that rests there and costs no more than if it had arrived then.
   ObstacleId keep_off_goal(AgentId agent, AgentId resident, Visit goal, FormulaWriter& writer);
 
   /// The literal "the agent is in that vertex at that timestep", or at rest there if it is its
@@ -82,9 +89,10 @@ class LazyModel final : public lazy::Vocabulary {
   const Instance& instance_;
   std::shared_ptr<const GoalDistances> goal_distances_;
   std::shared_ptr<const GoalPrices> prices_;
+  std::shared_ptr<const BlockedTimes> blocked_;  // Null: nothing is.
   std::vector<AgentDistances> distances_;
   ObstacleTable obstacles_;
-  std::unordered_map<std::uint64_t, Users> points_;
+  std::unordered_map<std::uint64_t, Users> points_, windows_;
   std::map<std::tuple<VertexId, VertexId, Timestep>, Users> edges_;
   std::map<VertexId, Users> ends_;
   std::map<std::tuple<AgentId, VertexId, Timestep, Timestep>, ObstacleId> ranges_;

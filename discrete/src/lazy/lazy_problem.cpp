@@ -27,6 +27,9 @@ LazyProblem::LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theo
     free_costs.push_back(free_cost(i));
     lower_bound_ = objective == Objective::sum_of_costs ? lower_bound_ + free_cost(i)
                                                         : std::max(lower_bound_, free_cost(i));
+    // With a clause that says that it is false.
+    if (const auto deadline = model.distances(i).deadline())
+      static_cast<void>(model.cost_above(i, *deadline, writer_));
   }
   if (engine.proof() != nullptr)
     engine.proof()->set_inputs_beyond(total_delay_.proof_number(), free_costs);

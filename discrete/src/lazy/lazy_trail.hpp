@@ -21,7 +21,8 @@ class TrailedPaths {
     return static_cast<Cost>(path.size()) - 1 + model_.price(path.back());
   }
   [[nodiscard]] bool breaks(const Path& path, ObstacleId id) const {
-    return model_.obstacles().hits(id, path);
+    const AgentId agent = model_.obstacles()[id].agent;
+    return model_.obstacles().hits(id, path, model_.instance().agents()[agent].leaves);
   }
 
  private:

@@ -92,12 +92,21 @@ void CollisionTheory::enter(Lit x, sat::TheoryContext& context) {
   const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { context.add_lemma(lemma); };
   Lit& place = occupant_.at(var.vertex, var.number);
   entered_.back().previous = place;
-  if (place.valid() && model_.variable(place).agent != var.agent) clauses_.vertex(place, x, sink);
+  const auto exclude = [&](Lit y) {
+    if (y.valid() && model_.variable(y).agent != var.agent && !is_gone(x, context) &&
+        !is_gone(y, context))
+      clauses_.vertex(y, x, sink);
+  };
+  exclude(place);
   place = x;
+  for (Timestep gap = 1; gap <= model_.robust(); ++gap) {
+    exclude(occupant_(var.vertex, var.number - gap));
+    exclude(occupant_(var.vertex, var.number + gap));
+  }
   find_swaps(x, var, sink);
   if (const auto resident = model_.resident(var.vertex); resident && *resident != var.agent) {
-    const Lit late = model_.arrival_after(*resident, var.number);
-    if (late.valid() && context.value(late) != Truth::is_true)
+    const Lit late = clauses_.late_for(*resident, var.number);
+    if (late.valid() && context.value(late) != Truth::is_true && !is_gone(x, context))
       clauses_.rest(x, *resident, late, sink);
   }
   if (schedule_.kind == CheckSchedule::Kind::propagate) deny_others(x, var, context);
@@ -107,12 +116,12 @@ void CollisionTheory::enter(Lit x, sat::TheoryContext& context) {
 // true "late" that was undone since.
 void CollisionTheory::enter_early_rest(Lit not_late, sat::TheoryContext& context) {
   const auto var = model_.variable(not_late);
-  if (var.kind != VariableKind::delay) return;
+  if (var.kind != VariableKind::delay || model_.instance().agents()[var.agent].leaves) return;
   const Mdd& mdd = model_.mdd(var.agent);
-  const Timestep t = mdd.distance() + var.number - 1;
+  const Timestep t = mdd.distance() + var.number - 1 - model_.robust();
   const Lit visitor = occupant_(mdd.task().goal(), t);
   if (!visitor.valid() || model_.variable(visitor).agent == var.agent) return;
-  if (model_.arrival_after(var.agent, t) != ~not_late) return;
+  if (clauses_.late_for(var.agent, t) != ~not_late || is_gone(visitor, context)) return;
   clauses_.rest(visitor, var.agent, ~not_late,
                 [&](const sat::Lemma& lemma) { context.add_lemma(lemma); });
 }
@@ -139,10 +148,16 @@ void CollisionTheory::find_swaps(Lit x, const MddModel::Variable& var,
   }
 }
 
+bool CollisionTheory::is_gone(Lit x, const sat::TheoryContext& context) const {
+  const Lit gone = model_.gone(x);
+  return gone.valid() && context.value(gone) == Truth::is_true;
+}
+
 void CollisionTheory::deny_others(Lit x, const MddModel::Variable& var,
                                   sat::TheoryContext& context) {
+  if (model_.gone(x).valid()) return;
   for (const Lit y : rivals_(var.vertex, var.number)) {
-    if (model_.variable(y).agent == var.agent) continue;
+    if (model_.variable(y).agent == var.agent || model_.gone(y).valid()) continue;
     if (context.value(y) != Truth::unassigned) continue;
     // Who asked for it first stays the reason: `x` may be retracted while the request still stands.
     Lit& reason = reason_[static_cast<std::size_t>(y.variable())];
@@ -168,7 +183,7 @@ void CollisionTheory::check_paths(sat::TheoryContext& context) {
   for (const AgentId i : model_.instance().agent_ids())
     plan.paths.push_back(model_.has_path(i, is_true) ? model_.extract_path(i, is_true) : Path());
   const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { context.add_lemma(lemma); };
-  for (const PathCollision& c : find_collisions(model_.instance().graph(), plan))
+  for (const PathCollision& c : find_collisions(model_.instance(), plan))
     clauses_.exclude(c, is_true, sink);
 }
 

@@ -52,6 +52,8 @@ class CollisionTheory final : public sat::Theory {
   void enter(sat::Lit x, sat::TheoryContext& context);
   void enter_early_rest(sat::Lit not_late, sat::TheoryContext& context);
   void find_swaps(sat::Lit x, const MddModel::Variable& var, const CollisionClauses::Sink& sink);
+  /// An agent that leaves is at its goal in the model, but is known to have left.
+  [[nodiscard]] bool is_gone(sat::Lit x, const sat::TheoryContext& context) const;
   void deny_others(sat::Lit x, const MddModel::Variable& var, sat::TheoryContext& context);
   void check_paths(sat::TheoryContext& context);
 

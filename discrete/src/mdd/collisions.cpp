@@ -2,6 +2,8 @@
 #include "mdd/collisions.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "mdd/usages.hpp"
 
@@ -9,7 +11,9 @@ namespace quadrille::discrete {
 
 using sat::Lit;
 
-std::vector<PathCollision> find_collisions(const Graph& graph, const Plan& plan) {
+std::vector<PathCollision> find_collisions(const Instance& instance, const Plan& plan) {
+  const Graph& graph = instance.graph();
+  const Timestep robust = instance.rules().robust;
   std::vector<PathCollision> found;
   std::size_t end = 0;
   for (const Path& path : plan.paths) end = std::max(end, path.size());
@@ -19,20 +23,39 @@ std::vector<PathCollision> find_collisions(const Graph& graph, const Plan& plan)
     AgentId agent;
   };
   IdVector<VertexId, Seen> now(graph.num_vertices()), before(graph.num_vertices());
-  const IdRange<AgentId> agents(plan.paths.size());
+  // The same by the timestep before, however long ago.
+  IdVector<VertexId, Seen> left(robust > 0 ? graph.num_vertices() : 0);
+  const IdRange<AgentId> all(plan.paths.size());
+  std::vector<AgentId> agents;  // who is still there
+  const auto is_gone = [&](AgentId i, Timestep t) {
+    const Path& path = plan.paths[i];
+    return path.empty() || (instance.agents()[i].leaves && t >= static_cast<Timestep>(path.size()));
+  };
   for (Timestep t = 0; t < static_cast<Timestep>(end); ++t) {
     std::swap(now, before);
+    agents.clear();
+    for (const AgentId i : all)
+      if (!is_gone(i, t)) agents.push_back(i);
     for (const AgentId i : agents) {
-      if (plan.paths[i].empty()) continue;
       const VertexId v = position(plan.paths[i], t);
       if (now[v].timestep == t)
         found.push_back({PathCollision::Kind::vertex, now[v].agent, i, v, v, t});
       else
         now[v] = {t, i};
     }
+    for (const AgentId i : agents) {
+      if (robust == 0) break;
+      const VertexId v = position(plan.paths[i], t);
+      const Seen& last = left[v];
+      if (last.timestep < 0 || last.agent == i || t - last.timestep > robust) continue;
+      found.push_back({PathCollision::Kind::vertex, std::min(i, last.agent),
+                       std::max(i, last.agent), v, v, i < last.agent ? t : last.timestep,
+                       i < last.agent ? last.timestep - t : t - last.timestep});
+    }
+    if (robust > 0)
+      for (const AgentId i : agents) left[position(plan.paths[i], t)] = {t, i};
     if (t == 0) continue;
     for (const AgentId i : agents) {
-      if (plan.paths[i].empty()) continue;
       const VertexId from = position(plan.paths[i], t - 1), to = position(plan.paths[i], t);
       if (from == to || before[to].timestep != t - 1) continue;
       const AgentId j = before[to].agent;
@@ -43,12 +66,27 @@ std::vector<PathCollision> find_collisions(const Graph& graph, const Plan& plan)
   return found;
 }
 
+namespace {
+
+/// A few literals, without invalid ones.
+struct Clause {
+  std::array<Lit, 4> lits;
+  std::size_t size = 0;
+  void add(Lit lit) {
+    if (lit.valid()) lits[size++] = lit;
+  }
+  [[nodiscard]] std::span<const Lit> all() const { return std::span(lits).first(size); }
+};
+
+}  // namespace
+
 void CollisionClauses::vertex(Lit x, Lit y, const Sink& sink) {
   const auto a = model_.variable(x), b = model_.variable(y);
-  const Lit clause[] = {~x, ~y};
+  Clause clause;
+  for (const Lit lit : {~x, ~y, model_.gone(x), model_.gone(y)}) clause.add(lit);
   const sat::Usage usages[] = {vertex_usage(a.agent, a.vertex, a.number),
                                vertex_usage(b.agent, b.vertex, b.number)};
-  sink({sat::why::Vertex{}, clause, usages, false});
+  sink({sat::why::Vertex{}, clause.all(), usages, false});
 }
 
 void CollisionClauses::swap(Lit x, Lit x_next, Lit y, Lit y_next, const Sink& sink) {
@@ -61,10 +99,11 @@ void CollisionClauses::swap(Lit x, Lit x_next, Lit y, Lit y_next, const Sink& si
 
 void CollisionClauses::rest(Lit x, AgentId resident, Lit late, const Sink& sink) {
   const auto a = model_.variable(x);
-  const Lit clause[] = {~x, late};
-  const sat::Usage usages[] = {rest_usage(resident, a.vertex, a.number),
+  Clause clause;
+  for (const Lit lit : {~x, late, model_.gone(x)}) clause.add(lit);
+  const sat::Usage usages[] = {rest_usage(resident, a.vertex, a.number + model_.robust()),
                                vertex_usage(a.agent, a.vertex, a.number)};
-  sink({sat::why::Goal{resident}, clause, usages, false});
+  sink({sat::why::Goal{resident}, clause.all(), usages, false});
 }
 
 }  // namespace quadrille::discrete

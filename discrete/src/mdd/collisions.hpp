@@ -17,13 +17,16 @@ struct PathCollision {
   VertexId vertex;        // of `first` at `timestep`
   VertexId to;            // swap: of `first` at timestep + 1
   Timestep timestep;
+  Timestep gap = 0;  // vertex: `second` is there that much later, or before
   friend bool operator==(const PathCollision&, const PathCollision&) = default;
 };
 
 /// All collisions of the plan, rests at the last vertices included, by timestep and agents. An
 /// empty path collides with nothing. Each vertex and timestep is reported once per agent beyond the
-/// first one there. O(agents * makespan) expected time.
-[[nodiscard]] std::vector<PathCollision> find_collisions(const Graph& graph, const Plan& plan);
+/// first one there; agents that are too near to each other in time, only with the last one before.
+/// O(agents * makespan) expected time.
+[[nodiscard]] std::vector<PathCollision> find_collisions(const Instance& instance,
+                                                         const Plan& plan);
 
 /// Writes the clauses that forbid collisions of usages, with their justification, to a sink.
 class CollisionClauses {
@@ -31,13 +34,22 @@ class CollisionClauses {
   using Sink = std::function<void(const sat::Lemma&)>;
   explicit CollisionClauses(const MddModel& model) : model_(model) {}
 
-  /// Not both X(i,v,t) and X(j,v,t). Requires two such literals of different agents.
+  // Each clause has MddModel::gone of its X literals, where there is one.
+
+  /// Not both X(i,v,t) and X(j,v,t). Requires two such literals of different agents; or of
+  /// timesteps that are too near to each other.
   void vertex(sat::Lit x, sat::Lit y, const Sink& sink);
   /// Agent i does not use (u,v) at t while j uses (v,u). Requires x = X(i,u,t), x_next =
   /// X(i,v,t+1), y = X(j,v,t), y_next = X(j,u,t+1).
   void swap(sat::Lit x, sat::Lit x_next, sat::Lit y, sat::Lit y_next, const Sink& sink);
-  /// X(j,g_i,t) -> i arrives after t. Requires x = X(j,g_i,t) and late = model.arrival_after(i, t).
+  /// X(j,g_i,t) -> i arrives after t, and as long after as rules ask for. Requires x = X(j,g_i,t)
+  /// and late = late_for(i, t).
   void rest(sat::Lit x, AgentId resident, sat::Lit late, const Sink& sink);
+
+  /// "The resident arrives so late that somebody may be at its goal at `t`", see arrival_after.
+  [[nodiscard]] sat::Lit late_for(AgentId resident, Timestep t) const {
+    return model_.arrival_after(resident, t + model_.robust());
+  }
 
   /// The clauses that exclude a collision of extracted paths. `is_true` tells the assignment that
   /// the paths come from; every clause written is false under it.
@@ -49,15 +61,15 @@ class CollisionClauses {
            model_.at(c.second, c.vertex, c.timestep + 1), sink);
       return;
     }
-    const auto y = model_.at(c.second, c.vertex, c.timestep);
-    const auto try_rest = [&](AgentId resident, sat::Lit other) {
+    const auto y = model_.at(c.second, c.vertex, c.timestep + c.gap);
+    const auto try_rest = [&](AgentId resident, sat::Lit other, Timestep t) {
       if (model_.resident(c.vertex) != resident || !other.valid()) return false;
-      const sat::Lit late = model_.arrival_after(resident, c.timestep);
+      const sat::Lit late = late_for(resident, t);
       if (!late.valid() || is_true(late)) return false;
       rest(other, resident, late, sink);
       return true;
     };
-    if (try_rest(c.first, y) || try_rest(c.second, x)) return;
+    if (try_rest(c.first, y, c.timestep + c.gap) || try_rest(c.second, x, c.timestep)) return;
     QUADRILLE_REQUIRE(x.valid() && y.valid(), "who is not at rest has a variable");
     vertex(x, y, sink);
   }

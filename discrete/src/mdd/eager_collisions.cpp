@@ -17,12 +17,13 @@ bool EagerCollisions::extend(sat::Engine& engine, LimitMonitor& limits) {
     const Lit x = Lit::from_dimacs(written_end_);
     const auto var = model_.variable(x);
     if (var.kind != MddModel::VariableKind::vertex) continue;
-    for (const Lit y : users_(var.vertex, var.number))
-      if (model_.variable(y).agent != var.agent) clauses_.vertex(y, x, sink);
+    for (Timestep t = var.number - model_.robust(); t <= var.number + model_.robust(); ++t)
+      for (const Lit y : users_(var.vertex, t))
+        if (model_.variable(y).agent != var.agent) clauses_.vertex(y, x, sink);
     users_.at(var.vertex, var.number).push_back(x);
     add_swaps(x, var, sink);
     if (const auto resident = model_.resident(var.vertex); resident && *resident != var.agent) {
-      const Lit late = model_.arrival_after(*resident, var.number);
+      const Lit late = clauses_.late_for(*resident, var.number);
       if (late.valid()) clauses_.rest(x, *resident, late, sink);
     }
   }
@@ -33,6 +34,7 @@ void EagerCollisions::add_swaps(Lit x, const MddModel::Variable& var,
                                 const CollisionClauses::Sink& sink) {
   const VertexId v = var.vertex;
   const Timestep t = var.number;
+  // Over edges that lead both ways.
   for (const VertexId u : model_.instance().graph().neighbours(v))
     for (const Timestep other_time : {t - 1, t + 1}) {
       if (other_time < 0) continue;

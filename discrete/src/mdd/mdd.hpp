@@ -46,6 +46,9 @@ class Mdd {
     return t + to_goal_[v] - distance();
   }
 
+  /// The most that one step adds to the slack: 2, or more where edges lead one way.
+  [[nodiscard]] Timestep largest_step() const noexcept { return largest_step_; }
+
  private:
   Agent task_;
   IdVector<VertexId, Timestep> to_goal_;
@@ -53,7 +56,7 @@ class Mdd {
   std::vector<VertexId> found_;  // by smallest slack
   // Vertices to look at, by smallest slack known so far, with their distance from the start.
   std::vector<std::vector<std::pair<VertexId, Timestep>>> frontier_;
-  Timestep reached_ = -1;
+  Timestep reached_ = -1, largest_step_ = 2;
 };
 
 }  // namespace quadrille::discrete

@@ -10,14 +10,23 @@ namespace quadrille::discrete {
 
 using sat::Lit;
 
-MddModel::MddModel(const Instance& instance, Objective objective)
-    : instance_(instance), objective_(objective), resident_(instance.graph().num_vertices(), 0) {
-  for (const AgentId i : instance.agent_ids())
-    resident_[instance.agents()[i].goal()] = i.value() + 1;
+bool MddModel::knows(const Instance& instance) {
+  return std::all_of(instance.agents().begin(), instance.agents().end(),
+                     [](const auto& agent) { return agent.waypoints.empty(); });
 }
 
-bool MddModel::attach(sat::Engine& engine, LimitMonitor& limits) {
+MddModel::MddModel(const Instance& instance, Objective objective)
+    : instance_(instance),
+      objective_(objective),
+      blocked_(instance),
+      resident_(instance.graph().num_vertices(), 0) {
+  for (const AgentId i : instance.agent_ids())
+    if (!instance.agents()[i].leaves) resident_[instance.agents()[i].goal()] = i.value() + 1;
+}
+
+bool MddModel::attach(sat::Engine& engine, LimitMonitor& limits, IdVector<AgentId, Timestep> lone) {
   engine_ = &engine;
+  lone_ = std::move(lone);
   agents_.reserve(instance_.num_agents());
   for (const AgentId i : instance_.agent_ids()) {
     if (limits.exhausted_now()) return false;
@@ -77,7 +86,7 @@ Lit MddModel::arrival_after(AgentId agent, Timestep t) const {
 void MddModel::prepare_rest(AgentId agent, VertexId v, Timestep t) {
   const auto other = resident(v);
   if (!other || *other == agent) return;
-  const Timestep delay = t + 1 - mdd(*other).distance();
+  const Timestep delay = t + robust() + 1 - mdd(*other).distance();
   if (delay > std::max(0, cap(*other) + 1)) static_cast<void>(delay_at_least(*other, delay));
 }
 
@@ -93,7 +102,10 @@ class MddModel::AgentFormula final : public MddPaths::Formula {
   void add(std::span<const Lit> clause) override {
     model_.engine_->add_clause({sat::why::Path{agent_}, clause, {}, false});
   }
-  bool charges_delays() const override { return model_.objective_ == Objective::sum_of_costs; }
+  bool charges_delays() const override {
+    const auto& task = model_.instance_.agents()[agent_];
+    return model_.objective_ == Objective::sum_of_costs || task.leaves || task.deadline;
+  }
 
  private:
   MddModel& model_;
@@ -102,7 +114,63 @@ class MddModel::AgentFormula final : public MddPaths::Formula {
 
 bool MddModel::extend(AgentId agent, Timestep new_cap, LimitMonitor& limits) {
   AgentFormula formula(*this, agent);
-  return agents_[agent].paths.extend(instance_.graph(), new_cap, formula, &limits);
+  const Timestep old_cap = cap(agent);
+  if (!agents_[agent].paths.extend(instance_.graph(), new_cap, formula, &limits)) return false;
+  if (!instance_.is_plain()) add_rules(agent, old_cap);
+  return true;
+}
+
+Lit MddModel::gone(Lit x) const {
+  const Variable var = variable(x);
+  const auto& task = instance_.agents()[var.agent];
+  if (!task.leaves || var.vertex != task.goal()) return {};
+  const Timestep late = var.number - mdd(var.agent).distance();
+  return late < 1 ? Lit() : ~find_delay(var.agent, late);
+}
+
+void MddModel::add_rules(AgentId agent, Timestep old_cap) {
+  const auto& task = instance_.agents()[agent];
+  AgentFormula formula(*this, agent);
+  const auto add_unit = [&](Lit lit) { formula.add(std::span(&lit, 1)); };
+  const Timestep distance = mdd(agent).distance();
+  if (old_cap < 0) {
+    if (task.deadline) add_unit(~delay_at_least(agent, *task.deadline + 1 - distance));
+    const Timestep free_from = task.leaves ? 0 : blocked_.free_from(task.goal());
+    if (free_from > distance) add_unit(delay_at_least(agent, free_from - distance));
+  }
+  add_bans(agent, old_cap);
+  const auto is_new = [&](VertexId v, Timestep t) { return mdd(agent).slack(v, t) > old_cap; };
+  for (const Blockage& b : instance_.rules().blockages) {
+    if (!b.to) continue;
+    const Timestep last = std::min(b.last.value_or(kForever), distance + cap(agent));
+    for (Timestep t = b.first; t <= last; ++t)
+      for (const auto& [from, to] : {std::pair(b.vertex, *b.to), std::pair(*b.to, b.vertex)}) {
+        const Lit x = at(agent, from, t), y = at(agent, to, t + 1);
+        if (!x.valid() || !y.valid() || !(is_new(from, t) || is_new(to, t + 1))) continue;
+        const Lit clause[] = {~x, ~y};
+        formula.add(clause);
+      }
+  }
+}
+
+void MddModel::add_bans(AgentId agent, Timestep old_cap) {
+  const auto& task = instance_.agents()[agent];
+  AgentFormula formula(*this, agent);
+  for (const VertexId v : IdRange<VertexId>(instance_.graph().num_vertices())) {
+    const auto ban = [&](Timestep first, Timestep last) {
+      if (mdd(agent).to_goal(v) == kUnreachable) return;
+      const Timestep newest = mdd(agent).timestep(v, cap(agent));
+      for (Timestep t = std::max(first, mdd(agent).timestep(v, old_cap + 1));
+           t <= std::min(last, newest); ++t) {
+        const Lit x = at(agent, v, t);
+        if (!x.valid()) continue;
+        const Lit clause[] = {~x, gone(x)};
+        formula.add(std::span(clause, clause[1].valid() ? 2 : 1));
+      }
+    };
+    if (v != task.start && task.release > 0) ban(0, task.release);
+    for (const BlockedTimes::Span& span : blocked_.at(v)) ban(span.first, span.last);
+  }
 }
 
 }  // namespace quadrille::discrete

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mdd/mdd_paths.hpp"
+#include "model/blocked_times.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/outcome.hpp"
 #include "quadrille/discrete/plan.hpp"
@@ -36,11 +37,20 @@ class MddModel {
     Timestep number = 0;  ///< Timestep or delay.
   };
 
+  /// Whether the model can express the rules of the instance: all but waypoints.
+  [[nodiscard]] static bool knows(const Instance& instance);
+
   MddModel(const Instance& instance, Objective objective);
   /// Computes the agents' distances and sends all clauses to `engine` from now on; to be called
-  /// once, before anything below. Requires that every agent can reach its goal. False if `limits`
-  /// ended that early; the model is of no use then. O(agents * (V + E)).
-  [[nodiscard]] bool attach(sat::Engine& engine, LimitMonitor& limits);
+  /// once, before anything below. Requires that every agent can reach its goal. `lone`: what agents
+  /// cost when they are alone; empty: what their ways are long. False if `limits` ended that early;
+  /// the model is of no use then. O(agents * (V + E)).
+  [[nodiscard]] bool attach(sat::Engine& engine, LimitMonitor& limits,
+                            IdVector<AgentId, Timestep> lone = {});
+  /// What the agent costs when it is alone. Delays count from Mdd::distance.
+  [[nodiscard]] Timestep free_cost(AgentId agent) const {
+    return lone_.empty() ? mdd(agent).distance() : lone_[agent];
+  }
 
   /// Lets the agent's paths have a delay of up to `cap`: its variables, clauses and the guard
   /// C(i, cap + 1) whose negation restricts it to them. No effect if it is there. False if `limits`
@@ -71,8 +81,14 @@ class MddModel {
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] Objective objective() const noexcept { return objective_; }
   [[nodiscard]] const Mdd& mdd(AgentId agent) const { return agents_[agent].paths.mdd(); }
-  /// The agent whose goal is `v`.
+  /// The agent that stays at `v`, its goal.
   [[nodiscard]] std::optional<AgentId> resident(VertexId v) const;
+  /// Nobody is in a vertex for so many timesteps before and after somebody else.
+  [[nodiscard]] Timestep robust() const noexcept { return instance_.rules().robust; }
+  /// X literals of an agent that leaves stay true at its goal when it is gone: a literal that says
+  /// "it arrives before then", so that X and its negation mean that it is there. Invalid where X
+  /// means that by itself.
+  [[nodiscard]] sat::Lit gone(sat::Lit x) const;
 
   /// False if the assignment lets the agent be later than its cap: then it promises no path.
   template <class IsTrue>
@@ -114,11 +130,16 @@ class MddModel {
   class AgentFormula;
   [[nodiscard]] sat::Lit new_lit(const Variable& variable);
   void prepare_rest(AgentId agent, VertexId v, Timestep t);
+  /// The clauses of the agent's own rules, over literals of layers beyond `old_cap`.
+  void add_rules(AgentId agent, Timestep old_cap);
+  void add_bans(AgentId agent, Timestep old_cap);
 
   Instance instance_;
   Objective objective_;
   sat::Engine* engine_ = nullptr;
   IdVector<AgentId, Agent> agents_;
+  IdVector<AgentId, Timestep> lone_;
+  BlockedTimes blocked_;
   IdVector<VertexId, std::uint32_t> resident_;  // agent + 1; 0: none
   std::vector<Variable> variables_;
 };

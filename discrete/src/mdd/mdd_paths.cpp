@@ -52,34 +52,39 @@ void MddPaths::add_predecessor_clauses(const Graph& graph, Timestep slack, Formu
       if (const Lit before = at(v, t - 1); before.valid()) scratch_.push_back(before);
     };
     add(w);
-    for (const VertexId v : graph.neighbours(w)) add(v);
+    for (const VertexId v : graph.predecessors(w)) add(v);
     formula.add(scratch_);
   }
 }
 
 // X(v,t) -> one of X(w,t+1) or C(cap+1), without the guard if no successor lies beyond the cap.
 // For v in an old layer only if its clause had the guard of the old cap. At the goal only once it
-// is complete: an agent at rest needs no successors, and a guard would forbid it to finish.
+// is complete: an agent at rest needs no successors, and a guard would forbid it to finish. Where
+// ways out of the goal and back are long, from the last timestep but one on: there the agent can
+// wait, and clauses about rests that are shorter would leave gaps.
 void MddPaths::add_successor_clauses(const Graph& graph, Timestep slack, Timestep old_cap,
                                      Formula& formula) {
   const Timestep new_cap = cap();
+  const Timestep last_step = graph.is_directed() ? 1 : 2;
   const Lit guard = formula.delay_at_least(new_cap + 1);
   const auto& layer = layers_[static_cast<std::size_t>(slack)];
   for (std::size_t rank = 0; rank < layer.size(); ++rank) {
     const VertexId v = mdd_.vertex(rank);
     const bool is_goal = v == mdd_.task().goal();
-    if (is_goal && slack + 2 > new_cap) continue;
+    if (is_goal && slack + last_step > new_cap) continue;
     const Timestep t = mdd_.timestep(v, slack);
     scratch_ = {~layer[rank]};
     Timestep largest = 0;
     const auto add = [&](VertexId w) {
+      if (mdd_.to_goal(w) == kUnreachable) return;
       const Timestep next_slack = mdd_.slack(w, t + 1);
       largest = std::max(largest, next_slack);
       if (next_slack <= new_cap) scratch_.push_back(at(w, t + 1));
     };
     add(v);
     for (const VertexId w : graph.neighbours(v)) add(w);
-    const bool was_complete = slack <= old_cap && (is_goal ? slack + 2 : largest) <= old_cap;
+    const bool is_short_goal = is_goal && last_step == 2;
+    const bool was_complete = slack <= old_cap && (is_short_goal ? slack + 2 : largest) <= old_cap;
     if (was_complete) continue;
     if (largest > new_cap) scratch_.push_back(guard);
     formula.add(scratch_);
@@ -103,7 +108,9 @@ bool MddPaths::extend(const Graph& graph, Timestep new_cap, Formula& formula,
   }
   scratch_ = {at(mdd_.task().goal(), mdd_.distance() + new_cap), guard};
   formula.add(scratch_);
-  for (Timestep slack = std::max(0, old_cap - 1); slack <= new_cap; ++slack) {
+  // Older ones cannot step beyond the old cap.
+  const Timestep first = old_cap + 1 - mdd_.largest_step();
+  for (Timestep slack = std::max(0, first); slack <= new_cap; ++slack) {
     if (stopped()) return false;
     if (slack > old_cap) {
       add_delay_clauses(slack, formula);

@@ -9,6 +9,13 @@ namespace quadrille::discrete {
 
 using sat::Lit;
 
+namespace {
+/// The delay of the agent when it is alone.
+Timestep free_delay(const MddModel& model, AgentId agent) {
+  return model.free_cost(agent) - model.mdd(agent).distance();
+}
+}  // namespace
+
 MddProblem::MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* theory,
                        EagerCollisions* eager, MddGrowth growth)
     : model_(model),
@@ -16,19 +23,19 @@ MddProblem::MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* th
       theory_(theory),
       eager_(eager),
       growth_(growth),
-      total_(engine, model.instance().num_agents(),
-             [&model](std::size_t input, int k) {
-               return model.delay_at_least(AgentId(input), static_cast<Timestep>(k));
-             }),
-      wanted_cap_(model.instance().num_agents(), 0) {
+      total_(engine, model.instance().num_agents(), [&model](std::size_t input, int k) {
+        const AgentId agent(input);
+        return model.delay_at_least(agent, free_delay(model, agent) + k);
+      }) {
   std::vector<Cost> free_costs;
   for (const AgentId i : model.instance().agent_ids()) {
-    const Cost distance = model.mdd(i).distance();
-    free_costs.push_back(distance);
+    const Cost cost = model.free_cost(i);
+    free_costs.push_back(cost);
+    wanted_cap_.push_back(free_delay(model, i));
     if (model.objective() == Objective::sum_of_costs)
-      lower_bound_ += distance;
+      lower_bound_ += cost;
     else
-      lower_bound_ = std::max(lower_bound_, distance);
+      lower_bound_ = std::max(lower_bound_, cost);
   }
   if (engine.proof() != nullptr)
     engine.proof()->set_inputs_beyond(total_.proof_number(), free_costs);
@@ -36,7 +43,7 @@ MddProblem::MddProblem(MddModel& model, sat::Engine& engine, CollisionTheory* th
 
 Timestep MddProblem::allowed_delay(AgentId agent, Cost bound) const {
   if (model_.objective() == Objective::sum_of_costs)
-    return static_cast<Timestep>(bound - lower_bound_);
+    return free_delay(model_, agent) + static_cast<Timestep>(bound - lower_bound_);
   return static_cast<Timestep>(bound - model_.mdd(agent).distance());
 }
 
@@ -64,7 +71,7 @@ bool MddProblem::accept_model() {
   for (const AgentId i : model_.instance().agent_ids())
     plan_.paths.push_back(model_.extract_path(i, is_true));
   CollisionClauses clauses(model_);
-  std::vector<PathCollision> collisions = find_collisions(model_.instance().graph(), plan_);
+  std::vector<PathCollision> collisions = find_collisions(model_.instance(), plan_);
   const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { engine_.add_clause(lemma); };
   for (const PathCollision& c : collisions) clauses.exclude(c, is_true, sink);
   if (!collisions.empty()) ++num_rejected_;
@@ -72,12 +79,13 @@ bool MddProblem::accept_model() {
 }
 
 bool MddProblem::grow_to(AgentId agent, Cost cost, LimitMonitor& limits) {
-  return model_.extend(agent, static_cast<Timestep>(cost - free_cost(agent)), limits) &&
+  return model_.extend(agent, static_cast<Timestep>(cost - model_.mdd(agent).distance()), limits) &&
          (eager_ == nullptr || eager_->extend(engine_, limits));
 }
 
 Lit MddProblem::cost_above(AgentId agent, Cost cost) {
-  return model_.delay_at_least(agent, static_cast<Timestep>(cost - free_cost(agent)) + 1);
+  return model_.delay_at_least(agent,
+                               static_cast<Timestep>(cost - model_.mdd(agent).distance()) + 1);
 }
 
 void MddProblem::on_solve(bool) {

@@ -31,9 +31,7 @@ class MddProblem final : public sat::CostProblem {
   [[nodiscard]] Cost next_bound(Cost refuted, std::span<const sat::Lit> core) override;
 
   [[nodiscard]] std::size_t num_agents() const override { return model_.instance().num_agents(); }
-  [[nodiscard]] Cost free_cost(AgentId agent) const override {
-    return model_.mdd(agent).distance();
-  }
+  [[nodiscard]] Cost free_cost(AgentId agent) const override { return model_.free_cost(agent); }
   [[nodiscard]] bool grow_to(AgentId agent, Cost cost, LimitMonitor& limits) override;
   [[nodiscard]] sat::Lit cost_above(AgentId agent, Cost cost) override;
   void on_solve(bool all_present) override;

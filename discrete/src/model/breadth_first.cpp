@@ -18,12 +18,12 @@ BreadthFirst::BreadthFirst(const Graph& graph)
   const IdRange<VertexId> vertices(graph.num_vertices());
   distances_.back() = 0;  // What the lists are filled up with is never reached.
   for (const VertexId v : vertices)
-    if (graph.neighbours(v).size() > 4) return;
+    if (graph.predecessors(v).size() > 4) return;
   near_.resize(graph.num_vertices());
   for (const VertexId v : vertices) {
     auto& near = near_[v.index()];
     near.fill(static_cast<std::uint32_t>(graph.num_vertices()));
-    std::transform(graph.neighbours(v).begin(), graph.neighbours(v).end(), near.begin(),
+    std::transform(graph.predecessors(v).begin(), graph.predecessors(v).end(), near.begin(),
                    [](VertexId w) { return w.value(); });
   }
 }
@@ -33,13 +33,13 @@ bool BreadthFirst::run(std::span<const VertexId> sources, LimitMonitor* limits) 
   if (!near_.empty())
     return spread(kUnreachable, limits, [&](std::uint32_t v) { return std::span(near_[v]); });
   return spread(kUnreachable, limits,
-                [&](std::uint32_t v) { return graph_.neighbours(VertexId(v)); });
+                [&](std::uint32_t v) { return graph_.predecessors(VertexId(v)); });
 }
 
 void BreadthFirst::run_within(VertexId source, Timestep moves) {
   begin(std::span<const VertexId>(&source, 1));
   static_cast<void>(
-      spread(moves, nullptr, [&](std::uint32_t v) { return graph_.neighbours(VertexId(v)); }));
+      spread(moves, nullptr, [&](std::uint32_t v) { return graph_.predecessors(VertexId(v)); }));
 }
 
 void BreadthFirst::begin(std::span<const VertexId> sources) {

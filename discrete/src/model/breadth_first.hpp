@@ -11,14 +11,15 @@
 
 namespace quadrille::discrete {
 
-/// Breadth-first searches on one graph, many of them. Where no vertex has more than four
-/// neighbours, as on grids, they go without branches through a copy of the graph.
+/// Breadth-first searches on one graph, many of them, against the direction of one-way edges. Where
+/// no vertex has more than four neighbours, as on grids, they go without branches through a copy of
+/// the graph.
 class BreadthFirst {
  public:
   /// `graph` outlives the object. O(V + E).
   explicit BreadthFirst(const Graph& graph);
 
-  /// To all vertices from the nearest of some, which are different. False if a limit was met. O(V +
+  /// From all vertices to the nearest of some, which are different. False if a limit was met. O(V +
   /// E).
   bool run(std::span<const VertexId> sources, LimitMonitor* limits = nullptr);
   bool run(VertexId source, LimitMonitor* limits = nullptr) {

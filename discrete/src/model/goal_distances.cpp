@@ -43,7 +43,7 @@ void find_priced(const Graph& graph, const Goals& goals, const GoalPrices& price
       next.push_back(v);
     };
     for (const VertexId v : level)
-      for (const VertexId w : graph.neighbours(v)) reach(w);
+      for (const VertexId w : graph.predecessors(v)) reach(w);
     for (; num_joined < sources.size() && sources[num_joined].first == d; ++num_joined)
       reach(sources[num_joined].second);
     level.swap(next);
@@ -82,6 +82,14 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
 bool GoalDistances::prepare(const Instance& instance, LimitMonitor& limits,
                             std::size_t most_plain) {
   const Graph& graph = instance.graph();
+  is_wide_ = graph.is_directed();
+  if (is_wide_) {
+    const std::size_t entries = instance.num_agents() * graph.num_vertices();
+    if (!limits.has_room_for(entries * sizeof(Timestep))) return false;
+    groups_.assign(graph.num_vertices(), 0);
+    wide_.resize(entries);
+    return true;
+  }
   group(graph);
   const std::size_t agents = instance.num_agents(), size = graph.num_vertices();
   const std::size_t bytes = num_bytes(), groups = group_centre_.size();
@@ -104,6 +112,11 @@ bool GoalDistances::fill(AgentId agent, const Goals& goals, BreadthFirst& search
 }
 
 void GoalDistances::keep(AgentId agent, const std::vector<Timestep>& distances) {
+  if (is_wide_) {
+    std::copy(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(groups_.size()),
+              wide_.begin() + static_cast<std::ptrdiff_t>(agent.index() * groups_.size()));
+    return;
+  }
   if (plain_.empty()) {
     pack(distances, bits_.data() + agent.index() * num_bytes(),
          centres_.data() + agent.index() * group_centre_.size());
@@ -186,6 +199,11 @@ void GoalDistances::pack(const std::vector<Timestep>& distances, std::uint8_t* b
 std::unique_ptr<const GoalDistances::OwnRow> GoalDistances::pack(
     const IdVector<VertexId, Timestep>& distances) const {
   auto own = std::make_unique<OwnRow>();
+  if (is_wide_) {
+    own->wide_ = distances.items();
+    own->row_.wide_ = own->wide_.data();
+    return own;
+  }
   own->bits_.resize(num_bytes());
   own->centres_.resize(group_centre_.size());
   pack(distances.items(), own->bits_.data(), own->centres_.data());

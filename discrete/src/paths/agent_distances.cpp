@@ -1,20 +1,74 @@
 // SPDX-License-Identifier: MIT
 #include "paths/agent_distances.hpp"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 namespace quadrille::discrete {
 
 AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& table, AgentId agent,
-                               const GoalPrices* prices)
+                               const GoalPrices* prices, const BlockedTimes* blocked)
     : graph_(&instance.graph()),
       table_(&table),
       task_(instance.agents()[agent]),
       to_goal_(table.row(agent)),
-      prices_(prices) {
-  QUADRILLE_REQUIRE(free_cost() != kUnreachable, "a goal is reachable");
+      prices_(prices),
+      blocked_(blocked),
+      start_state_(task_.start) {
+  if (!task_.waypoints.empty()) make_layers();
+  length_ = free_cost_ = to_goal(start_state_);
+  QUADRILLE_REQUIRE(length_ != kUnreachable || !instance.is_plain(), "a goal is reachable");
+  if (states().is_directed()) find_largest_step();
+  may_end_at_once_ = task_.leaves && is_goal(start_state_);
 }
 
 void AgentDistances::find_from_start() const {
   from_start_ = table_->pack(distances_from(*graph_, task_.start));
+}
+
+// A waypoint that is come to is visited: who has visited more may do all that others may.
+void AgentDistances::make_layers() {
+  const std::size_t size = graph_->num_vertices(), last = task_.waypoints.size();
+  const auto state = [&](std::size_t visited, VertexId v) {
+    while (visited < last && task_.waypoints[visited] == v) ++visited;
+    return VertexId(visited * size + v.index());
+  };
+  std::vector<Graph::Edge> arcs;
+  for (std::size_t visited = 0; visited <= last; ++visited)
+    for (const VertexId v : IdRange<VertexId>(size)) {
+      const VertexId from(visited * size + v.index());
+      if (state(visited, v) != from) continue;  // Nobody is there.
+      for (const VertexId w : graph_->neighbours(v)) arcs.emplace_back(from, state(visited, w));
+    }
+  layers_ = std::make_shared<const Graph>(Graph::make_directed(size * (last + 1), arcs).value());
+  start_state_ = state(0, task_.start);
+  std::vector<VertexId> goals;
+  for (const VertexId goal : task_.goals.vertices()) goals.push_back(goal_state(goal));
+  own_to_goal_ = distances_to_nearest(*layers_, Goals(std::move(goals)));
+  own_from_start_ = distances_from(*layers_, start_state_);
+}
+
+VertexId AgentDistances::state_at(const Path& path, Timestep t) const {
+  if (!layers_) return position(path, t);
+  VertexId state = start_state_;
+  for (Timestep at = 1; at <= t; ++at) {
+    const VertexId v = position(path, at);
+    if (v == place(state)) continue;
+    for (const VertexId next : layers_->neighbours(state))
+      if (place(next) == v) {
+        state = next;
+        break;
+      }
+  }
+  return state;
+}
+
+void AgentDistances::find_largest_step() {
+  for (const VertexId v : IdRange<VertexId>(states().num_vertices()))
+    for (const VertexId w : states().neighbours(v))
+      if (to_goal(v) != kUnreachable && to_goal(w) != kUnreachable)
+        largest_step_ = std::max(largest_step_, 1 + to_goal(w) - to_goal(v));
 }
 
 }  // namespace quadrille::discrete

@@ -7,6 +7,7 @@ namespace quadrille::discrete {
 
 Corridors::Corridors(const Graph& graph)
     : graph_(graph), corridor_of_(graph.num_vertices(), kNone) {
+  if (graph.is_directed()) return;
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
     if (graph.neighbours(v).size() == 2 && corridor_of_[v] == kNone) add_corridor(v);
 }

@@ -13,7 +13,8 @@
 namespace quadrille::discrete {
 
 /// The chains of vertices with two neighbours, in which agents cannot pass each other, and what
-/// follows for two agents that meet in one (Li et al. 2020, ICAPS).
+/// follows for two agents that meet in one (Li et al. 2020, ICAPS). There are none where edges lead
+/// one way: inside, agents may have other ways.
 class Corridors {
  public:
   /// `graph` outlives the object. O(V).

@@ -17,9 +17,8 @@ void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
                         std::span<const Timestep> first_hits, Timestep bound,
                         std::vector<std::size_t>& slots) {
   taken_.assign(obstacles.num_slots(), 0);
-  cut_off_blocked_goals(d, obstacles, bound, slots);
-  if (ends_.empty()) return;
-  const Timestep max_slack = bound - d.free_cost();
+  if (seen_.size() < d.states().num_vertices()) seen_.resize(d.states().num_vertices(), 0);
+  const Timestep max_slack = bound - d.length();
   // Collects a slot of H from those that `for_each` tells, unless one of them is collected already.
   // False if it tells none.
   const auto collect = [&](const auto& for_each) {
@@ -37,6 +36,14 @@ void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
     }
     return true;
   };
+  const auto is_cut = [&](VertexId v, Timestep t) {
+    return collect([&](const auto& tell) { obstacles.for_each_at(v, t, tell); });
+  };
+  if (d.leaves())
+    begin_with_arrivals(d, bound, is_cut);
+  else
+    cut_off_blocked_goals(d, obstacles, bound, slots);
+  if (ends_.empty()) return;
   std::size_t num_begun = 0;
   for (Timestep t = ends_.front().timestep - 1;
        t >= 0 && (!frontier_.empty() || num_begun < ends_.size()); --t) {
@@ -45,16 +52,20 @@ void Explainer::explain(const AgentDistances& d, const ObstacleMap& obstacles,
     ++stamp_;
     next_.clear();
     for (const VertexId w : frontier_) {
+      const VertexId to = d.place(w);
       const auto step_back = [&](VertexId v) {
         if (d.from_start(v) > t || seen_[v] == stamp_) return;
-        if (v != w && collect([&](const auto& tell) { obstacles.for_each_on(v, w, t, tell); }))
+        const VertexId from = d.place(v);
+        if (d.has_bans() && d.is_step_banned(from, to, t)) return;
+        if (from != to &&
+            collect([&](const auto& tell) { obstacles.for_each_on(from, to, t, tell); }))
           return;
         seen_[v] = stamp_;
-        if (!collect([&](const auto& tell) { obstacles.for_each_at(v, t, tell); }))
-          next_.push_back(v);
+        if (d.has_bans() && d.is_banned(from, t)) return;
+        if (!is_cut(from, t)) next_.push_back(v);
       };
       step_back(w);
-      for (const VertexId v : d.graph().neighbours(w)) step_back(v);
+      for (const VertexId v : d.states().predecessors(w)) step_back(v);
     }
     frontier_.swap(next_);
   }
@@ -66,6 +77,8 @@ void Explainer::cut_off_blocked_goals(const AgentDistances& d, const ObstacleMap
   const auto goals = d.goals().vertices();
   is_cut_.assign(goals.size(), 0);
   const auto last_arrival = [&](std::size_t goal) { return bound - d.price(goals[goal]); };
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    if (d.may_rest_from(goals[k]) > last_arrival(k)) is_cut_[k] = 1;
   for (const ObstacleMap::GoalBlock& block : obstacles.goal_blocks()) {
     if (block.last < last_arrival(block.goal) || is_cut_[block.goal] != 0) continue;
     is_cut_[block.goal] = 1;
@@ -77,10 +90,20 @@ void Explainer::cut_off_blocked_goals(const AgentDistances& d, const ObstacleMap
   frontier_.clear();
   ends_.clear();
   for (std::size_t k = 0; k < goals.size(); ++k)
-    if (is_cut_[k] == 0 && d.from_start(goals[k]) <= last_arrival(k))
-      ends_.push_back({goals[k], last_arrival(k)});
+    if (is_cut_[k] == 0 && d.from_start(d.goal_state(goals[k])) <= last_arrival(k))
+      ends_.push_back({d.goal_state(goals[k]), last_arrival(k)});
   std::stable_sort(ends_.begin(), ends_.end(),
                    [](const Visit& a, const Visit& b) { return a.timestep > b.timestep; });
+}
+
+template <class IsCut>
+void Explainer::begin_with_arrivals(const AgentDistances& d, Timestep bound, const IsCut& is_cut) {
+  frontier_.clear();
+  ends_.clear();
+  for (Timestep t = bound; t >= 0; --t)
+    for (const VertexId goal : d.goals().vertices())
+      if (d.from_start(d.goal_state(goal)) <= t && !d.is_banned(goal, t) && !is_cut(goal, t))
+        ends_.push_back({d.goal_state(goal), t});
 }
 
 }  // namespace quadrille::discrete

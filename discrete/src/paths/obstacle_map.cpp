@@ -15,7 +15,12 @@ void ObstacleMap::load(const ObstacleTable& table, std::span<const ObstacleId> a
   num_slots_ = active.size();
   goals_ = distances.goals();
   goal_blocks_.clear();
-  earliest_rests_.assign(goals_.size(), 0);
+  const auto all = goals_.vertices();
+  earliest_rests_.clear();
+  for (const VertexId goal : all) earliest_rests_.push_back(distances.may_rest_from(goal));
+  const auto block_goal = [&](VertexId v, Timestep last, std::uint32_t slot) {
+    if (!distances.leaves()) this->block_goal(v, last, slot);
+  };
   for (std::uint32_t slot = 0; slot < active.size(); ++slot) {
     const ObstacleId id = active[slot];
     const Obstacle& o = table[id];
@@ -33,7 +38,6 @@ void ObstacleMap::load(const ObstacleTable& table, std::span<const ObstacleId> a
     }
   }
   least_cost_ = kForever;
-  const auto all = goals_.vertices();
   for (std::size_t k = 0; k < all.size(); ++k)
     if (earliest_rests_[k] != kForever)
       least_cost_ = std::min(least_cost_, earliest_rests_[k] + distances.price(all[k]));

@@ -18,14 +18,15 @@ class ObstacleMap {
  public:
   explicit ObstacleMap(std::size_t num_vertices) : heads_(num_vertices) {}
 
-  /// Forgets what was loaded. `distances`: of the agent, who has to rest at one of its goals.
+  /// Forgets what was loaded. `distances`: of the agent, who has to rest at one of its goals, or
+  /// leaves there: then nothing that comes later forbids a goal.
   void load(const ObstacleTable& table, std::span<const ObstacleId> active,
             const AgentDistances& distances);
 
   [[nodiscard]] std::size_t num_slots() const noexcept { return num_slots_; }
   /// No path around the obstacles that rests at a goal costs less; kForever: there is none.
   [[nodiscard]] Timestep least_cost() const noexcept { return least_cost_; }
-  /// From when on this goal stays allowed; kForever: never.
+  /// From when on this goal stays allowed, by rules too; kForever: never.
   [[nodiscard]] Timestep earliest_rest(VertexId goal) const {
     return earliest_rests_[goals_.is_single() ? 0 : index_of(goal)];
   }

@@ -50,12 +50,15 @@ ObstacleId ObstacleTable::add_barrier(AgentId agent, sat::Lit allowed,
               end});
 }
 
-bool ObstacleTable::hits(ObstacleId id, const Path& path) const {
+bool ObstacleTable::hits(ObstacleId id, const Path& path, bool leaves) const {
   const Obstacle& o = (*this)[id];
   const auto end = static_cast<Timestep>(path.size()) - 1;
+  const auto is_at = [&](VertexId v, Timestep t) {
+    return (t <= end || !leaves) && position(path, t) == v;
+  };
   switch (o.kind) {
     case Kind::point:
-      return position(path, o.first) == o.vertex;
+      return is_at(o.vertex, o.first);
     case Kind::edge: {
       if (o.first >= end) return false;
       const auto t = static_cast<std::size_t>(o.first);
@@ -63,13 +66,13 @@ bool ObstacleTable::hits(ObstacleId id, const Path& path) const {
              (path[t] == o.to && path[t + 1] == o.vertex);
     }
     case Kind::range:
-      if (path.back() == o.vertex && o.last >= end) return true;
+      if (path.back() == o.vertex && o.last >= end && (!leaves || o.first <= end)) return true;
       for (Timestep t = o.first; t <= std::min(o.last, end); ++t)
         if (path[static_cast<std::size_t>(t)] == o.vertex) return true;
       return false;
     case Kind::barrier:
       for (const Visit& visit : visits(o))
-        if (position(path, visit.timestep) == visit.vertex) return true;
+        if (is_at(visit.vertex, visit.timestep)) return true;
       return false;
     case Kind::end:
       return path.back() == o.vertex;

@@ -56,8 +56,9 @@ class ObstacleTable {
     return std::span(visits_).subspan(barrier.visits_begin,
                                       barrier.visits_end - barrier.visits_begin);
   }
-  /// True if the path, which ends with a rest for ever, does what the obstacle forbids.
-  [[nodiscard]] bool hits(ObstacleId id, const Path& path) const;
+  /// True if the path does what the obstacle forbids. It ends with a rest for ever, or its agent
+  /// leaves there.
+  [[nodiscard]] bool hits(ObstacleId id, const Path& path, bool leaves = false) const;
   /// The last timestep from which on the obstacle forbids to rest in `vertex` for ever; -1: it
   /// never does.
   [[nodiscard]] Timestep last_block(const Obstacle& obstacle, VertexId vertex) const;

@@ -14,7 +14,9 @@ constexpr Timestep kLate = 8;
 constexpr std::int64_t kStatesPerVertex = 4, kStatesPerStep = 10;
 }  // namespace
 
-void PathFinder::start_search() {
+void PathFinder::start_search(const AgentDistances& distances) {
+  if (heads_.size() < distances.states().num_vertices())
+    heads_.resize(distances.states().num_vertices());
   if (++stamp_ == 0) {
     heads_.assign(heads_.size(), {});
     stamp_ = 1;
@@ -57,7 +59,7 @@ void PathFinder::trace(const Query& query, ClosedIndex last, Path& path) const {
   ClosedIndex at = last;
   for (auto vertex = path.rbegin(); vertex != path.rend(); ++vertex) {
     QUADRILLE_REQUIRE(at != kNone, "a path begins at timestep 0");
-    *vertex = closed_[at].state.vertex;
+    *vertex = query.distances.place(closed_[at].state.vertex);
     at = closed_[at].state.parent;
   }
   QUADRILLE_REQUIRE(at == kNone && path[0] == query.distances.start(),
@@ -70,22 +72,26 @@ void PathFinder::expand(const Query& query, VertexId v, Timestep slack, const Hi
   ++effort_;
   if (limits_ != nullptr && effort_ % 64 == 0) limits_->check();
   const AgentDistances& d = query.distances;
-  const Timestep max_slack = query.max_cost - d.free_cost();
+  const Timestep max_slack = query.max_cost - d.length();
   const Timestep h = d.to_goal(v), t = d.time(v, slack);
-  const auto step = [&](VertexId w, Timestep slack_then) {
+  const VertexId from = d.place(v);
+  const auto step = [&](VertexId state, Timestep slack_then) {
     if (slack_then > max_slack) return;
-    if (is_closed(w, slack_then)) return;
+    if (is_closed(state, slack_then)) return;
+    const VertexId w = d.place(state);
+    if (d.has_bans() && d.is_step_banned(from, w, t)) return;
     bool blocked = false;
     const auto note = [&](std::uint32_t slot) {
       blocked = true;
       hit(slot, slack_then);
     };
     query.obstacles.for_each_at(w, t + 1, note);
-    if (!blocked && w != v) query.obstacles.for_each_on(v, w, t, note);
-    if (!blocked) push(w, slack_then, t + 1);
+    if (!blocked && w != from) query.obstacles.for_each_on(from, w, t, note);
+    if (!blocked) push(state, slack_then, t + 1);
   };
   step(v, slack + 1);
-  for (const VertexId w : d.graph().neighbours(v)) step(w, slack + 1 + d.to_goal(w) - h);
+  for (const VertexId w : d.states().neighbours(v))
+    if (const Timestep then = d.to_goal(w); then != kUnreachable) step(w, slack + 1 + then - h);
 }
 
 bool PathFinder::find_cheapest(const Query& query, Path& path) {
@@ -93,7 +99,7 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
   first_hits_.assign(query.obstacles.num_slots(), kNoHit);
   const Timestep least_cost = query.obstacles.least_cost();
   if (std::max(d.free_cost(), least_cost) > query.max_cost) return false;
-  if (least_cost - d.free_cost() >= kLate) {
+  if (least_cost - d.length() >= kLate) {
     if (!d.has_prices() && dive(query, path)) return true;
   } else {
     const auto enough = kStatesPerVertex * static_cast<std::int64_t>(heads_.size());
@@ -105,10 +111,11 @@ bool PathFinder::find_cheapest(const Query& query, Path& path) {
 PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, Path& path) {
   const AgentDistances& d = query.distances;
   const std::int64_t last_effort = effort_ + max_effort;
-  if (open_.size() < 3) open_.resize(3);
-  start_search();
-  const Timestep max_slack = query.max_cost - d.free_cost();
-  push(open_[0], 0, {d.start(), kNone});
+  const Timestep ring = d.largest_step() + 1;  // Steps from one slack end in these, all different.
+  if (open_.size() < static_cast<std::size_t>(ring)) open_.resize(static_cast<std::size_t>(ring));
+  start_search(d);
+  const Timestep max_slack = query.max_cost - d.length();
+  push(open_[0], 0, {d.start_state(), kNone});
   // The cheapest end that was come to, at a goal that is dear.
   std::optional<std::pair<Timestep, ClosedIndex>> end;
   for (Timestep slack = 0; slack <= max_slack; ++slack) {
@@ -116,7 +123,7 @@ PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, P
       trace(query, end->second, path);
       return End::found;
     }
-    Buckets& buckets = open_[static_cast<std::size_t>(slack % 3)];
+    Buckets& buckets = open_[static_cast<std::size_t>(slack % ring)];
     for (std::size_t c = 0; c < buckets.size(); ++c) {
       while (!buckets[c].empty()) {
         const State state = buckets[c].back();
@@ -125,8 +132,8 @@ PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, P
         if (effort_ >= last_effort) return End::gave_up;
         const ClosedIndex index = close(state, slack);
         if (d.is_goal(state.vertex) &&
-            d.time(state.vertex, slack) >= query.obstacles.earliest_rest(state.vertex)) {
-          const Timestep then = d.end_slack(state.vertex, slack);
+            d.time(state.vertex, slack) >= query.obstacles.earliest_rest(d.place(state.vertex))) {
+          const Timestep then = d.end_slack(d.place(state.vertex), slack);
           if (then == slack) {
             trace(query, index, path);
             return End::found;
@@ -139,10 +146,11 @@ PathFinder::End PathFinder::sweep(const Query& query, std::int64_t max_effort, P
               first_hits_[slot] = std::min(first_hits_[slot], then);
             },
             [&](VertexId w, Timestep then, Timestep arrival) {
-              const int more = query.others == nullptr ? 0
-                                                       : query.others->collisions_of_step(
-                                                             query.agent, state.vertex, w, arrival);
-              push(open_[static_cast<std::size_t>(then % 3)], static_cast<Timestep>(c) + more,
+              const int more = query.others == nullptr
+                                   ? 0
+                                   : query.others->collisions_of_step(
+                                         query.agent, d.place(state.vertex), d.place(w), arrival);
+              push(open_[static_cast<std::size_t>(then % ring)], static_cast<Timestep>(c) + more,
                    {w, index});
             });
       }
@@ -157,9 +165,9 @@ bool PathFinder::dive(const Query& query, Path& path) {
   const Query bounded{query.agent, d, query.obstacles, arrival, query.others};
   const std::int64_t last_effort = effort_ + kStatesPerStep * (std::int64_t{arrival} + 1);
   if (open_.empty()) open_.resize(1);
-  start_search();
+  start_search(d);
   Buckets& buckets = open_[0];  // by collisions; last in, first out
-  push(buckets, 0, {d.start(), kNone});
+  push(buckets, 0, {d.start_state(), kNone});
   for (std::size_t c = 0; c < buckets.size(); ++c) {
     while (!buckets[c].empty()) {
       if (effort_ >= last_effort) return false;
@@ -168,8 +176,8 @@ bool PathFinder::dive(const Query& query, Path& path) {
       const Timestep slack = state.parent == kNone ? 0 : slack_after(d, state);
       if (is_closed(state.vertex, slack)) continue;
       const ClosedIndex index = close(state, slack);
-      if (d.free_cost() + slack == arrival && d.is_goal(state.vertex) &&
-          query.obstacles.earliest_rest(state.vertex) <= arrival) {
+      if (d.length() + slack == arrival && d.is_goal(state.vertex) &&
+          query.obstacles.earliest_rest(d.place(state.vertex)) <= arrival) {
         trace(query, index, path);
         return true;
       }
@@ -184,7 +192,8 @@ bool PathFinder::dive(const Query& query, Path& path) {
         const Timestep at = d.time(w, then);
         const int more = query.others == nullptr
                              ? 0
-                             : query.others->collisions_of_step(query.agent, state.vertex, w, at);
+                             : query.others->collisions_of_step(query.agent, d.place(state.vertex),
+                                                                d.place(w), at);
         push(buckets, static_cast<Timestep>(c) + more, {w, index});
       }
     }
@@ -202,11 +211,11 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
   const std::int64_t last_effort =
       query.max_effort > INT64_MAX - effort_ ? INT64_MAX : effort_ + query.max_effort;
   const AgentDistances& d = query.distances;
-  if (query.max_cost < d.free_cost() || query.obstacles.least_cost() > query.max_cost) return false;
+  if (query.max_cost < d.length() || query.obstacles.least_cost() > query.max_cost) return false;
   if (static_cast<int>(open_.size()) < below) open_.resize(static_cast<std::size_t>(below));
-  start_search();
+  start_search(d);
   if (below <= 0) return false;
-  push(open_[0], 0, {d.start(), kNone});
+  push(open_[0], 0, {d.start_state(), kNone});
   for (int c = 0; c < below; ++c) {
     Buckets& buckets = open_[static_cast<std::size_t>(c)];
     for (std::size_t s = 0; s < buckets.size(); ++s) {  // steps never lessen the slack
@@ -218,9 +227,10 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
         if (is_closed(state.vertex, slack)) continue;
         const ClosedIndex index = close(state, slack);
         const Timestep arrival = d.time(state.vertex, slack);
-        if (d.is_goal(state.vertex) && arrival >= query.obstacles.earliest_rest(state.vertex) &&
-            d.free_cost() + d.end_slack(state.vertex, slack) <= query.max_cost &&
-            c + query.others->collisions_of_rest(query.agent, state.vertex, arrival) < below) {
+        const VertexId here = d.place(state.vertex);
+        if (d.is_goal(state.vertex) && arrival >= query.obstacles.earliest_rest(here) &&
+            d.length() + d.end_slack(here, slack) <= query.max_cost &&
+            c + query.others->collisions_of_rest(query.agent, here, arrival) < below) {
           trace(query, index, path);
           return true;
         }
@@ -228,7 +238,7 @@ bool PathFinder::find_quietest(const Query& query, int below, Path& path) {
             query, state.vertex, slack, [](std::uint32_t, Timestep) {},
             [&](VertexId w, Timestep then, Timestep at) {
               const int sum =
-                  c + query.others->collisions_of_step(query.agent, state.vertex, w, at);
+                  c + query.others->collisions_of_step(query.agent, here, d.place(w), at);
               if (sum < below) push(open_[static_cast<std::size_t>(sum)], then, {w, index});
             });
       }

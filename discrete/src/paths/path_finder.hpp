@@ -14,9 +14,9 @@
 
 namespace quadrille::discrete {
 
-/// Searches for paths of one agent around its obstacles, over states (vertex, slack): a wait adds
-/// 1 to the slack, a move 0, 1 or 2. Memory follows the number of vertices and of states expanded
-/// by one search, not the horizon.
+/// Searches for paths of one agent around its obstacles, over the agent's states and slack: a wait
+/// adds 1 to the slack, a move 0, 1 or 2, or more where edges lead one way. Memory follows the
+/// number of the agent's states and of those expanded by one search, not the horizon.
 class PathFinder {
  public:
   /// Searches throw LimitReached when `limits` are met; null: there are none.
@@ -55,7 +55,7 @@ class PathFinder {
   using ClosedIndex = std::uint32_t;
   static constexpr ClosedIndex kNone = UINT32_MAX;
   struct State {
-    VertexId vertex;
+    VertexId vertex;  // a state of the agent
     ClosedIndex parent;
   };
   struct Closed {
@@ -78,7 +78,7 @@ class PathFinder {
   /// goes to the goal and waits beside it. False if that takes long, or if there is none. Requires
   /// that goals have no prices.
   bool dive(const Query& query, Path& path);
-  void start_search();
+  void start_search(const AgentDistances& distances);
   static void push(Buckets& buckets, Timestep at, State state);
   /// Whether the state was expanded. Takes time in the states of the vertex that were, none in a
   /// search that closes them by increasing slack and asks for no smaller one.
@@ -98,7 +98,7 @@ class PathFinder {
   std::uint32_t stamp_ = 0;
   IdVector<VertexId, Head> heads_;
   std::vector<Closed> closed_;
-  std::vector<Buckets> open_;  // cheapest: by slack % 3; quietest: by collisions
+  std::vector<Buckets> open_;  // cheapest: by slack modulo its steps; quietest: by collisions
   std::vector<Timestep> first_hits_;
   std::vector<std::pair<Timestep, VertexId>> steps_;  // by slack, of the state expanded
   SafeIntervalSearch safe_intervals_;

@@ -12,6 +12,7 @@ using Kind = Encounter::Kind;
 
 PathIndex::PathIndex(const Instance& instance)
     : instance_(instance),
+      robust_(instance.rules().robust),
       paths_(instance.num_agents()),
       stays_(instance.graph().num_vertices()),
       resident_(instance.graph().num_vertices(), -1),
@@ -19,6 +20,7 @@ PathIndex::PathIndex(const Instance& instance)
       is_changed_(instance.num_agents(), 0) {}
 
 void PathIndex::remove_resident(AgentId agent) {
+  if (leaves(agent)) return;
   std::int32_t* at = &resident_[paths_[agent].back()];
   while (*at != static_cast<std::int32_t>(agent.value()))
     at = &next_resident_[AgentId(static_cast<std::size_t>(*at))];
@@ -26,6 +28,7 @@ void PathIndex::remove_resident(AgentId agent) {
 }
 
 void PathIndex::add_resident(AgentId agent) {
+  if (leaves(agent)) return;
   std::int32_t& first = resident_[paths_[agent].back()];
   next_resident_[agent] = std::exchange(first, static_cast<std::int32_t>(agent.value()));
 }
@@ -65,6 +68,8 @@ PathIndex::Stay PathIndex::stay_at(AgentId agent, const Path& path, std::size_t 
 }
 
 int PathIndex::collisions_of_rest(AgentId agent, VertexId goal, Timestep arrival) const {
+  if (leaves(agent)) return 0;
+  if (robust_ > 0) return encounters_of_rest(agent, goal, arrival);
   int count = 0;
   for (const Stay& stay : stays_[goal])
     if (stay.agent != agent && stay.end > arrival)
@@ -73,18 +78,83 @@ int PathIndex::collisions_of_rest(AgentId agent, VertexId goal, Timestep arrival
 }
 
 int PathIndex::num_collisions(AgentId agent) const {
+  if (robust_ > 0) {
+    const Path& path = paths_[agent];
+    int count = collisions_of_rest(agent, path.back(), cost(agent));
+    for (Timestep t = 1; t <= cost(agent); ++t)
+      count += encounters_at(agent, path[static_cast<std::size_t>(t)], t);
+    return count;
+  }
   scratch_.clear();
   collect(agent, scratch_);
   return static_cast<int>(scratch_.size());
 }
 
+int PathIndex::encounters_at(AgentId agent, VertexId v, Timestep t) const {
+  const Timestep first = t - robust_, last = t + robust_;
+  int count = 0;
+  for (std::int32_t at = resident_[v]; at >= 0;) {
+    const AgentId resident(static_cast<std::size_t>(at));
+    // Its stay ends with its arrival.
+    if (resident != agent) count += std::max(0, last - std::max(first, cost(resident) + 1) + 1);
+    at = next_resident_[resident];
+  }
+  for (const Stay& stay : stays_[v])
+    if (stay.agent != agent)
+      count += std::max(0, std::min(last, stay.end) - std::max(first, stay.begin) + 1);
+  return count;
+}
+
+int PathIndex::encounters_of_rest(AgentId agent, VertexId goal, Timestep arrival) const {
+  int count = 0;
+  for (const Stay& stay : stays_[goal]) {
+    if (stay.agent == agent) continue;
+    for (Timestep t = stay.end; t >= stay.begin && t + robust_ > arrival; --t)
+      count += t + robust_ - std::max(arrival + 1, t - robust_) + 1;
+  }
+  return count;
+}
+
+void PathIndex::collect_robust(AgentId agent, std::vector<Encounter>& out) const {
+  const Path& path = paths_[agent];
+  if (path.empty()) return;
+  const Timestep end = cost(agent);
+  const auto rest = [&](AgentId resident, AgentId visitor, VertexId v, Timestep t) {
+    const Timestep then = std::max(t, cost(resident));
+    out.push_back({Kind::rest, resident, visitor, v, v, then, t - then});
+  };
+  for (Timestep t = 0; t <= end; ++t) {
+    const VertexId v = path[static_cast<std::size_t>(t)];
+    const auto is_host = [&](AgentId i) {
+      return i != agent && !leaves(i) && paths_[i].back() == v && cost(i) <= t + robust_;
+    };
+    for (std::int32_t at = resident_[v]; at >= 0;) {
+      const AgentId resident(static_cast<std::size_t>(at));
+      if (is_host(resident)) rest(resident, agent, v, t);
+      at = next_resident_[resident];
+    }
+    if (t == end && !leaves(agent)) break;
+    for (const Stay& stay : stays_[v])
+      if (stay.agent != agent && !is_host(stay.agent) && stay.begin <= t + robust_ &&
+          stay.end >= t - robust_)
+        out.push_back(
+            {Kind::vertex, agent, stay.agent, v, v, t, std::clamp(t, stay.begin, stay.end) - t});
+  }
+  if (leaves(agent)) return;
+  for (const Stay& stay : stays_[path.back()])
+    if (stay.agent != agent)
+      for (Timestep t = std::max(stay.begin, end - robust_); t <= stay.end; ++t)
+        rest(agent, stay.agent, path.back(), t);
+}
+
 void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
+  if (robust_ > 0) return collect_robust(agent, out);
   const Path& path = paths_[agent];
   const auto end = static_cast<Timestep>(path.size()) - 1;
   for (Timestep t = 0; t <= end; ++t) {
     const VertexId v = path[static_cast<std::size_t>(t)];
     const auto is_host = [&](AgentId i) {  // rests there now
-      return i != agent && paths_[i].back() == v && cost(i) <= t;
+      return i != agent && !leaves(i) && paths_[i].back() == v && cost(i) <= t;
     };
     for (std::int32_t at = resident_[v]; at >= 0;) {
       const AgentId resident(static_cast<std::size_t>(at));
@@ -93,7 +163,8 @@ void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
     }
     for (const Stay& stay : stays_[v])
       if (stay.contains(t) && stay.agent != agent && !is_host(stay.agent))
-        out.push_back({t == end ? Kind::rest : Kind::vertex, agent, stay.agent, v, v, t});
+        out.push_back(
+            {t == end && !leaves(agent) ? Kind::rest : Kind::vertex, agent, stay.agent, v, v, t});
     if (t == end) break;
     const VertexId w = path[static_cast<std::size_t>(t) + 1];
     if (w == v) continue;
@@ -102,7 +173,7 @@ void PathIndex::collect(AgentId agent, std::vector<Encounter>& out) const {
           paths_[stay.agent][static_cast<std::size_t>(t) + 1] == v)
         out.push_back({Kind::swap, agent, stay.agent, v, w, t});
   }
-  if (!path.empty()) collect_rest(agent, out);
+  if (!path.empty() && !leaves(agent)) collect_rest(agent, out);
 }
 
 void PathIndex::collect_rest(AgentId agent, std::vector<Encounter>& out) const {

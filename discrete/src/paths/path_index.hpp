@@ -21,7 +21,10 @@ struct Encounter {
   Kind kind = Kind::vertex;
   AgentId first, second;
   VertexId vertex, to;
-  Timestep timestep = 0;
+  Timestep timestep = 0;  ///< Of `first`.
+  /// `second` is there that much later, or before: where rules keep agents apart in time, too.
+  Timestep gap = 0;
+  [[nodiscard]] Timestep second_timestep() const noexcept { return timestep + gap; }
   friend bool operator==(const Encounter&, const Encounter&) = default;
 };
 
@@ -33,7 +36,8 @@ class PathIndex {
   /// nowhere.
   explicit PathIndex(const Instance& instance);
 
-  /// `path` begins at the agent's start and ends with its arrival at one of its goals.
+  /// `path` begins at the agent's start and ends with its arrival at one of its goals, where it
+  /// rests, or leaves.
   void replace(AgentId agent, const Path& path);
   [[nodiscard]] const Path& path(AgentId agent) const { return paths_[agent]; }
   /// Requires a path.
@@ -45,6 +49,7 @@ class PathIndex {
   /// so that it arrives at `t`.
   [[nodiscard]] int collisions_of_step(AgentId agent, VertexId from, VertexId to,
                                        Timestep t) const {
+    if (robust_ > 0) return encounters_at(agent, to, t);
     int count = 0;
     for (std::int32_t at = resident_[to]; at >= 0;) {
       const AgentId resident(static_cast<std::size_t>(at));
@@ -65,7 +70,8 @@ class PathIndex {
   }
   /// How many times others pass that goal after the agent's `arrival` there.
   [[nodiscard]] int collisions_of_rest(AgentId agent, VertexId goal, Timestep arrival) const;
-  /// How many collisions the agent's path has.
+  /// How many collisions the agent's path has, as the two functions above count them: without those
+  /// of its start at timestep 0, which all its paths have.
   [[nodiscard]] int num_collisions(AgentId agent) const;
   /// All collisions among current paths; each pair's are in the order of time.
   [[nodiscard]] const std::vector<Encounter>& collisions();
@@ -91,12 +97,20 @@ class PathIndex {
   void add_resident(AgentId agent);
   void collect(AgentId agent, std::vector<Encounter>& out) const;
   void collect_rest(AgentId agent, std::vector<Encounter>& out) const;
+  [[nodiscard]] bool leaves(AgentId agent) const { return instance_.agents()[agent].leaves; }
+
+  // The same where nobody may be in a vertex within some timesteps after another. Counted are pairs
+  // of timesteps, which both agents count alike.
+  [[nodiscard]] int encounters_at(AgentId agent, VertexId v, Timestep t) const;
+  [[nodiscard]] int encounters_of_rest(AgentId agent, VertexId goal, Timestep arrival) const;
+  void collect_robust(AgentId agent, std::vector<Encounter>& out) const;
 
   const Instance& instance_;
+  const Timestep robust_;
   IdVector<AgentId, Path> paths_;
   IdVector<VertexId, std::vector<Stay>> stays_;
-  // Those whose paths end there, as a list: an agent, -1 at the end. Of goals that no two agents
-  // have in common there is one at most.
+  // Those whose paths end there, to rest, as a list: an agent, -1 at the end. Of goals that no two
+  // agents have in common there is one at most.
   IdVector<VertexId, std::int32_t> resident_;
   IdVector<AgentId, std::int32_t> next_resident_;
   std::vector<Encounter> collisions_;

@@ -14,9 +14,9 @@
 namespace quadrille::discrete {
 
 /// Cheapest paths of one agent around its obstacles: safe interval path planning (Phillips and
-/// Likhachev, ICRA 2011) with exact distances. A state is a vertex and a span of time in which no
-/// obstacle forbids it, so that time and memory follow the vertices and the obstacles, however late
-/// the agent has to arrive.
+/// Likhachev, ICRA 2011) with exact distances. Searched are a state of the agent and a span of time
+/// in which no obstacle forbids it, so that time and memory follow the vertices and the obstacles,
+/// however late the agent has to arrive.
 class SafeIntervalSearch {
  public:
   /// Searches throw LimitReached when `limits` are met; null: there are none.
@@ -40,16 +40,17 @@ class SafeIntervalSearch {
     Timestep begin, end;
     Timestep arrival;  // The earliest one known.
   };
-  /// The intervals of a vertex, in the search with that stamp.
+  /// The intervals of a state, in the search with that stamp.
   struct Head {
     std::uint32_t stamp = 0;
     std::uint32_t begin = 0, end = 0;
   };
   struct Label {
-    VertexId vertex;
+    VertexId vertex;  // a place; see `state`
     std::uint32_t interval;
     Timestep time;  // Of arrival.
     LabelIndex parent;
+    VertexId state;
   };
   struct Query {
     const AgentDistances& distances;
@@ -58,14 +59,16 @@ class SafeIntervalSearch {
     std::span<Timestep> first_hits;
   };
 
-  void start_search();
-  /// Of a vertex, in order of time; made when they are asked for first.
-  Head intervals_of(const Query& query, VertexId v);
-  void add(const Query& query, VertexId v, std::uint32_t interval, Timestep time,
+  void start_search(const AgentDistances& distances);
+  /// Of a state, in order of time; made when they are asked for first.
+  Head intervals_of(const Query& query, VertexId state);
+  void add(const Query& query, VertexId state, std::uint32_t interval, Timestep time,
            LabelIndex parent);
   void expand(const Query& query, LabelIndex from);
   void reach(const Query& query, LabelIndex from, VertexId to);
-  static void hit(const Query& query, std::uint32_t slot, VertexId v, Timestep t);
+  static void hit(const Query& query, std::uint32_t slot, VertexId state, Timestep t);
+  /// Whether the agent may end there once it has come to that interval.
+  [[nodiscard]] bool is_end(const Query& query, const Label& label) const;
 
   LimitMonitor* limits_;
   std::int64_t effort_ = 0;

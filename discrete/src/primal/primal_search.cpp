@@ -277,6 +277,7 @@ Cost PrimalSearch::cost() const { return impl_->cost(); }
 std::string_view PrimalSearch::origin() const noexcept { return impl_->origin(); }
 
 std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits, std::uint32_t seed) {
+  if (!instance.is_plain()) return std::nullopt;
   if (instance.has_goal_sets()) {
     const GoalChoice choice = choose_goals(instance, &limits);
     return choice.chosen ? find_plan(*choice.chosen, limits, seed) : std::nullopt;

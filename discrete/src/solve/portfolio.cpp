@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mdd/mdd_model.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "solve/search.hpp"
 
@@ -20,7 +21,8 @@ namespace {
 constexpr std::int64_t kLag = 1;
 
 /// What another worker does: plans, the lazy model with the other way to backtrack, the MDD model.
-/// The MDD model knows no goal sets: there the lazy model takes its place, set otherwise.
+/// The MDD model knows no goal sets and waypoints: there the lazy model takes its place, set
+/// otherwise.
 SolveOptions options_of(const Instance& instance, const SolveOptions& options, const Tuner& tuner,
                         std::size_t worker) {
   if (worker == 0 || (worker == 1 && options.first_plan)) return options;
@@ -30,7 +32,7 @@ SolveOptions options_of(const Instance& instance, const SolveOptions& options, c
   other.cost_search = CostSearch::core_guided;
   other.mdd.growth = MddGrowth::on_demand;
   const std::size_t variant = (worker - (options.first_plan ? 2 : 1)) % 4;
-  if (variant == 0 || instance.has_goal_sets()) {
+  if (variant == 0 || instance.has_goal_sets() || !MddModel::knows(instance)) {
     other.lazy.chronological = options.system == System::dpll && !tuner(options).chronological;
     other.system = System::dpll;
     other.lazy.forbid_first = variant == 1 ? !options.lazy.forbid_first : options.lazy.forbid_first;

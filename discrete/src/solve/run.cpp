@@ -15,6 +15,7 @@
 #include "mdd/lemma_auditor.hpp"
 #include "mdd/mdd_model.hpp"
 #include "mdd/mdd_problem.hpp"
+#include "paths/lone_agents.hpp"
 #include "quadrille/sat/proof_log.hpp"
 
 namespace quadrille::discrete {
@@ -48,15 +49,18 @@ class MddRun final : public Run {
       theory_ = std::make_unique<CollisionTheory>(model_, options.mdd.check);
     if (options.system == System::mdd_sat) eager_ = std::make_unique<EagerCollisions>(model_);
     if (options.debug.audit || options.debug.known_plan)
-      auditor_ =
-          std::make_unique<LemmaAuditor>(model_, options.debug.audit, options.debug.known_plan);
+      auditor_ = std::make_unique<LemmaAuditor>(model_, options.debug.audit && instance.is_plain(),
+                                                options.debug.known_plan);
     engine_ = std::make_unique<sat::Engine>(theory_.get(),
                                             engine_options(options, tuning, auditor_.get(), log_));
   }
 
-  bool prepare(std::shared_ptr<const GoalDistances>, std::shared_ptr<const GoalPrices>,
+  bool prepare(std::shared_ptr<const GoalDistances> distances, std::shared_ptr<const GoalPrices>,
                LimitMonitor& limits) override {
-    if (!model_.attach(*engine_, limits)) return false;
+    const Instance& instance = model_.instance();
+    IdVector<AgentId, Timestep> lone;
+    if (!instance.is_plain()) lone = lone_costs(instance, *distances, limits).costs;
+    if (!model_.attach(*engine_, limits, std::move(lone))) return false;
     problem_ = std::make_unique<MddProblem>(model_, *engine_, theory_.get(), eager_.get(), growth_);
     return true;
   }
@@ -99,8 +103,8 @@ class LazyRun final : public Run {
     theory_ = std::make_unique<LazyTheory>(*model_, limits, tuning_.explicit_paths);
     if (limits.exhausted_now()) return false;
     if (options_.debug.audit || options_.debug.known_plan)
-      auditor_ =
-          std::make_unique<LazyAuditor>(*model_, options_.debug.audit, options_.debug.known_plan);
+      auditor_ = std::make_unique<LazyAuditor>(
+          *model_, options_.debug.audit && instance_.is_plain(), options_.debug.known_plan);
     sat::ClauseObserver* observer = auditor_.get();
     if (options_.explain) {
       recorder_.emplace(*model_, instance_.num_agents(), observer);

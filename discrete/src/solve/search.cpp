@@ -10,6 +10,7 @@
 #include "feasibility/goal_choice.hpp"
 #include "feasibility/goal_reach.hpp"
 #include "neighbourhoods/plan_merger.hpp"
+#include "paths/lone_agents.hpp"
 #include "quadrille/core/free_bound.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/sat/cost_search.hpp"
@@ -44,9 +45,8 @@ class Search final : private sat::YieldPoint {
     enter(Phase::set_up);
     const auto distances = get_distances_(limits_);
     if (!distances) return;
-    const auto free_cost = [&](AgentId i) -> Cost {
-      return (*distances)(i, instance_.agents()[i].start);
-    };
+    const LoneCosts lone = lone_costs(instance_, *distances, limits_);
+    const auto free_cost = [&](AgentId i) -> Cost { return lone.costs[i]; };
     const auto agents = instance_.agent_ids();
     known_.prove(free_bound(agents, options_.objective, free_cost));
     incumbent_.raise(known_.floor);
@@ -117,6 +117,10 @@ class Search final : private sat::YieldPoint {
     heard_plan_ = plan;
     const std::optional<Cost> before = incumbent_.upper();
     if (!before) {
+      incumbent_.offer(*plan, origin);
+      return;
+    }
+    if (!instance_.is_plain()) {  // Parts of plans are told apart by the classic collisions.
       incumbent_.offer(*plan, origin);
       return;
     }
@@ -196,7 +200,7 @@ class Search final : private sat::YieldPoint {
   /// Raises of the bound are told in costs.
   [[nodiscard]] bool has_prices() const {
     return instance_.has_goal_sets() && options_.objective == Objective::sum_of_costs &&
-           !options_.explain;
+           !options_.explain && instance_.is_plain();
   }
 
   /// What is known of the bound is known to all.
@@ -239,6 +243,8 @@ class Search final : private sat::YieldPoint {
     known_.statistics.rejected_models = run->num_rejected();
     if (const auto complaint = run->complaint())
       known_.fail(*complaint);
+    else if (end == sat::SearchEnd::exhausted && !instance_.is_plain())
+      known_.infeasible = solve::Infeasibility{"no plan keeps all rules"};
     else if (end == sat::SearchEnd::exhausted && instance_.has_goal_sets())
       known_.infeasible = solve::Infeasibility{"no choice of goals has a plan"};
     else if (end == sat::SearchEnd::exhausted)

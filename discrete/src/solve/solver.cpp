@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "certificate/certify.hpp"
-#include "feasibility/goal_choice.hpp"
+#include "mdd/mdd_model.hpp"
 #include "mdd/usages.hpp"
 #include "model/independent_groups.hpp"
-#include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "quadrille/solve/apart.hpp"
 #include "quadrille/solve/frame.hpp"
 #include "quadrille/solve/time_origin.hpp"
+#include "solve/first_checks.hpp"
 #include "solve/portfolio.hpp"
 
 namespace quadrille::discrete {
@@ -55,6 +55,14 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   if (options.proof && instance.has_goal_sets())
     return refuse(ErrorCode::out_of_range,
                   "a certificate knows one goal for each agent, not sets of several");
+  if (!instance.is_plain() && (options.proof || options.explain))
+    return refuse(ErrorCode::out_of_range,
+                  std::string(options.proof ? "a certificate" : "an explanation") +
+                      " knows no rules: one-way edges, agents that leave, releases, deadlines, "
+                      "waypoints, blockages, robust plans");
+  if (options.system != System::dpll && !MddModel::knows(instance))
+    return refuse(ErrorCode::out_of_range, "the system " + std::string(to_string(options.system)) +
+                                               " knows no waypoints; they need the system dpll");
   return std::nullopt;
 }
 
@@ -65,7 +73,7 @@ class Border {
 
   [[nodiscard]] bool begins_at_0() const { return instance_.now() == 0; }
   [[nodiscard]] const Instance& instance() const { return instance_; }
-  [[nodiscard]] Instance since_now() const { return instance_.with_now(0).value(); }
+  [[nodiscard]] Instance since_now() const { return instance_.since_now(); }
   [[nodiscard]] VerifyReport verify(const Plan& plan) const {
     return discrete::verify(instance_, plan);
   }
@@ -103,22 +111,21 @@ class Domain {
   [[nodiscard]] IdRange<AgentId> agents() const { return instance_.agent_ids(); }
   [[nodiscard]] Cost free_cost(AgentId agent) const {
     const Agent& task = instance_.agents()[agent];
-    return distances_to_nearest(instance_.graph(), task.goals)[task.start];
+    const Timestep way = distances_to_nearest(instance_.graph(), task.goals)[task.start];
+    return way == kUnreachable ? 0 : way;
   }
 
   void search(LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
               Knowledge& known, solve::Pulse<Plan>& pulse) {
     pulse.enter(Phase::feasibility);
-    Feasibility feasibility = instance_.has_goal_sets()
-                                  ? choose_goals(instance_, &limits).feasibility
-                                  : check_feasibility(instance_);
-    if (!feasibility.feasible) {
-      invariant_ = std::move(feasibility.invariant);
-      known.infeasible =
-          solve::Infeasibility{std::move(feasibility.reason), std::move(feasibility.agents),
-                               std::move(feasibility.vertices)};
-      return;
+    if (instance_.is_plain()) {
+      Feasibility feasibility = decide_feasibility(instance_, limits);
+      invariant_ = feasibility.invariant;
+      if (!feasibility.feasible) known.infeasible = as_answer(std::move(feasibility));
+    } else {
+      known.infeasible = refuted_by_rules(instance_, limits);
     }
+    if (known.infeasible) return;
     account_ = account;
     // The published systems know nothing of groups, and a certificate is one for all.
     if (options_.system == System::dpll && !options_.proof) {
@@ -185,7 +192,9 @@ class Domain {
 Result<SolveOutcome> solve_tuned(const Instance& instance, const SolveOptions& options,
                                  const Tuner& tuner) {
   if (auto error = check_options(instance, options)) return *std::move(error);
-  const auto search = [&](const Instance& from_0, const SolveOptions& asked) {
+  const auto search = [&](const Instance& from_0, SolveOptions asked) {
+    // First plans and their improvement know no rules.
+    asked.first_plan = asked.first_plan && from_0.is_plain();
     Domain domain(from_0, asked, tuner);
     auto outcome = solve::Frame<Domain>(domain, asked).solve();
     if (outcome && asked.proof) domain.certify(outcome.value());

@@ -11,6 +11,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "verify/rules.hpp"
+
 namespace quadrille::discrete {
 namespace {
 
@@ -22,7 +24,9 @@ class Replay {
       : instance_(instance),
         graph_(instance.graph()),
         plan_(plan),
+        robust_(instance.rules().robust),
         parked_(graph_.num_vertices(), kNobody),
+        left_(robust_ > 0 ? graph_.num_vertices() : 0),
         first_(graph_.num_vertices(), kNobody) {}
 
   VerifyReport run() {
@@ -30,6 +34,7 @@ class Replay {
     count_costs();
     for (Timestep t = 0; !listed_.empty(); ++t) {
       check_vertices(t);
+      if (robust_ > 0) check_distance_in_time(t);
       check_moves(t);
       advance(t + 1);
     }
@@ -75,6 +80,7 @@ class Replay {
       add(Violation::Kind::bad_time, 0, VertexId(), 0,
           "the plan begins" + when(0) + ", and the instance at timestep " +
               std::to_string(instance_.now()));
+    lengths_.assign(std::min(agents, paths), 0);
     for (std::uint32_t i = 0; i < std::min(agents, paths); ++i) {
       if (path(i).empty()) {
         add(Violation::Kind::empty_path, i, VertexId(), 0, name(i) + " has an empty path");
@@ -82,6 +88,12 @@ class Replay {
       }
       listed_.push_back(i);
       const Agent& task = instance_.agents()[AgentId(i)];
+      lengths_[i] = length_while_there(task, path(i));
+      check_own_rules(
+          instance_, task, path(i), [&](Violation::Kind kind, Timestep t, const std::string& what) {
+            const auto at = std::min<std::size_t>(static_cast<std::size_t>(t), path(i).size() - 1);
+            add(kind, i, path(i)[at], t, name(i) + " " + what + when(t));
+          });
       const auto last = static_cast<Timestep>(path(i).size() - 1);
       if (path(i).front() != task.start)
         add(Violation::Kind::wrong_start, i, path(i).front(), 0,
@@ -137,8 +149,26 @@ class Replay {
          "agents " + std::to_string(a) + " and " + std::to_string(b) + what});
   }
 
+  /// Each listed agent with the one that was last in its vertex. Who was there before that was told
+  /// when that one came.
+  void check_distance_in_time(Timestep t) {
+    for (const std::uint32_t i : listed_) {
+      if (!exists(at(i, t))) continue;
+      const Left& last = left_[at(i, t)];
+      if (last.agent == kNobody || last.agent == i || t - last.timestep > robust_) continue;
+      if (t == last.timestep) continue;  // a collision
+      add_pair(Violation::Kind::too_close, std::min(i, last.agent), std::max(i, last.agent),
+               at(i, t), t,
+               " are at " + place(at(i, t)) + " within " + std::to_string(t - last.timestep) +
+                   " timesteps, and there have to be more than " + std::to_string(robust_) + ";" +
+                   " the second one comes" + when(t));
+    }
+    for (const std::uint32_t i : listed_)
+      if (exists(at(i, t))) left_[at(i, t)] = {i, t};
+  }
+
   bool is_edge(VertexId a, VertexId b) const {
-    if (const auto& grid = graph_.layout()) {
+    if (const auto& grid = graph_.layout(); grid && !graph_.is_directed()) {
       const Cell p = grid->cell_of(a), q = grid->cell_of(b);
       return std::abs(p.x - q.x) + std::abs(p.y - q.y) == 1;
     }
@@ -153,7 +183,7 @@ class Replay {
   void check_moves(Timestep t) {
     movers_.clear();  // Looked up by key only, never iterated.
     for (const std::uint32_t i : listed_) {
-      if (static_cast<std::size_t>(t) + 1 >= path(i).size()) continue;
+      if (static_cast<std::size_t>(t) + 1 >= length(i)) continue;
       const VertexId from = at(i, t), to = at(i, t + 1);
       if (from == to || !exists(from) || !exists(to)) continue;
       movers_.emplace(key(from, to), i);
@@ -163,7 +193,7 @@ class Replay {
                 ", which is no neighbour");
     }
     for (const std::uint32_t i : listed_) {
-      if (static_cast<std::size_t>(t) + 1 >= path(i).size()) continue;
+      if (static_cast<std::size_t>(t) + 1 >= length(i)) continue;
       const VertexId from = at(i, t), to = at(i, t + 1);
       const auto found = from == to ? movers_.end() : movers_.find(key(to, from));
       if (found == movers_.end()) continue;
@@ -182,11 +212,14 @@ class Replay {
                  std::to_string(absolute(t)) + " and " + std::to_string(absolute(t + 1)));
   }
 
-  /// Parks the agents whose path ends before timestep t.
+  /// Until when the path of a listed agent says where it is.
+  std::size_t length(std::uint32_t i) const { return lengths_[i]; }
+
+  /// Parks the agents whose path ends before timestep t, or lets them leave.
   void advance(Timestep t) {
     const auto done = [this, t](std::uint32_t i) {
-      if (path(i).size() > static_cast<std::size_t>(t)) return false;
-      if (exists(path(i).back())) {
+      if (length(i) > static_cast<std::size_t>(t)) return false;
+      if (!instance_.agents()[AgentId(i)].leaves && exists(path(i).back())) {
         std::uint32_t& owner = parked_[path(i).back()];
         owner = std::min(owner, i);
       }
@@ -199,9 +232,16 @@ class Replay {
   const Graph& graph_;
   const Plan& plan_;
   VerifyReport report_;
+  const Timestep robust_;
+  std::vector<std::size_t> lengths_;   // By agent.
   std::vector<std::uint32_t> listed_;  // Agents whose path still says where they are; increasing.
   IdVector<VertexId, std::uint32_t> parked_;  // The smallest agent that stays here for ever.
-  IdVector<VertexId, std::uint32_t> first_;   // The smallest listed agent here at this timestep.
+  struct Left {
+    std::uint32_t agent = kNobody;
+    Timestep timestep = 0;
+  };
+  IdVector<VertexId, Left> left_;  // Who was here last; only if agents keep apart in time.
+  IdVector<VertexId, std::uint32_t> first_;  // The smallest listed agent here at this timestep.
   std::unordered_map<std::uint64_t, std::uint32_t> movers_;  // The smallest agent on each arc.
 };
 
@@ -223,6 +263,16 @@ std::string_view to_string(Violation::Kind kind) noexcept {
       return "wrong-goal";
     case Violation::Kind::not_adjacent:
       return "not-adjacent";
+    case Violation::Kind::too_early:
+      return "too-early";
+    case Violation::Kind::too_late:
+      return "too-late";
+    case Violation::Kind::waypoint:
+      return "waypoint";
+    case Violation::Kind::obstacle:
+      return "obstacle";
+    case Violation::Kind::too_close:
+      return "too-close";
     case Violation::Kind::vertex:
       return "vertex-conflict";
     case Violation::Kind::swap:

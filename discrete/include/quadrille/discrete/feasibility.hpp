@@ -43,19 +43,20 @@ struct Feasibility {
   /// its goal, its start and its goal. Empty when feasible.
   std::vector<AgentId> agents = {};
   std::vector<VertexId> vertices = {};
-  /// False: some agents have several goals, there are too many choices to try them all, and those
-  /// that were tried have no plan. Then `feasible` is true.
+  /// False: the instance has rules, of which nothing is decided; or some agents have several goals,
+  /// there are too many choices to try them all, and those that were tried have no plan. Then
+  /// `feasible` is true.
   bool is_decided = true;
   /// Why there is none, for programs. None when feasible, and where agents have several goals.
   Invariant invariant = {};
 };
 
-/// Decides whether an instance has a plan. Exact in both directions; docs/feasibility.md has the
-/// proof. Where agents have several goals, choices of one goal each are tried, some ten million
-/// elementary steps long: exact where the answer is decided. The rules are those of `verify`: one
-/// agent per vertex, no swaps over an edge; agents may follow each other and rotate along cycles.
-/// Deterministic; thread-safe; recursion-free. O(V + E) time and memory; with goal sets, O(agents *
-/// (V + E + goals)) time and as many steps as said.
+/// Decides whether an instance without rules has a plan. Exact in both directions;
+/// docs/feasibility.md has the proof. Where agents have several goals, choices of one goal each are
+/// tried, some ten million elementary steps long: exact where the answer is decided. The rules are
+/// those of `verify`: one agent per vertex, no swaps over an edge; agents may follow each other and
+/// rotate along cycles. Deterministic; thread-safe; recursion-free. O(V + E) time and memory; with
+/// goal sets, O(agents * (V + E + goals)) time and as many steps as said.
 [[nodiscard]] Feasibility check_feasibility(const Instance& instance);
 
 }  // namespace quadrille::discrete

@@ -21,13 +21,15 @@ class BreadthFirst;
 /// vertices that are nobody's goals do not matter.
 using GoalPrices = IdVector<VertexId, Timestep>;
 
-/// The number of moves from every vertex to every agent's goal, or to the nearest one of several.
+/// The number of moves from every vertex to every agent's goal, or to the nearest one of several,
+/// whatever rules there are besides one-way edges.
 /// Immutable, to be shared by all who search the same instance, from any thread.
 ///
 /// A *plain* table takes 2 bytes per agent and vertex. Where it would be very large, or distances
 /// do not fit, it is *packed* into somewhat more than half a byte: vertices are grouped around
 /// centres that are at most 7 moves away; known are the distance of the centre, and of each vertex
 /// the last four bits of its distance, which differs from that of the centre by at most 7.
+/// That is not so where edges lead one way: of such graphs the table is *wide*, 4 bytes each.
 class GoalDistances {
  public:
   /// A plain table that would take more bytes is packed. Measured: solving takes 4 % longer then on
@@ -56,12 +58,14 @@ class GoalDistances {
    private:
     friend class GoalDistances;
     [[nodiscard]] Timestep unpacked(VertexId vertex) const {
+      if (wide_ != nullptr) return wide_[vertex.index()];
       const Timestep centre = centres_[groups_[vertex.index()]];
       if (centre == kUnreachable) return kUnreachable;
       const int last_bits = bits_[vertex.index() / 2] >> (4 * (vertex.index() % 2));
       return centre + ((last_bits - centre + kRadius) & 15) - kRadius;
     }
-    const std::uint16_t* plain_ = nullptr;  // Null: packed.
+    const std::uint16_t* plain_ = nullptr;  // Null: wide or packed.
+    const Timestep* wide_ = nullptr;        // Null: packed.
     const std::uint8_t* bits_ = nullptr;    // Four of each vertex.
     const Timestep* centres_ = nullptr;     // Of each group.
     const std::uint32_t* groups_ = nullptr;
@@ -70,6 +74,10 @@ class GoalDistances {
     Row row;
     if (!plain_.empty()) {
       row.plain_ = plain_.data() + agent.index() * groups_.size();
+      return row;
+    }
+    if (!wide_.empty()) {
+      row.wide_ = wide_.data() + agent.index() * groups_.size();
       return row;
     }
     row.bits_ = bits_.data() + agent.index() * num_bytes();
@@ -87,6 +95,7 @@ class GoalDistances {
 
    private:
     friend class GoalDistances;
+    std::vector<Timestep> wide_;
     std::vector<std::uint8_t> bits_;
     std::vector<Timestep> centres_;
     Row row_;  // Of the two.
@@ -117,10 +126,12 @@ class GoalDistances {
   /// Packs the distances by vertex.
   void pack(const std::vector<Timestep>& distances, std::uint8_t* bits, Timestep* centres) const;
 
-  std::vector<std::uint32_t> groups_;        // By vertex.
+  bool is_wide_ = false;
+  std::vector<std::uint32_t> groups_;        // By vertex; without meaning in a wide table.
   std::vector<std::uint32_t> group_centre_;  // By group: a vertex.
   // By agent, then vertex or group.
-  std::vector<std::uint16_t> plain_;  // Empty: packed.
+  std::vector<std::uint16_t> plain_;  // Empty: wide or packed.
+  std::vector<Timestep> wide_;        // Empty: plain or packed.
   std::vector<std::uint8_t> bits_;    // Four of each vertex.
   std::vector<Timestep> centres_;
 };

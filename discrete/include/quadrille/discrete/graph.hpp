@@ -48,7 +48,8 @@ class GridLayout {
   IdVector<VertexId, Cell> cells_;
 };
 
-/// A simple undirected graph, and the grid it came from if it is one. Immutable.
+/// A simple graph, and the grid it came from if it is one. Edges lead both ways unless something
+/// else is said. Immutable.
 class Graph {
  public:
   using Edge = std::pair<VertexId, VertexId>;
@@ -60,20 +61,51 @@ class Graph {
   [[nodiscard]] static Graph grid(std::int32_t width, std::int32_t height,
                                   const std::vector<bool>& passable);
 
+  /// The same with arcs, each of which leads from its first vertex to its second. Errors
+  /// (invalid_instance): an end point out of range, a loop, an arc given twice. O(V + E log E).
+  [[nodiscard]] static Result<Graph> make_directed(std::size_t num_vertices,
+                                                   const std::vector<Edge>& arcs);
+  /// The same graph, but these edges lead only from their first vertex to their second. Errors
+  /// (invalid_instance): no such edge, or one named in both directions. O(V + E log E).
+  [[nodiscard]] Result<Graph> with_one_way(const std::vector<Edge>& arcs) const;
+  /// The same graph with all edges leading both ways.
+  [[nodiscard]] Graph undirected() const;
+
   [[nodiscard]] std::size_t num_vertices() const noexcept { return offsets_.size() - 1; }
-  [[nodiscard]] std::size_t num_edges() const noexcept { return neighbours_.size() / 2; }
-  /// Neighbours in increasing order. Valid as long as the graph lives.
+  /// Of a directed graph: arcs.
+  [[nodiscard]] std::size_t num_edges() const noexcept {
+    return is_directed() ? neighbours_.size() : neighbours_.size() / 2;
+  }
+  /// Some edge leads one way only.
+  [[nodiscard]] bool is_directed() const noexcept { return !reverse_.offsets.empty(); }
+  /// Where one can go from here, in increasing order. Valid as long as the graph lives.
   [[nodiscard]] std::span<const VertexId> neighbours(VertexId vertex) const {
     return std::span(neighbours_)
         .subspan(offsets_[vertex.index()], offsets_[vertex.index() + 1] - offsets_[vertex.index()]);
   }
-  [[nodiscard]] bool adjacent(VertexId a, VertexId b) const;  ///< O(log degree)
+  /// From where one can come here; likewise.
+  [[nodiscard]] std::span<const VertexId> predecessors(VertexId vertex) const {
+    if (!is_directed()) return neighbours(vertex);
+    const auto& offsets = reverse_.offsets;
+    return std::span(reverse_.neighbours)
+        .subspan(offsets[vertex.index()], offsets[vertex.index() + 1] - offsets[vertex.index()]);
+  }
+  /// An edge leads from `a` to `b`. O(log degree).
+  [[nodiscard]] bool adjacent(VertexId a, VertexId b) const;
   [[nodiscard]] const std::optional<GridLayout>& layout() const noexcept { return layout_; }
 
  private:
   Graph() = default;
+  /// Of these arcs, which are sorted and different.
+  Graph(std::size_t num_vertices, const std::vector<Edge>& arcs);
+  [[nodiscard]] std::vector<Edge> arcs() const;
+
   std::vector<std::size_t> offsets_;  // CSR, num_vertices + 1 entries
   std::vector<VertexId> neighbours_;
+  struct Reverse {
+    std::vector<std::size_t> offsets;
+    std::vector<VertexId> neighbours;
+  } reverse_;  // Empty: the graph is undirected.
   std::optional<GridLayout> layout_;
 };
 
@@ -82,7 +114,7 @@ inline constexpr Timestep kUnreachable = INT32_MAX;
 
 /// Number of moves from `source` to every vertex, kUnreachable where there is no way. O(V + E).
 [[nodiscard]] IdVector<VertexId, Timestep> distances_from(const Graph& graph, VertexId source);
-/// The same between every vertex and the nearest of these. O(V + E).
+/// The same from every vertex to the nearest of these. O(V + E).
 [[nodiscard]] IdVector<VertexId, Timestep> distances_to_nearest(const Graph& graph,
                                                                 const Goals& goals);
 

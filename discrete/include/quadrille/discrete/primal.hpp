@@ -77,7 +77,7 @@ class PrimalSearch {
 
 /// Some plan; nullopt when a limit was met or when there is none. Where agents have several goals,
 /// one that ends with a choice of them for which check_feasibility knows a plan; nullopt also when
-/// it knows none.
+/// it knows none, and of an instance with rules, which all searches for first plans do not know.
 [[nodiscard]] std::optional<Plan> find_plan(const Instance& instance, LimitMonitor& limits,
                                             std::uint32_t seed);
 

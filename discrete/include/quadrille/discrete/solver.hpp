@@ -101,15 +101,15 @@ struct SolveOptions : Request<Plan> {
   MddOptions mdd;
   LazyOptions lazy;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
-  /// primal.hpp): then a search that a limit ends has a plan.
+  /// primal.hpp): then a search that a limit ends has a plan. None are made under rules.
   bool first_plan = true;
-  /// Keep all that the lower bound follows from, for SolveOutcome::certificate. Not with goal sets.
-  /// The search is the same. Takes 1 to 3 MB of memory per second and thread.
+  /// Keep all that the lower bound follows from, for SolveOutcome::certificate. Not with goal sets
+  /// or rules. The search is the same. Takes 1 to 3 MB of memory per second and thread.
   bool proof = false;
 };
 
-/// Infeasible: see Feasibility. `explain` is for dpll. With `proof` there is a certificate, or a
-/// word why there is none.
+/// Infeasible: see Feasibility. `explain` is for dpll, and not for instances with rules. With
+/// `proof` there is a certificate, or a word why there is none.
 struct SolveOutcome : Outcome<Plan>, CertifiedOutcome {};
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,

@@ -24,13 +24,18 @@ struct Violation {
     wrong_start,   ///< The path begins elsewhere.
     wrong_goal,    ///< The path ends elsewhere than at a goal of the agent.
     not_adjacent,  ///< A move between `timestep` and the next one that is no edge.
+    too_early,     ///< A move that begins before the agent's release.
+    too_late,      ///< An arrival after the agent's deadline.
+    waypoint,      ///< One is not visited, or not after the one before it.
+    obstacle,      ///< A vertex or an edge is used while it is blocked.
     vertex,        ///< Two agents in one vertex at `timestep`, goal stays included.
+    too_close,     ///< An agent in a vertex in which another one was too few timesteps before.
     swap,          ///< Two agents cross an edge in opposite directions from `timestep` on.
   };
   Kind kind;
   AgentId agent;
-  std::optional<AgentId> other;  ///< For vertex and swap; larger than `agent`.
-  VertexId vertex;               ///< Of `agent`, at `timestep`.
+  std::optional<AgentId> other;  ///< For vertex, too_close and swap; larger than `agent`.
+  VertexId vertex;               ///< Of `agent`, at `timestep`; too_close: where both were.
   Timestep timestep = 0;         ///< Absolute, as the instance counts.
   std::string message;           ///< One sentence that names agents, place and timestep.
 };
@@ -40,7 +45,8 @@ struct Violation {
 struct VerifyReport {
   /// In order of timestep, then agent. Every agent that breaks a rule is named at every timestep at
   /// which its path does so; in a crowd, with one of the others instead of with each of them.
-  /// Agents that already stay at the end of their paths are named only with agents that arrive.
+  /// Agents that already stay at the end of their paths are named only with agents that arrive. An
+  /// agent that leaves is gone after its arrival; how often its path repeats its end means nothing.
   std::vector<Violation> violations;
   /// Meaningful when there are no violations. From the instance's `now`.
   Cost sum_of_costs = 0, makespan = 0;
@@ -49,7 +55,7 @@ struct VerifyReport {
 
 /// Replays a plan. Shares no code with any search: a plan that passes is a plan.
 /// Takes any plan, however broken. Expected time, and the number of violations, are linear in the
-/// size of the plan and the graph.
+/// size of the plan and the graph, and in the size of the plan for each blockage.
 [[nodiscard]] VerifyReport verify(const Instance& instance, const Plan& plan);
 
 }  // namespace quadrille::discrete

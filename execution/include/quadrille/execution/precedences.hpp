@@ -82,7 +82,8 @@ struct Precedences {
 /// Of a plan with timesteps: each agent that comes to a vertex follows the one that left it last.
 /// What else could collide, swaps and earlier visitors, follows from these. Clocks are whole
 /// timesteps, and in one timestep all moves are made at the same time, so that agents may follow
-/// each other in a circle. Errors: invalid_plan. O(size of the plan * log).
+/// each other in a circle. Errors: invalid_plan, out_of_range (an instance with rules). O(size of
+/// the plan * log).
 [[nodiscard]] Result<Precedences> precedences(const discrete::Instance& instance,
                                               const discrete::Plan& plan);
 

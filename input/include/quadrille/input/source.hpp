@@ -22,6 +22,9 @@ struct InputOptions {
   /// So many agents of a scenario or task, one after the other, share their goals; SIZE_MAX: all.
   /// At least 1.
   std::optional<std::size_t> sharing;
+  /// Rules for all agents on grids and graphs: they leave at their goals; plans are k-robust.
+  bool leave = false;
+  std::optional<std::int64_t> robust;
   /// Maps with more passable cells are refused before a graph is made of them.
   std::size_t most_vertices = SIZE_MAX;
   /// The contents of `instance`, if they have been read already.
@@ -40,6 +43,11 @@ enum class Need {
 /// What is wrong with `--share-goals` where agents come from elsewhere.
 inline constexpr const char* kSharingNeedsTask =
     "--share-goals needs agents of --scen or --task; in --instance they have \"goals\"";
+
+/// What is wrong with options about rules of grids and graphs where there is a roadmap.
+inline constexpr const char* kRulesNeedGrid =
+    "--leave and --robust are for grids and graphs; in --instance agents on roadmaps have "
+    "\"at_goal\"";
 
 /// What is wrong if a map, in this file, has too many passable cells.
 [[nodiscard]] std::optional<Error> check_map_size(const InputOptions& options, std::int64_t cells,
