@@ -46,8 +46,9 @@ Subcommand add_dispatch(CLI::App& program) {
   add_positive(*app, "--reach", arguments->reach,
                "How far a robot may go beyond where it was last seen, as time on its course;\n"
                "default: any");
-  add_positive(*app, "--patience", arguments->patience,
-               "Robots that are later are planned for from where they are; default: 8 times --step");
+  add_positive(
+      *app, "--patience", arguments->patience,
+      "Robots that are later are planned for from where they are; default: 8 times --step");
   add_seconds(*app, "--call-limit", arguments->wall,
               "Seconds of wall clock per call for looking for paths; default: none");
   app->add_flag("--no-improvement", arguments->does_not_improve,

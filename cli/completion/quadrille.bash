@@ -6,7 +6,7 @@ _quadrille() {
   local command=${COMP_WORDS[1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W "solve explain verify info generate convert view execute-check simulate export campaign --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "solve explain verify info generate convert view execute-check simulate dispatch export campaign --help --version" -- "$word")
     return
   fi
 
@@ -80,6 +80,7 @@ _quadrille() {
       ;;
     export) options="$instance --to --from --rate --ros --vda-version --names --order-id --states --allow-cycles --output" ;;
     execute-check) options="$instance --plan-format --json --quiet" ;;
+    dispatch) options="$instance --steps --step --own-tasks --service --delays --longest --effort --reach --patience --call-limit --no-improvement --seed --json --quiet" ;;
     simulate)
       options="$instance --plan-format --json --quiet --rule --delays --longest --slow --period --runs --seed"
       ;;

@@ -18,8 +18,8 @@ Goals anywhere(const Robot& robot) {
 
 }  // namespace
 
-Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
-               std::int64_t call, Ticks now) {
+Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap, std::int64_t call,
+               Ticks now) {
   Work work;
   std::vector<std::size_t> waiting;
   std::vector<AgentId> held;

@@ -13,8 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kCommands[] = {"solve",    "explain", "verify",  "info",
-                                     "generate", "convert", "view",    "execute-check",
+constexpr const char* kCommands[] = {"solve",    "explain",  "verify", "info",
+                                     "generate", "convert",  "view",   "execute-check",
                                      "simulate", "dispatch", "export", "campaign"};
 
 class DocumentsTest : public CliTest {

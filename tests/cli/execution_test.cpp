@@ -107,13 +107,13 @@ TEST_F(ExecutionCliTest, SimulateMeasuresClearanceOnARoadmap) {
 }
 
 TEST_F(ExecutionCliTest, DispatchLetsAFleetWork) {
-  const std::vector<std::string> generated = {"generate", "--kind",   "roadmap", "--vertices", "40",
-                                              "--agents", "5",        "--seed",  "3",
-                                              "--instance-output", path("roads.json")};
+  const std::vector<std::string> generated = {
+      "generate", "--kind", "roadmap",           "--vertices",      "40", "--agents", "5",
+      "--seed",   "3",      "--instance-output", path("roads.json")};
   ASSERT_EQ(run(generated).code, 0) << run(generated).err;
   const std::vector<std::string> asked = {
-      "dispatch", "--instance", path("roads.json"), "--steps", "150",         "--delays",
-      "0.01",     "--longest",  "5",                "--json",  "-", "--effort", "3"};
+      "dispatch",  "--instance", path("roads.json"), "--steps", "150",      "--delays", "0.01",
+      "--longest", "5",          "--json",           "-",       "--effort", "3"};
   const Finished finished = run(asked);
   EXPECT_EQ(finished.code, 0) << finished.err;
   json report = json::parse(finished.out);

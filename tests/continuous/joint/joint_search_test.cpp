@@ -242,23 +242,25 @@ INSTANTIATE_TEST_SUITE_P(
 /// So many copies of the instance, far from each other, and somebody who stands beside them.
 Instance copies_of(const Instance& instance, std::size_t count) {
   constexpr std::int64_t apart = 1000;
-  std::vector<Point> points;
-  std::vector<Edge> edges;
+  RoadmapParts parts;
   std::vector<Agent> agents;
   std::vector<MovingObstacle> obstacles;
   for (std::size_t copy = 0; copy < count; ++copy) {
-    const std::size_t first = points.size();
+    const std::size_t first = parts.vertices.size();
     const Length by(apart * static_cast<std::int64_t>(copy));
     const auto moved = [&](VertexId v) { return VertexId(first + v.index()); };
     for (Point point : instance.roadmap().positions()) {
       point.x += by;
-      points.push_back(point);
+      parts.vertices.push_back(point);
     }
     for (Edge edge : instance.roadmap().edges()) {
       edge.from = moved(edge.from);
       edge.to = moved(edge.to);
-      edges.push_back(edge);
+      parts.edges.push_back(edge);
     }
+    for (const LanePlace& place : instance.roadmap().lane_places())
+      parts.lane_places.push_back(
+          {moved(place.vertex), moved(place.from), moved(place.to), place.behind, place.whole});
     for (Agent agent : instance.agents()) {
       agent.start = moved(agent.start);
       agent.goals = moved(agent.goal());
@@ -269,10 +271,11 @@ Instance copies_of(const Instance& instance, std::size_t count) {
       obstacles.push_back(obstacle);
     }
   }
-  points.push_back({Length(-apart), 0});
-  agents.insert(agents.begin(), agent(points.size() - 1, points.size() - 1, 1));
-  return Instance::make(Roadmap::make(std::move(points), std::move(edges)).value(),
-                        std::move(agents), {}, {}, std::move(obstacles))
+  const std::size_t beside = parts.vertices.size();
+  parts.vertices.push_back({Length(-apart), 0});
+  agents.insert(agents.begin(), agent(beside, beside, 1));
+  return Instance::make(std::move(parts).make().value(), std::move(agents), {}, {},
+                        std::move(obstacles))
       .value();
 }
 
