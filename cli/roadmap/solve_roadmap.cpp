@@ -42,6 +42,8 @@ std::string check(const CLI::App& app, const SolveArguments& arguments) {
     wrong = "--race needs --threads";
   if (wrong.empty() && arguments.options.explain && arguments.threads.value_or(1) > 1)
     wrong = "--explain needs one thread";
+  if (wrong.empty() && !arguments.proof.empty() && arguments.roadmap.headings)
+    wrong = "--proof does not know robots that turn yet";
   return wrong;
 }
 

@@ -509,6 +509,21 @@ bool is_accepted(const Cores& cores, const std::vector<Int>& tree) {
   }
 }
 
+// What two agents pay for one core would count twice where both have to hit it.
+TEST(TimedRules, MultipliersAreNotNegative) {
+  using quadrille::AgentId;
+  Cores cores;
+  cores.free_costs.assign(3, 0);
+  cores.list = {{{AgentId(0), 10}}, {{AgentId(1), 10}}, {{AgentId(0), 10}, {AgentId(1), 10}}};
+  const auto tree = [](Int bound, Int third) {
+    return std::vector<Int>{bound, 1, 1, 0,    10, 0, 1, 1,  1000, 1,  1, 10,
+                            0,     1, 2, 1000, 0,  3, 1, 10, 2,    10, 3, third};
+  };
+  EXPECT_TRUE(is_accepted(cores, tree(20, 0)));
+  EXPECT_FALSE(is_accepted(cores, tree(21, 0)));
+  EXPECT_FALSE(is_accepted(cores, tree(25, -5)));
+}
+
 TEST(TimedRules, TreesProveTheLeastCosts) {
   std::size_t branched = 0;
   for (std::uint64_t seed = 0; seed < scaled(2000); ++seed) {
