@@ -246,6 +246,27 @@ TYPED_TEST(Apart, TheAnswerIsThatOfEachAlone) {
   EXPECT_GE(num_infeasible, static_cast<int>(cases / 20));
 }
 
+// In a race several threads may have a proof at about the same time, and stop each other.
+TYPED_TEST(Apart, ARaceProvesTheWhole) {
+  int num_optimal = 0;
+  for (std::uint32_t seed = 0; seed < static_cast<std::uint32_t>(scaled(300)); ++seed) {
+    const auto parts = this->small_ones(seed);
+    typename TypeParam::Options options;
+    options.objective = seed % 2 == 1 ? Objective::makespan : Objective::sum_of_costs;
+    const auto alone = this->alone(parts, options);
+    if (!alone.are_all(Status::optimal)) continue;
+    options.threads = 4;
+    options.race = true;
+    if constexpr (requires { options.first_plan; }) options.first_plan = seed % 3 == 0;
+    const auto outcome = solve(TypeParam::side_by_side(parts), options).value();
+    ++num_optimal;
+    ASSERT_EQ(outcome.status, Status::optimal)
+        << seed << ": " << outcome.explanation << ", " << to_string(outcome.stop);
+    ASSERT_EQ(outcome.cost, alone.cost(options.objective)) << seed;
+  }
+  EXPECT_GE(num_optimal, static_cast<int>(scaled(300) / 5));
+}
+
 TYPED_TEST(Apart, WhatTheBoundIsMadeOfIsThatOfEachAlone) {
   const auto cases = static_cast<std::uint32_t>(scaled(60));
   int num_raises = 0;

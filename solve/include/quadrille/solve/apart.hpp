@@ -177,10 +177,12 @@ class Apart {
       known_.infeasible = domain_.told(*std::move(own.infeasible));
       return;
     }
+    // In a race whoever has a proof may have been stopped by another one that has one, too.
+    if (!is_open(part)) return;
     switch (own.stop) {
       case StopReason::none:
-        part.is_stuck = is_open(part);
-        if (part.is_stuck) known_.why_open = own.why_open;
+        part.is_stuck = true;
+        known_.why_open = own.why_open;
         return;
       case StopReason::gap:
         return;
