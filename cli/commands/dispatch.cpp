@@ -38,7 +38,7 @@ Subcommand add_dispatch(CLI::App& program) {
   add_positive(*app, "--service", arguments->service,
                "Time that a task takes at its goal; default 0");
   add_share(*app, "--delays", arguments->pauses,
-            "Chance per tick that a robot which goes on pauses; default 0");
+            "Chance per call that a robot which goes on pauses; default 0");
   add_positive(*app, "--longest", arguments->longest, "Longest pause; default 3");
   add_positive(*app, "--effort", arguments->effort,
                "For looking for paths, per call: nominal milliseconds, counted in steps;\n"

@@ -80,7 +80,8 @@ class Run {
     limits.wall_s = arguments_.wall;
     for (std::int64_t step = 0; step < steps; ++step) {
       const double before = wall_seconds();
-      add(simulation.step(limits), wall_seconds() - before);
+      const dispatch::News news = simulation.step(limits);
+      add(news, wall_seconds() - before);
       if (arguments_.has_own_tasks && tally_.served == robots.size()) break;
     }
     tally_.contacts = simulation.num_contacts();

@@ -8,6 +8,7 @@
 #include "origin.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/replanner.hpp"
+#include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "right_of_way.hpp"
 #include "robot.hpp"
@@ -20,6 +21,12 @@ namespace {
 constexpr std::int64_t kMostPatience = 16;
 /// In calls, where nothing else was asked for: how late a robot may be.
 constexpr std::int64_t kPatience = 8;
+/// Who has looked in vain for so many calls has all paths made at once, in fleets of so many robots
+/// at most, where that takes some milliseconds.
+constexpr std::int64_t kTriesAlone = 4;
+constexpr std::size_t kMostAtOnce = 64;
+constexpr std::int64_t kConflictsAtOnce = 100;
+constexpr double kGapAtOnce = 10;
 
 std::string name(AgentId robot) { return "robot " + std::to_string(robot.index()); }
 Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
@@ -162,6 +169,7 @@ class Dispatcher::Parts {
     if (!snapshot) return;
     replanner_.begin(snapshot->instance, snapshot->plan, limits);
     send(work);
+    if (is_somebody_stuck()) plan_all_at_once(*snapshot, limits);
     if (options_.improves && replanner_.effort() < options_.effort)
       replanner_.improve(options_.effort - replanner_.effort());
     news.effort = replanner_.effort();
@@ -181,6 +189,27 @@ class Dispatcher::Parts {
       const bool is_sent = robot.wants_path() ? replanner_.send(i, may_push) : replanner_.send(i);
       sent_.emplace_back(i, is_sent);
     }
+  }
+
+  /// One after the other some never find a path: two that change places beside a siding, say.
+  [[nodiscard]] bool is_somebody_stuck() const {
+    return robots_.size() <= kMostAtOnce &&
+           std::any_of(sent_.begin(), sent_.end(), [this](const auto& sent) {
+             const Robot& robot = robots_[sent.first.index()];
+             return !sent.second && robot.wants_path() && robot.patience >= kTriesAlone;
+           });
+  }
+
+  /// By the solver, which looks for all kinds of plans. Nothing changes if it finds none soon.
+  void plan_all_at_once(const Snapshot& snapshot, const Limits& limits) {
+    continuous::SolveOptions asked;
+    asked.limits = limits;
+    asked.limits.conflicts = kConflictsAtOnce;
+    asked.gap_percent = kGapAtOnce;
+    const auto outcome = continuous::solve(snapshot.instance, asked);
+    if (!outcome || !outcome->plan) return;
+    replanner_.begin(snapshot.instance, *outcome->plan, limits);
+    for (auto& [id, is_sent] : sent_) is_sent = true;
   }
 
   void adopt(const Snapshot& snapshot, const std::vector<Course>& before, News& news) {

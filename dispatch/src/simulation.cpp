@@ -25,7 +25,7 @@ Simulation::Simulation(Dispatcher& dispatcher, std::shared_ptr<const continuous:
       random_(options.seed),
       robots_(std::move(robots)),
       clocks_(robots_.size(), 0),
-      paused_until_(robots_.size(), 0),
+      pauses_(robots_.size()),
       since_(robots_.size()) {
   QUADRILLE_REQUIRE(robots_.size() == dispatcher.num_robots(), "the robots of the dispatcher");
   QUADRILLE_REQUIRE(options.step >= 1 && options.longest_pause >= 1, "at least one tick");
@@ -58,27 +58,55 @@ News Simulation::step(const Limits& limits) {
     service_times_.push_back(time_ - since.front());
     since.erase(since.begin());
   }
-  for (Ticks t = 0; t < options_.step; t += 1) {
-    go_on();
+  draw_pauses();
+  const Ticks end = time_ + options_.step;
+  while (time_ < end) {
+    go_on(end);
     look();
   }
   return news;
 }
 
-void Simulation::go_on() {
+void Simulation::draw_pauses() {
+  const auto drawn = [&](Ticks below) {
+    return Ticks(
+        static_cast<std::int64_t>(random_.below(static_cast<std::uint64_t>(below.value()))));
+  };
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    if (clocks_[i] >= dispatcher_.limit(AgentId(i)) || time_ < paused_until_[i]) continue;
-    const bool is_held =
-        options_.pause_chance > 0 &&
-        random_.below(1'000'000) < static_cast<std::uint64_t>(1e6 * options_.pause_chance);
-    if (is_held)
-      paused_until_[i] = time_ + 1 +
-                         Ticks(static_cast<std::int64_t>(random_.below(
-                             static_cast<std::uint64_t>(options_.longest_pause.value()))));
-    else
-      clocks_[i] += 1;
+    if (time_ < pauses_[i].until || clocks_[i] >= dispatcher_.limit(AgentId(i))) continue;
+    if (random_.below(1'000'000) >= static_cast<std::uint64_t>(1e6 * options_.pause_chance))
+      continue;
+    pauses_[i].from = time_ + drawn(options_.step);
+    pauses_[i].until = pauses_[i].from + 1 + drawn(options_.longest_pause);
   }
-  time_ += 1;
+}
+
+bool Simulation::goes(std::size_t robot) const {
+  const bool pauses = pauses_[robot].from <= time_ && time_ < pauses_[robot].until;
+  return !pauses && clocks_[robot] < dispatcher_.limit(AgentId(robot));
+}
+
+/// To where somebody begins or ends a pause, a stay or a move, or may go no further, so that all
+/// go straight and evenly until then.
+void Simulation::go_on(Ticks end) {
+  Ticks next = end;
+  const auto happens = [&](Ticks time) {
+    if (time > time_) next = std::min(next, time);
+  };
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    happens(pauses_[i].from);
+    happens(pauses_[i].until);
+    if (!goes(i)) continue;
+    const Ticks left = time_ - clocks_[i];
+    happens(left + dispatcher_.limit(AgentId(i)));
+    for (const Stop& stop : dispatcher_.course(AgentId(i))) {
+      happens(left + stop.arrive);
+      happens(left + stop.depart);
+    }
+  }
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+    if (goes(i)) clocks_[i] += next - time_;
+  time_ = next;
 }
 
 Simulation::Place Simulation::place(std::size_t robot) const {
@@ -92,7 +120,7 @@ Simulation::Place Simulation::place(std::size_t robot) const {
   return {at(from.x, to.x), at(from.y, to.y), at(from.z, to.z)};
 }
 
-// In between two looks everybody goes straight and evenly.
+// Since the last look everybody has gone straight and evenly.
 void Simulation::look() {
   std::vector<Place> after;
   for (std::size_t i = 0; i < robots_.size(); ++i) after.push_back(place(i));

@@ -52,8 +52,8 @@ Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap
       if (!taken.first_overlap(robot.agent.body, roadmap.place(v))) free.push_back(v);
     if (free.empty()) continue;
     if (free.size() == 1) taken.add(i, robot.agent.body, roadmap.place(free.front()));
-    if (robot.next_try > call) continue;
     work.goals[i] = Goals(std::move(free));
+    if (robot.next_try > call) continue;
     work.order.push_back(AgentId(i));
   }
   work.order.insert(work.order.end(), held.begin(), held.end());

@@ -18,7 +18,7 @@ namespace quadrille::dispatch {
 
 struct SimulationOptions {
   Ticks step = 1;                ///< Time from one call to the next; at least 1.
-  double pause_chance = 0;       ///< That a robot which goes on stops, per tick; 0 .. 1.
+  double pause_chance = 0;       ///< That a robot which goes on pauses, per step; 0 .. 1.
   Ticks longest_pause = 1;       ///< At least 1; the shortest takes 1.
   Ticks service = 0;             ///< Of random tasks.
   bool has_random_tasks = true;  ///< Whoever has none gets another one, at any vertex.
@@ -38,8 +38,8 @@ class Simulation {
 
   /// Between assignment and end of each task that is done, in order.
   [[nodiscard]] const std::vector<Ticks>& service_times() const noexcept { return service_times_; }
-  /// Pairs of robots whose bodies overlapped, counted once for each tick, by their places alone; of
-  /// discs only. Anything but 0 is a defect.
+  /// Pairs of robots whose bodies overlapped, as often as somebody began or ended a stay
+  /// or a move meanwhile, by their places alone; of discs only. Anything but 0 is a defect.
   [[nodiscard]] std::size_t num_contacts() const noexcept { return num_contacts_; }
   /// Since it began.
   [[nodiscard]] Ticks time() const noexcept { return time_; }
@@ -48,8 +48,13 @@ class Simulation {
   struct Place {
     double x = 0, y = 0, z = 0;
   };
+  struct Pause {
+    Ticks from = 0, until = 0;
+  };
   void draw_tasks();
-  void go_on();
+  void draw_pauses();
+  [[nodiscard]] bool goes(std::size_t robot) const;
+  void go_on(Ticks end);
   void look();
   [[nodiscard]] Place place(std::size_t robot) const;
 
@@ -60,7 +65,8 @@ class Simulation {
   std::vector<continuous::Agent> robots_;
   std::vector<double> radii_;
   std::vector<bool> are_discs_;
-  std::vector<Ticks> clocks_, paused_until_;
+  std::vector<Ticks> clocks_;
+  std::vector<Pause> pauses_;
   std::vector<std::vector<Ticks>> since_;  // of the tasks of each robot, in order
   std::vector<Place> before_;
   std::vector<Ticks> service_times_;
