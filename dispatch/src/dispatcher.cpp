@@ -21,9 +21,9 @@ namespace {
 constexpr std::int64_t kMostPatience = 16;
 /// In calls, where nothing else was asked for: how late a robot may be.
 constexpr std::int64_t kPatience = 8;
-/// Who has looked in vain for so many calls has all paths made at once, in fleets of so many robots
+/// Who tries again only after so many calls has all paths made at once, in fleets of so many robots
 /// at most, where that takes some milliseconds.
-constexpr std::int64_t kTriesAlone = 4;
+constexpr std::int64_t kTriesAlone = 16;
 constexpr std::size_t kMostAtOnce = 64;
 constexpr std::int64_t kConflictsAtOnce = 100;
 constexpr double kGapAtOnce = 10;

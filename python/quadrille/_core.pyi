@@ -45,7 +45,9 @@ class StepInstance:
         num_goals: list[int],
         names: list[str],
         now: int,
+        rules: dict[str, Any],
     ) -> None: ...
+    def rules(self) -> dict[str, Any]: ...
     @property
     def num_agents(self) -> int: ...
     @property

@@ -22,6 +22,7 @@ from .rules import (
     group_numbers,
     moments,
     obstacle_of,
+    timesteps,
 )
 
 P = TypeVar("P", bound=Plan)
@@ -46,14 +47,16 @@ class Fleet(Generic[P]):
         speed: On roadmaps: length per time, a number or float[n]. Default 1.
         group: On roadmaps: the name of a group for all agents, or n entries, None without one. An agent
             may use the edges that are open to all, and those that are reserved for its group.
-        release: On roadmaps: the agent begins no move before this time, a number or float[n] in your
-            unit of time. At its start it is from ``now`` on all the same, in the way of others, and
+        release: The agent begins no move before this time, a number or n entries: a timestep, on
+            roadmaps in your unit of time. At its start it is from ``now`` on all the same, in the way of others, and
             its cost counts from there. Default 0.
-        deadline: On roadmaps: a plan in which the agent arrives for good later is none; a number or n
-            entries, None or NaN: whenever (default). All times are rounded to the nearest tick.
-        leaves: On roadmaps: whether the agent vanishes when it arrives, instead of staying at its
+        deadline: A plan in which the agent arrives for good later is none; a number or n
+            entries, None or NaN: whenever (default). Times on roadmaps are rounded to the nearest tick.
+        leaves: Whether the agent vanishes when it arrives, instead of staying at its
             goal; a truth value or bool[n]. Default false.
         obstacles: On roadmaps: ``Obstacle`` s, of which agents keep clear.
+        robust: On grids and graphs: nobody is in a place within so many timesteps after another agent
+            was there; 1: nobody follows another one closely. Default 0.
         names: n names for the agents, which plans and tables show; default "0", "1", ...
         now: When the agents are at their starts: a timestep, 0 to 1,000,000,000, on roadmaps a time in
             your unit, rounded to the nearest tick. All times, those of plans too, are those of the
@@ -78,6 +81,10 @@ class Fleet(Generic[P]):
         starts: npt.ArrayLike,
         goals: Any,
         *,
+        release: Any = None,
+        deadline: Any = None,
+        leaves: Optional[npt.ArrayLike] = None,
+        robust: int = 0,
         names: Optional[Sequence[str]] = None,
         now: int = 0,
     ) -> None: ...
@@ -115,12 +122,15 @@ class Fleet(Generic[P]):
         deadline: Any = None,
         leaves: Optional[npt.ArrayLike] = None,
         obstacles: Sequence[Obstacle] = (),
+        robust: int = 0,
         names: Optional[Sequence[str]] = None,
         now: float = 0,
     ) -> None:
         instance: Union[_core.StepInstance, _core.TimedInstance]
         called = [] if names is None else [repr(str(name)) for name in names]
         if isinstance(graph, Roadmap):
+            if robust != 0:
+                raise ValueError("robust is for grids and graphs")
             begin, under_way = _starts(graph, starts)
             end, num_goals = _goal_vertices(graph, goals)
             n = len(begin)
@@ -148,8 +158,8 @@ class Fleet(Generic[P]):
                 ),
             )
         else:
-            given = dict(radius=radius, polygon=polygon, speed=speed, group=group, release=release)
-            given.update(deadline=deadline, leaves=leaves, obstacles=obstacles or None)
+            given = dict(radius=radius, polygon=polygon, speed=speed, group=group)
+            given.update(obstacles=obstacles or None)
             for name, value in given.items():
                 if value is not None:
                     raise ValueError(f"{name} is for roadmaps")
@@ -157,8 +167,20 @@ class Fleet(Generic[P]):
             begin = ints(starts, "starts", shape)
             end, num_goals = _goal_sets(goals, shape)
             _check_lengths(len(begin), len(num_goals))
+            n = len(begin)
             instance = _core.StepInstance(
-                graph._graph, begin, end, num_goals, called, ints(now, "now", ()).item()
+                graph._graph,
+                begin,
+                end,
+                num_goals,
+                called,
+                ints(now, "now", ()).item(),
+                dict(
+                    releases=timesteps(release, "release", n, 0),
+                    deadlines=timesteps(deadline, "deadline", n, -1),
+                    leaves=flags(False if leaves is None else leaves, "leaves", n),
+                    robust=ints(robust, "robust", ()).item(),
+                ),
             )
         self._setup(graph, instance, names)
 
@@ -262,18 +284,23 @@ class Fleet(Generic[P]):
 
     @property
     def releases(self) -> npt.NDArray[np.float64]:
-        """On roadmaps: float64[n], before which agents begin no move; read-only."""
-        return cast("npt.NDArray[np.float64]", self._timed("releases").rules()["releases"])
+        """float64[n], before which agents begin no move; read-only."""
+        return cast("npt.NDArray[np.float64]", self._instance.rules()["releases"])
 
     @property
     def deadlines(self) -> npt.NDArray[np.float64]:
-        """On roadmaps: float64[n], NaN for none; read-only."""
-        return cast("npt.NDArray[np.float64]", self._timed("deadlines").rules()["deadlines"])
+        """float64[n], NaN for none; read-only."""
+        return cast("npt.NDArray[np.float64]", self._instance.rules()["deadlines"])
 
     @property
     def leaves(self) -> npt.NDArray[np.bool_]:
-        """On roadmaps: bool[n], who vanishes at its goal; read-only."""
-        return cast("npt.NDArray[np.bool_]", self._timed("leaves").rules()["leaves"])
+        """bool[n], who vanishes at its goal; read-only."""
+        return cast("npt.NDArray[np.bool_]", self._instance.rules()["leaves"])
+
+    @property
+    def robust(self) -> int:
+        """On grids and graphs: for how many timesteps a place stays closed to others; else 0."""
+        return cast(int, self._instance.rules().get("robust", 0))
 
     @property
     def _moves(self) -> dict[int, Underway]:

@@ -141,6 +141,14 @@ def moments(times: Any, name: str, n: int, default: float) -> npt.NDArray[np.flo
     return given
 
 
+def timesteps(times: Any, name: str, n: int, default: int) -> npt.NDArray[np.int64]:
+    """A timestep for each agent; one that is not given, or None, is the default."""
+    given = moments(times, name, n, float(default))
+    if not np.array_equal(given, np.floor(given)):
+        raise ValueError(f"{name}: timesteps are whole numbers")
+    return given.astype(np.int64)
+
+
 def flags(values: Any, name: str, n: int) -> npt.NDArray[np.bool_]:
     """One truth value for all agents, or one for each."""
     if np.ndim(values) == 0:

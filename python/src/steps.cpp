@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -67,7 +68,7 @@ py::array edges_of(const Graph& graph) {
   py::ssize_t row = 0;
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
     for (const VertexId w : graph.neighbours(v)) {
-      if (w < v) continue;
+      if (w < v && !graph.is_directed()) continue;
       ends(row, 0) = static_cast<std::int32_t>(v.index());
       ends(row++, 1) = static_cast<std::int32_t>(w.index());
     }
@@ -130,14 +131,23 @@ void refuse_shared(const Graph& graph, const std::vector<Goals>& ends, const std
 }
 
 /// `goals`: those of the first agent, then those of the next one; `num_goals`: how many each has.
-/// `names`: what agents are called in messages, or none. `now`: as in Instance::make.
+/// `names`: what agents are called in messages, or none. `now`: as in Instance::make. `rules`: per
+/// agent "releases", "deadlines", -1 for none, and "leaves"; and "robust".
 Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, const Ints& goals,
                      const std::vector<std::size_t>& num_goals,
-                     const std::vector<std::string>& names, std::int64_t now) {
+                     const std::vector<std::string>& names, std::int64_t now,
+                     const py::dict& rules) {
   if (now < 0 || now > discrete::kMaxNow)
     refuse("now: the fleet begins at timestep " + std::to_string(now) + ", not 0 .. " +
            std::to_string(discrete::kMaxNow));
   std::vector<discrete::Agent> agents;
+  const auto releases = rules["releases"].cast<Ints>(), deadlines = rules["deadlines"].cast<Ints>();
+  const auto leaves = rules["leaves"].cast<Bools>();
+  const auto timestep = [](std::int64_t t, const std::string& name) {
+    if (t < 0 || t > INT32_MAX)
+      refuse(name + " of " + std::to_string(t) + " is no timestep from 0 to 2^31 - 1");
+    return static_cast<Timestep>(t);
+  };
   const std::size_t size = place_size(*graph);
   const std::int64_t* goal = goals.data();
   for (std::size_t i = 0; i < static_cast<std::size_t>(starts.shape(0)); ++i) {
@@ -147,19 +157,45 @@ Instance instance_of(const std::shared_ptr<Graph>& graph, const Ints& starts, co
     for (std::size_t k = 0; k < num_goals[i]; ++k, goal += size)
       set.push_back(vertex_of(*graph, goal, agent + ": goal"));
     if (set.empty()) refuse(agent + " has no goal");
-    agents.push_back({start, Goals(std::move(set))});
+    discrete::Agent& made = agents.emplace_back(discrete::Agent{start, Goals(std::move(set))});
+    made.release = timestep(releases.data()[i], agent + ": a release");
+    if (deadlines.data()[i] != -1)
+      made.deadline = timestep(deadlines.data()[i], agent + ": a deadline");
+    made.leaves = leaves.data()[i];
   }
-  auto instance = Instance::make(graph, agents, static_cast<Timestep>(now));
+  discrete::Rules all;
+  all.robust = timestep(rules["robust"].cast<std::int64_t>(), "robust: a distance");
+  auto instance = Instance::make(graph, agents, static_cast<Timestep>(now), std::move(all));
   if (!instance && names.size() == agents.size()) {
     std::vector<Goals> begins, ends;
     for (const discrete::Agent& agent : agents) {
       begins.emplace_back(agent.start);
-      ends.push_back(agent.goals);
+      // Those of agents that leave may be shared.
+      ends.push_back(agent.leaves ? Goals(std::vector<VertexId>()) : agent.goals);
     }
     refuse_shared(*graph, begins, "start", names);
     refuse_shared(*graph, ends, "goal", names);
   }
   return take(std::move(instance));
+}
+
+py::dict rules_of(const Instance& instance) {
+  const std::size_t n = instance.num_agents();
+  auto releases = new_array<double>({n}), deadlines = new_array<double>({n});
+  auto leaves = new_array<bool>({n});
+  for (const AgentId i : instance.agent_ids()) {
+    const discrete::Agent& agent = instance.agents()[i];
+    releases.mutable_data()[i.index()] = agent.release;
+    deadlines.mutable_data()[i.index()] =
+        agent.deadline ? *agent.deadline : std::numeric_limits<double>::quiet_NaN();
+    leaves.mutable_data()[i.index()] = agent.leaves;
+  }
+  py::dict rules;
+  rules["releases"] = frozen(releases);
+  rules["deadlines"] = frozen(deadlines);
+  rules["leaves"] = frozen(leaves);
+  rules["robust"] = instance.rules().robust;
+  return rules;
 }
 
 /// int32[n, T, 2] on grids, int32[n, T] otherwise; T - 1 is the makespan.
@@ -305,6 +341,7 @@ void bind_steps(py::module_& module) {
       .def(py::init(&instance_of))
       .def_property_readonly("num_agents", &Instance::num_agents)
       .def_property_readonly("now", &Instance::now)
+      .def("rules", &rules_of)
       .def_property_readonly("graph",
                              [](const Instance& instance) {
                                // Nobody on this side can change it.

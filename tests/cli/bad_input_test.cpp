@@ -120,10 +120,10 @@ TEST_F(BadInputTest, NothingIsWrittenForBadInput) {
 
 TEST_F(BadInputTest, GraphsThatAreTooLargeForTheSolver) {
   expect_refused({"solve", "--instance", write("large.json", R"({"quadrille": "instance",
-    "version": 1, "graph": {"vertices": 2097153, "edges": []},
+    "version": 1, "graph": {"vertices": 8388609, "edges": []},
     "agents": [{"start": 0, "goal": 0}]})"),
                   "--quiet"},
-                 "there are 2097153 vertices, more than 2097152");
+                 "/graph/vertices: 8388609 is not between 0 and 8388608");
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST_F(DocumentsTest, TheRobotsOfTheReadmeArrive) {
     EXPECT_EQ(finished.code, 0) << line << "\n" << finished.out << finished.err;
     ++count;
   }
-  EXPECT_EQ(count, 6u);
+  EXPECT_EQ(count, 7u);
   EXPECT_TRUE(exists("orders.json"));
 }
 

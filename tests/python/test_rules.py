@@ -205,6 +205,43 @@ def test_bad_lanes_and_grids():
                           ([None, None, [str(k) for k in range(64)]], "more than 63 groups")]:
         with pytest.raises((ValueError, TypeError), match=message):
             line(only=only)
-    for rule in ("group", "release", "deadline", "leaves", "obstacles"):
+    for rule in ("group", "obstacles"):
         with pytest.raises(ValueError, match=f"{rule} is for roadmaps"):
             q.Fleet(q.Grid([[1, 1]]), [(0, 0)], [(1, 0)], **{rule: [1]})
+
+
+def test_rules_of_grids_and_graphs():
+    lane = q.Grid([[1, 1, 1, 1]])
+
+    def fleet(**rules):
+        return q.Fleet(lane, [(0, 0), (1, 0)], [(3, 0), (3, 0)], leaves=True, **rules)
+
+    assert q.solve(fleet()).cost == 5
+    assert q.solve(fleet(robust=1)).cost == 6
+    assert q.solve(fleet(release=[None, 2])).cost == 9
+    late = q.solve(fleet(release=[None, 2], deadline=[4, None]))
+    assert late.status == "infeasible"
+    ours = fleet(release=[0, 2], deadline=[None, 9], robust=2, now=1)
+    assert ours.releases.tolist() == [0, 2] and ours.robust == 2
+    assert np.isnan(ours.deadlines[0]) and ours.deadlines[1] == 9
+    assert ours.leaves.tolist() == [True, True]
+    with pytest.raises(q.InputError, match="'b' have the same goal"):
+        q.Fleet(lane, [(0, 0), (1, 0)], [(3, 0), (3, 0)], names=["a", "b"])
+    for rules, message in [(dict(release=1.5), "release: timesteps are whole numbers"),
+                           (dict(deadline=-3), "deadline of -3"), (dict(robust=-1), "robust"),
+                           (dict(release=[1]), "release")]:
+        with pytest.raises((ValueError, q.InputError), match=message):
+            fleet(**rules)
+    roads = q.Roadmap([(0, 0), (1, 0)], [(0, 1)])
+    with pytest.raises(ValueError, match="robust is for grids and graphs"):
+        q.Fleet(roads, [0], [1], radius=0.2, robust=1)
+
+
+def test_one_way_edges_of_files(tmp_path):
+    path = tmp_path / "ring.json"
+    path.write_text("""{"quadrille": "instance", "version": 1,
+        "graph": {"vertices": 3, "edges": [[0, 1], [1, 2], [2, 0]], "directed": true},
+        "agents": [{"start": 0, "goal": 2}]}""")
+    fleet = q.read(path)
+    assert fleet.graph.edges.tolist() == [[0, 1], [1, 2], [2, 0]]
+    assert q.solve(fleet).cost == 2

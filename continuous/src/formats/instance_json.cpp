@@ -28,18 +28,21 @@ class InstanceReader {
   explicit InstanceReader(const Document& document) : document_(document), check_(document) {}
 
   Result<Instance> run(text::Names* names) {
-    std::optional<Node> kind, version, resolution, now, roadmap, agents, obstacles, groups;
+    std::optional<Node> kind, version, resolution, now, roadmap, agents, goal_sets, obstacles,
+        groups;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"resolution", &resolution, false},
                                           {"now", &now, false},
                                           {"roadmap", &roadmap},
                                           {"agents", &agents},
+                                          {"goal_sets", &goal_sets, false},
                                           {"obstacles", &obstacles, false},
                                           {"group_names", &groups, false}}) ||
         !read_version(*kind, *version) ||
         (resolution && !read_resolution(document_, check_, *resolution, resolution_)) ||
-        (now && !read_time(*now, now_)) || !read_roadmap(*roadmap) || !read_agents(*agents) ||
+        (now && !read_time(*now, now_)) || !read_roadmap(*roadmap) ||
+        (goal_sets && !read_goal_sets(*goal_sets)) || !read_agents(*agents) ||
         (obstacles && !read_obstacles(*obstacles)) || (groups && !read_group_names(*groups)))
       return check_.error();
     auto made = Roadmap::make(std::move(positions_), std::move(edges_), std::move(lane_places_));
@@ -251,10 +254,15 @@ class InstanceReader {
 
   bool read_goals(Node agent, const text::GoalNodes& nodes, Goals& goals) {
     return text::read_goals(
-        check_, document_, agent, nodes,
-        [&](Node node, VertexId& v) { return read_vertex_number(node, v); },
-        [](VertexId v) { return "vertex " + std::to_string(v.index()); }, goals);
+        check_, document_, agent, nodes, goal_sets_,
+        [&](Node node, VertexId& v) { return read_vertex_number(node, v); }, in_words, goals);
   }
+  bool read_goal_sets(Node sets) {
+    return text::read_goal_sets(
+        check_, document_, sets,
+        [&](Node node, VertexId& v) { return read_vertex_number(node, v); }, in_words, goal_sets_);
+  }
+  static std::string in_words(VertexId v) { return "vertex " + std::to_string(v.index()); }
 
   bool read_obstacles(Node obstacles) {
     if (!check_.array(obstacles, "obstacles")) return false;
@@ -395,6 +403,7 @@ class InstanceReader {
   std::vector<Edge> edges_;
   std::vector<LanePlace> lane_places_;
   std::vector<Agent> agents_;
+  text::GoalSets goal_sets_;
   std::vector<SourcePlace> places_;
   std::vector<MovingObstacle> obstacles_;
   text::Names names_;

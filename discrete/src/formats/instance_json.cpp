@@ -28,13 +28,14 @@ class JsonInstanceReader {
       : document_(document), check_(document), most_vertices_(most_vertices) {}
 
   Result<Instance> run(text::Names* names) {
-    std::optional<Node> kind, version, now, graph, grid, agents, obstacles, robust;
+    std::optional<Node> kind, version, now, graph, grid, agents, goal_sets, obstacles, robust;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"now", &now, false},
                                           {"graph", &graph, false},
                                           {"grid", &grid, false},
                                           {"agents", &agents},
+                                          {"goal_sets", &goal_sets, false},
                                           {"obstacles", &obstacles, false},
                                           {"robust", &robust, false}}) ||
         !read_version(*kind, *version) || (now && !read_now(check_, *now, now_)))
@@ -44,6 +45,7 @@ class JsonInstanceReader {
       return check_.error();
     }
     if (graph ? !read_graph(*graph) : !read_grid(*grid)) return check_.error();
+    if (goal_sets && !read_goal_sets(*goal_sets)) return check_.error();
     std::vector<PlacedTask> tasks;
     Rules rules;
     RulesReader reader(check_, document_, *graph_, now_);
@@ -162,6 +164,16 @@ class JsonInstanceReader {
     return !one_way || read_one_way(*one_way);
   }
 
+  bool read_vertex(Node node, VertexId& vertex) {
+    return read_place(check_, document_, *graph_, node, ErrorCode::invalid_instance, vertex);
+  }
+
+  bool read_goal_sets(Node sets) {
+    return text::read_goal_sets(
+        check_, document_, sets, [&](Node node, VertexId& v) { return read_vertex(node, v); },
+        [&](VertexId v) { return vertex_name(*graph_, v); }, goal_sets_);
+  }
+
   bool read_agents(Node agents, RulesReader& reader, std::vector<PlacedTask>& tasks) {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> places;
@@ -182,12 +194,11 @@ class JsonInstanceReader {
       if (name && !text::read_name(check_, document_, *name, own)) return false;
       places.push_back(a);
       Agent task;
-      const auto vertex = [&](Node node, VertexId& v) {
-        return read_place(check_, document_, *graph_, node, ErrorCode::invalid_instance, v);
-      };
+      const auto vertex = [&](Node node, VertexId& v) { return read_vertex(node, v); };
       const auto in_words = [&](VertexId v) { return vertex_name(*graph_, v); };
       if (!vertex(*start, task.start) ||
-          !text::read_goals(check_, document_, a, goals, vertex, in_words, task.goals) ||
+          !text::read_goals(check_, document_, a, goals, goal_sets_, vertex, in_words,
+                            task.goals) ||
           !reader.read_agent(rules, task))
         return false;
       tasks.push_back({std::move(task), *start, goals.node()});
@@ -200,6 +211,7 @@ class JsonInstanceReader {
   const std::size_t most_vertices_;
   Timestep now_ = 0;
   std::optional<Graph> graph_;
+  text::GoalSets goal_sets_;
   text::Names names_;
 };
 

@@ -169,7 +169,7 @@ class YamlInstanceReader {
       const auto end = [&](Node node, VertexId& vertex) { return read_end(node, vertex); };
       const auto in_words = [&](VertexId v) { return vertex_name(*graph_, v); };
       if (!read_end(*start, task.start) ||
-          !text::read_goals(check_, document_, a, goals, end, in_words, task.goals))
+          !text::read_goals(check_, document_, a, goals, {}, end, in_words, task.goals))
         return false;
       tasks.push_back({std::move(task), *start, goals.node()});
     }

@@ -58,8 +58,8 @@ TEST(RoadmapJson, ReadsAndWritesGoalsToChooseFrom) {
   std::istringstream file(
       "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": 0.1, \"roadmap\": "
       "{\"vertices\": [[0, 0], [3, 4], [6, 4]], \"edges\": [[0, 1], [1, 2]]}, \"agents\": "
-      "[{\"start\": 0, \"goals\": [2, 1], \"radius\": 0.5}, "
-      "{\"start\": 2, \"goals\": [2], \"radius\": 0.5}]}");
+      "[{\"start\": 0, \"goals\": \"docks\", \"radius\": 0.5}, "
+      "{\"start\": 2, \"goals\": [2], \"radius\": 0.5}], \"goal_sets\": {\"docks\": [2, 1]}}");
   const Instance instance = read_instance_json(file, "f").value();
   EXPECT_EQ(instance.agent(AgentId(0)).goals, Goals({VertexId(1), VertexId(2)}));
   EXPECT_EQ(instance.agent(AgentId(1)).goal(), VertexId(2));

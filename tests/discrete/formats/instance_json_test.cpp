@@ -32,6 +32,33 @@ TEST(InstanceJson, ReadsGoalSets) {
   EXPECT_EQ(instance.agents()[AgentId(1)].goal(), at(0, 2));
 }
 
+TEST(InstanceJson, GoalSetsMayHaveNames) {
+  const auto read = [](const std::string& sets, const std::string& goals) {
+    std::istringstream in(
+        "{\"quadrille\": \"instance\", \"version\": 1, \"grid\": {\"width\": 4, \"height\": 1, "
+        "\"rows\": [\"....\"]},\n\"agents\": [{\"start\": [0, 0], \"goals\": " +
+        goals + "}, {\"start\": [1, 0], \"goals\": [[1, 0], [2, 0]]}],\n\"goal_sets\": " + sets +
+        "}");
+    return read_instance_json(in, "f");
+  };
+  const std::string docks = "{\"docks\": [[3, 0], [2, 0]], \"all\": [[0, 0]]}";
+  const Instance instance = read(docks, "\"docks\"").value();
+  EXPECT_EQ(instance.agents()[AgentId(0)].goals, Goals({VertexId(2), VertexId(3)}));
+  EXPECT_EQ(instance.agents()[AgentId(1)].goals, Goals({VertexId(1), VertexId(2)}));
+  EXPECT_EQ(read(docks, "\"all\"")->agents()[AgentId(0)].goal(), VertexId(0));
+  const auto message = [&](const std::string& sets, const std::string& goals) {
+    const auto wrong = read(sets, goals);
+    return wrong ? std::string() : wrong.error().to_string();
+  };
+  EXPECT_EQ(message(docks, "\"dock\""), "f:2: /agents/0/goals: there is no goal set 'dock'");
+  EXPECT_EQ(message("{\"a\": []}", "[[0, 0]]"), "f:3: /goal_sets/a: there is no goal in the list");
+  EXPECT_EQ(message("{\"a\": [[4, 0]]}", "[[0, 0]]"),
+            "f:3: /goal_sets/a/0: (4, 0) is outside the grid of 4 x 1 cells");
+  EXPECT_EQ(message("[]", "[[0, 0]]"), "f:3: /goal_sets: expected lists of goals by their names");
+  EXPECT_EQ(message("{\"a\": [[0, 0]], \"a\": [[1, 0]]}", "[[0, 0]]"),
+            "f:3: /goal_sets/a: this name is given twice");
+}
+
 TEST(InstanceJson, NumbersAtTheEndOfALineBelongToIt) {
   // The parser has read the line end when it reports the number.
   std::istringstream in("{\"quadrille\": \"instance\",\n\"version\": 7\n, \"agents\": []}\n");

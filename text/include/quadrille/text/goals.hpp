@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -17,33 +19,14 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::text {
 
-/// The members "goal" and "goals" of an agent, of which it has one.
-struct GoalNodes {
-  std::optional<Document::Node> goal, goals;
-  std::string_view plural = "goals";  ///< What the format calls the second.
+/// Sets of goals by their names: the member "goal_sets" of an instance.
+using GoalSets = std::map<std::string, Goals, std::less<>>;
 
-  /// What is there. Requires that one is.
-  [[nodiscard]] Document::Node node() const { return goal ? *goal : *goals; }
-};
-
-/// Reads a goal, or a list of them that differ, and returns whether all is well. `agent`: whose
-/// they are. `read_vertex(node, vertex)`: reads a vertex, likewise; `name_of(vertex)`: for
-/// messages.
+/// Reads a list of goals that differ, at least one, and returns whether all is well.
+/// `read_vertex(node, vertex)`: reads a vertex, likewise; `name_of(vertex)`: for messages.
 template <class ReadVertex, class NameOf>
-bool read_goals(Checker& check, const Document& document, Document::Node agent,
-                const GoalNodes& nodes, const ReadVertex& read_vertex, const NameOf& name_of,
-                Goals& goals) {
-  if (!nodes.goal && !nodes.goals) return check.fail(agent, "the key 'goal' is missing");
-  if (nodes.goal && nodes.goals)
-    return check.fail(*nodes.goals,
-                      "expected either 'goal' or '" + std::string(nodes.plural) + "'");
-  if (nodes.goal) {
-    VertexId only;
-    if (!read_vertex(*nodes.goal, only)) return false;
-    goals = only;
-    return true;
-  }
-  const Document::Node list = *nodes.goals;
+bool read_goal_list(Checker& check, const Document& document, Document::Node list,
+                    const ReadVertex& read_vertex, const NameOf& name_of, Goals& goals) {
   if (!check.array(list, "goals")) return false;
   std::vector<std::pair<VertexId, Document::Node>> read;
   for (Document::Node g = document.first(list); g < document.next(list); g = document.next(g)) {
@@ -64,6 +47,56 @@ bool read_goals(Checker& check, const Document& document, Document::Node agent,
     vertices.push_back(vertex);
   }
   goals = Goals(std::move(vertices));
+  return true;
+}
+
+/// Reads the member "goal_sets", an object of lists, likewise.
+template <class ReadVertex, class NameOf>
+bool read_goal_sets(Checker& check, const Document& document, Document::Node object,
+                    const ReadVertex& read_vertex, const NameOf& name_of, GoalSets& sets) {
+  if (document.kind(object) != Document::Kind::object)
+    return check.fail(object, "expected lists of goals by their names");
+  for (Document::Node key = document.first(object); key < document.next(object);
+       key = document.next(document.first(key))) {
+    const auto [at, is_new] = sets.try_emplace(std::string(document.text(key)));
+    if (!is_new) return check.fail(key, "this name is given twice");
+    if (!read_goal_list(check, document, document.first(key), read_vertex, name_of, at->second))
+      return false;
+  }
+  return true;
+}
+
+/// The members "goal" and "goals" of an agent, of which it has one.
+struct GoalNodes {
+  std::optional<Document::Node> goal, goals;
+  std::string_view plural = "goals";  ///< What the format calls the second.
+
+  /// What is there. Requires that one is.
+  [[nodiscard]] Document::Node node() const { return goal ? *goal : *goals; }
+};
+
+/// Reads a goal, a list of them, or the name of one of `sets`, likewise. `agent`: whose they are.
+template <class ReadVertex, class NameOf>
+bool read_goals(Checker& check, const Document& document, Document::Node agent,
+                const GoalNodes& nodes, const GoalSets& sets, const ReadVertex& read_vertex,
+                const NameOf& name_of, Goals& goals) {
+  if (!nodes.goal && !nodes.goals) return check.fail(agent, "the key 'goal' is missing");
+  if (nodes.goal && nodes.goals)
+    return check.fail(*nodes.goals,
+                      "expected either 'goal' or '" + std::string(nodes.plural) + "'");
+  if (nodes.goal) {
+    VertexId only;
+    if (!read_vertex(*nodes.goal, only)) return false;
+    goals = only;
+    return true;
+  }
+  if (document.kind(*nodes.goals) != Document::Kind::string)
+    return read_goal_list(check, document, *nodes.goals, read_vertex, name_of, goals);
+  const auto named = sets.find(document.text(*nodes.goals));
+  if (named == sets.end())
+    return check.fail(*nodes.goals, ErrorCode::invalid_instance,
+                      "there is no goal set '" + std::string(document.text(*nodes.goals)) + "'");
+  goals = named->second;
   return true;
 }
 
