@@ -156,8 +156,8 @@ void PrimalSearch::Impl::offer(Plan plan, std::string_view origin) {
   if (plan_ && cost >= cost_) return;
   if (!plan_) origin_ = origin;
   is_settled_ = origin == kSettling;
-  plan_ = std::move(plan);
-  plan_->now = instance_.now();
+  plan.now = instance_.now();
+  plan_ = std::make_shared<const Plan>(std::move(plan));
   cost_ = cost;
   state_ = State::found;
 }
@@ -244,9 +244,9 @@ bool PrimalSearch::Impl::is_over() const noexcept {
          100 * (cost_ - ideal_) <= kGoodPlan * ideal_;
 }
 
-const Plan& PrimalSearch::Impl::plan() const {
+const std::shared_ptr<const Plan>& PrimalSearch::Impl::plan() const {
   QUADRILLE_REQUIRE(state_ == State::found, "the search has found a plan");
-  return *plan_;
+  return plan_;
 }
 
 Cost PrimalSearch::Impl::cost() const {
@@ -272,7 +272,8 @@ std::size_t PrimalSearch::num_configurations() const noexcept {
   return impl_->num_configurations();
 }
 bool PrimalSearch::is_worth_waiting_for() const noexcept { return impl_->is_worth_waiting_for(); }
-Plan PrimalSearch::plan() const { return impl_->plan(); }
+Plan PrimalSearch::plan() const { return *impl_->plan(); }
+std::shared_ptr<const Plan> PrimalSearch::shared_plan() const { return impl_->plan(); }
 Cost PrimalSearch::cost() const { return impl_->cost(); }
 std::string_view PrimalSearch::origin() const noexcept { return impl_->origin(); }
 

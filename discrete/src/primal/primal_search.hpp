@@ -54,7 +54,7 @@ class PrimalSearch::Impl {
   [[nodiscard]] bool is_worth_waiting_for() const noexcept {
     return windows_.has_value() || is_settling_due_;
   }
-  [[nodiscard]] const Plan& plan() const;
+  [[nodiscard]] const std::shared_ptr<const Plan>& plan() const;
   [[nodiscard]] Cost cost() const;
   [[nodiscard]] std::string_view origin() const noexcept { return origin_; }
 
@@ -102,7 +102,7 @@ class PrimalSearch::Impl {
   bool are_windows_due_ = true;   // Unless there were any.
   std::uint32_t turn_ = 0, num_restarts_ = 0;
   std::optional<std::int64_t> turn_end_;  // In efforts of the search whose turn it is.
-  std::optional<Plan> plan_;              // The cheapest.
+  std::shared_ptr<const Plan> plan_;      // The cheapest; null: none.
   Cost cost_ = 0;
   std::string_view origin_;  // Of the first plan.
   std::size_t num_configurations_ = 0;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "quadrille/discrete/plan.hpp"
 #include "quadrille/sat/bounds.hpp"
@@ -25,11 +27,16 @@ class Incumbent final : public sat::Bounds {
   Incumbent& operator=(const Incumbent&) = delete;
 
   void share() noexcept { known_.raise(lower()); }
-  /// Keeps `plan`, which has to be valid, if it is the cheapest; true if so. O(agents), and a copy.
+  /// Keeps `plan`, which has to be valid, if it is the cheapest; true if so. O(agents).
   /// `origin`: what the statistics tell of it if it is the first one; empty: what others told.
-  bool offer(const Plan& plan, std::string_view origin);
+  bool offer(std::shared_ptr<const Plan> plan, std::string_view origin);
+  bool offer(Plan plan, std::string_view origin) {
+    return offer(std::make_shared<const Plan>(std::move(plan)), origin);
+  }
   /// Requires one.
   [[nodiscard]] const Plan& plan() const { return *known_.plan; }
+  /// The same. Plans may take gigabytes: whoever keeps one shares it.
+  [[nodiscard]] const std::shared_ptr<const Plan>& shared_plan() const { return known_.plan; }
 
   /// Whose accepted models become plans from now on; null: nobody's.
   void set_run(const Run* run) noexcept { run_ = run; }

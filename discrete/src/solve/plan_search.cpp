@@ -46,12 +46,11 @@ PlanSearchContext for_improvement(PlanSearchContext context) {
 
 sat::Outcome FirstPlan::advance(sat::Slice slice) {
   QUADRILLE_REQUIRE(slice.effort.has_value(), "the slice has an end");
-  // Long plans are not copied for nothing.
   if (search_ &&
       search_->advance(steps_of_plans(*slice.effort), context_.limits) ==
           PrimalSearch::State::found &&
       (!told_ || search_->cost() < *told_)) {
-    context_.incumbent.offer(search_->plan(), search_->origin());
+    context_.incumbent.offer(search_->shared_plan(), search_->origin());
     told_ = search_->cost();
   }
   return sat::Outcome::working;
@@ -74,7 +73,7 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   effort_ = {};
   if (!improver_) {
     second_chance_.emplace(context_.instance, context_.distances, context_.objective,
-                           incumbent.plan(), context_.seed, context_.settings);
+                           incumbent.shared_plan(), context_.seed, context_.settings);
     improver_.emplace(context_.instance, context_.distances, context_.objective, incumbent.plan(),
                       context_.seed);
   } else if (*incumbent.upper() < improver_->cost()) {
@@ -108,9 +107,9 @@ bool PlanImprovement::improve(PlanImprover& improver, Effort effort) {
 void PlanImprovement::take_second_chance(Effort effort) {
   Incumbent& incumbent = context_.incumbent;
   const std::int64_t before = second_chance_->effort();
-  if (const auto plan =
+  if (auto plan =
           second_chance_->advance(steps_of_plans(effort), context_.limits, *incumbent.upper()))
-    incumbent.offer(*plan, kImproved);
+    incumbent.offer(*std::move(plan), kImproved);
   effort_ += effort_of_plans(second_chance_->effort() - before);
 }
 

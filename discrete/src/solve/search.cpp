@@ -117,11 +117,11 @@ class Search final : private sat::YieldPoint {
     heard_plan_ = plan;
     const std::optional<Cost> before = incumbent_.upper();
     if (!before) {
-      incumbent_.offer(*plan, origin);
+      incumbent_.offer(plan, origin);
       return;
     }
     if (!instance_.is_plain()) {  // Parts of plans are told apart by the classic collisions.
-      incumbent_.offer(*plan, origin);
+      incumbent_.offer(plan, origin);
       return;
     }
     if (!merger_) merger_.emplace(instance_);

@@ -23,7 +23,7 @@ void SecondChance::watch(std::int64_t effort, Cost cost, Cost gap) {
   next_look_ += next_look_ / settings_.plans_look_again;
   if (!is_dead_end) return;
   ++seed_;
-  improver_.emplace(instance_, distances_, objective_, first_, seed_);
+  improver_.emplace(instance_, distances_, objective_, *first_, seed_);
   allowed_ = settings_.plans_second_chance_times * (effort + past_effort_);
   seen_effort_ = allowed_ / kFirstPart;
   seen_cost_ = improver_->cost();

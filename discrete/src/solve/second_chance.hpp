@@ -19,7 +19,8 @@ class SecondChance {
  public:
   /// `instance` and `settings` outlive the object. `first` is a valid plan of the instance.
   SecondChance(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-               Objective objective, Plan first, std::uint32_t seed, const Settings& settings)
+               Objective objective, std::shared_ptr<const Plan> first, std::uint32_t seed,
+               const Settings& settings)
       : instance_(instance),
         distances_(std::move(distances)),
         objective_(objective),
@@ -46,7 +47,7 @@ class SecondChance {
   const Instance& instance_;
   const std::shared_ptr<const GoalDistances> distances_;
   const Objective objective_;
-  const Plan first_;
+  const std::shared_ptr<const Plan> first_;
   const Settings& settings_;
   std::uint32_t seed_;
 

@@ -66,6 +66,8 @@ class PrimalSearch {
   [[nodiscard]] std::size_t num_configurations() const noexcept;
   /// The cheapest so far, trimmed. Requires State::found. O(size of the plan).
   [[nodiscard]] Plan plan() const;
+  /// The same, not copied.
+  [[nodiscard]] std::shared_ptr<const Plan> shared_plan() const;
   [[nodiscard]] Cost cost() const;  ///< Its sum of costs. Requires State::found.
   /// What found the first plan: "beam search", "lacam" or "settling"; empty before.
   [[nodiscard]] std::string_view origin() const noexcept;
