@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "discrete/primal/primal_support.hpp"
 #include "support/joint_search.hpp"
 
@@ -23,7 +25,11 @@ class SecondChanceTest : public testing::Test {
   Cost cost_ = first_.cost(Objective::sum_of_costs);
   LimitMonitor limits_{Limits{}};
   Settings settings_;
-  SecondChance chance_{instance_, distances_of(instance_), Objective::sum_of_costs, first_, 0,
+  SecondChance chance_{instance_,
+                       distances_of(instance_),
+                       Objective::sum_of_costs,
+                       std::make_shared<const Plan>(first_),
+                       0,
                        settings_};
 
   /// Until it is over. The cheapest plan.
