@@ -147,7 +147,7 @@ ProofDraft draft_without_search(const Instance& instance, Cost bound) {
   LimitMonitor unlimited{Limits()};
   const Scene scene(instance, unlimited);
   CertificateWriter writer;
-  Standing(scene, 0).write(writer);
+  StandingBans(scene, 0).write(writer);
   draft.records = std::move(writer.text());
   return draft;
 }

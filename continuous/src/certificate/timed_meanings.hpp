@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "certificate/standing.hpp"
+#include "certificate/standing_bans.hpp"
 #include "quadrille/sat/certificate.hpp"
 #include "theory/model.hpp"
 
@@ -36,7 +36,7 @@ class TimedMeanings final : public sat::ProofMeanings {
                                                      std::span<const sat::Lit> clause) const;
 
   const Model& model_;
-  const Standing standing_;
+  const StandingBans standing_;
   std::map<std::pair<AgentId, int>, ObstacleId> goals_;  // by agent and literal
   // Obstacles at goals have no variable in the solver.
   mutable std::map<ObstacleId, int> variables_;

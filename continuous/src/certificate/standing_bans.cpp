@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "certificate/standing.hpp"
+#include "certificate/standing_bans.hpp"
 
 #include <cstdint>
 #include <iterator>
@@ -29,7 +29,7 @@ void declare_bans(int variable, AgentId agent, std::span<const Ban> bans,
 
 // Checkers know by themselves that agents which are under way do not stop: where one of them
 // begins, nobody else can be.
-Standing::Standing(const Scene& scene, int num_variables)
+StandingBans::StandingBans(const Scene& scene, int num_variables)
     : scene_(scene), num_variables_(num_variables) {
   const Instance& instance = scene.instance();
   if (instance.obstacles().empty()) return;
@@ -47,15 +47,17 @@ Standing::Standing(const Scene& scene, int num_variables)
   }
 }
 
-int Standing::variable(AgentId agent) const {
+int StandingBans::variable(AgentId agent) const {
   const auto at = bans_.find(agent);
   if (at == bans_.end()) return 0;
   return num_variables_ + 1 + 2 * static_cast<int>(std::distance(bans_.begin(), at));
 }
 
-int Standing::last_variable() const { return num_variables_ + 2 * static_cast<int>(bans_.size()); }
+int StandingBans::last_variable() const {
+  return num_variables_ + 2 * static_cast<int>(bans_.size());
+}
 
-void Standing::write(CertificateWriter& writer) const {
+void StandingBans::write(CertificateWriter& writer) const {
   for (const auto& [agent, bans] : bans_) {
     const int bans_variable = variable(agent), cost_variable = bans_variable + 1;
     declare_bans(bans_variable, agent, bans, writer);

@@ -15,10 +15,10 @@ inline constexpr int kPathRule = 11;
 
 /// What keeps agents clear of moving obstacles, and what they cost at least therefore, in a
 /// certificate.
-class Standing {
+class StandingBans {
  public:
   /// Variables have numbers above `num_variables`.
-  Standing(const Scene& scene, int num_variables);
+  StandingBans(const Scene& scene, int num_variables);
 
   /// To be called once, before all clauses.
   void write(sat::CertificateWriter& writer) const;
