@@ -11,6 +11,7 @@
 #include "formats/json_numbers.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/core/decimal.hpp"
+#include "quadrille/text/choice.hpp"
 #include "quadrille/text/document.hpp"
 #include "quadrille/text/goals.hpp"
 #include "quadrille/text/names.hpp"
@@ -240,8 +241,9 @@ class InstanceReader {
           (group && !read_group(*group, agent.group)) ||
           (release && !read_time(*release, agent.release)) ||
           (deadline && !read_time(*deadline, agent.deadline.emplace())) ||
-          (at_start && !read_choice(*at_start, "stay", "under_way", agent.under_way)) ||
-          (at_goal && !read_choice(*at_goal, "stay", "leave", agent.leaves)) ||
+          (at_start &&
+           !text::read_choice(check_, *at_start, "stay", "under_way", agent.under_way)) ||
+          (at_goal && !text::read_choice(check_, *at_goal, "stay", "leave", agent.leaves)) ||
           (name && !text::read_name(check_, document_, *name, own_name)))
         return false;
       nodes.push_back(a);
@@ -275,7 +277,7 @@ class InstanceReader {
                               {"path", &path},
                               {"at_end", &at_end, false}}) ||
           !read_body(o, radius, polygon, obstacle.body) || !check_.array(*path, "stops") ||
-          (at_end && !read_choice(*at_end, "stay", "leave", obstacle.leaves)))
+          (at_end && !text::read_choice(check_, *at_end, "stay", "leave", obstacle.leaves)))
         return false;
       for (Node s = document_.first(*path); s < document_.next(*path); s = document_.next(s))
         if (!read_obstacle_stop(s, obstacle.path)) return false;
@@ -358,15 +360,6 @@ class InstanceReader {
           "the radius is less than one length unit, or too large: " + decimal(value));
     radius = *units;
     return true;
-  }
-
-  bool read_choice(Node node, const std::string& no, const std::string& yes, bool& choice) {
-    std::string_view what;
-    if (!check_.text(node, what)) return false;
-    choice = what == yes;
-    if (choice || what == no) return true;
-    return check_.fail(node,
-                       "expected '" + no + "' or '" + yes + "', found " + text::in_quotes(what));
   }
 
   bool read_time(Node node, Ticks& ticks) {

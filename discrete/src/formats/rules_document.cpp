@@ -5,6 +5,7 @@
 
 #include "formats/instance_document.hpp"
 #include "formats/text_input.hpp"
+#include "quadrille/text/choice.hpp"
 
 namespace quadrille::discrete {
 
@@ -32,16 +33,6 @@ bool RulesReader::read_time(Node node, Timestep& time) {
   return true;
 }
 
-bool RulesReader::read_choice(Node node, const std::string& no, const std::string& yes,
-                              bool& choice) {
-  std::string_view what;
-  if (!check_.text(node, what)) return false;
-  choice = what == yes;
-  if (choice || what == no) return true;
-  return check_.fail(node,
-                     "expected '" + no + "' or '" + yes + "', found " + text::in_quotes(what));
-}
-
 bool RulesReader::read_place(Node node, VertexId& vertex) {
   return discrete::read_place(check_, document_, graph_, node, ErrorCode::invalid_instance, vertex);
 }
@@ -49,7 +40,7 @@ bool RulesReader::read_place(Node node, VertexId& vertex) {
 bool RulesReader::read_agent(const OfAgent& nodes, Agent& agent) {
   if ((nodes.release && !read_time(*nodes.release, agent.release)) ||
       (nodes.deadline && !read_time(*nodes.deadline, agent.deadline.emplace())) ||
-      (nodes.at_goal && !read_choice(*nodes.at_goal, "stay", "leave", agent.leaves)))
+      (nodes.at_goal && !text::read_choice(check_, *nodes.at_goal, "stay", "leave", agent.leaves)))
     return false;
   if (!nodes.waypoints) return true;
   if (!check_.array(*nodes.waypoints, "places")) return false;
@@ -87,7 +78,7 @@ bool RulesReader::read_obstacle(Node node, std::vector<Blockage>& blockages) {
   if (path) {
     bool leaves = false;
     if (first || last) return check_.fail(node, "the stops of a 'path' have times of their own");
-    return (!at_end || read_choice(*at_end, "stay", "leave", leaves)) &&
+    return (!at_end || text::read_choice(check_, *at_end, "stay", "leave", leaves)) &&
            read_way(*path, leaves, blockages);
   }
   if (at_end) return check_.fail(*at_end, "only a 'path' has an end");

@@ -33,7 +33,6 @@ class RulesReader {
  private:
   using Node = Document::Node;
   bool read_time(Node node, Timestep& time);
-  bool read_choice(Node node, const std::string& no, const std::string& yes, bool& choice);
   bool read_place(Node node, VertexId& vertex);
   bool read_obstacle(Node node, std::vector<Blockage>& blockages);
   /// A body that goes from stop to stop.
