@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "grown_shape.hpp"
 
+#include <utility>
+
+#include "lattice_hull.hpp"
 #include "planar.hpp"
 
 namespace quadrille::geometry {
@@ -20,25 +23,6 @@ std::vector<Point> grown_corners(const Body& a, const Body& b) {
   for (const Point& u : corners_of(a))
     for (const Point& w : corners_of(b)) points.push_back(u - w);
   return convex_hull(std::move(points));
-}
-
-std::vector<Point> convex_hull(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Point& p, const Point& q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Point> hull;
-  const auto add = [&](const Point& point, std::size_t kept) {
-    while (hull.size() > kept &&
-           cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
-      hull.pop_back();
-    hull.push_back(point);
-  };
-  for (const Point& point : points) add(point, 1);
-  const std::size_t lower = hull.size();
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
-  hull.pop_back();
-  return hull;
 }
 
 }  // namespace quadrille::geometry

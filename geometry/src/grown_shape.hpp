@@ -12,7 +12,4 @@ namespace quadrille::geometry {
 /// The origin alone for two discs.
 std::vector<Point> grown_corners(const Body& a, const Body& b);
 
-/// The corners of the convex hull, counter-clockwise, without points on a side. In n log n.
-std::vector<Point> convex_hull(std::vector<Point> points);
-
 }  // namespace quadrille::geometry

@@ -7,6 +7,7 @@
 
 #include "fcl_shapes.hpp"
 #include "grown_shape.hpp"
+#include "lattice_hull.hpp"
 
 namespace quadrille::geometry {
 namespace {
