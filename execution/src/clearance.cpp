@@ -55,18 +55,30 @@ ClearanceWatch::Vector ClearanceWatch::place(AgentId agent, double clock) const 
   return between(here.from, to, behind + (1 - behind) * share);
 }
 
+continuous::ShapeId ClearanceWatch::shape(AgentId agent, Ticks tick, bool stands_still) const {
+  const continuous::Path& path = plan_.paths[agent];
+  const continuous::Roadmap& roadmap = instance_.roadmap();
+  std::size_t k = stops_[agent];
+  while (k + 1 < path.size() && path[k + 1].arrive <= tick) ++k;
+  const bool has_left = stands_still ? tick > path[k].depart : tick >= path[k].depart;
+  if (k + 1 == path.size() || !has_left) return roadmap.shape(path[k].vertex);
+  return roadmap.shape(path[k].vertex, path[k + 1].vertex);
+}
+
 void ClearanceWatch::lay_out(AgentId agent, Ticks before, Ticks after) {
   const continuous::Path& path = plan_.paths[agent];
   std::vector<Knot>& way = ways_[agent];
   way.clear();
   std::size_t& stop = stops_[agent];
   while (stop + 1 < path.size() && path[stop + 1].arrive <= before) ++stop;
-  way.push_back({0, place(agent, real(before))});
+  const bool stands_still = after <= before;
+  way.push_back({0, place(agent, real(before)), shape(agent, before, stands_still)});
   if (after > before)
     for (std::size_t k = stop; k < path.size() && path[k].arrive < after; ++k)
       for (const Ticks tick : {path[k].arrive, path[k].depart})
         if (before < tick && tick < after)
-          way.push_back({real(tick - before) / real(after - before), place(agent, real(tick))});
+          way.push_back({real(tick - before) / real(after - before), place(agent, real(tick)),
+                         shape(agent, tick, false)});
   way.push_back({1, place(agent, real(after))});
   gone_[agent] = 2;
   if (!instance_.agent(agent).leaves) return;
@@ -78,8 +90,7 @@ void ClearanceWatch::lay_out(AgentId agent, Ticks before, Ticks after) {
 }
 
 // Polygons are flat, and so is all that is done with them.
-double ClearanceWatch::gap(AgentId i, AgentId j, const Vector& offset) const {
-  const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
+double ClearanceWatch::gap(const geometry::Body& a, const geometry::Body& b, const Vector& offset) {
   double most = -std::numeric_limits<double>::infinity();
   // The gap along a direction is no more than the distance, and is the distance for one of these.
   const auto along = [&](double x, double y) {
@@ -109,7 +120,8 @@ double ClearanceWatch::gap(AgentId i, AgentId j, const Vector& offset) const {
   return most;
 }
 
-double ClearanceWatch::least_gap(AgentId i, AgentId j, const Vector& from, const Vector& to) const {
+double ClearanceWatch::least_gap(const geometry::Body& a, const geometry::Body& b, double reach,
+                                 const Vector& from, const Vector& to) const {
   const Vector way{to.x - from.x, to.y - from.y, to.z - from.z};
   const auto at = [&](double share) {
     return Vector{from.x + way.x * share, from.y + way.y * share, from.z + way.z * share};
@@ -117,16 +129,14 @@ double ClearanceWatch::least_gap(AgentId i, AgentId j, const Vector& from, const
   const double square = way.x * way.x + way.y * way.y + way.z * way.z;
   const double towards = -(from.x * way.x + from.y * way.y + from.z * way.z);
   const Vector nearest = at(square == 0 ? 0 : std::clamp(towards / square, 0.0, 1.0));
-  const double reach =
-      real(instance_.reach(instance_.class_of(i))) + real(instance_.reach(instance_.class_of(j)));
   const double room = std::hypot(nearest.x, nearest.y, nearest.z) - reach;
-  if (is_disc(instance_.agent(i).body) && is_disc(instance_.agent(j).body)) return room;
+  if (is_disc(a) && is_disc(b)) return room;
   if (room > std::max(0.0, least_)) return room;
   // A convex function of the share as long as it is positive.
-  double low = 0, high = 1, least = std::min(gap(i, j, from), gap(i, j, to));
+  double low = 0, high = 1, least = std::min(gap(a, b, from), gap(a, b, to));
   for (int round = 0; round < 60; ++round) {
     const double p = low + (high - low) / 3, q = high - (high - low) / 3;
-    const double at_p = gap(i, j, at(p)), at_q = gap(i, j, at(q));
+    const double at_p = gap(a, b, at(p)), at_q = gap(a, b, at(q));
     least = std::min({least, at_p, at_q});
     if (at_p < at_q)
       high = q;
@@ -145,16 +155,22 @@ void ClearanceWatch::look_at(AgentId i, AgentId j) {
                   p.place.y + (q.place.y - p.place.y) * part,
                   p.place.z + (q.place.z - p.place.z) * part};
   };
+  const double reach =
+      real(instance_.reach(instance_.class_of(i))) + real(instance_.reach(instance_.class_of(j)));
   std::size_t m = 0, n = 0;
   double share = 0;
   while (share < std::min(gone_[i], gone_[j])) {
     const double next = std::min(a[m + 1].share, b[n + 1].share);
     const Vector p0 = between(a, m, share), p1 = between(a, m, next);
     const Vector q0 = between(b, n, share), q1 = between(b, n, next);
-    const double free = least_gap(i, j, {q0.x - p0.x, q0.y - p0.y, q0.z - p0.z},
-                                  {q1.x - p1.x, q1.y - p1.y, q1.z - p1.z});
-    least_ = std::min(least_, free);
-    if (free < touch_) contacts_.emplace(i, j);
+    // At a moment between two steps a body has the shape of neither.
+    if (next > share) {
+      const double free = least_gap(
+          instance_.agent(i).body_as(a[m].shape), instance_.agent(j).body_as(b[n].shape), reach,
+          {q0.x - p0.x, q0.y - p0.y, q0.z - p0.z}, {q1.x - p1.x, q1.y - p1.y, q1.z - p1.z});
+      least_ = std::min(least_, free);
+      if (free < touch_) contacts_.emplace(i, j);
+    }
     if (next >= 1) return;
     if (a[m + 1].share <= next) ++m;
     if (b[n + 1].share <= next) ++n;

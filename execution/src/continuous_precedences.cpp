@@ -17,6 +17,7 @@ namespace {
 
 using continuous::ClassId;
 using continuous::Instance;
+using continuous::ShapeId;
 using geometry::BodyPair;
 using geometry::Length;
 using geometry::Motion;
@@ -24,6 +25,7 @@ using geometry::Motion;
 /// Moves of the same class of agents along the same way, in the same time.
 struct Kind {
   ClassId body;
+  ShapeId shape;
   Motion motion;
   Length left = 0, right = 0, bottom = 0, top = 0;  // What the bodies cover is inside.
   std::vector<MoveId> moves;
@@ -74,7 +76,8 @@ class Finder {
     const geometry::Point a = instance_.roadmap().position(from);
     const geometry::Point b = instance_.roadmap().position(to);
     const Length reach = instance_.reach(body);
-    Kind kind{body, instance_.roadmap().motion(from, to, duration), 0, 0, 0, 0, {}};
+    const ShapeId shape = instance_.roadmap().shape(from, to);
+    Kind kind{body, shape, instance_.roadmap().motion(from, to, duration), 0, 0, 0, 0, {}};
     kind.left = std::min(a.x, b.x) - reach;
     kind.right = std::max(a.x, b.x) + reach;
     kind.bottom = std::min(a.y, b.y) - reach;
@@ -82,21 +85,33 @@ class Finder {
     return kinds_.emplace_back(std::move(kind));
   }
 
-  const BodyPair& bodies(ClassId a, ClassId b) {
-    const auto known = pairs_.find(std::pair(a, b));
+  const BodyPair& bodies(const Kind& a, const Kind& b) {
+    const auto key = std::tuple(a.body, a.shape, b.body, b.shape);
+    const auto known = pairs_.find(key);
     if (known != pairs_.end()) return known->second;
-    return pairs_.emplace(std::pair(a, b), BodyPair(instance_.body(a), instance_.body(b)))
+    return pairs_
+        .emplace(key, BodyPair(instance_.body(a.body, a.shape), instance_.body(b.body, b.shape)))
         .first->second;
+  }
+
+  /// A body with shapes may be larger during a move than before and after it: moves that have but a
+  /// moment in common are apart.
+  std::optional<UnsafeWindow> window(const Kind& a, const Kind& b) {
+    auto found = unsafe_window(bodies(a, b), a.motion, b.motion);
+    if (!found || !instance_.has_shapes()) return found;
+    found->below = std::max(found->below, -b.motion.duration);
+    found->above = std::min(found->above, a.motion.duration);
+    return found;
   }
 
   void compare(const Kind& a, const Kind& b) {
     const bool same = &a == &b;
     if (same && a.moves.size() < 2) return;
-    const auto window = unsafe_window(bodies(a.body, b.body), a.motion, b.motion);
-    if (!window) return;
+    const auto unsafe = window(a, b);
+    if (!unsafe) return;
     for (std::size_t m = 0; m < a.moves.size(); ++m)
       for (std::size_t n = same ? m + 1 : 0; n < b.moves.size(); ++n)
-        if (a.moves[m].agent != b.moves[n].agent) order(a.moves[m], b.moves[n], *window);
+        if (a.moves[m].agent != b.moves[n].agent) order(a.moves[m], b.moves[n], *unsafe);
   }
 
   void order(const MoveId& a, const MoveId& b, const UnsafeWindow& window) {
@@ -131,7 +146,7 @@ class Finder {
   Precedences result_;
   std::vector<Kind> kinds_;
   std::map<std::tuple<ClassId, VertexId, VertexId, Ticks>, std::size_t> index_;
-  std::map<std::pair<ClassId, ClassId>, BodyPair> pairs_;
+  std::map<std::tuple<ClassId, ShapeId, ClassId, ShapeId>, BodyPair> pairs_;
   std::optional<Error> contradiction_;
 };
 

@@ -65,15 +65,15 @@ void ContactStore::forget_classes() {
 
 ClassKey ContactStore::key_of(const Agent& agent) const {
   const std::size_t group = agent.group.index();
-  return {numbers_of(agent.body), agent.speed, is_all_open_[group] ? kMaxGroups : group};
+  return {numbers_of(agent), agent.speed, is_all_open_[group] ? kMaxGroups : group};
 }
 
 std::shared_ptr<Contacts::Pair> ContactStore::pair(const Instance& instance, ClassId a, ClassId b) {
   auto& known = pairs_[{key(a), key(b)}];
   if (known == nullptr)
-    known = std::make_shared<Contacts::Pair>(Contacts::Pair{
-        geometry::BodyPair(instance.body(a), instance.body(b)),
-        IntervalTable(most_edges_, most_edges_), IntervalTable(most_edges_, most_vertices_)});
+    known = std::make_shared<Contacts::Pair>(
+        Contacts::Pair{shape_pairs(instance, a, b), IntervalTable(most_edges_, most_edges_),
+                       IntervalTable(most_edges_, most_vertices_)});
   return known;
 }
 

@@ -18,7 +18,7 @@ Contacts::Contacts(const Instance& instance, LimitMonitor& limits, ContactStore*
           store != nullptr
               ? store->pair(instance, a, b)
               : std::make_shared<Pair>(Pair{
-                    geometry::BodyPair(instance.body(a), instance.body(b)),
+                    shape_pairs(instance, a, b),
                     IntervalTable(num_edges, std::max<std::size_t>(num_edges, 1)),
                     IntervalTable(num_edges,
                                   std::max<std::size_t>(instance.roadmap().num_vertices(), 1))}));
@@ -29,7 +29,7 @@ Contacts::Offsets Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
   Pair& p = pair(a, b);
   return p.offsets.get(e.index(), f.index(), [&] {
     limits_.check();
-    return p.bodies.unsafe_offsets(instance_.motion(a, e), instance_.motion(b, f));
+    return p.bodies.unsafe_offsets(move(a, e), move(b, f));
   });
 }
 
@@ -37,13 +37,13 @@ Contacts::Window Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
   Pair& p = pair(a, b);
   return p.windows.get(e.index(), v.index(), [&] {
     limits_.check();
-    return p.bodies.contact_window(instance_.motion(a, e), instance_.roadmap().place(v));
+    return p.bodies.contact_window(move(a, e), stand(v));
   });
 }
 
 bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
-  return pairs_[a.index() * instance_.num_classes() + b.index()]->bodies.overlap(
-      instance_.roadmap().place(v), instance_.roadmap().place(w));
+  return pairs_[a.index() * instance_.num_classes() + b.index()]->bodies.overlap(stand(v),
+                                                                                 stand(w));
 }
 
 // One tree is enough for all classes. Edges between the same two vertices are one line, in whatever
@@ -83,24 +83,30 @@ bool Contacts::is_listed(ClassId c, EdgeId e) const {
 
 const Contacts::Neighbours& Contacts::near(
     std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>>& known, std::uint32_t key,
-    ClassId a, const geometry::Motion& motion, ClassId b) {
+    ClassId a, const ShapePairs::Move& move, ClassId b) {
   auto& entry = known[key];
   if (entry == nullptr) {
     limits_.check();
     auto made = std::make_unique<Neighbours>();
     const Roadmap& roadmap = instance_.roadmap();
-    const geometry::BodyPair& bodies = pair(a, b).bodies;
+    ShapePairs& bodies = pair(a, b).bodies;
+    const bool has_shapes = bodies.has_shapes();
     const Volumes& all = volumes();
     const std::size_t num_segments = all.segment_begins.size() - 1;
-    for (const auto& [index, is_sure] : all.tree.near(motion, bodies)) {
+    for (const auto& [index, is_sure] : all.tree.near(move.motion, bodies.around(move.shape))) {
       if (index < num_segments) {
         const std::size_t begin = all.segment_begins[index];
-        if (is_sure || bodies.can_meet(motion, instance_.motion(b, all.segment_edges[begin])))
+        // Without shapes one edge of a segment speaks for all of them.
+        const auto can_meet = [&](std::size_t k) {
+          return bodies.can_meet(move, this->move(b, all.segment_edges[k]));
+        };
+        if (has_shapes || is_sure || can_meet(begin))
           for (std::size_t k = begin; k < all.segment_begins[index + 1]; ++k)
-            if (is_listed(b, all.segment_edges[k])) made->edges.push_back(all.segment_edges[k]);
+            if (is_listed(b, all.segment_edges[k]) && (!has_shapes || can_meet(k)))
+              made->edges.push_back(all.segment_edges[k]);
       } else {
         const VertexId v(index - num_segments);
-        if (is_sure || bodies.can_meet(motion, geometry::rest(roadmap.place(v), 1)))
+        if ((is_sure && !has_shapes) || bodies.can_meet(move, rest_at(roadmap, v)))
           made->vertices.push_back(v);
       }
     }
@@ -111,12 +117,11 @@ const Contacts::Neighbours& Contacts::near(
 }
 
 const Contacts::Neighbours& Contacts::near_edge(ClassId a, EdgeId e, ClassId b) {
-  return near(pair(a, b).near_edges, e.value(), a, instance_.motion(a, e), b);
+  return near(pair(a, b).near_edges, e.value(), a, move(a, e), b);
 }
 
 const Contacts::Neighbours& Contacts::near_vertex(ClassId a, VertexId v, ClassId b) {
-  return near(pair(a, b).near_vertices, v.value(), a,
-              geometry::rest(instance_.roadmap().place(v), 1), b);
+  return near(pair(a, b).near_vertices, v.value(), a, rest_at(instance_.roadmap(), v), b);
 }
 
 }  // namespace quadrille::continuous

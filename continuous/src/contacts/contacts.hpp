@@ -9,9 +9,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "model/shape_pairs.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/limits.hpp"
-#include "quadrille/geometry/body_pair.hpp"
 #include "quadrille/geometry/swept_volumes.hpp"
 
 namespace quadrille::continuous {
@@ -137,7 +137,7 @@ class Contacts {
 
   /// What is known of two classes.
   struct Pair {
-    geometry::BodyPair bodies;
+    ShapePairs bodies;
     IntervalTable offsets;
     IntervalTable windows;
     std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>> near_edges = {},
@@ -157,9 +157,15 @@ class Contacts {
   }
   [[nodiscard]] const Volumes& volumes();
   [[nodiscard]] bool is_listed(ClassId c, EdgeId e) const;
+  [[nodiscard]] ShapePairs::Move move(ClassId c, EdgeId e) const {
+    return move_of(instance_, c, e);
+  }
+  [[nodiscard]] ShapePairs::Stand stand(VertexId v) const {
+    return stand_at(instance_.roadmap(), v);
+  }
   [[nodiscard]] const Neighbours& near(
       std::unordered_map<std::uint32_t, std::unique_ptr<Neighbours>>& known, std::uint32_t key,
-      ClassId a, const geometry::Motion& motion, ClassId b);
+      ClassId a, const ShapePairs::Move& move, ClassId b);
 
   const Instance& instance_;
   LimitMonitor& limits_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/json_bodies.hpp"
 #include "formats/json_numbers.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/core/decimal.hpp"
@@ -26,11 +27,12 @@ using Node = Document::Node;
 
 class InstanceReader {
  public:
-  explicit InstanceReader(const Document& document) : document_(document), check_(document) {}
+  explicit InstanceReader(const Document& document)
+      : document_(document), check_(document), body_reader_(document, check_, resolution_) {}
 
   Result<Instance> run(text::Names* names) {
-    std::optional<Node> kind, version, resolution, now, roadmap, agents, goal_sets, obstacles,
-        groups;
+    std::optional<Node> kind, version, resolution, now, roadmap, agents, goal_sets, bodies,
+        obstacles, groups;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"resolution", &resolution, false},
@@ -38,15 +40,18 @@ class InstanceReader {
                                           {"roadmap", &roadmap},
                                           {"agents", &agents},
                                           {"goal_sets", &goal_sets, false},
+                                          {"bodies", &bodies, false},
                                           {"obstacles", &obstacles, false},
                                           {"group_names", &groups, false}}) ||
         !read_version(*kind, *version) ||
         (resolution && !read_resolution(document_, check_, *resolution, resolution_)) ||
         (now && !read_time(*now, now_)) || !read_roadmap(*roadmap) ||
-        (goal_sets && !read_goal_sets(*goal_sets)) || !read_agents(*agents) ||
+        (goal_sets && !read_goal_sets(*goal_sets)) ||
+        (bodies && !body_reader_.read_list(*bodies)) || !read_agents(*agents) ||
         (obstacles && !read_obstacles(*obstacles)) || (groups && !read_group_names(*groups)))
       return check_.error();
-    auto made = Roadmap::make(std::move(positions_), std::move(edges_), std::move(lane_places_));
+    auto made = Roadmap::make(std::move(positions_), std::move(edges_), std::move(lane_places_),
+                              std::move(shapes_));
     if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
     auto instance = Instance::make(std::move(made).value(), std::move(agents_), resolution_,
                                    places_, std::move(obstacles_), now_);
@@ -68,10 +73,11 @@ class InstanceReader {
   }
 
   bool read_roadmap(Node node) {
-    std::optional<Node> vertices, edges, names, lane_places;
+    std::optional<Node> vertices, edges, names, lane_places, shapes;
     if (!check_.members(node, {{"vertices", &vertices},
                                {"edges", &edges},
                                {"names", &names, false},
+                               {"shapes", &shapes, false},
                                {"lane_places", &lane_places, false}}) ||
         !check_.array(*vertices, "vertices") || !check_.array(*edges, "edges"))
       return false;
@@ -80,6 +86,7 @@ class InstanceReader {
     for (Node e = document_.first(*edges); e < document_.next(*edges); e = document_.next(e))
       if (!read_edge(e)) return false;
     if (lane_places && !read_lane_places(*lane_places)) return false;
+    if (shapes && !read_shapes(*shapes)) return false;
     return !names ||
            read_vertex_names(check_, document_, *names, positions_.size(), names_.vertices);
   }
@@ -100,6 +107,20 @@ class InstanceReader {
         return false;
       lane_places_.push_back(place);
     }
+    return true;
+  }
+
+  bool read_shapes(Node list) {
+    if (!check_.array(list, "shapes", positions_.size())) return false;
+    for (Node s = document_.first(list); s < document_.next(list); s = document_.next(s))
+      if (!read_shape(s, shapes_.emplace_back())) return false;
+    return true;
+  }
+
+  bool read_shape(Node node, ShapeId& shape) {
+    std::int64_t number = 0;
+    if (!check_.integer(node, 0, kMaxShapes, number)) return false;
+    shape = ShapeId(static_cast<std::size_t>(number));
     return true;
   }
 
@@ -128,14 +149,9 @@ class InstanceReader {
   }
 
   bool read_coordinate(Node node, Length& length) {
-    return read_length(node, quantise_coordinate, length);
-  }
-
-  bool read_length(Node node, std::optional<Length> (*quantise)(double, const Resolution&),
-                   Length& length) {
     double value = 0;
     if (!check_.number(node, value)) return false;
-    const auto units = quantise(value, resolution_);
+    const auto units = quantise_coordinate(value, resolution_);
     if (!units)
       return check_.fail(node, ErrorCode::out_of_range,
                          "the coordinate is too large for the resolution");
@@ -146,12 +162,14 @@ class InstanceReader {
   /// A list of two or three, or an object.
   bool read_edge(Node node) {
     if (document_.kind(node) == Document::Kind::object) {
-      std::optional<Node> from, to, duration, groups;
+      std::optional<Node> from, to, duration, groups, shape;
       return check_.members(node, {{"from", &from},
                                    {"to", &to},
                                    {"duration", &duration, false},
-                                   {"groups", &groups, false}}) &&
-             read_edge(node, *from, *to, duration, groups);
+                                   {"groups", &groups, false},
+                                   {"shape", &shape, false}}) &&
+             read_edge(node, *from, *to, duration, groups) &&
+             (!shape || read_shape(*shape, edges_.back().shape));
     }
     if (!check_.array(node, "vertices")) return false;
     const Node from = document_.first(node), end = document_.next(node);
@@ -219,16 +237,17 @@ class InstanceReader {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> nodes;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, radius, polygon, speed, group, release, deadline, at_start,
-          at_goal, name;
+      std::optional<Node> start, speed, group, release, deadline, at_start, at_goal, name;
+      BodyReader::Keys looks;
       text::GoalNodes goals;
       Agent agent;
       std::optional<std::string> own_name;
       if (!check_.members(a, {{"start", &start},
                               {"goal", &goals.goal, false},
                               {"goals", &goals.goals, false},
-                              {"radius", &radius, false},
-                              {"polygon", &polygon, false},
+                              {"radius", &looks.radius, false},
+                              {"polygon", &looks.polygon, false},
+                              {"body", &looks.body, false},
                               {"speed", &speed, false},
                               {"group", &group, false},
                               {"release", &release, false},
@@ -237,7 +256,7 @@ class InstanceReader {
                               {"at_goal", &at_goal, false},
                               {"name", &name, false}}) ||
           !read_vertex_number(*start, agent.start) || !read_goals(a, goals, agent.goals) ||
-          !read_body(a, radius, polygon, agent.body) || !read_speed(a, speed, agent.speed) ||
+          !body_reader_.read(a, looks, agent) || !read_speed(a, speed, agent.speed) ||
           (group && !read_group(*group, agent.group)) ||
           (release && !read_time(*release, agent.release)) ||
           (deadline && !read_time(*deadline, agent.deadline.emplace())) ||
@@ -270,13 +289,14 @@ class InstanceReader {
     if (!check_.array(obstacles, "obstacles")) return false;
     for (Node o = document_.first(obstacles); o < document_.next(obstacles);
          o = document_.next(o)) {
-      std::optional<Node> radius, polygon, path, at_end;
+      std::optional<Node> path, at_end;
+      BodyReader::Keys looks;
       MovingObstacle& obstacle = obstacles_.emplace_back();
-      if (!check_.members(o, {{"radius", &radius, false},
-                              {"polygon", &polygon, false},
+      if (!check_.members(o, {{"radius", &looks.radius, false},
+                              {"polygon", &looks.polygon, false},
                               {"path", &path},
                               {"at_end", &at_end, false}}) ||
-          !read_body(o, radius, polygon, obstacle.body) || !check_.array(*path, "stops") ||
+          !body_reader_.read(o, looks, obstacle.body) || !check_.array(*path, "stops") ||
           (at_end && !text::read_choice(check_, *at_end, "stay", "leave", obstacle.leaves)))
         return false;
       for (Node s = document_.first(*path); s < document_.next(*path); s = document_.next(s))
@@ -319,49 +339,6 @@ class InstanceReader {
     return true;
   }
 
-  bool read_body(Node agent, std::optional<Node> radius, std::optional<Node> polygon, Body& body) {
-    if (radius && polygon)
-      return check_.fail(*polygon, "an agent has a radius or a polygon, not both");
-    if (polygon) return read_polygon(*polygon, body);
-    if (!radius) return check_.fail(agent, "one of the keys 'radius' and 'polygon' is missing");
-    Disc disc;
-    if (!read_radius(*radius, disc.radius)) return false;
-    body = disc;
-    return true;
-  }
-
-  bool read_polygon(Node node, Body& body) {
-    if (!check_.array(node, "corners")) return false;
-    std::vector<Point> corners;
-    for (Node c = document_.first(node); c < document_.next(node); c = document_.next(c)) {
-      if (!check_.array(c, "coordinates", 2)) return false;
-      const Node x = document_.first(c);
-      Point corner;
-      if (!read_corner(x, corner.x) || !read_corner(document_.next(x), corner.y)) return false;
-      corners.push_back(corner);
-    }
-    auto polygon = ConvexPolygon::make(std::move(corners));
-    if (!polygon)
-      return check_.fail(node, polygon.error().code,
-                         polygon.error().message + ", in whole length units");
-    body = std::move(polygon).value();
-    return true;
-  }
-
-  bool read_corner(Node node, Length& length) { return read_length(node, quantise_corner, length); }
-
-  bool read_radius(Node node, Length& radius) {
-    double value = 0;
-    if (!check_.number(node, value)) return false;
-    const auto units = quantise_radius(value, resolution_);
-    if (!units)
-      return check_.fail(
-          node, ErrorCode::out_of_range,
-          "the radius is less than one length unit, or too large: " + decimal(value));
-    radius = *units;
-    return true;
-  }
-
   bool read_time(Node node, Ticks& ticks) {
     double value = 0;
     if (!check_.number(node, value)) return false;
@@ -390,11 +367,13 @@ class InstanceReader {
   const Document& document_;
   text::Checker check_;
   Resolution resolution_;
+  BodyReader body_reader_;
   Ticks now_ = 0;
   std::size_t num_coordinates_ = 0;  // of a point; 0: there was none yet
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
   std::vector<LanePlace> lane_places_;
+  std::vector<ShapeId> shapes_;
   std::vector<Agent> agents_;
   text::GoalSets goal_sets_;
   std::vector<SourcePlace> places_;

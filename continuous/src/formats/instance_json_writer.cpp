@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <ostream>
 #include <string>
-#include <variant>
 
+#include "formats/json_bodies.hpp"
 #include "formats/json_numbers.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -16,10 +16,12 @@ std::string edge_json(const Edge& edge, const Resolution& resolution) {
   const std::string from = std::to_string(edge.from.index()), to = std::to_string(edge.to.index());
   const std::string duration =
       edge.duration ? json_number(in_input_units(*edge.duration, resolution)) : "";
-  if (edge.open_to == Groups::all())
+  if (edge.open_to == Groups::all() && edge.shape == ShapeId())
     return "[" + from + ", " + to + (edge.duration ? ", " + duration : "") + "]";
   std::string text = "{\"from\": " + from + ", \"to\": " + to;
   if (edge.duration) text += ", \"duration\": " + duration;
+  if (edge.shape != ShapeId()) text += ", \"shape\": " + std::to_string(edge.shape.index());
+  if (edge.open_to == Groups::all()) return text + "}";
   const char* separator = ", \"groups\": [";
   for (std::size_t g = 0; g < kMaxGroups; ++g) {
     if (!edge.open_to.contains(GroupId(g))) continue;
@@ -27,21 +29,6 @@ std::string edge_json(const Edge& edge, const Resolution& resolution) {
     separator = ", ";
   }
   return text + "]}";
-}
-
-/// The member of an agent that says what it looks like.
-std::string body_json(const Body& body, const Resolution& resolution) {
-  if (const auto* disc = std::get_if<Disc>(&body))
-    return "\"radius\": " + json_number(radius_in_input_units(disc->radius, resolution));
-  std::string text = "\"polygon\": [";
-  const char* separator = "";
-  for (const Point& corner : std::get<ConvexPolygon>(body).vertices()) {
-    text += std::string(separator) + "[" +
-            json_number(corner_in_input_units(corner.x, resolution)) + ", " +
-            json_number(corner_in_input_units(corner.y, resolution)) + "]";
-    separator = ", ";
-  }
-  return text + "]";
 }
 
 /// The member of an instance, if there are any.
@@ -87,6 +74,17 @@ std::string lane_places_json(const Instance& instance) {
   return text + (text.empty() ? "" : "\n    ]");
 }
 
+/// The member of a roadmap, if there are any.
+std::string shapes_json(const Roadmap& roadmap) {
+  std::string text;
+  const char* separator = ",\n    \"shapes\": [";
+  for (const ShapeId shape : roadmap.shapes()) {
+    text += separator + std::to_string(shape.index());
+    separator = ", ";
+  }
+  return text + (text.empty() ? "" : "]");
+}
+
 /// The members about names, if there are any.
 std::string vertex_names_json(const text::Names& names) {
   std::string text;
@@ -113,6 +111,7 @@ std::string group_names_json(const text::Names& names) {
 std::optional<Error> write_instance_json(std::ostream& out, const std::string& file,
                                          const Instance& instance, const text::Names& names) {
   const Resolution& resolution = instance.resolution();
+  const BodyList bodies(instance);
   const auto number = [&](auto units) { return json_number(in_input_units(units, resolution)); };
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
       << ",\n  \"resolution\": " << resolution_json(resolution);
@@ -129,14 +128,15 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
     out << separator << "      " << edge_json(edge, resolution);
     separator = ",\n";
   }
-  out << (*separator == ',' ? "\n    ]" : "]") << lane_places_json(instance)
-      << vertex_names_json(names) << "\n  },\n  \"agents\": [";
+  out << (*separator == ',' ? "\n    ]" : "]") << shapes_json(instance.roadmap())
+      << lane_places_json(instance) << vertex_names_json(names) << "\n  }" << bodies.json()
+      << ",\n  \"agents\": [";
   separator = "\n";
   for (const AgentId i : instance.agent_ids()) {
     const Agent& agent = instance.agent(i);
     out << separator << "    {\"start\": " << agent.start.index() << ", ";
     text::write_goals(out, agent.goals, [](VertexId v) { return v.index(); });
-    out << ", " << body_json(agent.body, resolution)
+    out << ", " << bodies.member(i)
         << ", \"speed\": " << json_number(speed_in_input_units(agent.speed, resolution));
     if (agent.group != GroupId()) out << ", \"group\": " << agent.group.index();
     if (agent.release > 0) out << ", \"release\": " << number(agent.release);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <variant>
 #include <vector>
 
@@ -17,6 +18,17 @@ namespace quadrille::continuous {
     numbers.push_back(corner.y);
   }
   return numbers;
+}
+
+/// Likewise of all bodies of an agent, as far as it has shapes.
+[[nodiscard]] inline std::vector<Length> numbers_of(const Agent& agent) {
+  std::vector<Length> all = numbers_of(agent.body);
+  for (const Body& body : agent.shapes) {
+    const std::vector<Length> numbers = numbers_of(body);
+    all.push_back(Length(-static_cast<std::int64_t>(numbers.size())));
+    all.insert(all.end(), numbers.begin(), numbers.end());
+  }
+  return all;
 }
 
 }  // namespace quadrille::continuous

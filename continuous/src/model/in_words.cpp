@@ -7,6 +7,7 @@
 
 #include "model/obstacle_leg.hpp"
 #include "model/place_of_rest.hpp"
+#include "model/shapes.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/geometry/body_index.hpp"
@@ -74,7 +75,8 @@ std::optional<Error> Finder::find_polygon_in_space() const {
                    "are spheres");
   };
   for (std::size_t i = 0; i < agents_.size(); ++i)
-    if (!std::holds_alternative<Disc>(agents_[i].body)) return refusal(name(i));
+    for (const Body& body : bodies_of(agents_[i]))
+      if (!std::holds_alternative<Disc>(body)) return refusal(name(i));
   for (std::size_t o = 0; o < obstacles_.size(); ++o)
     if (!std::holds_alternative<Disc>(obstacles_[o].body)) return refusal(words_.obstacle(o));
   return std::nullopt;
@@ -82,8 +84,7 @@ std::optional<Error> Finder::find_polygon_in_space() const {
 
 std::optional<Error> Finder::find_unsupported() const {
   for (std::size_t i = 0; i < agents_.size(); ++i) {
-    if (geometry::enclosing_radius(agents_[i].body) > geometry::kMaxLength)
-      return out_of_range(name(i) + " is too large");
+    if (reach_of(agents_[i]) > geometry::kMaxLength) return out_of_range(name(i) + " is too large");
     for (const Edge& lane : roads_->edges())
       if (!lane.duration &&
           !travel_time(roads_->position(lane.from), roads_->position(lane.to), agents_[i].speed))
@@ -100,11 +101,12 @@ std::optional<Error> Finder::find_overlap(const PlaceOf& place_of, const std::st
   for (std::size_t j = 0; j < agents_.size(); ++j) {
     const VertexId* const w = place_of(agents_[j]);
     if (w == nullptr) continue;
-    if (const auto i = placed.first_overlap(agents_[j].body, roads_->place(*w)))
+    const Body& body = body_at(*roads_, agents_[j], *w);
+    if (const auto i = placed.first_overlap(body, roads_->place(*w)))
       return no_plan("the " + what + " of " + name(*i) + " at " +
                      words_.vertex(*place_of(agents_[*i])) + " and " + name(j) + " at " +
                      words_.vertex(*w) + " overlap");
-    placed.add(j, agents_[j].body, roads_->place(*w));
+    placed.add(j, body, roads_->place(*w));
   }
   return std::nullopt;
 }
@@ -116,7 +118,8 @@ std::optional<Error> Finder::find_obstacle() const {
       return out_of_range(words_.obstacle(o) + " is too large");
     if (obstacle.path.empty()) continue;
     for (std::size_t i = 0; i < agents_.size(); ++i)
-      if (is_in_the_way(obstacle, now_, agents_[i].body, roads_->place(agents_[i].start)))
+      if (is_in_the_way(obstacle, now_, body_at(*roads_, agents_[i], agents_[i].start),
+                        roads_->place(agents_[i].start)))
         return no_plan(words_.obstacle(o) + " is at the start of " + name(i) + " at " +
                        words_.vertex(agents_[i].start));
   }

@@ -15,6 +15,7 @@
 #include "model/obstacle_leg.hpp"
 #include "model/place_of_rest.hpp"
 #include "model/reachability.hpp"
+#include "model/shapes.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/core/decimal.hpp"
@@ -55,12 +56,13 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
   if (agent.goals.size() == 0) return invalid(name(index) + " has no goal");
   for (const VertexId v : agent.goals.vertices())
     if (auto error = check_vertex(v)) return error;
-  const Length reach = geometry::enclosing_radius(agent.body);
+  const Length reach = reach_of(agent);
   if (reach < 1 || reach > geometry::kMaxLength)
     return Error{ErrorCode::out_of_range,
                  name(index) + " has a radius of " + std::to_string(reach.value()) +
                      " length units, not 1 .. " + std::to_string(geometry::kMaxLength.value()),
                  {}};
+  if (auto wrong = find_wrong_shape(roadmap, agent)) return invalid(name(index) + *wrong);
   if (agent.speed < 1 || agent.speed > kMaxSpeed)
     return Error{
         ErrorCode::out_of_range,
@@ -109,12 +111,13 @@ std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent
     const VertexId* const place = place_of(agents[j]);
     if (place == nullptr) continue;
     const geometry::Place here = roadmap.place(*place);
-    if (const auto i = placed.first_overlap(agents[j].body, here)) {
+    const Body& body = body_at(roadmap, agents[j], *place);
+    if (const auto i = placed.first_overlap(body, here)) {
       at = j;
       return no_plan("the " + what + " of agents " + std::to_string(*i) + " and " +
                      std::to_string(j) + " overlap");
     }
-    placed.add(j, agents[j].body, here);
+    placed.add(j, body, here);
   }
   return std::nullopt;
 }
@@ -168,7 +171,9 @@ std::optional<std::size_t> find_blocked(const Roadmap& roadmap, const std::vecto
   if (!leg) return std::nullopt;
   if (!leg->is_moving) return starts.first_overlap(obstacle.body, obstacle.path[leg->stop].at);
   for (std::size_t i = 0; i < agents.size(); ++i)
-    if (is_in_the_way(obstacle, now, agents[i].body, roadmap.place(agents[i].start))) return i;
+    if (is_in_the_way(obstacle, now, body_at(roadmap, agents[i], agents[i].start),
+                      roadmap.place(agents[i].start)))
+      return i;
   return std::nullopt;
 }
 
@@ -178,7 +183,7 @@ std::optional<Error> check_obstacles(const Roadmap& roadmap, const std::vector<A
                                      Ticks now, bool is_new) {
   geometry::BodyIndex starts;
   for (std::size_t i = 0; !obstacles.empty() && i < agents.size(); ++i)
-    starts.add(i, agents[i].body, roadmap.place(agents[i].start));
+    starts.add(i, body_at(roadmap, agents[i], agents[i].start), roadmap.place(agents[i].start));
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     if (is_new)
       if (auto error = check_obstacle(obstacles[o], o)) return error;
@@ -203,8 +208,9 @@ std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>&
                                bool is_flat, Ticks now, std::size_t& at) {
   for (at = 0; at < agents.size(); ++at) {
     if (auto error = check(roadmap, agents, at)) return error;
-    if (!is_flat)
-      if (auto error = check_flat(agents[at].body, name(at))) return error;
+    for (const Body& body : bodies_of(agents[at]))
+      if (!is_flat)
+        if (auto error = check_flat(body, name(at))) return error;
     if (auto error = check_under_way(roadmap, agents[at], at, now)) return error;
   }
   const auto start = [](const Agent& agent) { return &agent.start; };
@@ -322,11 +328,12 @@ Result<Instance> Instance::build(std::shared_ptr<const Roadmap> roadmap, std::ve
                EdgeLists(roadmap->num_vertices(), roadmap->edges(), &Edge::to, agent.group)});
     // All to whom every edge is open are alike.
     const std::size_t group = open->second == nullptr ? kMaxGroups : agent.group.index();
-    const auto key = std::make_tuple(numbers_of(agent.body), agent.speed, group);
+    const auto key = std::make_tuple(numbers_of(agent), agent.speed, group);
     const auto [known, is_new_class] = classes.try_emplace(key, instance.classes_.next_id());
     if (is_new_class)
-      instance.classes_.push_back({agent.body, geometry::enclosing_radius(agent.body) + rounding,
-                                   agent.speed, speed->second, agent.group, open->second});
+      instance.classes_.push_back({bodies_of(agent), reach_of(agent) + rounding, agent.speed,
+                                   speed->second, agent.group, open->second});
+    instance.has_shapes_ = instance.has_shapes_ || !agent.shapes.empty();
     instance.class_of_.push_back(known->second);
   }
   instance.roadmap_ = std::move(roadmap);

@@ -2,6 +2,7 @@
 #include "quadrille/continuous/roadmap.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -66,10 +67,47 @@ std::optional<Error> check(const std::vector<Point>& positions, const std::vecto
   return std::nullopt;
 }
 
+/// With all vertices and edges in order.
+std::optional<Error> check_shapes(std::size_t num_vertices, const std::vector<Edge>& edges,
+                                  const std::vector<LanePlace>& lane_places,
+                                  const std::vector<ShapeId>& shapes) {
+  const auto refuse = [](const std::string& why) {
+    return Error{ErrorCode::invalid_instance, why, {}};
+  };
+  if (!shapes.empty() && shapes.size() != num_vertices)
+    return refuse("there are " + std::to_string(shapes.size()) + " shapes for " +
+                  std::to_string(num_vertices) + " vertices");
+  const auto is_plain = [](const Edge& edge) { return edge.shape == ShapeId(); };
+  if (shapes.empty() && std::all_of(edges.begin(), edges.end(), is_plain)) return std::nullopt;
+  for (std::size_t v = 0; v < shapes.size(); ++v)
+    if (shapes[v].index() > kMaxShapes)
+      return Error{
+          ErrorCode::out_of_range,
+          "vertex " + std::to_string(v) + " has a shape above " + std::to_string(kMaxShapes),
+          {}};
+  std::map<std::pair<VertexId, VertexId>, ShapeId> known;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const Edge& edge = edges[e];
+    if (edge.shape.index() > kMaxShapes)
+      return Error{ErrorCode::out_of_range,
+                   "edge " + std::to_string(e) + " has a shape above " + std::to_string(kMaxShapes),
+                   {}};
+    if (known.try_emplace({edge.from, edge.to}, edge.shape).first->second != edge.shape)
+      return refuse("edge " + std::to_string(e) + " has another shape than one before it between " +
+                    "the same vertices");
+    const auto starts = [&](const LanePlace& place) { return place.vertex == edge.from; };
+    const ShapeId there = shapes.empty() ? ShapeId() : shapes[edge.from.index()];
+    if (there != edge.shape && std::any_of(lane_places.begin(), lane_places.end(), starts))
+      return refuse("vertex " + std::to_string(edge.from.index()) +
+                    " is in the middle of a move, but has not the shape of the rest of it");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<Roadmap> Roadmap::make(std::vector<Point> vertices, std::vector<Edge> edges,
-                              std::vector<LanePlace> lane_places) {
+                              std::vector<LanePlace> lane_places, std::vector<ShapeId> shapes) {
   for (std::size_t v = 0; v < vertices.size(); ++v)
     if (!geometry::in_range(vertices[v]))
       return Error{ErrorCode::out_of_range,
@@ -92,7 +130,16 @@ Result<Roadmap> Roadmap::make(std::vector<Point> vertices, std::vector<Edge> edg
                        (is_told_twice ? "two moves" : "a move, and another one has it as an end"),
                    {}};
   }
-  return Roadmap(std::move(vertices), std::move(edges), std::move(lane_places));
+  if (auto error = check_shapes(vertices.size(), edges, lane_places, shapes)) return *error;
+  return Roadmap(std::move(vertices), std::move(edges), std::move(lane_places), std::move(shapes));
+}
+
+ShapeId Roadmap::shape(VertexId from, VertexId to) const {
+  if (num_shapes_ == 1) return {};
+  for (const EdgeId e : out_edges(from))
+    if (edge(e).to == to) return edge(e).shape;
+  QUADRILLE_REQUIRE(false, "an edge between the two");
+  return {};
 }
 
 Roadmap Roadmap::with_closed(std::span<const EdgeId> closed) const {
@@ -101,7 +148,7 @@ Roadmap Roadmap::with_closed(std::span<const EdgeId> closed) const {
     QUADRILLE_REQUIRE(e.index() < edges.size(), "an edge of the roadmap");
     edges[e.index()].open_to = Groups();
   }
-  return Roadmap(positions_, std::move(edges), lane_places_);
+  return Roadmap(positions_, std::move(edges), lane_places_, shapes_);
 }
 
 geometry::Motion Roadmap::motion(VertexId from, VertexId to, Ticks duration) const {
@@ -120,14 +167,18 @@ const LanePlace* Roadmap::lane_place(VertexId v) const {
 }
 
 Roadmap::Roadmap(std::vector<Point> positions, std::vector<Edge> edges,
-                 std::vector<LanePlace> lane_places)
+                 std::vector<LanePlace> lane_places, std::vector<ShapeId> shapes)
     : positions_(std::move(positions)),
       edges_(std::move(edges)),
       lane_places_(std::move(lane_places)),
+      shapes_(std::move(shapes)),
       is_flat_(std::all_of(positions_.begin(), positions_.end(),
                            [](const Point& point) { return point.z == 0; })),
       out_(positions_.size(), edges_, &Edge::from, std::nullopt),
-      in_(positions_.size(), edges_, &Edge::to, std::nullopt) {}
+      in_(positions_.size(), edges_, &Edge::to, std::nullopt) {
+  for (const ShapeId shape : shapes_) num_shapes_ = std::max(num_shapes_, shape.index() + 1);
+  for (const Edge& edge : edges_) num_shapes_ = std::max(num_shapes_, edge.shape.index() + 1);
+}
 
 EdgeLists::EdgeLists(std::size_t num_vertices, const std::vector<Edge>& edges, VertexId Edge::*end,
                      const std::optional<GroupId>& group)

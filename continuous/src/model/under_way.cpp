@@ -35,7 +35,15 @@ VertexId add_lane_place(RoadmapParts& parts, VertexId from, VertexId to, Ticks w
   const VertexId place(parts.vertices.size());
   parts.vertices.push_back(
       nearest_point(parts.vertices[from.index()], parts.vertices[to.index()], behind, whole));
-  parts.edges.push_back({place, to, whole - behind});
+  const auto lane = std::find_if(parts.edges.begin(), parts.edges.end(), [&](const Edge& edge) {
+    return edge.from == from && edge.to == to;
+  });
+  const ShapeId shape = lane == parts.edges.end() ? ShapeId() : lane->shape;
+  if (!parts.shapes.empty() || shape != ShapeId()) {
+    parts.shapes.resize(parts.vertices.size());
+    parts.shapes.back() = shape;
+  }
+  parts.edges.push_back({place, to, whole - behind, Groups::all(), shape});
   parts.lane_places.push_back({place, from, to, behind, whole});
   return place;
 }

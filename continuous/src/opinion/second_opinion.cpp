@@ -98,12 +98,9 @@ class Opinion {
           obstacle.leaves, horizon_));
     for (const AgentId i : instance_.agent_ids()) {
       for (const AgentId j : instance_.agent_ids())
-        if (i < j) compare({i, j, {}}, between(i, j), legs_[i], legs_[j]);
+        if (i < j) compare({i, j, {}}, legs_[i], legs_[j]);
       for (std::size_t o = 0; o < obstacles_.size(); ++o)
-        if (!legs_[i].empty())
-          compare({i, {}, o},
-                  EncounterCheck(instance_.agent(i).body, instance_.obstacles()[o].body, extent_),
-                  legs_[i], obstacles_[o]);
+        compare({i, {}, o}, legs_[i], obstacles_[o]);
     }
     const auto collides = [](const Meeting& meeting) { return meeting.collide; };
     using Verdict = SecondOpinion::Verdict;
@@ -134,28 +131,64 @@ class Opinion {
       }
     }
     legs_ = IdVector<AgentId, std::vector<Leg>>(instance_.num_agents());
+    looks_ = IdVector<AgentId, std::vector<ShapeId>>(instance_.num_agents());
     const auto place = [&](const Stop& stop) { return instance_.roadmap().place(stop.vertex); };
-    for (const AgentId i : sound)
+    for (const AgentId i : sound) {
       legs_[i] = legs_of(plan_.paths[i], place, instance_.agent(i).leaves, horizon_);
+      if (!instance_.agent(i).shapes.empty()) add_looks(i);
+    }
   }
 
-  const EncounterCheck& between(AgentId i, AgentId j) {
-    const std::pair key(instance_.class_of(i), instance_.class_of(j));
+  /// Whoever has left a stop by the begin of a leg moves on it.
+  void add_looks(AgentId i) {
+    const Roadmap& roadmap = instance_.roadmap();
+    const Path& path = plan_.paths[i];
+    std::size_t k = 0;
+    for (const Leg& leg : legs_[i]) {
+      while (k + 1 < path.size() && path[k + 1].arrive <= leg.begin) ++k;
+      const bool stands = leg.begin < path[k].depart || k + 1 == path.size();
+      looks_[i].push_back(stands ? roadmap.shape(path[k].vertex)
+                                 : roadmap.shape(path[k].vertex, path[k + 1].vertex));
+    }
+  }
+
+  /// The body of an agent on its leg, and what tells it from others.
+  struct Look {
+    const Body* body;
+    std::pair<std::size_t, ShapeId> key;
+  };
+  [[nodiscard]] Look look_of(AgentId i, std::size_t leg) const {
+    const ShapeId shape = looks_[i].empty() ? ShapeId() : looks_[i][leg];
+    return {&instance_.agent(i).body_as(shape), {instance_.class_of(i).index(), shape}};
+  }
+  [[nodiscard]] Look other_look(const Meeting& meeting, std::size_t leg) const {
+    if (meeting.other) return look_of(*meeting.other, leg);
+    return {&instance_.obstacles()[*meeting.obstacle].body,
+            {instance_.num_classes() + *meeting.obstacle, ShapeId()}};
+  }
+
+  const EncounterCheck& between(const Look& a, const Look& b) {
+    const std::pair key(a.key, b.key);
     const auto known = checks_.find(key);
     if (known != checks_.end()) return known->second;
-    EncounterCheck check(instance_.agent(i).body, instance_.agent(j).body, extent_);
+    EncounterCheck check(*a.body, *b.body, extent_);
+    opinion_.tolerance = std::max(opinion_.tolerance, check.tolerance());
     return checks_.emplace(key, std::move(check)).first->second;
   }
 
-  void compare(Meeting meeting, const EncounterCheck& check, const std::vector<Leg>& a,
-               const std::vector<Leg>& b) {
-    opinion_.tolerance = std::max(opinion_.tolerance, check.tolerance());
+  void compare(Meeting meeting, const std::vector<Leg>& a, const std::vector<Leg>& b) {
+    const bool has_looks =
+        !looks_[meeting.agent].empty() || (meeting.other && !looks_[*meeting.other].empty());
     std::size_t first = 0;  // of b: those before it end before the leg of a begins
     bool meets = false;
-    for (const Leg& leg : a) {
+    for (std::size_t l = 0; l < a.size(); ++l) {
+      const Leg& leg = a[l];
       while (first < b.size() && b[first].end < leg.begin) ++first;
       for (std::size_t k = first; k < b.size() && b[k].begin <= leg.end; ++k) {
+        // Who changes its shape has neither at the one moment between.
+        if (has_looks && std::max(leg.begin, b[k].begin) >= std::min(leg.end, b[k].end)) continue;
         ++opinion_.num_looks;
+        const EncounterCheck& check = between(look_of(meeting.agent, l), other_look(meeting, k));
         const Encounter encounter = check.look(leg, b[k]);
         if (encounter == Encounter::clear || (meets && encounter == Encounter::touch)) continue;
         meets = true;
@@ -177,7 +210,9 @@ class Opinion {
   Ticks horizon_ = 1;
   IdVector<AgentId, std::vector<Leg>> legs_;  // none: the path has a fault
   std::vector<std::vector<Leg>> obstacles_;
-  std::map<std::pair<ClassId, ClassId>, EncounterCheck> checks_;
+  IdVector<AgentId, std::vector<ShapeId>> looks_;  // of the legs; empty: the agent has no shapes
+  using Key = std::pair<std::size_t, ShapeId>;
+  std::map<std::pair<Key, Key>, EncounterCheck> checks_;
   SecondOpinion opinion_;
 };
 

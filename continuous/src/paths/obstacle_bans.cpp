@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "model/shape_pairs.hpp"
 #include "paths/unsafe_starts.hpp"
-#include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -17,34 +17,36 @@ class ObstacleBans {
       : instance_(instance),
         class_(c),
         limits_(limits),
-        bodies_(obstacle, instance.body(c)),
-        swapped_(bodies_.swapped()),
+        bodies_({obstacle}, instance.bodies(c)),
+        swapped_(instance.bodies(c), {obstacle}),
         bans_(bans) {}
 
   void add_move(const geometry::Motion& motion, Ticks begin) {
+    const ShapePairs::Move move{{}, motion};
     for (const EdgeId e : edges()) {
-      const geometry::Motion own = instance_.motion(class_, e);
-      if (!may_use(e) || !bodies_.can_meet(motion, own)) continue;
-      if (const auto offsets = bodies_.unsafe_offsets(motion, own))
+      const ShapePairs::Move own = move_of(instance_, class_, e);
+      if (!may_use(e) || !bodies_.can_meet(move, own)) continue;
+      if (const auto offsets = bodies_.unsafe_offsets(move, own))
         bans_.push_back(Ban::start(e, starts_against(*offsets, begin)));
     }
     for (const VertexId v : vertices())
-      if (const auto window = bodies_.contact_window(motion, place(v)))
+      if (const auto window = bodies_.contact_window(move, stand(v)))
         bans_.push_back(Ban::stay(v, window->shifted(begin)));
   }
 
   // Whoever comes or goes meanwhile does so as a move: a ban of the stay itself is for those who
   // are there all the time.
   void add_rest(const Point& at, Ticks begin, Ticks end) {
-    const geometry::Motion rest = geometry::rest(at, 1);
+    const ShapePairs::Move rest{{}, geometry::rest(at, 1)};
+    const ShapePairs::Stand there{{}, at};
     for (const EdgeId e : edges()) {
-      const geometry::Motion own = instance_.motion(class_, e);
+      const ShapePairs::Move own = move_of(instance_, class_, e);
       if (!may_use(e) || !bodies_.can_meet(rest, own)) continue;
-      if (const auto window = swapped_.contact_window(own, at))
+      if (const auto window = swapped_.contact_window(own, there))
         bans_.push_back(Ban::start(e, starts_meeting(*window, begin, end)));
     }
     for (const VertexId v : vertices())
-      if (bodies_.overlap(at, place(v))) bans_.push_back(Ban::stay(v, {begin, end}));
+      if (bodies_.overlap(there, stand(v))) bans_.push_back(Ban::stay(v, {begin, end}));
   }
 
  private:
@@ -56,12 +58,14 @@ class ObstacleBans {
     return IdRange<VertexId>(instance_.roadmap().num_vertices());
   }
   [[nodiscard]] bool may_use(EdgeId e) const { return instance_.may_use(class_, e); }
-  [[nodiscard]] geometry::Place place(VertexId v) const { return instance_.roadmap().place(v); }
+  [[nodiscard]] ShapePairs::Stand stand(VertexId v) const {
+    return stand_at(instance_.roadmap(), v);
+  }
 
   const Instance& instance_;
   const ClassId class_;
   LimitMonitor& limits_;
-  const geometry::BodyPair bodies_, swapped_;
+  ShapePairs bodies_, swapped_;
   std::vector<Ban>& bans_;
 };
 

@@ -72,7 +72,9 @@ class RoadGraph {
     std::vector<const geometry::Body*> polygons;
     for (const ClassId c : IdRange<ClassId>(instance_.num_classes())) {
       const geometry::Body& body = instance_.body(c);
-      if (std::holds_alternative<geometry::Disc>(body)) {
+      if (instance_.has_shapes()) {
+        shapes_.push_back(c);
+      } else if (std::holds_alternative<geometry::Disc>(body)) {
         if (!largest || instance_.reach(c) > instance_.reach(*largest)) largest = c;
       } else if (std::none_of(polygons.begin(), polygons.end(),
                               [&](const geometry::Body* other) { return *other == body; })) {
@@ -113,16 +115,25 @@ class RoadGraph {
     }
   }
 
-  /// Whatever the bodies of who moves and who stands. Both directions sweep the same.
+  /// Whatever the bodies of who moves and who stands. Without shapes both directions sweep the
+  /// same.
   void find_blockers(Lane& lane) {
+    find_blockers(lane, lane.edge);
+    if (!instance_.has_shapes()) return;
+    for (const ClassId c : shapes_)
+      for (const VertexId from : {lane.a, lane.b})
+        if (const auto edge = edge_of(c, from, from == lane.a ? lane.b : lane.a))
+          find_blockers(lane, *edge);
+  }
+  void find_blockers(Lane& lane, EdgeId edge) {
     for (const ClassId c : shapes_)
       for (const ClassId b : shapes_)
-        for (const VertexId v : bodies_.scene().contacts().near_edge(c, lane.edge, b).vertices) {
+        for (const VertexId v : bodies_.scene().contacts().near_edge(c, edge, b).vertices) {
           if (v == lane.a || v == lane.b) continue;
           const auto at = std::lower_bound(lane.blockers.begin(), lane.blockers.end(), v);
           if (at != lane.blockers.end() && *at == v) continue;
           ++effort_;
-          if (bodies_.block(c, lane.edge, b, v)) lane.blockers.insert(at, v);
+          if (bodies_.block(c, edge, b, v)) lane.blockers.insert(at, v);
         }
   }
 

@@ -34,8 +34,8 @@ class Passage {
       Fate fate;
       fate.now = AgentId(static_cast<std::size_t>(std::distance(now.tasks.begin(), at)));
       fate.is_same = at->second == task;
-      fate.is_alike =
-          before.body == after.body && before.speed == after.speed && before.group == after.group;
+      fate.is_alike = before.body == after.body && before.shapes == after.shapes &&
+                      before.speed == after.speed && before.group == after.group;
       fate.rests_alike =
           fate.is_alike && before.goals == after.goals && before.leaves == after.leaves;
       fates_.push_back(fate);

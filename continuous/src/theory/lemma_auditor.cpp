@@ -139,14 +139,12 @@ std::string LemmaAuditor::audit_usages(const sat::Lemma& lemma) const {
 std::string LemmaAuditor::audit_goal_bans(const Obstacle& o, AgentId resident, VertexId goal,
                                           Ticks tick) const {
   const Instance& instance = model_.instance();
-  const geometry::BodyPair pair = bodies(o.agent, resident);
+  ShapePairs pair = bodies(o.agent, resident);
   if (instance.agent(resident).leaves) return "an agent that leaves is said to stay at its goal";
   for (const Ban& ban : o.bans) {
     bool holds = false;
     if (ban.kind == Ban::Kind::stay) {
-      holds =
-          ban.when.begin >= tick - 1 && pair.overlap(instance.roadmap().place(VertexId(ban.place)),
-                                                     instance.roadmap().place(goal));
+      holds = ban.when.begin >= tick - 1 && pair.overlap(stand(VertexId(ban.place)), stand(goal));
     } else {
       const Ticks duration = instance.duration(instance.class_of(o.agent), EdgeId(ban.place));
       const Ticks arrive = std::max(ban.when.begin, tick - 1);
@@ -235,16 +233,13 @@ std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
 
 // Unsafe offsets have no gaps and contacts neither, so that the extreme cases decide.
 bool LemmaAuditor::all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b) const {
-  const Instance& instance = model_.instance();
   if (a.is_end() && b.is_end())
-    return bodies(i, j).overlap(instance.roadmap().place(VertexId(a.place)),
-                                instance.roadmap().place(VertexId(b.place)));
+    return bodies(i, j).overlap(stand(VertexId(a.place)), stand(VertexId(b.place)));
   if (a.kind == Ban::Kind::stay) return b.kind == Ban::Kind::start && all_collide(j, b, i, a);
   if (a.when.end >= kForever || b.when.end >= kForever) return false;
   if (b.kind == Ban::Kind::start) {
-    const geometry::BodyPair pair = bodies(i, j);
-    const geometry::Motion e = instance.motion(instance.class_of(i), EdgeId(a.place));
-    const geometry::Motion f = instance.motion(instance.class_of(j), EdgeId(b.place));
+    ShapePairs pair = bodies(i, j);
+    const ShapePairs::Move e = move(i, a.place), f = move(j, b.place);
     return pair.collide(e, f, b.when.first() - a.when.last()) &&
            pair.collide(e, f, b.when.last() - a.when.first());
   }
@@ -259,15 +254,24 @@ bool LemmaAuditor::all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b)
 
 bool LemmaAuditor::collides(AgentId i, EdgeId e, Ticks start, AgentId j, VertexId place,
                             Ticks arrive, Ticks leave) const {
-  const Instance& instance = model_.instance();
-  return bodies(i, j).collide(instance.motion(instance.class_of(i), e),
-                              geometry::rest(instance.roadmap().place(place), leave - arrive),
+  const ShapePairs::Stand there = stand(place);
+  return bodies(i, j).collide(move(i, e.value()),
+                              {there.shape, geometry::rest(there.place, leave - arrive)},
                               arrive - start);
 }
 
-geometry::BodyPair LemmaAuditor::bodies(AgentId i, AgentId j) const {
+ShapePairs LemmaAuditor::bodies(AgentId i, AgentId j) const {
   const Instance& instance = model_.instance();
-  return {instance.body(instance.class_of(i)), instance.body(instance.class_of(j))};
+  return shape_pairs(instance, instance.class_of(i), instance.class_of(j));
+}
+
+ShapePairs::Move LemmaAuditor::move(AgentId i, std::uint32_t edge) const {
+  const Instance& instance = model_.instance();
+  return move_of(instance, instance.class_of(i), EdgeId(edge));
+}
+
+ShapePairs::Stand LemmaAuditor::stand(VertexId v) const {
+  return stand_at(model_.instance().roadmap(), v);
 }
 
 std::string LemmaAuditor::audit_pair(const sat::Lemma& lemma) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "quadrille/continuous/plan.hpp"
-#include "quadrille/geometry/body_pair.hpp"
 #include "quadrille/sat/clause_auditor.hpp"
 #include "theory/model.hpp"
 
@@ -52,7 +51,9 @@ class LemmaAuditor final : public sat::ClauseAuditor {
   /// Whether i's move from `start` on collides with a stay of j at `place`.
   [[nodiscard]] bool collides(AgentId i, EdgeId e, Ticks start, AgentId j, VertexId place,
                               Ticks arrive, Ticks leave) const;
-  [[nodiscard]] geometry::BodyPair bodies(AgentId i, AgentId j) const;
+  [[nodiscard]] ShapePairs bodies(AgentId i, AgentId j) const;
+  [[nodiscard]] ShapePairs::Move move(AgentId i, std::uint32_t edge) const;
+  [[nodiscard]] ShapePairs::Stand stand(VertexId v) const;
 
   const Model& model_;
   // Of the known plan; empty without one.

@@ -6,8 +6,8 @@
 namespace quadrille::continuous {
 namespace {
 
-geometry::BodyPair bodies_of(const Instance& instance, AgentId i, AgentId j) {
-  return {instance.body(instance.class_of(i)), instance.body(instance.class_of(j))};
+ShapePairs pairs_of(const Instance& instance, AgentId i, AgentId j) {
+  return shape_pairs(instance, instance.class_of(i), instance.class_of(j));
 }
 
 }  // namespace
@@ -16,8 +16,8 @@ PairReplay::PairReplay(const Instance& instance, Party first, Party second)
     : instance_(instance),
       first_(std::move(first)),
       second_(std::move(second)),
-      bodies_(bodies_of(instance, first_.agent, second_.agent)),
-      swapped_(bodies_.swapped()) {
+      bodies_(pairs_of(instance, first_.agent, second_.agent)),
+      swapped_(pairs_of(instance, second_.agent, first_.agent)) {
   for (Party* party : {&first_, &second_})
     if (const auto& deadline = instance.agent(party->agent).deadline)
       party->bound = std::min(party->bound, *deadline + 1);
@@ -112,10 +112,13 @@ bool PairReplay::may_be_at(const Party& party, std::uint32_t vertex, Ticks from,
 }
 
 // A move is looked at as a whole: the two collide, if not now, then later or before.
-bool PairReplay::collide(const State& a, const State& b) const {
-  const auto place = [&](const State& s) { return instance_.roadmap().place(VertexId(s.place)); };
-  const auto motion = [&](const Party& party, const State& s) {
-    return instance_.motion(instance_.class_of(party.agent), EdgeId(s.place));
+bool PairReplay::collide(const State& a, const State& b) {
+  const auto stand = [&](const State& s) {
+    return stand_at(instance_.roadmap(), VertexId(s.place));
+  };
+  const auto rest = [&](const State& s) { return rest_at(instance_.roadmap(), VertexId(s.place)); };
+  const auto move = [&](const Party& party, const State& s) {
+    return move_of(instance_, instance_.class_of(party.agent), EdgeId(s.place));
   };
   const auto is_gone = [&](const Party& party, const State& s) {
     return s.kind == Kind::parks && instance_.agent(party.agent).leaves;
@@ -123,10 +126,10 @@ bool PairReplay::collide(const State& a, const State& b) const {
   if (is_gone(first_, a) || is_gone(second_, b)) return false;
   const bool a_moves = a.kind == Kind::moves, b_moves = b.kind == Kind::moves;
   if (a_moves && b_moves)
-    return bodies_.collide(motion(first_, a), motion(second_, b), a.progress - b.progress);
-  if (a_moves) return bodies_.collide(motion(first_, a), geometry::rest(place(b), 1), a.progress);
-  if (b_moves) return swapped_.collide(motion(second_, b), geometry::rest(place(a), 1), b.progress);
-  return bodies_.overlap(place(a), place(b));
+    return bodies_.collide(move(first_, a), move(second_, b), a.progress - b.progress);
+  if (a_moves) return bodies_.collide(move(first_, a), rest(b), a.progress);
+  if (b_moves) return swapped_.collide(move(second_, b), rest(a), b.progress);
+  return bodies_.overlap(stand(a), stand(b));
 }
 
 bool PairReplay::may_use(const Party& party, std::uint32_t edge) const {

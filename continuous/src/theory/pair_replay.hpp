@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/shape_pairs.hpp"
 #include "paths/bans.hpp"
-#include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::continuous {
 
@@ -46,13 +46,13 @@ class PairReplay {
   [[nodiscard]] bool may_be_at(const Party& party, std::uint32_t vertex, Ticks from,
                                Ticks to) const;
   void fill_rest(Party& party) const;
-  [[nodiscard]] bool collide(const State& a, const State& b) const;
+  [[nodiscard]] bool collide(const State& a, const State& b);
   [[nodiscard]] bool may_use(const Party& party, std::uint32_t edge) const;
   [[nodiscard]] Ticks duration(const Party& party, std::uint32_t edge) const;
 
   const Instance& instance_;
   Party first_, second_;
-  geometry::BodyPair bodies_, swapped_;
+  ShapePairs bodies_, swapped_;
 };
 
 }  // namespace quadrille::continuous

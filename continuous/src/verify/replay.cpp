@@ -120,6 +120,12 @@ double reach_of(const Body& body) {
   return most;
 }
 
+double reach_of(const Agent& agent) {
+  double most = reach_of(agent.body);
+  for (const Body& body : agent.shapes) most = std::max(most, reach_of(body));
+  return most;
+}
+
 Box box_around(const Point& from, const Point& to, double margin) {
   Corner low, high;
   const auto set = [&]<std::size_t k>(std::integral_constant<std::size_t, k>, Length a, Length b) {
@@ -191,7 +197,7 @@ class Replay {
       const Agent& agent = instance.agent(i);
       const std::size_t kind = instance.class_of(i).index();
       const auto [reach, is_new] = reach_of_class.try_emplace(kind, 0);
-      if (is_new) reach->second = reach_of(agent.body);
+      if (is_new) reach->second = reach_of(agent);
       add({Trip(instance.roadmap(), plan.paths[i], agent.leaves, horizon), &agent.body, kind,
            reach->second},
           sound[i]);
@@ -228,10 +234,11 @@ class Replay {
  private:
   struct Traveller {
     Trip trip;
-    const Body* body;
+    const Body* body;  // of one with shapes: during `piece`
     std::size_t kind;  // those of one kind have equal bodies
     double reach;
     std::optional<Piece> piece = {};  // the one after the last is none
+    ShapeId shape = {};               // of `body`
     bool is_there = false;            // in `index_`, with `box`
     Box box = {};
   };
@@ -257,6 +264,7 @@ class Replay {
     Traveller& traveller = travellers_[t];
     if (!traveller.piece) return;
     const Piece& piece = *traveller.piece;
+    if (t < num_agents_) put_on_shape(AgentId(t), traveller);
     near_.clear();
     // One unit more, so that nothing hangs on rounding.
     double margin = traveller.reach + 1;
@@ -275,8 +283,20 @@ class Replay {
     next_.emplace(piece.end, t);
   }
 
+  /// That of where it stands, or of the edge that it is on.
+  void put_on_shape(AgentId i, Traveller& traveller) const {
+    const Agent& agent = instance_.agent(i);
+    if (agent.shapes.empty()) return;
+    const Piece& piece = *traveller.piece;
+    const Roadmap& roadmap = instance_.roadmap();
+    traveller.shape = piece.start == piece.goal ? roadmap.shape(piece.start)
+                                                : roadmap.shape(piece.start, piece.goal);
+    traveller.body = &agent.body_as(traveller.shape);
+  }
+
   [[nodiscard]] const FootprintPair& footprints(const Traveller& a, const Traveller& b) {
-    return footprints_.try_emplace({a.kind, b.kind}, *a.body, *b.body).first->second;
+    return footprints_.try_emplace({{a.kind, a.shape}, {b.kind, b.shape}}, *a.body, *b.body)
+        .first->second;
   }
 
   void look(Pair pair) {
@@ -303,7 +323,7 @@ class Replay {
     const auto [first, last_touch] = moments_of_contact(bodies, p, q, begin, end);
     std::vector<Collision>& all = collisions_[pair];
     // What goes on at its end goes on in the next stretches of the two.
-    if (all.empty() || !all.back().goes_on) {
+    if (all.empty() || !all.back().goes_on || all.back().end < begin) {
       all.push_back({p, q, first, last_touch, here, goes_on});
       return;
     }
@@ -348,7 +368,8 @@ class Replay {
   std::priority_queue<Event, std::vector<Event>, std::greater<>> next_;
   boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>> index_;
   std::vector<std::size_t> near_;
-  std::map<Pair, FootprintPair> footprints_;  // by kinds
+  using Look = std::pair<std::size_t, ShapeId>;  // a kind in a shape
+  std::map<std::pair<Look, Look>, FootprintPair> footprints_;
   std::map<Pair, std::vector<Collision>> collisions_;
   LeastClearances least_;
 };

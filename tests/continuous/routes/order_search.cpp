@@ -172,7 +172,8 @@ class Oracle {
   [[nodiscard]] std::vector<std::vector<Limit>> obstacle_questions(std::size_t agent,
                                                                    const Walk& taken) const {
     std::vector<std::vector<Limit>> questions;
-    const Body& body = instance_.agent(AgentId(agent)).body;
+    const Agent& who = instance_.agent(AgentId(agent));
+    const bool has_shapes = !who.shapes.empty();
     const bool leaves = instance_.agent(AgentId(agent)).leaves;
     const auto ask_stay = [&](std::size_t l, Ticks until, Ticks from) {
       // Gone by `until`, or not there before `from`.
@@ -186,23 +187,30 @@ class Oracle {
         const bool is_rest = step.from == step.to;
         for (std::size_t k = 0; k < taken.edges.size(); ++k) {
           const Edge& edge = instance_.roadmap().edge(taken.edges[k]);
+          const Body& body = who.body_as(edge.shape);
           const Element move{instance_.roadmap().position(edge.from),
                              instance_.roadmap().position(edge.to), 0, taken.durations[k]};
           if (is_rest) {
-            const auto clear = clearance(move, body, step.from, obstacle.body);
+            auto clear = clearance(move, body, step.from, obstacle.body);
+            if (has_shapes) clear = without_ends(clear, move);
             if (!clear) continue;
             questions.push_back({{false, k, step.begin - clear->before_arrival}});
             if (step.end < kNever)
               questions.back().push_back({true, k, step.end + clear->after_leaving});
-          } else if (const auto run = meeting_starts(step, obstacle.body, move, body)) {
-            questions.push_back({{true, k, run->last + 1}, {false, k, run->first - 1}});
+          } else {
+            auto run = meeting_starts(step, obstacle.body, move, body);
+            if (has_shapes) run = without_ends(run, step, move);
+            if (run) questions.push_back({{true, k, run->last + 1}, {false, k, run->first - 1}});
           }
         }
         for (std::size_t l = 0; l < taken.places.size(); ++l) {
           if (l == taken.edges.size() && leaves) continue;  // no stay
           const Point& at = instance_.roadmap().position(taken.places[l]);
+          const Body& body = who.body_as(instance_.roadmap().shape(taken.places[l]));
           if (!is_rest) {
-            if (const auto clear = clearance(step, obstacle.body, at, body))
+            auto clear = clearance(step, obstacle.body, at, body);
+            if (has_shapes) clear = without_ends(clear, step);
+            if (clear)
               ask_stay(l, step.begin - clear->after_leaving, step.begin + clear->before_arrival);
           } else if (meet({at, at, 0, 1}, body, {step.from, step.from, 0, 1}, obstacle.body)) {
             ask_stay(l, step.begin, step.end);

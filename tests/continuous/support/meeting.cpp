@@ -173,6 +173,20 @@ std::optional<Clearance> clearance(const Element& move, const Body& mover, Point
   return Clearance{move.begin - leave, arrive - move.begin};
 }
 
+std::optional<Run> without_ends(std::optional<Run> run, const Element& a, const Element& b) {
+  if (!run) return run;
+  if (run->first == a.begin - b.end) run->first += 1;
+  if (run->last == a.end - b.begin) run->last -= 1;
+  return run->first > run->last ? std::nullopt : run;
+}
+
+std::optional<Clearance> without_ends(std::optional<Clearance> clear, const Element& move) {
+  if (!clear) return clear;
+  if (clear->after_leaving == 1) clear->after_leaving = 0;
+  if (clear->before_arrival == move.end - move.begin + 1) clear->before_arrival -= 1;
+  return clear;
+}
+
 Meetings::Meetings(const Instance& instance) : instance_(instance) {
   const std::size_t edges = instance.roadmap().num_edges();
   const std::size_t pairs = instance.num_classes() * instance.num_classes();
@@ -185,9 +199,11 @@ const std::optional<Run>& Meetings::moves(ClassId a, EdgeId e, ClassId b, EdgeId
   Known<Run>& known =
       moves_[((a.index() * instance_.num_classes() + b.index()) * edges + e.index()) * edges +
              f.index()];
-  if (!known.is_known)
-    known = {true,
-             meeting_starts(element(a, e), instance_.body(a), element(b, f), instance_.body(b))};
+  if (known.is_known) return known.value;
+  const Roadmap& roadmap = instance_.roadmap();
+  known = {true, meeting_starts(element(a, e), instance_.body(a, roadmap.edge(e).shape),
+                                element(b, f), instance_.body(b, roadmap.edge(f).shape))};
+  if (instance_.has_shapes()) known.value = without_ends(known.value, element(a, e), element(b, f));
   return known.value;
 }
 
@@ -197,9 +213,11 @@ const std::optional<Clearance>& Meetings::stay(ClassId a, EdgeId e, ClassId b, V
   Known<Clearance>& known =
       stays_[((a.index() * instance_.num_classes() + b.index()) * edges + e.index()) * vertices +
              v.index()];
-  if (!known.is_known)
-    known = {true, clearance(element(a, e), instance_.body(a), instance_.roadmap().position(v),
-                             instance_.body(b))};
+  if (known.is_known) return known.value;
+  const Roadmap& roadmap = instance_.roadmap();
+  known = {true, clearance(element(a, e), instance_.body(a, roadmap.edge(e).shape),
+                           roadmap.position(v), instance_.body(b, roadmap.shape(v)))};
+  if (instance_.has_shapes()) known.value = without_ends(known.value, element(a, e));
   return known.value;
 }
 

@@ -38,6 +38,12 @@ struct Clearance {
 [[nodiscard]] std::optional<Clearance> clearance(const Element& move, const Body& mover,
                                                  Point place, const Body& resident);
 
+/// Of bodies with shapes, which count during moves without the first and the last moment of these.
+[[nodiscard]] std::optional<Run> without_ends(std::optional<Run> run, const Element& a,
+                                              const Element& b);
+[[nodiscard]] std::optional<Clearance> without_ends(std::optional<Clearance> clear,
+                                                    const Element& move);
+
 /// Whether the agent may use the edge.
 [[nodiscard]] inline bool is_open(const Instance& instance, AgentId i, EdgeId e) {
   return instance.roadmap().edge(e).open_to.contains(instance.agent(i).group);

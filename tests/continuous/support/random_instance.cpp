@@ -147,6 +147,82 @@ std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
   return std::make_shared<const Roadmap>(std::move(parts).make().value());
 }
 
+/// The corners around which a body is, of a disc those of a square.
+std::vector<Point> corners_around(const Body& body) {
+  const auto* disc = std::get_if<Disc>(&body);
+  if (disc == nullptr) return std::get<ConvexPolygon>(body).vertices();
+  const Length r = disc->radius;
+  return {{-r, -r}, {r, -r}, {r, r}, {-r, r}};
+}
+
+/// The hull of both; of two discs the larger one.
+Body around_both(const Body& a, const Body& b) {
+  if (std::holds_alternative<Disc>(a) && std::holds_alternative<Disc>(b))
+    return std::get<Disc>(a).radius < std::get<Disc>(b).radius ? b : a;
+  std::vector<Point> points = corners_around(a);
+  for (const Point& p : corners_around(b)) points.push_back(p);
+  // Gift wrapping: from the lowest of the leftmost ones on, all others to the left.
+  const auto before = [](const Point& p, const Point& q) {
+    return p.x != q.x ? p.x < q.x : p.y < q.y;
+  };
+  std::vector<Point> hull{*std::min_element(points.begin(), points.end(), before)};
+  while (true) {
+    const Point& at = hull.back();
+    const Point* next = nullptr;
+    for (const Point& p : points) {
+      if (p == at) continue;
+      if (next == nullptr) {
+        next = &p;
+        continue;
+      }
+      const std::int64_t ax = (next->x - at.x).value(), ay = (next->y - at.y).value();
+      const std::int64_t bx = (p.x - at.x).value(), by = (p.y - at.y).value();
+      const std::int64_t side = ax * by - ay * bx;
+      if (side < 0 || (side == 0 && bx * bx + by * by > ax * ax + ay * ay)) next = &p;
+    }
+    if (*next == hull.front()) break;
+    hull.push_back(*next);
+  }
+  return ConvexPolygon::make(std::move(hull)).value();
+}
+
+/// Up to three shapes of vertices, and one for each two of these on edges between them, which now
+/// and then is larger than it has to be.
+std::shared_ptr<const Roadmap> give_shapes(Draw& draw, const Roadmap& roadmap,
+                                           const RandomOptions& options,
+                                           std::vector<Agent>& agents) {
+  const auto num = static_cast<std::size_t>(draw.number(1, 3));
+  const auto any = [&] {
+    return static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(num) - 1));
+  };
+  std::vector<ShapeId> shapes;
+  for (std::size_t v = 0; v < roadmap.num_vertices(); ++v) shapes.emplace_back(any());
+  std::vector<Edge> edges = roadmap.edges();
+  const auto pair = [&](std::size_t a, std::size_t b) { return num + a * num + b; };
+  for (Edge& edge : edges) {
+    const ShapeId from = shapes[edge.from.index()], to = shapes[edge.to.index()];
+    edge.shape = from == to && draw.chance(50) ? from : ShapeId(pair(from.index(), to.index()));
+  }
+  const auto body = [&](int percent) {
+    return draw.chance(percent) ? draw_polygon(draw, options.max_radius)
+                                : Body(Disc{draw.length(1, options.max_radius)});
+  };
+  for (Agent& agent : agents) {
+    if (draw.chance(15)) continue;
+    const int percent = draw.chance(50) ? 100 : 40;
+    std::vector<Body> bodies{agent.body};
+    for (std::size_t k = 1; k < num; ++k) bodies.push_back(body(percent));
+    for (std::size_t a = 0; a < num; ++a)
+      for (std::size_t b = 0; b < num; ++b) {
+        Body both = around_both(bodies[a], bodies[b]);
+        bodies.push_back(draw.chance(60) ? both : around_both(both, body(percent)));
+      }
+    agent.shapes.assign(bodies.begin() + 1, bodies.end());
+  }
+  return std::make_shared<const Roadmap>(
+      Roadmap::make(roadmap.positions(), std::move(edges), {}, std::move(shapes)).value());
+}
+
 std::string describe(const Point& p) {
   return "(" + std::to_string(p.x.value()) + "," + std::to_string(p.y.value()) +
          (p.z == 0 ? "" : "," + std::to_string(p.z.value())) + ")";
@@ -167,11 +243,17 @@ std::string describe(const Body& body) {
   return text;
 }
 
+std::string describe(const std::vector<Body>& shapes) {
+  std::string text;
+  for (const Body& body : shapes) text += "#" + describe(body);
+  return text;
+}
+
 }  // namespace
 
 Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
   Draw draw(seed), more(seed ^ 0x9e3779b9u), last(seed ^ 0x7f4a7c15u), heights(seed ^ 0x5bd1e995u);
-  Draw sets(seed ^ 0x27d4eb2fu);
+  Draw sets(seed ^ 0x27d4eb2fu), turns(seed ^ 0x165667b1u);
   const bool is_in_space = heights.chance(options.space_percent);
   while (true) {
     const bool has_groups = more.chance(options.groups_percent);
@@ -211,6 +293,8 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
         obstacles.push_back(draw_obstacle(more, *shared, options));
     if (is_in_space) lift(heights, options, agents, obstacles);
     add_goals(sets, shared->num_vertices(), options.goal_sets_percent, agents);
+    if (turns.chance(options.shapes_percent) && !is_in_space)
+      shared = give_shapes(turns, *shared, options, agents);
     if (last.chance(options.under_way_percent)) shared = put_under_way(last, *shared, agents);
     auto instance =
         Instance::make(shared, std::move(agents), kDefaultResolution, {}, std::move(obstacles));
@@ -233,16 +317,20 @@ std::string describe(const Instance& instance) {
   for (const Edge& e : instance.roadmap().edges()) {
     text += " " + std::to_string(e.from.index()) + ">" + std::to_string(e.to.index());
     if (e.duration) text += ":" + std::to_string(e.duration->value());
+    if (e.shape != ShapeId()) text += "#" + std::to_string(e.shape.index());
     if (e.open_to == Groups::all()) continue;
     text += "{";
     for (std::size_t g = 0; g < kMaxGroups; ++g)
       if (e.open_to.contains(GroupId(g))) text += " " + std::to_string(g);
     text += " }";
   }
+  if (!instance.roadmap().shapes().empty()) text += "; shapes";
+  for (const ShapeId shape : instance.roadmap().shapes())
+    text += " " + std::to_string(shape.index());
   text += "; agents";
   for (const Agent& a : instance.agents())
     text += " " + std::to_string(a.start.index()) + "->" + describe(a.goals) + " " +
-            describe(a.body) + " v" + std::to_string(a.speed.value()) +
+            describe(a.body) + describe(a.shapes) + " v" + std::to_string(a.speed.value()) +
             (a.group == GroupId() ? "" : " g" + std::to_string(a.group.index())) +
             (a.release == 0 ? "" : " from " + std::to_string(a.release.value())) +
             (a.deadline ? " by " + std::to_string(a.deadline->value()) : "") +

@@ -52,6 +52,8 @@ struct RandomOptions {
   int under_way_percent = 0;
   /// Of the agents: they may end at any of two or three goals.
   int goal_sets_percent = 0;
+  /// Of the instances in the plane: vertices and edges have shapes, and so have most agents.
+  int shapes_percent = 0;
 };
 
 /// The same for the same seed. Tries until the instance is valid.

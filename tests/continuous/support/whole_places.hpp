@@ -41,6 +41,7 @@ namespace quadrille::continuous::test {
   std::vector<Agent> agents(instance.agents().begin(), instance.agents().end());
   for (Agent& agent : agents) {
     agent.body = larger(agent.body);
+    for (Body& body : agent.shapes) body = larger(body);
     agent.speed = scale * agent.speed;
   }
   std::vector<MovingObstacle> obstacles = instance.obstacles();
@@ -48,9 +49,9 @@ namespace quadrille::continuous::test {
     obstacle.body = larger(obstacle.body);
     for (MovingObstacle::Stop& stop : obstacle.path) stop.at = scaled(stop.at);
   }
-  return Instance::make(Roadmap::make(std::move(points), roadmap.edges()).value(),
-                        std::move(agents), instance.resolution(), {}, std::move(obstacles),
-                        instance.now())
+  return Instance::make(
+             Roadmap::make(std::move(points), roadmap.edges(), {}, roadmap.shapes()).value(),
+             std::move(agents), instance.resolution(), {}, std::move(obstacles), instance.now())
       .value();
 }
 

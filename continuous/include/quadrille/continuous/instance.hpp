@@ -8,6 +8,7 @@
 
 #include "quadrille/continuous/resolution.hpp"
 #include "quadrille/continuous/roadmap.hpp"
+#include "quadrille/core/contract.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/goals.hpp"
 #include "quadrille/geometry/body.hpp"
@@ -31,7 +32,8 @@ struct Agent {
   VertexId start;
   Goals goals;  ///< It ends at any one of them. At least one.
   /// A disc, or a convex polygon, which keeps its orientation on all moves: a robot that turns is
-  /// the disc around all its orientations. In an instance that is not flat a disc is a ball.
+  /// the disc around all its orientations, or has `shapes`. In an instance that is not flat a disc
+  /// is a ball.
   Body body = Disc{};
   Speed speed = kUnitSpeed;
   GroupId group = {};  ///< It may use the edges that are open to this one.
@@ -48,7 +50,17 @@ struct Agent {
   /// with one that leads on, whose duration is what is left of the move. It has no release. An
   /// agent that may wait in the middle of a move starts at such a vertex without this.
   bool under_way = false;
+  /// Those of a robot that turns: its body where a vertex or an edge has shape k is shapes[k - 1].
+  /// None: it is `body` wherever it is. A shape of an edge contains those of both its ends. All
+  /// shapes are relative to the position of the robot, and none turns of itself.
+  std::vector<Body> shapes = {};
 
+  /// Its body where the shape is that one. Requires one that it has.
+  [[nodiscard]] const Body& body_as(ShapeId shape) const {
+    if (shapes.empty() || shape == ShapeId()) return body;
+    QUADRILLE_REQUIRE(shape.index() <= shapes.size(), "a shape of the agent");
+    return shapes[shape.index() - 1];
+  }
   /// Requires that there is one goal only.
   [[nodiscard]] VertexId goal() const { return goals.only(); }
   friend bool operator==(const Agent&, const Agent&) = default;
@@ -80,8 +92,9 @@ using ClassId = StrongId<struct ClassTag>;
 /// units. All times are absolute. The agents are at their starts at the tick `now`, 0 if nothing
 /// else is said, where their plans begin and from where costs count. Agents wait at vertices only,
 /// a whole number of ticks, move along edges at constant speed, and stay at a goal for ever. Two
-/// agents collide when the interiors of their bodies meet; touching is allowed. Immutable; cheap to
-/// copy (the roadmap is shared).
+/// agents collide when the interiors of their bodies meet; touching is allowed. An agent with
+/// shapes has that of the edge from the begin of its move to the end, and at the moments between
+/// two moves that of the vertex only. Immutable; cheap to copy (the roadmap is shared).
 class Instance {
  public:
   /// Durations that the roadmap does not give are length / speed, rounded to the nearest tick.
@@ -92,7 +105,9 @@ class Instance {
   /// likewise for bodies, places and times of obstacles; invalid_instance for vertices that do not
   /// exist, agents without a goal, agents that are under way but not at a place of their own, or
   /// released after `now`, obstacles without stops, whose times go back, or that vanish when they
-  /// appear, and polygons in an instance that is not flat; no_plan for overlapping starts, also
+  /// appear, polygons in an instance that is not flat, agents with shapes that lack one of the
+  /// roadmap, or one of whose shapes at a vertex is not inside of that of an edge there that they
+  /// may use; no_plan for overlapping starts, also
   /// with an obstacle at `now`, overlapping goals (interiors) of agents that stay there and have no
   /// other one, and agents that can reach no goal, or none by the deadline. Agents are named by
   /// index. `places`: where each agent comes from, for errors about it; none, or one per agent.
@@ -130,10 +145,18 @@ class Instance {
 
   [[nodiscard]] std::size_t num_classes() const noexcept { return classes_.size(); }
   [[nodiscard]] ClassId class_of(AgentId i) const { return class_of_[i]; }
-  [[nodiscard]] const Body& body(ClassId c) const { return classes_[c].body; }
+  /// Agent::body_as.
+  [[nodiscard]] const Body& body(ClassId c, ShapeId shape = {}) const {
+    const std::vector<Body>& bodies = classes_[c].bodies;
+    return bodies.size() == 1 ? bodies.front() : bodies[shape.index()];
+  }
+  /// By shape; one if the class has no shapes.
+  [[nodiscard]] const std::vector<Body>& bodies(ClassId c) const { return classes_[c].bodies; }
+  /// Some agent has.
+  [[nodiscard]] bool has_shapes() const noexcept { return has_shapes_; }
   /// An agent is nowhere further than that from Roadmap::position of where it stands, or from the
-  /// line between those of the ends of its move: geometry::enclosing_radius(body(c)), and one more
-  /// where places in the middle of moves are rounded.
+  /// line between those of the ends of its move: geometry::enclosing_radius of the largest of its
+  /// bodies, and one more where places in the middle of moves are rounded.
   [[nodiscard]] Length reach(ClassId c) const { return classes_[c].reach; }
   [[nodiscard]] Ticks duration(ClassId c, EdgeId e) const {
     return durations_[classes_[c].durations][e.index()];
@@ -162,7 +185,7 @@ class Instance {
     EdgeLists out, in;
   };
   struct Class {
-    Body body;
+    std::vector<Body> bodies;  // by shape, or one
     Length reach = 1;
     Speed speed = kUnitSpeed;
     std::size_t durations = 0;              // into durations_, one per speed
@@ -184,6 +207,7 @@ class Instance {
   Ticks now_ = 0;
   bool is_flat_ = true;
   bool has_goal_sets_ = false;
+  bool has_shapes_ = false;
   Resolution resolution_;
   IdVector<ClassId, Class> classes_;
   IdVector<AgentId, ClassId> class_of_;

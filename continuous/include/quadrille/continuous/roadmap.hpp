@@ -55,6 +55,10 @@ class Groups {
   std::uint64_t bits_ = 0;
 };
 
+/// Which of its bodies a robot that turns has somewhere: Agent::body_as.
+using ShapeId = StrongId<struct ShapeTag>;
+inline constexpr std::size_t kMaxShapes = 1'000'000;
+
 /// A straight move from one vertex to another.
 struct Edge {
   VertexId from;
@@ -63,6 +67,8 @@ struct Edge {
   std::optional<Ticks> duration;
   /// Only agents of these groups may make the move.
   Groups open_to = Groups::all();
+  /// The shape of who makes the move, all the way.
+  ShapeId shape = {};
   friend bool operator==(const Edge&, const Edge&) = default;
 };
 
@@ -104,8 +110,13 @@ class Roadmap {
   /// place.
   /// `lane_places`: vertices in the middle of moves, whose coordinates are the exact ones rounded
   /// to the nearest length unit. Errors: invalid_instance for one that is not as LanePlace says.
+  /// `shapes`: of who stands at each vertex; none: they are all 0. Errors: out_of_range for one
+  /// above kMaxShapes; invalid_instance for another number of them, edges between the same two
+  /// vertices in the same direction that have different ones, and a vertex in the middle of a move
+  /// that has not the one of the move.
   [[nodiscard]] static Result<Roadmap> make(std::vector<Point> vertices, std::vector<Edge> edges,
-                                            std::vector<LanePlace> lane_places = {});
+                                            std::vector<LanePlace> lane_places = {},
+                                            std::vector<ShapeId> shapes = {});
 
   /// The same one, but these edges are open to nobody; all ids stay the same. No file can hold it.
   /// Requires edges that exist. Linear.
@@ -121,6 +132,16 @@ class Roadmap {
     if (on_lane == nullptr) return position(v);
     return {position(on_lane->from), position(on_lane->to), on_lane->behind, on_lane->whole};
   }
+  /// Of who stands there.
+  [[nodiscard]] ShapeId shape(VertexId v) const {
+    return shapes_.empty() ? ShapeId() : shapes_[v.index()];
+  }
+  /// Of who goes from one vertex to another one. Requires an edge between them.
+  [[nodiscard]] ShapeId shape(VertexId from, VertexId to) const;
+  /// Of the vertices; empty: all 0.
+  [[nodiscard]] const std::vector<ShapeId>& shapes() const noexcept { return shapes_; }
+  /// The largest one that a vertex or an edge has, and one more.
+  [[nodiscard]] std::size_t num_shapes() const noexcept { return num_shapes_; }
   /// The move in so many ticks from one vertex to another one.
   [[nodiscard]] geometry::Motion motion(VertexId from, VertexId to, Ticks duration) const;
   /// Null unless the vertex is in the middle of a move. Logarithmic.
@@ -138,12 +159,14 @@ class Roadmap {
   [[nodiscard]] const std::vector<Edge>& edges() const noexcept { return edges_; }
 
  private:
-  Roadmap(std::vector<Point> positions, std::vector<Edge> edges,
-          std::vector<LanePlace> lane_places);
+  Roadmap(std::vector<Point> positions, std::vector<Edge> edges, std::vector<LanePlace> lane_places,
+          std::vector<ShapeId> shapes);
 
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
   std::vector<LanePlace> lane_places_;
+  std::vector<ShapeId> shapes_;
+  std::size_t num_shapes_ = 1;
   bool is_flat_ = true;
   EdgeLists out_, in_;
 };

@@ -15,21 +15,26 @@ struct RoadmapParts {
   std::vector<Point> vertices;
   std::vector<Edge> edges;
   std::vector<LanePlace> lane_places;
+  std::vector<ShapeId> shapes;  ///< Of the vertices, or none.
 
   RoadmapParts() = default;
   explicit RoadmapParts(const Roadmap& roadmap)
-      : vertices(roadmap.positions()), edges(roadmap.edges()), lane_places(roadmap.lane_places()) {}
+      : vertices(roadmap.positions()),
+        edges(roadmap.edges()),
+        lane_places(roadmap.lane_places()),
+        shapes(roadmap.shapes()) {}
   /// Roadmap::make.
   [[nodiscard]] Result<Roadmap> make() && {
-    return Roadmap::make(std::move(vertices), std::move(edges), std::move(lane_places));
+    return Roadmap::make(std::move(vertices), std::move(edges), std::move(lane_places),
+                         std::move(shapes));
   }
 };
 
 /// Appends the place of an agent in the middle of a move between the two vertices: a vertex to
 /// which no edge leads, and an edge for the rest of the move, open to all. Returns the vertex. An
 /// agent that starts there with Agent::under_way goes on at once, without it the agent may wait
-/// there. The place is exact. Requires two of the vertices, not in the middle of moves, and 0 <=
-/// behind < whole.
+/// there. The place is exact; its shape is that of the first edge between the two. Requires two of
+/// the vertices, not in the middle of moves, and 0 <= behind < whole.
 VertexId add_lane_place(RoadmapParts& parts, VertexId from, VertexId to, Ticks whole, Ticks behind);
 
 /// So many whole ticks of a move that takes `whole` lie behind an agent that has `fraction` of it

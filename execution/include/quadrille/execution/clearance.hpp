@@ -45,11 +45,17 @@ class ClearanceWatch {
   struct Knot {
     double share = 0;
     Vector place;
+    continuous::ShapeId shape = {};  ///< From then on.
   };
   void lay_out(AgentId agent, Ticks before, Ticks after);
   [[nodiscard]] Vector place(AgentId agent, double clock) const;
-  [[nodiscard]] double gap(AgentId i, AgentId j, const Vector& offset) const;
-  [[nodiscard]] double least_gap(AgentId i, AgentId j, const Vector& from, const Vector& to) const;
+  /// Its shape after a tick, as long as its clock stands still there, or when it runs on.
+  [[nodiscard]] continuous::ShapeId shape(AgentId agent, Ticks tick, bool stands_still) const;
+  /// `offset`: of b from a.
+  [[nodiscard]] static double gap(const geometry::Body& a, const geometry::Body& b,
+                                  const Vector& offset);
+  [[nodiscard]] double least_gap(const geometry::Body& a, const geometry::Body& b, double reach,
+                                 const Vector& from, const Vector& to) const;
   void look_at(AgentId i, AgentId j);
 
   const continuous::Instance& instance_;
