@@ -301,6 +301,9 @@ Result<Dispatcher> Dispatcher::make(std::shared_ptr<const Roadmap> roadmap,
   if (!instance) return instance.error();
   if (instance->roadmap().num_vertices() < 2)
     return invalid("there has to be somewhere to go: two vertices");
+  if (instance->has_shapes())
+    return invalid(
+        "bodies that change on the way are not supported here: take the discs around them");
   if (!instance->roadmap().lane_places().empty())
     return invalid("robots begin at vertices, and not in the middle of moves");
   return Dispatcher(std::make_unique<Parts>(*instance, options));

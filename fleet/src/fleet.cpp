@@ -112,6 +112,7 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
     return out_of_range(name + "has a speed of " + to_string(entry.spec.speed) +
                         ", which is not supported");
   continuous::Agent agent{entry.start.value_or(VertexId(0)), *entry.goals, *body, *speed};
+  if (auto error = add_shapes(agent)) return Error{error->code, name + error->message, {}};
   // Its start is to come, if it is.
   agent.under_way = entry.under_way && !entry.under_way->may_wait;
   if (entry.spec.group) {
@@ -134,6 +135,20 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
   }
   agent.leaves = entry.leaves;
   return agent;
+}
+
+// Where vertices are poses, a polygon turns.
+std::optional<Error> Fleet::add_shapes(continuous::Agent& agent) const {
+  if (roadmap_.turns() == nullptr || std::holds_alternative<continuous::Disc>(agent.body))
+    return std::nullopt;
+  const std::vector<Roadmap::Turn>& turns = *roadmap_.turns();
+  for (auto turn = turns.begin() + 1; turn != turns.end(); ++turn) {
+    auto shape = turn->from == turn->to ? geometry::turned(agent.body, turn->from)
+                                        : geometry::swept_by_turn(agent.body, turn->from, turn->to);
+    if (!shape) return Error{shape.error().code, "is too large to turn", {}};
+    agent.shapes.push_back(std::move(shape).value());
+  }
+  return std::nullopt;
 }
 
 Result<std::vector<continuous::Agent>> Fleet::agents() const {

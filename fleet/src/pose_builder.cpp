@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include "conversions.hpp"
 
@@ -125,7 +126,17 @@ class PoseBuilder::Poses {
     return VertexId(first_[place] + heading);
   }
 
-  void add_turns(VertexId place, std::vector<continuous::Edge>& edges) const {
+  /// What a robot has that faces so, or turns from one heading to another.
+  continuous::ShapeId shape(double from, double to) {
+    const geometry::Direction a = geometry::Direction::at(from), b = geometry::Direction::at(to);
+    const auto [known, is_new] =
+        shapes_.try_emplace(std::tuple(a.x, a.y, b.x, b.y), continuous::ShapeId(turns_.size()));
+    if (is_new) turns_.push_back({a, b});
+    return known->second;
+  }
+  [[nodiscard]] const std::vector<Roadmap::Turn>& turns() const noexcept { return turns_; }
+
+  void add_turns(VertexId place, std::vector<continuous::Edge>& edges) {
     const std::vector<double>& headings = at_[place];
     for (std::size_t a = 0; a < headings.size(); ++a)
       for (std::size_t b = 0; b < headings.size(); ++b) {
@@ -138,21 +149,25 @@ class PoseBuilder::Poses {
                                 .value()],
                 members.groups);
         for (const auto& [duration, groups] : by_duration)
-          edges.push_back({pose(place, a), pose(place, b), duration, groups});
+          edges.push_back(
+              {pose(place, a), pose(place, b), duration, groups, shape(headings[a], headings[b])});
       }
   }
 
   /// `direction`: a heading of both ends.
   void add_lane(const continuous::Edge& lane, double direction,
-                std::vector<continuous::Edge>& edges) const {
-    const VertexId to = pose(lane.to, index_of(lane.to, direction));
+                std::vector<continuous::Edge>& edges) {
+    const std::size_t end = index_of(lane.to, direction);
+    const VertexId to = pose(lane.to, end);
+    const double faced = at_[lane.to][end];
     const std::vector<double>& headings = at_[lane.from];
     for (std::size_t a = 0; a < headings.size(); ++a) {
       continuous::Groups groups;
       for (const Members& members : kinds_)
         if (angle_between(headings[a], direction) <= members.kind.steer.value() + kSameHeading)
           add(groups, intersection(members.groups, lane.open_to));
-      if (!groups.is_empty()) edges.push_back({pose(lane.from, a), to, lane.duration, groups});
+      if (!groups.is_empty())
+        edges.push_back({pose(lane.from, a), to, lane.duration, groups, shape(headings[a], faced)});
     }
   }
 
@@ -170,6 +185,9 @@ class PoseBuilder::Poses {
   const std::vector<Members> kinds_;
   IdVector<VertexId, std::vector<double>> at_;  // by place, increasing
   IdVector<VertexId, std::size_t> first_;       // its first pose
+  using Key = std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
+  std::map<Key, continuous::ShapeId> shapes_;
+  std::vector<Roadmap::Turn> turns_;  // by shape
 };
 
 std::optional<Error> PoseBuilder::check() const {
@@ -226,10 +244,12 @@ Result<PoseRoadmap> PoseBuilder::build() const {
   }
   for (const auto& [place, heading] : headings_) poses.add_heading(place, heading.value());
   poses.number();
+  static_cast<void>(poses.shape(0, 0));  // the body as it is given
 
   PoseRoadmap result(places_);
   std::vector<continuous::Point> points;
   std::vector<continuous::Edge> edges;
+  std::vector<continuous::ShapeId> shapes;
   std::vector<std::string> names;
   std::map<std::string, VertexId, std::less<>> by_name;
   for (const VertexId place : places_.vertex_ids()) {
@@ -241,6 +261,7 @@ Result<PoseRoadmap> PoseBuilder::build() const {
       result.places_.push_back(place);
       result.headings_.push_back(Radians(heading));
       points.push_back(roads.position(place));
+      shapes.push_back(poses.shape(heading, heading));
       names.push_back(places_.name(place) + " facing " + to_string(Radians(heading)));
       if (is_named) by_name.emplace(names.back(), pose);
     }
@@ -248,10 +269,11 @@ Result<PoseRoadmap> PoseBuilder::build() const {
   }
   for (const continuous::Edge& lane : roads.edges())
     poses.add_lane(lane, direction(roads, lane).value(), edges);
-  auto made = continuous::Roadmap::make(std::move(points), std::move(edges));
+  auto made = continuous::Roadmap::make(std::move(points), std::move(edges), {}, std::move(shapes));
   if (!made) return made.error();
   Roadmap& roadmap = result.roadmap_;
   roadmap.roads_ = std::make_shared<const continuous::Roadmap>(std::move(made).value());
+  roadmap.turns_ = std::make_shared<const std::vector<Roadmap::Turn>>(poses.turns());
   roadmap.names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
   roadmap.by_name_ =
       std::make_shared<const std::map<std::string, VertexId, std::less<>>>(std::move(by_name));

@@ -105,8 +105,8 @@ bool is_beyond(const Point& p, const Point& q, Wide square) {
 /// Fixed point: 2^30 is one.
 constexpr int kFraction = 30;
 constexpr std::int64_t kOne = std::int64_t{1} << kFraction;
-/// Cosines of 1/32, 1/16, 1/8 and 1/4 of a turn: the longest pieces of an arc.
-constexpr std::array<std::int64_t, 4> kPieces{1053110176, 992008094, 759250125, 0};
+/// Cosines of 1/16, 1/8 and 1/4 of a turn: the longest pieces of an arc.
+constexpr std::array<std::int64_t, 3> kPieces{992008094, 759250125, 0};
 constexpr int kTries = 16;
 
 /// The chain of points in whose polygon, with the origin and the two ends, is the arc of a corner

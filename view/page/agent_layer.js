@@ -5,7 +5,7 @@
 /** @import {State} from "./state.js" */
 import { convexHull } from "./clearance.js";
 import { tracePath } from "./map_layer.js";
-import { frameAt, isPresent, obstacleAt, positionAt } from "./motion.js";
+import { bodyAt, frameAt, isPresent, obstacleAt, positionAt } from "./motion.js";
 import { agentColour, AGENT_COLOURS, labelColour } from "./palette.js";
 import { drawPrecedences } from "./precedences.js";
 
@@ -26,7 +26,7 @@ export function drawAgents(context, state) {
     // One by one: browsers fill many small paths sooner than one that covers the whole map.
     for (let i = kind; i < positions.length; i += AGENT_COLOURS.length)
       {if (isPresent(scene.agents[i], player.time))
-        fillBody(context, state.camera, scene.bodies[scene.agents[i].body], positions[i]);}
+        fillBody(context, state.camera, scene.bodies[bodyAt(scene.agents[i], player.time)], positions[i]);}
   });
   outline(context, state, positions);
   if (state.showOrder) drawPrecedences(context, state);
@@ -104,7 +104,8 @@ function outline(context, state, positions) {
     context.strokeStyle = colour;
     context.lineWidth = 3;
     context.beginPath();
-    traceBody(context, camera, scene.bodies[scene.agents[i].body], positions[i], 2.5);
+    const body = scene.bodies[bodyAt(scene.agents[i], state.player.time)];
+    traceBody(context, camera, body, positions[i], 2.5);
     context.stroke();
   };
   const agent = state.agent();
@@ -123,7 +124,7 @@ function drawLabels(context, state, positions) {
   context.textAlign = "center";
   context.textBaseline = "middle";
   for (const agent of scene.agents) {
-    const body = scene.bodies[agent.body];
+    const body = scene.bodies[bodyAt(agent, state.player.time)];
     const radius = body.radius * camera.scale;
     const text = String(agent.index);
     if (radius < 4 + 3 * text.length || !isPresent(agent, state.player.time)) continue;
@@ -187,7 +188,7 @@ function drawSwept(context, state, agent) {
   const { scene, camera } = state;
   const body = scene.bodies[agent.body];
   context.globalAlpha = 0.25;
-  if (body.corners.length === 0) {
+  if (body.corners.length === 0 && agent.looks.length === 0) {
     context.strokeStyle = agentColour(agent.index);
     context.lineWidth = 2 * body.radius * camera.scale;
     context.lineCap = "round";
@@ -198,7 +199,8 @@ function drawSwept(context, state, agent) {
   } else {
     context.fillStyle = agentColour(agent.index);
     context.beginPath();
-    for (let k = 0; k + 1 < Math.max(2, agent.xs.length); ++k) traceSweep(context, state, agent, body, k);
+    for (let k = 0; k + 1 < Math.max(2, agent.xs.length); ++k)
+      traceSweep(context, state, agent, scene.bodies[agent.looks[k] ?? agent.body], k);
     context.fill();
   }
   context.globalAlpha = 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 /** @import {Body, Point, Scene} from "./scene.js" */
-import { isPresent, positionAt } from "./motion.js";
+import { bodyAt, isPresent, positionAt } from "./motion.js";
 
 /**
  * Two bodies touch where the second one's position, as seen from the first one, is `radius` away from
@@ -90,16 +90,19 @@ export class Clearances {
   }
 
   /**
+   * Of two agents at a time.
    * @param {number} i
    * @param {number} j
+   * @param {number} time
    * @returns {Contact}
    */
-  contact(i, j) {
+  contact(i, j, time) {
     const { agents, bodies } = this.scene;
-    const key = agents[i].body * bodies.length + agents[j].body;
+    const [a, b] = [bodyAt(agents[i], time), bodyAt(agents[j], time)];
+    const key = a * bodies.length + b;
     let contact = this.contacts.get(key);
     if (!contact) {
-      contact = contactOf(bodies[agents[i].body], bodies[agents[j].body]);
+      contact = contactOf(bodies[a], bodies[b]);
       this.contacts.set(key, contact);
     }
     return contact;
@@ -116,7 +119,7 @@ export class Clearances {
     if (!isPresent(this.scene.agents[i], time) || !isPresent(this.scene.agents[j], time)) return Infinity;
     const p = positionAt(this.scene.agents[i], time);
     const q = positionAt(this.scene.agents[j], time);
-    return gapOf(this.contact(i, j), q.x - p.x, q.y - p.y, q.z - p.z);
+    return gapOf(this.contact(i, j, time), q.x - p.x, q.y - p.y, q.z - p.z);
   }
 
   /**
@@ -129,7 +132,7 @@ export class Clearances {
     const here = this.scene.agents.filter((agent) => agent.times.length > 0 && isPresent(agent, time));
     const items = here.map((agent) => {
       const { x, y, z } = positionAt(agent, time);
-      return { x, y, z, index: agent.index, radius: this.scene.bodies[agent.body].radius };
+      return { x, y, z, index: agent.index, radius: this.scene.bodies[bodyAt(agent, time)].radius };
     });
     items.sort((a, b) => a.x - b.x || a.index - b.index);
     /** @type {{agents: [number, number], gap: number} | null} */
@@ -141,7 +144,7 @@ export class Clearances {
         const q = items[b];
         if (q.x - p.x - p.radius - this.largest > gap) break;
         const [i, j] = p.index < q.index ? [p, q] : [q, p];
-        const own = gapOf(this.contact(i.index, j.index), j.x - i.x, j.y - i.y, j.z - i.z);
+        const own = gapOf(this.contact(i.index, j.index, time), j.x - i.x, j.y - i.y, j.z - i.z);
         if (own < gap) {
           gap = own;
           best = { agents: [i.index, j.index], gap };

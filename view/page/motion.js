@@ -33,6 +33,17 @@ export function positionAt(agent, time) {
 }
 
 /**
+ * Its body then, into Scene.bodies.
+ * @param {Agent} agent
+ * @param {number} time
+ * @returns {number}
+ */
+export function bodyAt(agent, time) {
+  if (agent.looks.length === 0) return agent.body;
+  return agent.looks[Math.max(0, frameAt(agent, time))];
+}
+
+/**
  * Whether it is anywhere: one that leaves is at its goal for a moment only.
  * @param {Agent} agent
  * @param {number} time

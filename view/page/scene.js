@@ -11,7 +11,8 @@
  * @property {number} index
  * @property {Place} start
  * @property {Place} goal
- * @property {number} body       into Scene.bodies
+ * @property {number} body       into Scene.bodies; of one whose body changes that at its start
+ * @property {number[]} looks    of one whose body changes: that from each of the times on
  * @property {number | null} free   what it costs alone
  * @property {number | null} cost   null without a path
  * @property {Float64Array} times  of the ends of all moves and waits, in order
@@ -184,7 +185,8 @@ function readAgent(data, index) {
     : framesOfStops(data.stops ?? [], data.heights ?? []);
   return {
     index, start: readPlace(data.start), goal: readPlace(data.goal),
-    body: data.body ?? 0, free: data.free ?? null, cost: data.cost ?? null,
+    body: data.body ?? 0, looks: data.looks ? looksOf(data.looks, data.stops) : [],
+    free: data.free ?? null, cost: data.cost ?? null,
     leaves: Boolean(data.leaves), ...columnsOf(frames),
   };
 }
@@ -255,6 +257,22 @@ function framesOfStops(stops, heights) {
     if (depart > arrive) frames.push([depart, x, y, z]);
   }
   return frames;
+}
+
+/**
+ * The bodies from each frame of the stops on, of those at the stops and between them.
+ * @param {number[]} looks
+ * @param {number[]} stops
+ * @returns {number[]}
+ */
+function looksOf(looks, stops) {
+  const bodies = [];
+  for (let i = 0; i + 3 < stops.length; i += 4) {
+    const [at, away] = [looks[i / 2], looks[i / 2 + 1] ?? looks[i / 2]];
+    if (stops[i + 3] > stops[i + 2]) bodies.push(at, away);
+    else bodies.push(away);
+  }
+  return bodies;
 }
 
 /**

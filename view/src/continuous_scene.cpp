@@ -108,6 +108,26 @@ void add_report(const continuous::VerifyReport& report, Scene& scene) {
   }
 }
 
+/// At each stop, and between it and the next one. The path need not be one of the roadmap.
+template <class BodyOf>
+std::vector<std::size_t> looks_of(const continuous::Roadmap& roadmap, AgentId i,
+                                  const continuous::Path& path, const BodyOf& body) {
+  std::vector<std::size_t> looks;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const VertexId at = path[k].vertex;
+    if (at.index() >= roadmap.num_vertices()) return {};
+    if (k > 0) {
+      const auto out = roadmap.out_edges(path[k - 1].vertex);
+      const auto lane = std::find_if(
+          out.begin(), out.end(), [&](continuous::EdgeId e) { return roadmap.edge(e).to == at; });
+      if (lane == out.end()) return {};
+      looks.push_back(body(i, roadmap.edge(*lane).shape));
+    }
+    looks.push_back(body(i, roadmap.shape(at)));
+  }
+  return looks;
+}
+
 }  // namespace
 
 Scene make_scene(const continuous::Instance& instance, const continuous::Plan& plan,
@@ -125,15 +145,24 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
     add_cells(*grid, scene);
   else
     add_links(instance.roadmap(), scene);
-  std::map<std::size_t, std::size_t> body_of_class;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> body_of;  // by class and shape
+  const auto body = [&](AgentId i, continuous::ShapeId shape) {
+    const continuous::Agent& agent = instance.agent(i);
+    if (agent.shapes.empty()) shape = {};
+    const auto [known, is_new] = body_of.try_emplace(
+        std::pair(instance.class_of(i).index(), shape.index()), scene.bodies.size());
+    if (is_new) scene.bodies.push_back(agent.body_as(shape));
+    return known->second;
+  };
   for (const AgentId i : instance.agent_ids()) {
     const continuous::Agent& task = instance.agent(i);
-    const auto [body, is_new] =
-        body_of_class.emplace(instance.class_of(i).index(), scene.bodies.size());
-    if (is_new) scene.bodies.push_back(task.body);
     const bool has_path = i.index() < plan.paths.size() && !plan.paths[i].empty();
     const auto goal = goal_shown(task.goals, has_path ? plan.paths[i].back().vertex : VertexId());
-    SceneAgent agent{task.start.index(), goal.index(), body->second, {}, {}, {}, task.leaves};
+    const continuous::Roadmap& roadmap = instance.roadmap();
+    const std::size_t look = body(i, roadmap.shape(task.start));
+    SceneAgent agent{task.start.index(), goal.index(), look, {}, {}, {}, task.leaves};
+    agent.goal_body = body(i, roadmap.shape(goal));
+    if (!task.shapes.empty() && has_path) agent.looks = looks_of(roadmap, i, plan.paths[i], body);
     if (const auto alone = continuous::free_cost(instance, i)) agent.free_cost = alone->value();
     if (i.index() < plan.paths.size()) agent.stops = stops_of(instance.roadmap(), plan.paths[i]);
     if (!agent.stops.empty()) agent.cost = agent.stops.back().arrive - scene.now;

@@ -154,13 +154,13 @@ class MapPicture {
     return cross == 0 && along > 0;
   }
 
-  /// The body, or a disc where bodies have no size.
-  void draw_body(Svg& svg, std::size_t i, std::size_t place, double share,
+  /// The body, one of the scene's, or a disc where bodies have no size.
+  void draw_body(Svg& svg, std::size_t i, std::size_t place, std::size_t body, double share,
                  const std::string& style) const {
     const SceneAgent& agent = scene_.agents[i];
     const Position at = scene_.places[place];
     if (!scene_.bodies.empty()) {
-      if (const auto* shape = std::get_if<continuous::ConvexPolygon>(&scene_.bodies[agent.body])) {
+      if (const auto* shape = std::get_if<continuous::ConvexPolygon>(&scene_.bodies[body])) {
         std::vector<Position> corners;
         for (const continuous::Point& corner : shape->vertices())
           corners.push_back(on_page({at.x + share * static_cast<double>(corner.x.value()),
@@ -174,14 +174,14 @@ class MapPicture {
   }
 
   void draw_goal(Svg& svg, std::size_t i) const {
-    draw_body(svg, i, scene_.agents[i].goal, 1,
+    draw_body(svg, i, scene_.agents[i].goal, scene_.agents[i].goal_body, 1,
               "fill=\"#ffffff\" fill-opacity=\"0.75\" stroke-dasharray=\"4 2\" " +
                   stroke(agent_colour(i), 2));
     label(svg, i, scene_.agents[i].goal, kInk);
   }
 
   void draw_start(Svg& svg, std::size_t i) const {
-    draw_body(svg, i, scene_.agents[i].start, 1, fill(agent_colour(i)));
+    draw_body(svg, i, scene_.agents[i].start, scene_.agents[i].body, 1, fill(agent_colour(i)));
     const std::string_view colour = agent_colour(i);
     const bool is_dark = colour == "#0072b2" || colour == "#009e73" || colour == "#d55e00";
     label(svg, i, scene_.agents[i].start, is_dark ? "#ffffff" : kInk);

@@ -50,11 +50,14 @@ struct SceneStop {
 
 struct SceneAgent {
   std::size_t start, goal;                ///< Places. Of several goals the one where it ends.
-  std::size_t body = 0;                   ///< Into Scene::bodies, where there are any.
+  std::size_t body = 0;                   ///< At its start; into Scene::bodies, if there are any.
   std::optional<std::int64_t> free_cost;  ///< Alone in the world; nullopt: no way.
   std::optional<std::int64_t> cost;       ///< Nullopt without a path.
   std::vector<SceneStop> stops;           ///< In order of time; empty without a path.
   bool leaves = false;                    ///< It is nowhere after its arrival.
+  std::size_t goal_body = 0;              ///< At its goal.
+  /// Of one whose body changes on the way: at the first stop, from there to the next, at that, ...
+  std::vector<std::size_t> looks = {};
 };
 
 /// A moving obstacle: nowhere before its first stop, and nowhere after the last one if it leaves.

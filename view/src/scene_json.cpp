@@ -82,7 +82,8 @@ Json agent_json(const Scene& scene, const SceneAgent& agent) {
   if (agent.cost) json["cost"] = *agent.cost;
   if (agent.leaves) json["leaves"] = true;
   if (agent.stops.empty()) return json;
-  const Json moves = moves_of(scene, agent);
+  if (!agent.looks.empty()) json["looks"] = agent.looks;
+  const Json moves = agent.looks.empty() ? moves_of(scene, agent) : Json();
   if (!moves.is_null()) {
     json["from"] = point(scene, scene.places[agent.stops.front().place]);
     json["moves"] = moves;

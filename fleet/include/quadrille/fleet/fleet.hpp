@@ -42,7 +42,9 @@ using Body = std::variant<Disc, Polygon>;
 /// What a robot is. Without a name it is called "robot 3", by its number.
 struct RobotSpec {
   std::string name = {};
-  Body body = Disc(Metres(0));  ///< Has to be given.
+  /// Has to be given. Where vertices are poses (PoseBuilder), a polygon is the robot that faces
+  /// along x, and turns with it; elsewhere it keeps its orientation.
+  Body body = Disc(Metres(0));
   /// On all lanes. How long a lane takes is rounded to the nearest multiple of the resolution of
   /// time, so that a robot may be faster or slower by up to half of that per lane.
   MetresPerSecond speed = {};
@@ -221,6 +223,7 @@ class Fleet {
   [[nodiscard]] Result<Parts> parts() const;
   [[nodiscard]] Result<std::vector<continuous::Agent>> agents() const;
   [[nodiscard]] Result<continuous::Agent> agent(AgentId id) const;
+  [[nodiscard]] std::optional<Error> add_shapes(continuous::Agent& agent) const;
   [[nodiscard]] Result<continuous::LanePlace> lane_place(AgentId id, const continuous::Agent& agent,
                                                          continuous::Ticks now) const;
   [[nodiscard]] Result<Roads> put_under_way(std::vector<continuous::Agent>& agents,

@@ -59,8 +59,10 @@ class PoseRoadmap {
 /// lane if it faces the lane's way, up to a degree, or for cars up to their greatest steering; it
 /// faces exactly that way when it arrives. In between a robot that is no car turns where it stands.
 ///
-/// While it turns, a body is what it is otherwise: a disc. Groups of the roadmap are kinds of
-/// robots, which may turn in different ways.
+/// A polygon is that of a robot that faces along x, and turns with it. While the robot turns, and
+/// while a car goes along a lane whose way it does not face exactly, it takes up all that it
+/// sweeps, by the shorter way round; half a turn goes counter-clockwise (geometry::swept_by_turn).
+/// Groups of the roadmap are kinds of robots, which may turn in different ways.
 class PoseBuilder {
  public:
   /// Changes of heading that count as none.

@@ -15,6 +15,7 @@
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/fleet/units.hpp"
+#include "quadrille/geometry/turning.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -84,6 +85,12 @@ class Roadmap {
   [[nodiscard]] continuous::Resolution unit_sizes() const noexcept {
     return {resolution_.length.value(), resolution_.time.value()};
   }
+  /// Of robots that are not round: from where to where they face while they have a shape
+  /// (continuous::ShapeId), by its number. Null unless vertices are poses.
+  struct Turn {
+    geometry::Direction from, to;
+  };
+  [[nodiscard]] const std::vector<Turn>* turns() const noexcept { return turns_.get(); }
 
  private:
   friend class RoadmapBuilder;
@@ -94,6 +101,7 @@ class Roadmap {
   std::shared_ptr<const continuous::Roadmap> roads_;
   std::shared_ptr<const std::vector<std::string>> names_;  // By vertex; empty for none.
   std::shared_ptr<const std::map<std::string, VertexId, std::less<>>> by_name_;
+  std::shared_ptr<const std::vector<Turn>> turns_;
 };
 
 /// Collects the vertices and roads of a Roadmap. A copy of it can go on in another direction.
