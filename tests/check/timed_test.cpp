@@ -42,6 +42,7 @@ struct Case {
 Case draw(std::uint32_t seed) {
   Random random(seed);
   RandomOptions asked;
+  asked.shapes_percent = 0;  // refused
   asked.num_agents = 2 + seed % 4;
   asked.num_vertices = 4 + seed / 4 % 8;
   asked.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
@@ -330,6 +331,7 @@ TEST(TimedCertificate, DoesNotProveWhatTheUserClaims) {
 
 TEST(TimedCertificate, RefusesWhatThereIsNoRuleFor) {
   RandomOptions asked;
+  asked.shapes_percent = 0;  // refused
   SolveOptions options;
   options.proof = true;
   const auto refusal = [&](std::uint32_t seed) {

@@ -53,8 +53,7 @@ Replay::Vector Replay::place(AgentId agent, Real clock) const {
 
 /// Of bodies in the plane: the largest gap between them along any direction that can be the one of
 /// least distance.
-Real Replay::apart(AgentId i, AgentId j, const Vector& offset) const {
-  const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
+Real Replay::apart(const geometry::Body& a, const geometry::Body& b, const Vector& offset) {
   Real most = -std::numeric_limits<Real>::infinity();
   const auto look = [&](Real ux, Real uy) {
     const Real length = std::hypot(ux, uy);
@@ -86,7 +85,18 @@ Real Replay::apart(AgentId i, AgentId j, const Vector& offset) const {
   return most;
 }
 
-Real Replay::straight(AgentId i, AgentId j, const Vector& from, const Vector& to) const {
+const geometry::Body& Replay::body(AgentId agent, Real clock) const {
+  const continuous::Path& path = plan_.paths[agent];
+  const continuous::Roadmap& roadmap = instance_.roadmap();
+  std::size_t k = 0;
+  while (k + 1 < path.size() && real(path[k + 1].arrive) <= clock) ++k;
+  const bool stands = k + 1 == path.size() || clock <= real(path[k].depart);
+  return instance_.agent(agent).body_as(stands ? roadmap.shape(path[k].vertex)
+                                               : roadmap.shape(path[k].vertex, path[k + 1].vertex));
+}
+
+Real Replay::straight(const geometry::Body& a, const geometry::Body& b, const Vector& from,
+                      const Vector& to) {
   const Vector way{to.x - from.x, to.y - from.y, to.z - from.z};
   const Real square = way.x * way.x + way.y * way.y + way.z * way.z;
   const auto at = [&](Real share) {
@@ -94,7 +104,6 @@ Real Replay::straight(AgentId i, AgentId j, const Vector& from, const Vector& to
   };
   const Real towards = -(from.x * way.x + from.y * way.y + from.z * way.z);
   const Real nearest = square == 0 ? 0 : std::clamp<Real>(towards / square, 0, 1);
-  const geometry::Body &a = instance_.agent(i).body, &b = instance_.agent(j).body;
   const Vector closest = at(nearest);
   const auto *disc_a = std::get_if<geometry::Disc>(&a), *disc_b = std::get_if<geometry::Disc>(&b);
   if (disc_a != nullptr && disc_b != nullptr)
@@ -107,10 +116,10 @@ Real Replay::straight(AgentId i, AgentId j, const Vector& from, const Vector& to
   if (room > 1) return room;
   // The distance of convex bodies is a convex function of the offset.
   Real low = 0, high = 1;
-  Real least = std::min(apart(i, j, from), apart(i, j, to));
+  Real least = std::min(apart(a, b, from), apart(a, b, to));
   for (int round = 0; round < 50; ++round) {
     const Real p = low + (high - low) / 3, q = high - (high - low) / 3;
-    const Real at_p = apart(i, j, at(p)), at_q = apart(i, j, at(q));
+    const Real at_p = apart(a, b, at(p)), at_q = apart(a, b, at(q));
     least = std::min({least, at_p, at_q});
     (at_p < at_q ? high : low) = at_p < at_q ? q : p;
   }
@@ -131,9 +140,13 @@ Real Replay::separation(AgentId i, Real x0, Real x1, AgentId j, Real y0, Real y1
   };
   Real least = std::numeric_limits<Real>::infinity();
   for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
+    // At a moment between two steps a body has the shape of neither.
+    if (shares[k] >= shares[k + 1]) continue;
     const Real middle = (shares[k] + shares[k + 1]) / 2;
-    if (!is_gone(i, x0 + (x1 - x0) * middle) && !is_gone(j, y0 + (y1 - y0) * middle))
-      least = std::min(least, straight(i, j, offset(shares[k]), offset(shares[k + 1])));
+    const Real x = x0 + (x1 - x0) * middle, y = y0 + (y1 - y0) * middle;
+    if (!is_gone(i, x) && !is_gone(j, y))
+      least = std::min(least,
+                       straight(body(i, x), body(j, y), offset(shares[k]), offset(shares[k + 1])));
   }
   return least;
 }

@@ -31,9 +31,14 @@ class Replay {
     Real x = 0, y = 0, z = 0;
   };
   [[nodiscard]] Vector place(AgentId agent, Real clock) const;
-  [[nodiscard]] Real apart(AgentId i, AgentId j, const Vector& offset) const;
+  /// What it is then; exactly when a move begins, what it was before.
+  [[nodiscard]] const geometry::Body& body(AgentId agent, Real clock) const;
+  /// `offset`: of b from a.
+  [[nodiscard]] static Real apart(const geometry::Body& a, const geometry::Body& b,
+                                  const Vector& offset);
   /// With nothing but straight moves in between.
-  [[nodiscard]] Real straight(AgentId i, AgentId j, const Vector& from, const Vector& to) const;
+  [[nodiscard]] static Real straight(const geometry::Body& a, const geometry::Body& b,
+                                     const Vector& from, const Vector& to);
 
   const continuous::Instance& instance_;
   const continuous::Plan& plan_;

@@ -73,7 +73,8 @@ TEST(Contacts, AreThoseOfTheMotions) {
           for (const VertexId w : IdRange<VertexId>(instance.roadmap().num_vertices())) {
             const Point p = instance.roadmap().position(v), q = instance.roadmap().position(w);
             const bool is_overlap =
-                meet({p, p, 0, 1}, instance.body(c.a), {q, q, 0, 1}, instance.body(c.b));
+                meet({p, p, 0, 1}, instance.body(c.a, instance.roadmap().shape(v)), {q, q, 0, 1},
+                     instance.body(c.b, instance.roadmap().shape(w)));
             EXPECT_EQ(contacts.overlap(c.a, v, c.b, w), is_overlap);
             if (is_overlap) {
               EXPECT_TRUE(has(contacts.near_vertex(c.a, v, c.b).vertices, w));

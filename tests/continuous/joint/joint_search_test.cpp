@@ -253,6 +253,8 @@ Instance copies_of(const Instance& instance, std::size_t count) {
       point.x += by;
       parts.vertices.push_back(point);
     }
+    const std::vector<ShapeId>& shapes = instance.roadmap().shapes();
+    parts.shapes.insert(parts.shapes.end(), shapes.begin(), shapes.end());
     for (Edge edge : instance.roadmap().edges()) {
       edge.from = moved(edge.from);
       edge.to = moved(edge.to);
@@ -273,6 +275,7 @@ Instance copies_of(const Instance& instance, std::size_t count) {
   }
   const std::size_t beside = parts.vertices.size();
   parts.vertices.push_back({Length(-apart), 0});
+  if (!parts.shapes.empty()) parts.shapes.emplace_back();
   agents.insert(agents.begin(), agent(beside, beside, 1));
   return Instance::make(std::move(parts).make().value(), std::move(agents), {}, {},
                         std::move(obstacles))

@@ -87,11 +87,11 @@ class Search {
   }
 
   /// Whether the agent comes upon an obstacle while both last.
-  [[nodiscard]] bool hits(AgentId i, const Element& element) const {
+  [[nodiscard]] bool hits(AgentId i, const Element& element, ShapeId shape) const {
     for (const MovingObstacle& obstacle : instance_.obstacles())
       for (const Element& step : steps_of(obstacle, kEnd))
         if (step.begin < element.end && element.begin < step.end &&
-            meet(element, instance_.agent(i).body, step, obstacle.body))
+            meet(element, instance_.agent(i).body_as(shape), step, obstacle.body))
           return true;
     return false;
   }
@@ -108,21 +108,24 @@ class Search {
     State next = state;
     const AgentId i(k);
     const Agent& agent = instance_.agent(i);
+    const ShapeId here = instance_.roadmap().shape(VertexId(p.place));
     const bool is_at_goal = agent.goals.contains(VertexId(p.place));
     if (is_at_goal && (!agent.deadline || state.now <= *agent.deadline) &&
-        (agent.leaves || !hits(i, stay(p.place, state.now, kEnd)))) {
+        (agent.leaves || !hits(i, stay(p.place, state.now, kEnd), here))) {
       next.agents[k].is_done = true;
       decide(next, k + 1);
     }
     if (is_at_goal && agent.leaves) return;
     const bool has_to_go = agent.under_way && p.place == agent.start.index();
-    if (!has_to_go && !hits(i, stay(p.place, state.now, state.now + 1))) decide(state, k + 1);
+    if (!has_to_go && !hits(i, stay(p.place, state.now, state.now + 1), here)) decide(state, k + 1);
     if (state.now < agent.release) return;
     for (const EdgeId e : instance_.roadmap().out_edges(VertexId(p.place))) {
       if (!is_open(instance_, i, e)) continue;
       const Edge& edge = instance_.roadmap().edge(e);
-      if (hits(i, {instance_.roadmap().position(edge.from), instance_.roadmap().position(edge.to),
-                   state.now, state.now + instance_.duration(instance_.class_of(i), e)}))
+      if (hits(i,
+               {instance_.roadmap().position(edge.from), instance_.roadmap().position(edge.to),
+                state.now, state.now + instance_.duration(instance_.class_of(i), e)},
+               edge.shape))
         continue;
       next.agents[k] = {true, false, e.index(), 0};
       decide(next, k + 1);

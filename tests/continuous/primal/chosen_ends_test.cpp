@@ -85,8 +85,9 @@ TEST(ChosenEnds, AreApart) {
       ASSERT_TRUE(instance.agent(i).goals.contains(agent.goal()));
       if (agent.leaves) continue;
       const Point& at = chosen->roadmap().position(agent.goal());
-      ASSERT_FALSE(placed.first_overlap(agent.body, at));
-      placed.add(i.index(), agent.body, at);
+      const Body& body = agent.body_as(chosen->roadmap().shape(agent.goal()));
+      ASSERT_FALSE(placed.first_overlap(body, at));
+      placed.add(i.index(), body, at);
     }
   }
   EXPECT_GT(num_chosen, num_none);

@@ -222,7 +222,10 @@ bool has_serial_plan(const Instance& instance) {
       if (places[j.index()] == instance.roadmap().edge(e).to.index()) return false;
       const Point& place = instance.roadmap().position(VertexId(places[j.index()]));
       const Element stay{place, place, 0, motion.duration};
-      if (meet(move, instance.agent(i).body, stay, instance.agent(j).body)) return false;
+      const Roadmap& roadmap = instance.roadmap();
+      if (meet(move, instance.agent(i).body_as(roadmap.edge(e).shape), stay,
+               instance.agent(j).body_as(roadmap.shape(VertexId(places[j.index()])))))
+        return false;
     }
     return true;
   };

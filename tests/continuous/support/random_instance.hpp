@@ -53,7 +53,7 @@ struct RandomOptions {
   /// Of the agents: they may end at any of two or three goals.
   int goal_sets_percent = 0;
   /// Of the instances in the plane: vertices and edges have shapes, and so have most agents.
-  int shapes_percent = 0;
+  int shapes_percent = 15;
 };
 
 /// The same for the same seed. Tries until the instance is valid.

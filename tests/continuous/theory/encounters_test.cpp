@@ -59,9 +59,10 @@ class Judge {
       const auto& clear = meetings_.stay(c, EdgeId(ban.place), d, goal);
       return clear && tick < ban.when.first() + clear->before_arrival;
     }
-    const Point p = instance_.roadmap().position(VertexId(ban.place));
-    const Point q = instance_.roadmap().position(goal);
-    return meet({p, p, 0, 1}, instance_.body(c), {q, q, 0, 1}, instance_.body(d)) &&
+    const Roadmap& roadmap = instance_.roadmap();
+    const Point p = roadmap.position(VertexId(ban.place)), q = roadmap.position(goal);
+    return meet({p, p, 0, 1}, instance_.body(c, roadmap.shape(VertexId(ban.place))), {q, q, 0, 1},
+                instance_.body(d, roadmap.shape(goal))) &&
            ban.when.begin + 1 > tick;
   }
 

@@ -21,6 +21,7 @@ class Edits {
  public:
   explicit Edits(std::uint32_t seed) : random_(seed) {
     RandomOptions options;
+    options.shapes_percent = 0;
     options.num_vertices = 8;
     options.groups_percent = 50;
     const Instance first = random_instance(seed, options);

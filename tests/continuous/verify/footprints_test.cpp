@@ -27,6 +27,7 @@ constexpr Ticks kTicks{7};
 Case draw_case(std::uint32_t seed) {
   Draw draw(seed);
   RandomOptions options;
+  options.shapes_percent = 0;
   options.num_agents = 2;
   options.polygon_percent = 70;
   const Instance instance = random_instance(seed, options);

@@ -155,6 +155,7 @@ TEST(Replay, FindsWhatPairsFind) {
   Seen seen;
   for (std::uint32_t seed = 0; seed < support::scaled(300); ++seed) {
     test::RandomOptions random;
+    random.shapes_percent = 0;
     random.num_vertices = 12;
     random.num_agents = 5;
     random.edge_percent = 25;
