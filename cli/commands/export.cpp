@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "exports/export_roadmap.hpp"
+#include "exports/naming.hpp"
 #include "frame/arguments.hpp"
 #include "frame/subcommands.hpp"
 
@@ -62,6 +63,14 @@ Subcommand add_export(CLI::App& program) {
   add_word(*app, "--order-id", read_order_id,
            "With vda5050: what the ids of orders begin with, before the serial number of each\n"
            "robot; default: they are the serial numbers");
+  const auto read_time_stamp = [arguments](const std::string& text) {
+    if (!is_time_stamp(text))
+      refuse_value("--time-stamp", text, "a time in UTC such as 2026-01-31T12:00:00.000Z");
+    arguments->time_stamp = text;
+  };
+  add_word(*app, "--time-stamp", read_time_stamp,
+           "With vda5050: the time stamp of all messages, such as 2026-01-31T12:00:00.000Z;\n"
+           "default: the epoch");
   add_input_file(*app, "--states", arguments->states,
                  "States of robots, one JSON message per line: release orders as they go");
   app->add_flag("--allow-cycles", arguments->allow_cycles,

@@ -90,6 +90,10 @@ void add_search_options(CLI::App& app, SolveArguments& arguments) {
                                   discrete::parse_mdd_growth,
                                   "How far the MDDs reach at first: on-demand (default) or full")
       ->group(group);
+  add_choice<discrete::Tie>(
+      app, "--tie", options.tie, "any or fewest-moves", discrete::parse_tie,
+      "Which plan of least cost: any (default), or one with the fewest moves, proved")
+      ->group(group);
   app.add_flag("--forbid-first", options.lazy.forbid_first,
                "dpll: try first to forbid usages; faster on some hard instances, slower on others")
       ->group(group);

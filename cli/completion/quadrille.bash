@@ -17,6 +17,7 @@ _quadrille() {
     --check) values="watch propagate 1/2 2/3 1/3,2/3 1/2,3/4" ;;
     --cost-search) values="iterative core-guided" ;;
     --backtracking) values="chronological jump" ;;
+    --tie) values="any fewest-moves" ;;
     --mdd-growth) values="on-demand full" ;;
     --to)
       values="json cbsh2 lns2 visualizer lacam yaml ccbs"
@@ -38,7 +39,7 @@ _quadrille() {
     --agents | --seed | --*-limit | --passable | --blocked | --width | --height | --obstacles | --doors | \
       --corridor-width | --room-size | --shelf-* | --aisle-width | --side-width | --vertices | --radius | \
       --speed | --level | --vehicle-type | --resolution | --turn | --altitude | --reach | --threads | --gap | --plan-every | --svg-agents | --delays | \
-      --longest | --slow | --period | --runs | --rate | --order-id)
+      --longest | --slow | --period | --runs | --rate | --order-id | --time-stamp)
       return
       ;;
   esac
@@ -48,11 +49,12 @@ _quadrille() {
   fi
 
   local instance="--map --scen --agents --instance --passable --blocked --share-goals --leave --robust
-    --roadmap --task --radius --speed --neighbourhood --level --vehicle-type --resolution --headings --turn"
+    --roadmap --task --radius --speed --neighbourhood --level --vehicle-type --resolution --overlap-at-start --headings
+    --turn"
   local options=
   case $command in
     solve)
-      options="$instance --objective --system --check --cost-search --mdd-growth --forbid-first
+      options="$instance --objective --system --check --cost-search --mdd-growth --tie --forbid-first
         --backtracking --no-first-plan --initial-plan --known-bound --threads --race --gap --seed --time-limit --cpu-limit
         --memory-limit --conflict-limit --plan --plan-format --plan-every --check-with --json --history --view --svg
         --svg-kind --svg-agents --proof --quiet --explain --audit --known-plan"
@@ -78,7 +80,7 @@ _quadrille() {
         return
       fi
       ;;
-    export) options="$instance --to --from --rate --ros --vda-version --names --order-id --states --allow-cycles --output" ;;
+    export) options="$instance --to --from --rate --ros --vda-version --names --order-id --time-stamp --states --allow-cycles --output" ;;
     execute-check) options="$instance --plan-format --json --quiet" ;;
     dispatch) options="$instance --steps --step --own-tasks --service --delays --longest --effort --reach --patience --call-limit --no-improvement --seed --json --quiet" ;;
     simulate)

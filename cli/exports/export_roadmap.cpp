@@ -33,6 +33,7 @@ std::string check_formats(const ExportArguments& arguments) {
   if (is_vda) return "";
   if (arguments.vda_version) return "--vda-version belongs to --to vda5050";
   if (!arguments.order_id.empty()) return "--order-id belongs to --to vda5050";
+  if (!arguments.time_stamp.empty()) return "--time-stamp belongs to --to vda5050";
   if (!arguments.states.empty()) return "--states belongs to --to vda5050";
   if (arguments.allow_cycles)
     return "--allow-cycles belongs to --to vda5050; samples have times, and nobody waits";
@@ -196,7 +197,10 @@ Result<OrderNames> names_in_orders(const ExportArguments& arguments,
                                    const input::RoadmapInput& input, const continuous::Plan& plan) {
   const auto named = naming(arguments, input);
   if (!named) return named.error();
-  return order_names(*named, plan, input.instance.roadmap().num_vertices(), arguments.order_id);
+  auto names =
+      order_names(*named, plan, input.instance.roadmap().num_vertices(), arguments.order_id);
+  if (names && !arguments.time_stamp.empty()) names->time_stamp = arguments.time_stamp;
+  return names;
 }
 
 ExitCode write_orders(const ExportArguments& arguments, const OutputFile& output,

@@ -24,9 +24,10 @@ struct ExportArguments {
   std::optional<double> rate;
   std::optional<std::int64_t> ros;  ///< Of RosVersion.
   std::optional<VdaVersion> vda_version;
-  std::string names;     ///< A file for read_naming.
-  std::string order_id;  ///< Empty: as robots are called.
-  std::string states;    ///< Messages of robots that go; empty: the orders at the start.
+  std::string names;       ///< A file for read_naming.
+  std::string order_id;    ///< Empty: as robots are called.
+  std::string time_stamp;  ///< Empty: the epoch.
+  std::string states;      ///< Messages of robots that go; empty: the orders at the start.
   bool allow_cycles = false;
   std::string output = "-";
 };

@@ -160,4 +160,18 @@ Result<OrderNames> order_names(const Naming& naming, const continuous::Plan& pla
   return names;
 }
 
+bool is_time_stamp(std::string_view text) {
+  constexpr std::string_view kForm = "0000-00-00T00:00:00.000Z";
+  if (text.size() != kForm.size()) return false;
+  for (std::size_t k = 0; k < kForm.size(); ++k)
+    if (kForm[k] == '0' ? text[k] < '0' || text[k] > '9' : text[k] != kForm[k]) return false;
+  const auto two = [&](std::size_t at) { return 10 * (text[at] - '0') + (text[at + 1] - '0'); };
+  const int year = 100 * two(0) + two(2), month = two(5), day = two(8);
+  const bool is_leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+  constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  if (month < 1 || month > 12 || day < 1) return false;
+  if (day > kDays[month - 1] + (month == 2 && is_leap ? 1 : 0)) return false;
+  return two(11) < 24 && two(14) < 60 && two(17) < 60;
+}
+
 }  // namespace quadrille::cli

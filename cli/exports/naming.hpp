@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/core/ids.hpp"
@@ -36,7 +37,10 @@ struct OrderNames {
   RobotNames robots, orders;
   IdVector<VertexId, std::string> nodes;  ///< Of vertices that the plan goes to; of others empty.
   std::string manufacturer, map;
+  std::string time_stamp = "1970-01-01T00:00:00.000Z";  ///< Of all messages.
 };
+/// Whether it is one as VDA 5050 has them: YYYY-MM-DDTHH:mm:ss.fffZ, with digits that are a time.
+[[nodiscard]] bool is_time_stamp(std::string_view text);
 /// `order`: the beginning of the ids of orders, which are followed by the robot; empty: they are
 /// the names of the robots. Errors (invalid_instance): names of robots that are no serial numbers
 /// of VDA 5050 (A-Z a-z 0-9 _ . : -), empty names, two robots or two places of the plan that are

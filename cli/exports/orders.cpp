@@ -80,7 +80,7 @@ std::string OrderWriter::order(AgentId agent, const OrderState& state) const {
     edges.push_back(edge);
   }
   return Json({{"headerId", state.update},
-               {"timestamp", "1970-01-01T00:00:00.000Z"},
+               {"timestamp", names_.time_stamp},
                {"version", kVersions[static_cast<std::size_t>(version_)].in_messages},
                {"manufacturer", names_.manufacturer},
                {"serialNumber", names_.robots[agent]},

@@ -103,6 +103,9 @@ void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {
   add_positive(app, "--resolution", options.resolution,
                "Size of a tick and of a length unit; default 0.000001")
       ->group(group);
+  app.add_flag("--overlap-at-start", options.overlap_at_start,
+               "Agents may overlap at their starts, until one of the two has made its first move")
+      ->group(group);
   add_integer(app, "--headings", options.headings, input::kHeadings, input::kHeadings,
               "4: robots on --map turn and go ahead; at first they face east, in the end anywhere")
       ->group(group);

@@ -14,8 +14,8 @@ namespace {
 /// Keeps the plan that it looks at.
 class GridWatch : public ContactWatch {
  public:
-  explicit GridWatch(std::shared_ptr<const discrete::Plan> plan)
-      : plan_(std::move(plan)), watch_(*plan_) {}
+  GridWatch(std::shared_ptr<const discrete::Plan> plan, IdVector<AgentId, bool> leaves)
+      : plan_(std::move(plan)), watch_(*plan_, std::move(leaves)) {}
   void add(std::span<const Ticks> before, std::span<const Ticks> after) override {
     watch_.add(before, after);
   }
@@ -45,6 +45,8 @@ Result<ExecutionCase> load_execution_grid(const ExecutionArguments& arguments) {
   auto order = execution::precedences(input->instance, file->plan);
   if (!order) return order.error();
   const auto plan = std::make_shared<const discrete::Plan>(std::move(file->plan));
+  IdVector<AgentId, bool> leaves;
+  for (const discrete::Agent& agent : input->instance.agents()) leaves.push_back(agent.leaves);
   return ExecutionCase{describe_input(*input),
                        std::move(order).value(),
                        1,
@@ -52,7 +54,7 @@ Result<ExecutionCase> load_execution_grid(const ExecutionArguments& arguments) {
                        [graph = input->instance.shared_graph()](VertexId vertex) {
                          return discrete::vertex_name(*graph, vertex);
                        },
-                       [plan] { return std::make_unique<GridWatch>(plan); }};
+                       [plan, leaves] { return std::make_unique<GridWatch>(plan, leaves); }};
 }
 
 }  // namespace quadrille::cli

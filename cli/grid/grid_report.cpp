@@ -27,6 +27,7 @@ Json options_json(const SolveArguments& arguments) {
   json["check"] = has_schedule(options.system) ? Json(to_string(options.mdd.check)) : Json(nullptr);
   json["cost_search"] = options.cost_search ? Json(to_string(*options.cost_search)) : Json(nullptr);
   json["mdd_growth"] = to_string(options.mdd.growth);
+  json["tie"] = to_string(options.tie);
   json["forbid_first"] = options.lazy.forbid_first;
   json["backtracking"] = Json(nullptr);
   if (options.lazy.chronological)
@@ -44,6 +45,21 @@ Json options_json(const SolveArguments& arguments) {
   json["audit"] = options.debug.audit;
   json["known_plan"] = text_or_null(arguments.known_plan);
   return json;
+}
+
+Json moves_json(const std::optional<discrete::Moves>& moves) {
+  if (!moves) return nullptr;
+  Json json;
+  json["number"] = moves->number;
+  json["lower_bound"] = moves->lower_bound;
+  json["proved"] = moves->is_proved;
+  return json;
+}
+
+std::string describe_moves(const discrete::Moves& moves) {
+  const std::string text = fmt::format("moves      {}", moves.number);
+  if (moves.is_proved) return text + ", no plan of this cost has fewer\n";
+  return text + fmt::format(", plans of least cost have at least {}\n", moves.lower_bound);
 }
 
 /// One agent per line: `text` is the plan on one line, a list of lists.
@@ -77,6 +93,7 @@ std::string result_json(const discrete::Instance* instance, const SolveArguments
   json.add("lower_bound", infeasible ? Json(nullptr) : Json(outcome.lower_bound));
   json.add_gap(outcome);
   if (arguments.known_bound) json.add("rests_on_known_bound", outcome.rests_on_known_bound);
+  if (options.tie != discrete::Tie::any) json.add("moves", moves_json(outcome.moves));
   json.add_end_of_search(outcome);
   json.add("agents", instance != nullptr ? Json(instance->num_agents()) : Json(nullptr));
   if (options.explain && instance != nullptr)
@@ -112,8 +129,9 @@ std::string describe_check(const discrete::Plan& plan, const discrete::VerifyRep
 
 std::string describe_outcome(Objective objective, const SolveOutcome& outcome,
                              const discrete::VerifyReport& check) {
-  const std::string text =
+  std::string text =
       describe_result(outcome, objective, [](Cost cost) { return fmt::format("{}", cost); });
+  if (outcome.moves) text += describe_moves(*outcome.moves);
   return outcome.plan ? text + describe_check(*outcome.plan, check) : text;
 }
 

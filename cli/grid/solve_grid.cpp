@@ -49,6 +49,8 @@ std::string settle(SolveArguments& arguments) {
   if (arguments.threads) options.threads = static_cast<std::size_t>(*arguments.threads);
   if (options.race && options.threads == 1) return "--race needs --threads";
   options.proof = !arguments.proof.empty();
+  if (options.tie != discrete::Tie::any && options.gap_percent)
+    return "--tie fewest-moves is about plans of least cost, and does not go with --gap";
   if (options.explain && options.threads > 1) return "--explain needs one thread";
   if (options.explain && options.system != System::dpll) return "--explain needs --system dpll";
   if (arguments.known_bound) {
@@ -206,6 +208,15 @@ ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments, InputWatch& 
     return usage_error(app, "some agents have several goals, which needs --system dpll");
   if (input->instance.has_goal_sets() && arguments.options.proof)
     return usage_error(app, "some agents have several goals, which --proof does not know yet");
+  const auto& agents = input->instance.agents();
+  const bool has_waypoints = std::any_of(
+      agents.begin(), agents.end(), [](const auto& agent) { return !agent.waypoints.empty(); });
+  if (has_waypoints && arguments.options.system != System::dpll)
+    return usage_error(app, "some agents have waypoints, which needs --system dpll");
+  if (arguments.options.tie != discrete::Tie::any &&
+      (has_waypoints || input->instance.has_goal_sets()))
+    return usage_error(app,
+                       "some agents have waypoints or several goals, which --tie does not know");
   if (!input->instance.is_plain() && (arguments.options.proof || arguments.options.explain))
     return usage_error(app, "the instance has rules, which --proof and explanations do not know");
   return solve_and_deliver(GridSolve(arguments, *input, used), arguments);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "roadmap/convert_roadmap.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -23,6 +25,19 @@ std::string check(const ConvertArguments& arguments) {
   return "";
 }
 
+/// Robots that turn: vertices are called by cell and heading, which nothing else of a file says.
+text::Names names_of(const input::RoadmapInput& input) {
+  if (!input.poses) return input.names;
+  text::Names names = input.names;
+  names.vertices.clear();
+  for (const VertexId v : IdRange<VertexId>(input.instance.roadmap().num_vertices())) {
+    const continuous::Pose pose = input.poses->pose(v);
+    names.vertices.push_back(
+        fmt::format("[{}, {}, \"{}\"]", pose.cell.x, pose.cell.y, to_string(pose.heading)));
+  }
+  return names;
+}
+
 /// The text of the plan or the instance in its new format.
 Result<std::string> convert(const ConvertArguments& arguments, const input::RoadmapInput& input) {
   std::ostringstream text;
@@ -35,7 +50,7 @@ Result<std::string> convert(const ConvertArguments& arguments, const input::Road
     error = write_plan(text, arguments.plan, input.instance, file->plan, *arguments.to.continuous,
                        input.grid_or_null());
   } else {
-    error = write_instance_json(text, input.source, input.instance, input.names);
+    error = write_instance_json(text, input.source, input.instance, names_of(input));
   }
   if (error) return *error;
   return text.str();

@@ -29,10 +29,16 @@ std::string claim(const Instance* instance, const char* separator) {
       std::any_of(instance->agents().begin(), instance->agents().end(), [](const auto& agent) {
         return std::holds_alternative<continuous::ConvexPolygon>(agent.body);
       });
-  return fmt::format(
+  std::string text = fmt::format(
       "exact in ticks and length units: coordinates and durations rounded to the nearest,{}"
       "radii down{}; departures at whole ticks; touching allowed",
       separator, has_polygons ? ", corners of polygons towards zero" : "");
+  if (instance != nullptr && !instance->parked_pairs().empty())
+    text += fmt::format(
+        ";{}{} pairs of agents overlap at their starts, until one of the two has made its first "
+        "move",
+        separator, instance->parked_pairs().size());
+  return text;
 }
 
 Json body_json(const continuous::Body& body, const continuous::Resolution& resolution) {

@@ -30,7 +30,7 @@ using continuous::SolveOutcome;
 
 /// What is wrong with the combination of options; empty if nothing is.
 std::string check(const CLI::App& app, const SolveArguments& arguments) {
-  for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first",
+  for (const char* option : {"--check", "--cost-search", "--mdd-growth", "--forbid-first", "--tie",
                              "--backtracking", "--no-first-plan"})
     if (const CLI::Option* const given = app.get_option_no_throw(option);  // not of every command
         given != nullptr && given->count() > 0)

@@ -296,6 +296,7 @@ Result<Dispatcher> Dispatcher::make(std::shared_ptr<const Roadmap> roadmap,
     robot.deadline.reset();
     robot.leaves = false;
     robot.under_way = false;
+    robot.overlaps_at_start = false;
   }
   const auto instance = Instance::make(std::move(roadmap), std::move(robots), resolution);
   if (!instance) return instance.error();

@@ -193,7 +193,13 @@ void ConflictWatch::add(std::span<const Ticks> before, std::span<const Ticks> af
   const auto meet = [&](AgentId i, AgentId j) {
     contacts_.emplace(std::min(i, j), std::max(i, j));
   };
+  const auto is_gone = [&](std::size_t i) {
+    const AgentId agent(i);
+    return !leaves_.empty() && leaves_[agent] &&
+           before[i].value() >= plan_.now + discrete::arrival(plan_.paths[agent]);
+  };
   for (std::size_t i = 0; i < before.size(); ++i) {
+    if (is_gone(i)) continue;
     was.emplace(place(i, before[i]), AgentId(i));
     is.emplace(place(i, after[i]), AgentId(i));
   }

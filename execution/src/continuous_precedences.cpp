@@ -157,6 +157,10 @@ Result<Precedences> precedences(const Instance& instance, const continuous::Plan
     return Error{ErrorCode::invalid_instance,
                  "moving obstacles wait for nobody: no order of moves keeps clear of them",
                  {}};
+  if (!instance.parked_pairs().empty())
+    return Error{ErrorCode::invalid_instance,
+                 "agents overlap at their starts: no order of moves keeps them apart there",
+                 {}};
   const auto report = continuous::verify(instance, plan);
   if (!report.valid()) return Error{ErrorCode::invalid_plan, report.violations.front().message, {}};
   return Finder(instance, plan).run();

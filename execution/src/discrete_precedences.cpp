@@ -41,11 +41,12 @@ std::vector<TimedMove> moves_of(AgentId agent, const discrete::Path& path, Times
 }  // namespace
 
 Result<Precedences> precedences(const discrete::Instance& instance, const discrete::Plan& plan) {
-  if (!instance.is_plain())
-    return Error{ErrorCode::out_of_range,
-                 "the execution of plans on grids and graphs knows no rules such as agents that "
-                 "leave, blockages or robust plans",
-                 {}};
+  if (!instance.rules().blockages.empty() || instance.rules().robust > 0)
+    return Error{
+        ErrorCode::out_of_range,
+        "the order in which agents come to places keeps no blockages, which have times, and "
+        "makes nobody wait k timesteps longer, as robust plans ask",
+        {}};
   const auto report = discrete::verify(instance, plan);
   if (!report.valid()) return Error{ErrorCode::invalid_plan, report.violations.front().message, {}};
   Precedences result;
@@ -59,8 +60,11 @@ Result<Precedences> precedences(const discrete::Instance& instance, const discre
   for (std::size_t k = 0; k + 1 < visits.size(); ++k) {
     const Visit &first = visits[k], &next = visits[k + 1];
     if (first.vertex != next.vertex || first.agent == next.agent) continue;
-    const Ticks leaves = result.at(*first.out).begin;
-    result.list.push_back({*first.out, *next.in, result.at(*next.in).begin - leaves});
+    const Ticks begin = result.at(*next.in).begin;
+    if (first.out)
+      result.list.push_back({*first.out, *next.in, begin - result.at(*first.out).begin});
+    else if (first.in)  // It leaves: when it has arrived, and not while it does.
+      result.list.push_back({*first.in, *next.in, begin - result.at(*first.in).end});
   }
   sort_precedences(result.list);
   return result;

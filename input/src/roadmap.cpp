@@ -111,9 +111,10 @@ std::string check_turning_options(const RoadmapOptions& options, const InputOpti
   if (!options.roadmap.empty() || !input.instance.empty())
     return "--headings goes with --map and --scen, not with --roadmap or --instance";
   if (!options.task.empty() || options.radius || options.speed || options.resolution ||
-      options.neighbourhood || !options.level.empty() || !options.vehicle_type.empty())
-    return "--task, --radius, --speed, --neighbourhood, --level, --vehicle-type and --resolution "
-           "do not go with --headings";
+      options.neighbourhood || !options.level.empty() || !options.vehicle_type.empty() ||
+      options.overlap_at_start)
+    return "--task, --radius, --speed, --neighbourhood, --level, --vehicle-type, --resolution "
+           "and --overlap-at-start do not go with --headings";
   if (*options.headings != kHeadings)
     return "--headings is " + std::to_string(kHeadings) + ": east, south, west and north";
   return check_grid_options(input, need);
@@ -254,6 +255,9 @@ std::string check_roadmap_options(const RoadmapOptions& options, const InputOpti
 
 std::string why_no_roadmap(const RoadmapOptions& options) {
   if (options.turn) return kTurnAlone;
+  if (options.overlap_at_start)
+    return "--overlap-at-start belongs to --roadmap; in --instance agents have "
+           "\"overlap_at_start\"";
   if (options.task.empty() && !options.radius && !options.speed && !options.resolution &&
       !options.neighbourhood && options.level.empty() && options.vehicle_type.empty())
     return "";
@@ -304,6 +308,7 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
     agents = agents_of(task, count, *roadmap, numbers->radius, numbers->speed, map->names);
   }
   if (!agents) return agents.error();
+  for (continuous::Agent& agent : *agents) agent.overlaps_at_start = options.overlap_at_start;
   auto instance = make_instance(std::move(roadmap), std::move(agents).value(), numbers->resolution,
                                 options.roadmap, task, input);
   if (!instance) return instance.error();

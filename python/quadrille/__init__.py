@@ -20,7 +20,7 @@ from .plans import Plan, StepPath, StepPlan, TimedPath, TimedPlan
 from .reading import read
 from .reports import Report, Violation
 from .rules import Obstacle, Underway
-from .solving import Progress, Result, Statistics, solve
+from .solving import Moves, Progress, Result, Statistics, solve
 
 __all__ = [
     "Attribution",
@@ -32,6 +32,7 @@ __all__ = [
     "Graph",
     "Grid",
     "InputError",
+    "Moves",
     "NoPlanError",
     "Obstacle",
     "Orders",

@@ -54,6 +54,10 @@ class Fleet(Generic[P]):
             entries, None or NaN: whenever (default). Times on roadmaps are rounded to the nearest tick.
         leaves: Whether the agent vanishes when it arrives, instead of staying at its
             goal; a truth value or bool[n]. Default false.
+        overlap_at_start: On roadmaps: whether the agent's body may overlap, at its start, with that of
+            another agent for which that is true, too: the two do not collide as long as both stand
+            there, nor while one of them does and the other one makes its first move, if they are apart when
+            that ends; a truth value or bool[n]. Default false.
         obstacles: On roadmaps: ``Obstacle`` s, of which agents keep clear.
         robust: On grids and graphs: nobody is in a place within so many timesteps after another agent
             was there; 1: nobody follows another one closely. Default 0.
@@ -103,6 +107,7 @@ class Fleet(Generic[P]):
         release: Any = None,
         deadline: Any = None,
         leaves: Optional[npt.ArrayLike] = None,
+        overlap_at_start: Optional[npt.ArrayLike] = None,
         obstacles: Sequence[Obstacle] = (),
         names: Optional[Sequence[str]] = None,
         now: float = 0,
@@ -121,6 +126,7 @@ class Fleet(Generic[P]):
         release: Any = None,
         deadline: Any = None,
         leaves: Optional[npt.ArrayLike] = None,
+        overlap_at_start: Optional[npt.ArrayLike] = None,
         obstacles: Sequence[Obstacle] = (),
         robust: int = 0,
         names: Optional[Sequence[str]] = None,
@@ -148,6 +154,9 @@ class Fleet(Generic[P]):
                     releases=moments(release, "release", n, 0.0),
                     deadlines=moments(deadline, "deadline", n, np.nan),
                     leaves=flags(False if leaves is None else leaves, "leaves", n),
+                    overlaps=flags(
+                        False if overlap_at_start is None else overlap_at_start, "overlap_at_start", n
+                    ),
                     under_way=under_way,
                     obstacles=[obstacle._given() for obstacle in obstacles],
                     now=doubles(now, "now", ()).item(),
@@ -159,7 +168,7 @@ class Fleet(Generic[P]):
             )
         else:
             given = dict(radius=radius, polygon=polygon, speed=speed, group=group)
-            given.update(obstacles=obstacles or None)
+            given.update(obstacles=obstacles or None, overlap_at_start=overlap_at_start)
             for name, value in given.items():
                 if value is not None:
                     raise ValueError(f"{name} is for roadmaps")
@@ -296,6 +305,11 @@ class Fleet(Generic[P]):
     def leaves(self) -> npt.NDArray[np.bool_]:
         """bool[n], who vanishes at its goal; read-only."""
         return cast("npt.NDArray[np.bool_]", self._instance.rules()["leaves"])
+
+    @property
+    def overlap_at_start(self) -> npt.NDArray[np.bool_]:
+        """On roadmaps: bool[n], who may overlap with others at its start; read-only."""
+        return cast("npt.NDArray[np.bool_]", self._timed("overlap_at_start").rules()["overlaps"])
 
     @property
     def robust(self) -> int:

@@ -70,6 +70,17 @@ class Progress:
 
 
 @dataclass(frozen=True)
+class Moves:
+    """How many moves a plan has: timesteps in which an agent changes its place."""
+
+    number: int
+    lower_bound: int
+    """No plan of least cost has fewer."""
+    proved: bool
+    """The plan is one of least cost, and ``number`` is ``lower_bound``."""
+
+
+@dataclass(frozen=True)
 class Result(Generic[P]):
     """What a search has found and proved."""
 
@@ -95,6 +106,8 @@ class Result(Generic[P]):
     attribution: Optional[Attribution] = None
     """With ``explain``: why no plan is cheaper. None for infeasible, and if a limit came before the
     costs of the agents alone were known."""
+    moves: Optional[Moves] = None
+    """With ``tie="fewest-moves"`` and a plan."""
 
     @property
     def gap(self) -> Optional[float]:
@@ -126,6 +139,7 @@ def solve(
     race: bool = False,
     first_plan: Optional[bool] = None,
     cost_search: Optional[str] = None,
+    tie: Optional[str] = None,
     check: Optional[str] = None,
     mdd_growth: Optional[str] = None,
     forbid_first: Optional[bool] = None,
@@ -162,6 +176,8 @@ def solve(
             differ from run to run then.
         first_plan: Not on roadmaps: look for a plan of any cost before and beside the proof (default).
         cost_search: Not on roadmaps: "core-guided" or "iterative".
+        tie: Not on roadmaps: which plan of least cost: "any" (default) or "fewest-moves", one with as few
+            moves as any, found by a second search. ``moves`` says how many, and whether that is proved.
         check: Of dpll-mdd: "watch" (default), "propagate", or shares such as "1/2,3/4".
         mdd_growth: Of the systems with decision diagrams: "on-demand" (default) or "full".
         forbid_first, chronological: Of dpll in timesteps; see the manual of the program.
@@ -195,6 +211,7 @@ def solve(
         race=race,
         first_plan=first_plan,
         cost_search=cost_search,
+        tie=tie,
         check=check,
         mdd_growth=mdd_growth,
         forbid_first=forbid_first,
@@ -238,4 +255,5 @@ def solve(
         internal_error=outcome["internal_error"],
         rests_on_known_bound=outcome["rests_on_known_bound"],
         attribution=_attribution(outcome["attribution"], cost),
+        moves=None if outcome["moves"] is None else Moves(*outcome["moves"]),
     )

@@ -31,6 +31,11 @@ py::dict outcome_of(Outcome outcome) {
                                : py::object(py::none());
   dict["statistics"] = statistics_of(outcome.statistics);
   dict["attribution"] = py::none();
+  dict["moves"] = py::none();
+  if constexpr (requires { outcome.moves; })
+    if (outcome.moves)
+      dict["moves"] = py::make_tuple(outcome.moves->number, outcome.moves->lower_bound,
+                                     outcome.moves->is_proved);
   dict["plan"] = outcome.plan ? py::cast(*std::move(outcome.plan)) : py::object(py::none());
   return dict;
 }

@@ -237,6 +237,7 @@ discrete::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>&
                    "iterative or core-guided");
   arguments.choose("mdd_growth", discrete::parse_mdd_growth, options.mdd.growth,
                    "on-demand or full");
+  arguments.choose("tie", discrete::parse_tie, options.tie, "any or fewest-moves");
   if (const auto text = arguments.take<std::string>("check"))
     options.mdd.check = take(discrete::parse_check_schedule(*text));
   arguments.set("initial", options.initial_plan);

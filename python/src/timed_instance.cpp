@@ -98,6 +98,7 @@ void set_rules(const py::dict& rules, const Resolution& resolution, const Words&
   const auto releases = rules["releases"].cast<Doubles>();
   const auto deadlines = rules["deadlines"].cast<Doubles>();
   const auto leaves = rules["leaves"].cast<Bools>();
+  const auto overlaps = rules["overlaps"].cast<Bools>();
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const auto row = static_cast<py::ssize_t>(i);
     continuous::Agent& made = agents[i];
@@ -106,6 +107,7 @@ void set_rules(const py::dict& rules, const Resolution& resolution, const Words&
     made.release = moment_of(releases.at(row), resolution, who + " is released").value_or(Ticks{0});
     made.deadline = moment_of(deadlines.at(row), resolution, who + " has its deadline");
     made.leaves = leaves.at(row);
+    made.overlaps_at_start = overlaps.at(row);
   }
 }
 
@@ -313,7 +315,8 @@ py::dict rules_of(const TimedInstance& self) {
   const std::size_t n = self.agents().size();
   auto groups = new_array<std::int64_t>({n});
   auto releases = new_array<double>({n}), deadlines = new_array<double>({n});
-  auto leaves = new_array<bool>({n}), under_way = new_array<bool>({n});
+  auto leaves = new_array<bool>({n}), under_way = new_array<bool>({n}),
+       overlaps = new_array<bool>({n});
   for (std::size_t at = 0; at < n; ++at) {
     const continuous::Agent& agent = self.agents()[at];
     groups.mutable_data()[at] = static_cast<std::int64_t>(agent.group.index());
@@ -322,6 +325,7 @@ py::dict rules_of(const TimedInstance& self) {
         agent.deadline ? continuous::in_input_units(*agent.deadline, resolution) : std::nan("");
     leaves.mutable_data()[at] = agent.leaves;
     under_way.mutable_data()[at] = agent.under_way;
+    overlaps.mutable_data()[at] = agent.overlaps_at_start;
   }
   const auto is_level = [](const continuous::MovingObstacle& obstacle) {
     return std::all_of(obstacle.path.begin(), obstacle.path.end(),
@@ -339,6 +343,7 @@ py::dict rules_of(const TimedInstance& self) {
   rules["deadlines"] = frozen(deadlines);
   rules["leaves"] = frozen(leaves);
   rules["under_way"] = frozen(under_way);
+  rules["overlaps"] = frozen(overlaps);
   py::list moves;
   for (std::size_t at = 0; at < n; ++at)
     if (const auto* on = self.roadmap()->lane_place(self.agents()[at].start))

@@ -7,6 +7,7 @@
 #include "continuous/support/random_instance.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/discrete/primal.hpp"
+#include "quadrille/discrete/solver.hpp"
 #include "support/generators.hpp"
 
 namespace quadrille::execution::test {
@@ -28,6 +29,29 @@ std::optional<ContinuousCase> continuous_case(std::uint32_t seed, std::size_t ag
   auto outcome = continuous::solve(instance, options);
   if (!outcome || !outcome->plan) return std::nullopt;
   return ContinuousCase{instance, std::move(*outcome->plan)};
+}
+
+std::optional<DiscreteCase> leaving_case(std::uint64_t seed) {
+  quadrille::support::Random random(seed);
+  discrete::support::GridShape shape;
+  shape.min_side = 2;
+  shape.max_side = 6;
+  shape.max_obstacles_percent = 20;
+  shape.max_agents = 10;
+  const discrete::Instance plain = discrete::support::random_grid(random, shape);
+  std::vector<discrete::Agent> agents = plain.agents().items();
+  for (discrete::Agent& agent : agents) {
+    agent.leaves = random.percent(70);
+    if (agent.leaves && random.percent(40)) agent.goals = agents[random.below(agents.size())].goals;
+    if (random.percent(20)) agent.release = static_cast<Timestep>(random.below(4));
+  }
+  const auto instance = plain.with_agents(std::move(agents));
+  if (!instance) return std::nullopt;
+  discrete::SolveOptions options;
+  options.limits.conflicts = 20;
+  auto outcome = discrete::solve(*instance, options);
+  if (!outcome || !outcome->plan) return std::nullopt;
+  return DiscreteCase{*instance, std::move(*outcome->plan)};
 }
 
 std::optional<DiscreteCase> discrete_case(std::uint64_t seed) {

@@ -25,5 +25,7 @@ struct DiscreteCase {
 [[nodiscard]] std::optional<ContinuousCase> continuous_case(std::uint32_t seed, std::size_t agents);
 /// A crowded little grid with the first plan that is found.
 [[nodiscard]] std::optional<DiscreteCase> discrete_case(std::uint64_t seed);
+/// The same with agents that leave at their goals, some of them at those of others, and releases.
+[[nodiscard]] std::optional<DiscreteCase> leaving_case(std::uint64_t seed);
 
 }  // namespace quadrille::execution::test

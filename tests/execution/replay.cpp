@@ -162,17 +162,22 @@ Real Replay::least_separation(const std::vector<Real>& before,
   return least;
 }
 
-bool collide(const discrete::Plan& plan, const std::vector<std::size_t>& before,
-             const std::vector<std::size_t>& after) {
+bool collide(const discrete::Instance& instance, const discrete::Plan& plan,
+             const std::vector<std::size_t>& before, const std::vector<std::size_t>& after) {
   std::map<VertexId, std::size_t> at_before, at_after;
   const auto place = [&](std::size_t i, std::size_t t) {
     return discrete::position(plan.paths[AgentId(i)], static_cast<Timestep>(t));
   };
+  // Who leaves is nowhere after the step in which it comes to its end.
+  const auto is_gone = [&](std::size_t i) {
+    return instance.agents()[AgentId(i)].leaves && before[i] + 1 >= plan.paths[AgentId(i)].size();
+  };
   for (std::size_t i = 0; i < before.size(); ++i)
-    if (!at_before.emplace(place(i, before[i]), i).second ||
-        !at_after.emplace(place(i, after[i]), i).second)
+    if (!is_gone(i) && (!at_before.emplace(place(i, before[i]), i).second ||
+                        !at_after.emplace(place(i, after[i]), i).second))
       return true;
   for (std::size_t i = 0; i < before.size(); ++i) {
+    if (is_gone(i)) continue;
     const auto other = at_before.find(place(i, after[i]));
     if (other == at_before.end() || other->second == i) continue;
     if (place(other->second, after[other->second]) == place(i, before[i])) return true;

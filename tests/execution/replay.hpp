@@ -6,6 +6,7 @@
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
 
 namespace quadrille::execution::test {
@@ -46,7 +47,8 @@ class Replay {
 
 /// Whether two agents collide in a step of the discrete domain, from the timesteps of the plan that
 /// they have got to to those that they get to; both ends count.
-[[nodiscard]] bool collide(const discrete::Plan& plan, const std::vector<std::size_t>& before,
+[[nodiscard]] bool collide(const discrete::Instance& instance, const discrete::Plan& plan,
+                           const std::vector<std::size_t>& before,
                            const std::vector<std::size_t>& after);
 
 }  // namespace quadrille::execution::test

@@ -83,9 +83,12 @@ struct State {
 
 class RuledSearch {
  public:
-  RuledSearch(const Instance& instance, Objective objective)
+  /// What counts is `of_step` times the cost, and `of_move` times the moves.
+  RuledSearch(const Instance& instance, Objective objective, Cost of_step = 1, Cost of_move = 0)
       : instance_(instance),
         book_(instance),
+        of_step_(of_step),
+        of_move_(of_move),
         is_sum_(objective == Objective::sum_of_costs),
         num_agents_(instance.num_agents()),
         robust_(static_cast<std::size_t>(instance.rules().robust)) {}
@@ -159,7 +162,7 @@ class RuledSearch {
       next.before.insert(next.before.begin(), state.at);
       if (next.before.size() > robust_) next.before.resize(robust_);
     }
-    move(state, next, 0, cost + price, node);
+    move(state, next, 0, cost + of_step_ * price, node);
   }
 
   void move(const State& state, State& next, std::size_t i, Cost cost, std::size_t node) {
@@ -179,7 +182,7 @@ class RuledSearch {
       if (!is_free(state, next, i, w)) continue;
       next.at[i] = w;
       next.stage[i] = state.done[i] != 0 ? state.stage[i] : book_.visit(i, state.stage[i], w);
-      move(state, next, i + 1, cost, node);
+      move(state, next, i + 1, w == v ? cost : cost + of_move_, node);
     }
   }
 
@@ -222,6 +225,7 @@ class RuledSearch {
 
   const Instance& instance_;
   const Book book_;
+  const Cost of_step_, of_move_;
   const bool is_sum_;
   const std::size_t num_agents_, robust_;
   std::map<State, std::size_t> index_;
@@ -242,6 +246,13 @@ int place(const Agent& task, const Path& path, std::size_t t) {
 
 JointAnswer ruled_search(const Instance& instance, Objective objective, std::size_t max_states) {
   return RuledSearch(instance, objective).run(max_states);
+}
+
+Cheapest fewest_moves_search(const Instance& instance, Objective objective,
+                             std::size_t max_states) {
+  constexpr Cost kStep = 1 << 20;
+  const JointAnswer answer = RuledSearch(instance, objective, kStep, 1).run(max_states);
+  return {answer.status, answer.cost / kStep, answer.cost % kStep};
 }
 
 std::string replay_rules(const Instance& instance, const Plan& plan) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "support/generators.hpp"
@@ -15,6 +16,16 @@ namespace quadrille::discrete::support {
 /// names. Shares nothing with the library but the types. Unknown beyond `max_states` states.
 [[nodiscard]] JointAnswer ruled_search(const Instance& instance, Objective objective,
                                        std::size_t max_states);
+
+/// The least cost, and the fewest moves of the plans that cost as much.
+struct Cheapest {
+  Status status = Status::unknown;
+  Cost cost = 0;
+  std::int64_t moves = 0;
+};
+/// The same search, whose costs are pairs.
+[[nodiscard]] Cheapest fewest_moves_search(const Instance& instance, Objective objective,
+                                           std::size_t max_states);
 
 /// Replays a plan by the definitions of all rules: empty if it is one, else what is wrong with it.
 [[nodiscard]] std::string replay_rules(const Instance& instance, const Plan& plan);

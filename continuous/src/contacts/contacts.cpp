@@ -8,7 +8,7 @@
 
 namespace quadrille::continuous {
 Contacts::Contacts(const Instance& instance, LimitMonitor& limits, ContactStore* store)
-    : instance_(instance), limits_(limits), store_(store) {
+    : instance_(instance), parked_(instance), limits_(limits), store_(store) {
   const IdRange<ClassId> classes(instance.num_classes());
   const std::size_t num_edges = instance.roadmap().num_edges();
   for (const ClassId a : classes)
@@ -35,14 +35,16 @@ Contacts::Offsets Contacts::offsets(ClassId a, EdgeId e, ClassId b, EdgeId f) {
 
 Contacts::Window Contacts::window(ClassId a, EdgeId e, ClassId b, VertexId v) {
   Pair& p = pair(a, b);
-  return p.windows.get(e.index(), v.index(), [&] {
+  return p.windows.get(e.index(), v.index(), [&]() -> Window {
     limits_.check();
+    if (parked_.may_move(e, v, p.bodies)) return std::nullopt;
     return p.bodies.contact_window(move(a, e), stand(v));
   });
 }
 
 bool Contacts::overlap(ClassId a, VertexId v, ClassId b, VertexId w) const {
-  return pairs_[a.index() * instance_.num_classes() + b.index()]->bodies.overlap(stand(v),
+  return !parked_.may_stand(v, w) &&
+         pairs_[a.index() * instance_.num_classes() + b.index()]->bodies.overlap(stand(v),
                                                                                  stand(w));
 }
 

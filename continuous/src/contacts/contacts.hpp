@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "model/parked.hpp"
 #include "model/shape_pairs.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/limits.hpp"
@@ -118,7 +119,8 @@ class Contacts {
   [[nodiscard]] Offsets offsets(ClassId a, EdgeId e, ClassId b, EdgeId f);
 
   /// The stretch during which an agent of class b that stands at `v` is in the way of one of class
-  /// a on edge e, in ticks since the latter's start.
+  /// a on edge e, in ticks since the latter's start. None if the two are parked there, see
+  /// ParkedPlaces.
   using Window = IntervalTable::Value;
   [[nodiscard]] Window window(ClassId a, EdgeId e, ClassId b, VertexId v);
 
@@ -168,6 +170,7 @@ class Contacts {
       ClassId a, const ShapePairs::Move& move, ClassId b);
 
   const Instance& instance_;
+  const ParkedPlaces parked_;
   LimitMonitor& limits_;
   ContactStore* const store_;
   std::vector<std::shared_ptr<Pair>> pairs_;

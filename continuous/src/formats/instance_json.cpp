@@ -237,7 +237,7 @@ class InstanceReader {
     if (!check_.array(agents, "agents")) return false;
     std::vector<Node> nodes;
     for (Node a = document_.first(agents); a < document_.next(agents); a = document_.next(a)) {
-      std::optional<Node> start, speed, group, release, deadline, at_start, at_goal, name;
+      std::optional<Node> start, speed, group, release, deadline, at_start, at_goal, overlap, name;
       BodyReader::Keys looks;
       text::GoalNodes goals;
       Agent agent;
@@ -254,6 +254,7 @@ class InstanceReader {
                               {"deadline", &deadline, false},
                               {"at_start", &at_start, false},
                               {"at_goal", &at_goal, false},
+                              {"overlap_at_start", &overlap, false},
                               {"name", &name, false}}) ||
           !read_vertex_number(*start, agent.start) || !read_goals(a, goals, agent.goals) ||
           !body_reader_.read(a, looks, agent) || !read_speed(a, speed, agent.speed) ||
@@ -263,6 +264,7 @@ class InstanceReader {
           (at_start &&
            !text::read_choice(check_, *at_start, "stay", "under_way", agent.under_way)) ||
           (at_goal && !text::read_choice(check_, *at_goal, "stay", "leave", agent.leaves)) ||
+          (overlap && !check_.boolean(*overlap, agent.overlaps_at_start)) ||
           (name && !text::read_name(check_, document_, *name, own_name)))
         return false;
       nodes.push_back(a);

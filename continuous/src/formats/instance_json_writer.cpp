@@ -143,6 +143,7 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
     if (agent.deadline) out << ", \"deadline\": " << number(*agent.deadline);
     if (agent.under_way) out << ", \"at_start\": \"under_way\"";
     if (agent.leaves) out << ", \"at_goal\": \"leave\"";
+    if (agent.overlaps_at_start) out << ", \"overlap_at_start\": true";
     if (const std::string* name = names.agent(i.index()))
       out << ", \"name\": " << text::quoted_json(*name);
     out << "}";

@@ -12,6 +12,7 @@
 #include "formats/plan_codecs.hpp"
 #include "formats/xml_input.hpp"
 #include "quadrille/continuous/quantise.hpp"
+#include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -56,8 +57,9 @@ bool is_number(Ticks ticks, const Resolution& resolution) {
 
 class LogReader {
  public:
-  LogReader(const XmlFile& xml, const Instance& instance, const GridRoadmap* grid)
-      : xml_(xml), instance_(instance), grid_(grid) {}
+  /// `has_agents`: those of the instance; otherwise the log says alone who there is.
+  LogReader(const XmlFile& xml, const Instance& instance, const GridRoadmap* grid, bool has_agents)
+      : xml_(xml), instance_(instance), grid_(grid), has_agents_(has_agents) {}
 
   Result<PlanFile> run() {
     if (std::string_view(xml_.root().name()) != "root")
@@ -78,6 +80,7 @@ class LogReader {
       if (auto error = read_agent(agent)) return *error;
     if (file_.plan.paths.empty() && instance_.num_agents() > 0)
       return xml_.error(*log, "there is no plan", ErrorCode::invalid_plan);
+    if (!has_agents_) return std::move(file_);
     if (auto error = read_summary(*log)) return *error;
     return std::move(file_);
   }
@@ -116,7 +119,7 @@ class LogReader {
     if (number != static_cast<std::int64_t>(index))
       return xml_.error(node, "agent " + quoted(node.attribute("number").value()) + " where " +
                                   std::to_string(index) + " is due");
-    if (index >= instance_.num_agents())
+    if (has_agents_ && index >= instance_.num_agents())
       return xml_.error(node,
                         "agent " + std::to_string(index) + ", but the instance has " +
                             std::to_string(instance_.num_agents()) + " agents",
@@ -158,7 +161,8 @@ class LogReader {
       path.back().depart += ticks;
     } else {
       const Ticks arrive =
-          path.back().depart + move_duration(instance_, agent, ends[0], ends[1], ticks);
+          path.back().depart +
+          (has_agents_ ? move_duration(instance_, agent, ends[0], ends[1], ticks) : ticks);
       path.push_back({ends[1], arrive, arrive});
     }
     return std::nullopt;
@@ -228,7 +232,8 @@ class LogReader {
     const auto has = [&](VertexId v) {
       return std::find(found.begin(), found.end(), v) != found.end();
     };
-    const VertexId expected = near.before.value_or(instance_.agent(near.agent).start);
+    if (!near.before && !has_agents_) return found.empty() ? std::nullopt : std::optional(found[0]);
+    const VertexId expected = near.before ? *near.before : instance_.agent(near.agent).start;
     if (has(expected)) return expected;
     if (near.moves)
       for (const EdgeId e : instance_.roadmap().out_edges(expected))
@@ -264,6 +269,7 @@ class LogReader {
   const XmlFile& xml_;
   const Instance& instance_;
   const GridRoadmap* grid_;
+  const bool has_agents_;
   PlanFile file_;
   std::vector<VertexId> by_x_;  // Once coordinates are asked for.
   std::int64_t num_sections_ = 0;
@@ -275,7 +281,18 @@ Result<PlanFile> read_ccbs_log(const std::string& text, const std::string& file,
                                const Instance& instance, const GridRoadmap* grid) {
   const auto xml = XmlFile::parse(text, file);
   if (!xml) return xml.error();
-  return LogReader(*xml, instance, grid).run();
+  return LogReader(*xml, instance, grid, true).run();
+}
+
+Result<Plan> read_log_alone(std::istream& in, const std::string& file, const Instance& roadmap,
+                            const GridRoadmap* grid) {
+  const auto text = text::read_all(in, file);
+  if (!text) return text.error();
+  const auto xml = XmlFile::parse(*text, file);
+  if (!xml) return xml.error();
+  auto read = LogReader(*xml, roadmap, grid, false).run();
+  if (!read) return read.error();
+  return std::move(read->plan);
 }
 
 std::string why_not_in_log(const Instance& instance, AgentId agent, const Path& path) {

@@ -36,8 +36,10 @@ class Finder {
     if (auto found = find_polygon_in_space()) return found;
     if (auto found = find_unsupported()) return found;
     const auto start = [](const Agent& agent) { return &agent.start; };
-    if (auto found = find_overlap(start, "starts")) return found;
-    if (auto found = find_overlap(place_of_rest, "goals")) return found;
+    const auto parks = [](const Agent& agent) { return agent.overlaps_at_start; };
+    const auto never = [](const Agent&) { return false; };
+    if (auto found = find_overlap(start, parks, "starts")) return found;
+    if (auto found = find_overlap(place_of_rest, never, "goals")) return found;
     if (auto found = find_obstacle()) return found;
     for (std::size_t i = 0; i < agents_.size(); ++i)
       if (auto found = find_alone(i)) return found;
@@ -48,9 +50,11 @@ class Finder {
   [[nodiscard]] std::string name(std::size_t i) const { return words_.agent(AgentId(i)); }
   [[nodiscard]] std::optional<Error> find_polygon_in_space() const;
   [[nodiscard]] std::optional<Error> find_unsupported() const;
-  /// `place_of(agent)`: null if it need not be anywhere.
-  template <class PlaceOf>
+  /// `place_of(agent)`: null if it need not be anywhere. `may_overlap(agent)`: with others that
+  /// may.
+  template <class PlaceOf, class MayOverlap>
   [[nodiscard]] std::optional<Error> find_overlap(const PlaceOf& place_of,
+                                                  const MayOverlap& may_overlap,
                                                   const std::string& what) const;
   [[nodiscard]] std::optional<Error> find_obstacle() const;
   [[nodiscard]] std::optional<Error> find_alone(std::size_t i) const;
@@ -95,18 +99,21 @@ std::optional<Error> Finder::find_unsupported() const {
   return std::nullopt;
 }
 
-template <class PlaceOf>
-std::optional<Error> Finder::find_overlap(const PlaceOf& place_of, const std::string& what) const {
-  geometry::BodyIndex placed;
+template <class PlaceOf, class MayOverlap>
+std::optional<Error> Finder::find_overlap(const PlaceOf& place_of, const MayOverlap& may_overlap,
+                                          const std::string& what) const {
+  geometry::BodyIndex strict, lenient;
   for (std::size_t j = 0; j < agents_.size(); ++j) {
     const VertexId* const w = place_of(agents_[j]);
     if (w == nullptr) continue;
     const Body& body = body_at(*roads_, agents_[j], *w);
-    if (const auto i = placed.first_overlap(body, roads_->place(*w)))
+    auto i = strict.first_overlap(body, roads_->place(*w));
+    if (!i && !may_overlap(agents_[j])) i = lenient.first_overlap(body, roads_->place(*w));
+    if (i)
       return no_plan("the " + what + " of " + name(*i) + " at " +
                      words_.vertex(*place_of(agents_[*i])) + " and " + name(j) + " at " +
                      words_.vertex(*w) + " overlap");
-    placed.add(j, body, roads_->place(*w));
+    (may_overlap(agents_[j]) ? lenient : strict).add(j, body, roads_->place(*w));
   }
   return std::nullopt;
 }

@@ -20,6 +20,7 @@
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/core/decimal.hpp"
 #include "quadrille/geometry/body_index.hpp"
+#include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -97,29 +98,50 @@ std::optional<Error> check_under_way(const Roadmap& roadmap, const Agent& agent,
                    ", to which no edge may lead, and from which one has to lead on");
   if (agent.release > now)
     return invalid(name(index) + " is under way, and cannot be released later");
+  if (agent.overlaps_at_start)
+    return invalid(name(index) + " is under way, and cannot overlap with others at its start");
   return std::nullopt;
 }
 
 /// An agent that overlaps an earlier one when each is where it has to be. `place_of(agent)`: null
-/// if it need not be anywhere.
-template <class PlaceOf>
+/// if it need not be anywhere. `may_overlap(agent)`: with others that may.
+template <class PlaceOf, class MayOverlap>
 std::optional<Error> check_apart(const Roadmap& roadmap, const std::vector<Agent>& agents,
-                                 const PlaceOf& place_of, const std::string& what,
-                                 std::size_t& at) {
-  geometry::BodyIndex placed;
+                                 const PlaceOf& place_of, const MayOverlap& may_overlap,
+                                 const std::string& what, std::size_t& at) {
+  geometry::BodyIndex strict, lenient;
   for (std::size_t j = 0; j < agents.size(); ++j) {
     const VertexId* const place = place_of(agents[j]);
     if (place == nullptr) continue;
     const geometry::Place here = roadmap.place(*place);
     const Body& body = body_at(roadmap, agents[j], *place);
-    if (const auto i = placed.first_overlap(body, here)) {
+    auto i = strict.first_overlap(body, here);
+    if (!i && !may_overlap(agents[j])) i = lenient.first_overlap(body, here);
+    if (i) {
       at = j;
       return no_plan("the " + what + " of agents " + std::to_string(*i) + " and " +
                      std::to_string(j) + " overlap");
     }
-    placed.add(j, body, here);
+    (may_overlap(agents[j]) ? lenient : strict).add(j, body, here);
   }
   return std::nullopt;
+}
+
+/// See Instance::parked_pairs. Quadratic in the number of agents that may overlap.
+std::vector<std::pair<AgentId, AgentId>> find_parked_pairs(const Roadmap& roadmap,
+                                                           const std::vector<Agent>& agents) {
+  std::vector<std::size_t> lenient;
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    if (agents[i].overlaps_at_start) lenient.push_back(i);
+  std::vector<std::pair<AgentId, AgentId>> pairs;
+  for (std::size_t k = 0; k < lenient.size(); ++k)
+    for (std::size_t l = k + 1; l < lenient.size(); ++l) {
+      const Agent &a = agents[lenient[k]], &b = agents[lenient[l]];
+      if (geometry::bodies_overlap(body_at(roadmap, a, a.start), roadmap.place(a.start),
+                                   body_at(roadmap, b, b.start), roadmap.place(b.start)))
+        pairs.emplace_back(AgentId(lenient[k]), AgentId(lenient[l]));
+    }
+  return pairs;
 }
 
 std::optional<Error> check_reachable(const Roadmap& roadmap, const std::vector<Agent>& agents,
@@ -214,8 +236,10 @@ std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>&
     if (auto error = check_under_way(roadmap, agents[at], at, now)) return error;
   }
   const auto start = [](const Agent& agent) { return &agent.start; };
-  if (auto error = check_apart(roadmap, agents, start, "starts", at)) return error;
-  if (auto error = check_apart(roadmap, agents, place_of_rest, "goals", at)) return error;
+  const auto parks = [](const Agent& agent) { return agent.overlaps_at_start; };
+  const auto never = [](const Agent&) { return false; };
+  if (auto error = check_apart(roadmap, agents, start, parks, "starts", at)) return error;
+  if (auto error = check_apart(roadmap, agents, place_of_rest, never, "goals", at)) return error;
   return check_reachable(roadmap, agents, at);
 }
 
@@ -336,6 +360,7 @@ Result<Instance> Instance::build(std::shared_ptr<const Roadmap> roadmap, std::ve
     instance.has_shapes_ = instance.has_shapes_ || !agent.shapes.empty();
     instance.class_of_.push_back(known->second);
   }
+  instance.parked_pairs_ = find_parked_pairs(*roadmap, agents);
   instance.roadmap_ = std::move(roadmap);
   instance.has_goal_sets_ = std::any_of(
       agents.begin(), agents.end(), [](const Agent& agent) { return !agent.goals.is_single(); });

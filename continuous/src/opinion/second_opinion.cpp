@@ -79,6 +79,13 @@ std::vector<Leg> legs_of(const Stops& stops, const Place& place, bool leaves, Ti
   return legs;
 }
 
+bool stands(const Leg& leg) { return leg.stands || leg.from == leg.to; }
+
+/// Whether the leg is a stay where the agent begins, or its first move.
+bool is_first(const std::vector<Leg>& legs, std::size_t k) {
+  return k == 0 || (k == 1 && stands(legs[0]));
+}
+
 class Opinion {
  public:
   Opinion(const Instance& instance, const Plan& plan) : instance_(instance), plan_(plan) {
@@ -176,9 +183,26 @@ class Opinion {
     return checks_.emplace(key, std::move(check)).first->second;
   }
 
+  /// Of two who overlap at their starts, where one of them stands: both do, or they are apart when
+  /// the other one's move ends.
+  static bool part(const EncounterCheck& check, const Leg& a, const Leg& b) {
+    if (stands(a) == stands(b)) return stands(a);
+    const auto at_end = [](const Leg& leg) {
+      Leg rest = stands(leg) ? leg : Leg{leg.to, leg.to, 0, 1};
+      rest.begin = 0;
+      rest.end = 1;
+      return rest;
+    };
+    return check.look(at_end(a), at_end(b)) != Encounter::collision;
+  }
+
   void compare(Meeting meeting, const std::vector<Leg>& a, const std::vector<Leg>& b) {
     const bool has_looks =
         !looks_[meeting.agent].empty() || (meeting.other && !looks_[*meeting.other].empty());
+    const auto& parked = instance_.parked_pairs();
+    const bool is_parked =
+        meeting.other &&
+        std::binary_search(parked.begin(), parked.end(), std::pair(meeting.agent, *meeting.other));
     std::size_t first = 0;  // of b: those before it end before the leg of a begins
     bool meets = false;
     for (std::size_t l = 0; l < a.size(); ++l) {
@@ -189,6 +213,7 @@ class Opinion {
         if (has_looks && std::max(leg.begin, b[k].begin) >= std::min(leg.end, b[k].end)) continue;
         ++opinion_.num_looks;
         const EncounterCheck& check = between(look_of(meeting.agent, l), other_look(meeting, k));
+        if (is_parked && is_first(a, l) && is_first(b, k) && part(check, leg, b[k])) continue;
         const Encounter encounter = check.look(leg, b[k]);
         if (encounter == Encounter::clear || (meets && encounter == Encounter::touch)) continue;
         meets = true;

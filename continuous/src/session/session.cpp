@@ -61,6 +61,7 @@ std::optional<Error> Session::Parts::refuse(const Agent& agent) const {
       return invalid("there is no vertex " + std::to_string(v.index()));
   if (ends.size() == 1) return invalid("a member has no goal");
   if (agent.under_way) return invalid("a member is put under way by its edge");
+  if (agent.overlaps_at_start) return invalid("members do not overlap at their starts");
   return std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 
 #include "certificate/certify.hpp"
 #include "joint/joint_groups.hpp"
+#include "model/parked.hpp"
 #include "model/since_now.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/verify.hpp"
@@ -35,6 +36,50 @@ class Border {
  private:
   const Instance& instance_;
 };
+
+/// The same of agents that overlap at their starts: inside, these are places of their own.
+class ParkedBorder {
+ public:
+  ParkedBorder(const Instance& instance, const PrivateStarts& starts)
+      : instance_(instance), starts_(starts) {}
+
+  [[nodiscard]] bool begins_at_0() const { return starts_.is_empty(); }
+  [[nodiscard]] const Instance& instance() const { return instance_; }
+  [[nodiscard]] const Instance& since_now() const { return starts_.instance(); }
+  [[nodiscard]] VerifyReport verify(const Plan& plan) const {
+    return continuous::verify(instance_, plan);
+  }
+  void enter(Plan& plan) const { starts_.enter(plan); }
+  void leave(Plan& plan) const { starts_.leave(plan); }
+  [[nodiscard]] static Cost now() { return 0; }
+
+ private:
+  const Instance& instance_;
+  const PrivateStarts& starts_;
+};
+
+/// Copies are called what they are copies of.
+void rename_places(SolveOutcome& outcome, const PrivateStarts& starts) {
+  for (VertexId& v : outcome.bottleneck) v = starts.original(v);
+  if (!outcome.attribution) return;
+  for (CollisionSite& site : outcome.attribution->sites)
+    for (Place* const place : {&site.place, site.other ? &*site.other : nullptr})
+      if (place != nullptr) {
+        place->from = starts.original(place->from);
+        place->to = starts.original(place->to);
+      }
+}
+
+Result<SolveOutcome> solve_parked(const Instance& instance, const SolveOptions& options) {
+  if (instance.parked_pairs().empty()) return solve_from_0(instance, options, WarmStart{});
+  const PrivateStarts starts(instance);
+  auto outcome = solve::search_from_0(ParkedBorder(instance, starts), options,
+                                      [](const Instance& inner, const SolveOptions& asked) {
+                                        return solve_from_0(inner, asked, WarmStart{});
+                                      });
+  if (outcome) rename_places(*outcome, starts);
+  return outcome;
+}
 
 /// What solve::Frame asks for.
 class Domain {
@@ -166,9 +211,7 @@ std::optional<System> parse_system(std::string_view text) noexcept {
 }
 
 Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options) {
-  return search_from_0(instance, options, [](const Instance& from_0, const SolveOptions& asked) {
-    return solve_from_0(from_0, asked, WarmStart{});
-  });
+  return search_from_0(instance, options, solve_parked);
 }
 
 Result<SolveOutcome> search_from_0(const Instance& instance, const SolveOptions& options,

@@ -5,6 +5,7 @@
 #include <deque>
 #include <utility>
 
+#include "model/parked.hpp"
 #include "theory/pair_replay.hpp"
 
 namespace quadrille::continuous {
@@ -139,12 +140,11 @@ std::string LemmaAuditor::audit_usages(const sat::Lemma& lemma) const {
 std::string LemmaAuditor::audit_goal_bans(const Obstacle& o, AgentId resident, VertexId goal,
                                           Ticks tick) const {
   const Instance& instance = model_.instance();
-  ShapePairs pair = bodies(o.agent, resident);
   if (instance.agent(resident).leaves) return "an agent that leaves is said to stay at its goal";
   for (const Ban& ban : o.bans) {
     bool holds = false;
     if (ban.kind == Ban::Kind::stay) {
-      holds = ban.when.begin >= tick - 1 && pair.overlap(stand(VertexId(ban.place)), stand(goal));
+      holds = ban.when.begin >= tick - 1 && overlap(o.agent, VertexId(ban.place), resident, goal);
     } else {
       const Ticks duration = instance.duration(instance.class_of(o.agent), EdgeId(ban.place));
       const Ticks arrive = std::max(ban.when.begin, tick - 1);
@@ -233,8 +233,7 @@ std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
 
 // Unsafe offsets have no gaps and contacts neither, so that the extreme cases decide.
 bool LemmaAuditor::all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b) const {
-  if (a.is_end() && b.is_end())
-    return bodies(i, j).overlap(stand(VertexId(a.place)), stand(VertexId(b.place)));
+  if (a.is_end() && b.is_end()) return overlap(i, VertexId(a.place), j, VertexId(b.place));
   if (a.kind == Ban::Kind::stay) return b.kind == Ban::Kind::start && all_collide(j, b, i, a);
   if (a.when.end >= kForever || b.when.end >= kForever) return false;
   if (b.kind == Ban::Kind::start) {
@@ -254,10 +253,16 @@ bool LemmaAuditor::all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b)
 
 bool LemmaAuditor::collides(AgentId i, EdgeId e, Ticks start, AgentId j, VertexId place,
                             Ticks arrive, Ticks leave) const {
+  ShapePairs pair = bodies(i, j);
+  if (ParkedPlaces(model_.instance()).may_move(e, place, pair)) return false;
   const ShapePairs::Stand there = stand(place);
-  return bodies(i, j).collide(move(i, e.value()),
-                              {there.shape, geometry::rest(there.place, leave - arrive)},
-                              arrive - start);
+  return pair.collide(move(i, e.value()),
+                      {there.shape, geometry::rest(there.place, leave - arrive)}, arrive - start);
+}
+
+bool LemmaAuditor::overlap(AgentId i, VertexId v, AgentId j, VertexId w) const {
+  return !ParkedPlaces(model_.instance()).may_stand(v, w) &&
+         bodies(i, j).overlap(stand(v), stand(w));
 }
 
 ShapePairs LemmaAuditor::bodies(AgentId i, AgentId j) const {

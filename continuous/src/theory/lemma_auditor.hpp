@@ -51,6 +51,8 @@ class LemmaAuditor final : public sat::ClauseAuditor {
   /// Whether i's move from `start` on collides with a stay of j at `place`.
   [[nodiscard]] bool collides(AgentId i, EdgeId e, Ticks start, AgentId j, VertexId place,
                               Ticks arrive, Ticks leave) const;
+  /// Two that stand there collide.
+  [[nodiscard]] bool overlap(AgentId i, VertexId v, AgentId j, VertexId w) const;
   [[nodiscard]] ShapePairs bodies(AgentId i, AgentId j) const;
   [[nodiscard]] ShapePairs::Move move(AgentId i, std::uint32_t edge) const;
   [[nodiscard]] ShapePairs::Stand stand(VertexId v) const;

@@ -17,7 +17,8 @@ PairReplay::PairReplay(const Instance& instance, Party first, Party second)
       first_(std::move(first)),
       second_(std::move(second)),
       bodies_(pairs_of(instance, first_.agent, second_.agent)),
-      swapped_(pairs_of(instance, second_.agent, first_.agent)) {
+      swapped_(pairs_of(instance, second_.agent, first_.agent)),
+      parked_(instance) {
   for (Party* party : {&first_, &second_})
     if (const auto& deadline = instance.agent(party->agent).deadline)
       party->bound = std::min(party->bound, *deadline + 1);
@@ -127,9 +128,12 @@ bool PairReplay::collide(const State& a, const State& b) {
   const bool a_moves = a.kind == Kind::moves, b_moves = b.kind == Kind::moves;
   if (a_moves && b_moves)
     return bodies_.collide(move(first_, a), move(second_, b), a.progress - b.progress);
+  if (a_moves && parked_.may_move(EdgeId(a.place), VertexId(b.place), bodies_)) return false;
+  if (b_moves && parked_.may_move(EdgeId(b.place), VertexId(a.place), swapped_)) return false;
   if (a_moves) return bodies_.collide(move(first_, a), rest(b), a.progress);
   if (b_moves) return swapped_.collide(move(second_, b), rest(a), b.progress);
-  return bodies_.overlap(stand(a), stand(b));
+  return !parked_.may_stand(VertexId(a.place), VertexId(b.place)) &&
+         bodies_.overlap(stand(a), stand(b));
 }
 
 bool PairReplay::may_use(const Party& party, std::uint32_t edge) const {

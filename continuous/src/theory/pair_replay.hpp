@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/parked.hpp"
 #include "model/shape_pairs.hpp"
 #include "paths/bans.hpp"
 
@@ -53,6 +54,7 @@ class PairReplay {
   const Instance& instance_;
   Party first_, second_;
   ShapePairs bodies_, swapped_;
+  ParkedPlaces parked_;
 };
 
 }  // namespace quadrille::continuous

@@ -305,6 +305,7 @@ class Replay {
     const Ticks begin = std::max(p.begin, q.begin), end = std::min(p.end, q.end);
     if (begin >= end) return;
     const bool are_agents = pair.second < num_agents_;
+    if (are_agents && are_parked(pair, begin)) return;
     const double ceiling = are_agents ? least_.ceiling() : -1;
     const FootprintPair& bodies = footprints(a, b);
     const RealStep step = real_step(p, q, begin, end);
@@ -331,6 +332,21 @@ class Replay {
     if (here.gap < last.nearest.gap) std::tie(last.a, last.b, last.nearest) = std::tie(p, q, here);
     last.end = last_touch;
     last.goes_on = goes_on;
+  }
+
+  /// Both may overlap at their starts and do, where one of them is and the other one is as well or
+  /// makes its first move, at whose beginning they overlap, and at whose end they do not.
+  [[nodiscard]] bool are_parked(Pair pair, Ticks begin) {
+    const auto parks = [&](std::size_t t) { return instance_.agent(AgentId(t)).overlaps_at_start; };
+    if (!parks(pair.first) || !parks(pair.second)) return false;
+    const Traveller &a = travellers_[pair.first], &b = travellers_[pair.second];
+    const Piece &p = *a.piece, &q = *b.piece;
+    const bool p_stands = p.start == p.goal, q_stands = q.start == q.goal;
+    const auto overlap = [&](Ticks tick) {
+      return footprints(a, b).interiors_meet(exact_step(p, q, tick, tick));
+    };
+    if (!p.is_first || !q.is_first || (!p_stands && !q_stands) || !overlap(begin)) return false;
+    return p_stands ? q_stands || !overlap(q.end) : !overlap(p.end);
   }
 
   [[nodiscard]] Violation violation(Pair pair, const Collision& c) const {

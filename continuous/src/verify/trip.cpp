@@ -22,6 +22,13 @@ Trip::At Trip::at(std::size_t k) const {
 }
 
 std::optional<Piece> Trip::next() {
+  const bool is_first = stop_ == 0;
+  std::optional<Piece> piece = next_piece();
+  if (piece) piece->is_first = is_first;
+  return piece;
+}
+
+std::optional<Piece> Trip::next_piece() {
   while (stop_ < size()) {
     const At here = at(stop_);
     const bool is_last = stop_ + 1 == size();

@@ -14,10 +14,11 @@ namespace quadrille::continuous {
 struct Piece {
   Ticks begin, end;
   Point from, to;
-  VertexId start, goal;  ///< Of an obstacle: none.
-  Ticks behind = 0;      ///< Ticks of the way from `from` to `to` that are over at `begin`,
-  Ticks whole = 0;       ///< of so many; 0: end - begin.
-  bool stands = false;   ///< On that way.
+  VertexId start, goal;   ///< Of an obstacle: none.
+  Ticks behind = 0;       ///< Ticks of the way from `from` to `to` that are over at `begin`,
+  Ticks whole = 0;        ///< of so many; 0: end - begin.
+  bool stands = false;    ///< On that way.
+  bool is_first = false;  ///< A stay at the start of the path, or the move from there.
 
   /// Of the whole way so many ticks lie behind at a tick, of so many.
   [[nodiscard]] Ticks done(Ticks tick) const { return stands ? behind : behind + (tick - begin); }
@@ -40,6 +41,7 @@ class Trip {
   [[nodiscard]] std::optional<Piece> next();
 
  private:
+  [[nodiscard]] std::optional<Piece> next_piece();
   struct At {
     Ticks arrive, depart;
     Point place;

@@ -41,11 +41,10 @@ class MddProblem final : public sat::CostProblem {
   /// Models that were looked at from outside of the search, and how many of them had collisions.
   [[nodiscard]] std::int64_t num_checks() const noexcept { return num_checks_; }
   [[nodiscard]] std::int64_t num_rejected() const noexcept { return num_rejected_; }
-
- private:
   /// The largest delay that a plan of cost `bound` leaves to an agent.
   [[nodiscard]] Timestep allowed_delay(AgentId agent, Cost bound) const;
 
+ private:
   MddModel& model_;
   sat::Engine& engine_;
   CollisionTheory* theory_;

@@ -24,6 +24,13 @@ Cost Plan::cost(Objective objective) const {
   return objective == Objective::sum_of_costs ? sum : largest;
 }
 
+std::int64_t num_moves(const Plan& plan) {
+  std::int64_t number = 0;
+  for (const Path& path : plan.paths)
+    for (std::size_t t = 1; t < path.size(); ++t) number += path[t] == path[t - 1] ? 0 : 1;
+  return number;
+}
+
 void trim(Plan& plan) {
   for (Path& path : plan.paths) path.resize(static_cast<std::size_t>(arrival(path)) + 1);
 }

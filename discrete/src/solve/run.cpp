@@ -12,6 +12,7 @@
 #include "lazy/lazy_theory.hpp"
 #include "mdd/collision_theory.hpp"
 #include "mdd/eager_collisions.hpp"
+#include "mdd/fewest_moves.hpp"
 #include "mdd/lemma_auditor.hpp"
 #include "mdd/mdd_model.hpp"
 #include "mdd/mdd_problem.hpp"
@@ -68,6 +69,9 @@ class MddRun final : public Run {
   sat::Engine& engine() override { return *engine_; }
   const sat::Engine& engine() const override { return *engine_; }
   sat::CostProblem& problem() override { return *problem_; }
+  std::unique_ptr<sat::CostProblem> fewest_moves(Cost cost) override {
+    return std::make_unique<FewestMoves>(model_, *problem_, *engine_, cost);
+  }
   const Plan& plan() const override { return problem_->plan(); }
   std::int64_t num_checks() const override {
     return problem_->num_checks() + (theory_ ? theory_->num_checks() : 0);

@@ -31,6 +31,12 @@ class Run {
   [[nodiscard]] virtual sat::Engine& engine() = 0;
   [[nodiscard]] virtual const sat::Engine& engine() const = 0;
   [[nodiscard]] virtual sat::CostProblem& problem() = 0;
+  /// Of the models with MDDs: the plans that cost at most `cost`, which some plan does, by how many
+  /// moves they have. It is used in the place of `problem`, and dies before the run. Otherwise
+  /// null.
+  [[nodiscard]] virtual std::unique_ptr<sat::CostProblem> fewest_moves(Cost /*cost*/) {
+    return nullptr;
+  }
   [[nodiscard]] virtual const Plan& plan() const = 0;
   /// The paths that the search had at the end of its last slice, or has now if there was none; they
   /// may collide. Empty if the model has no paths.

@@ -19,6 +19,7 @@ constexpr Names<System, 4> kSystems{{{System::dpll, "dpll"},
                                      {System::mdd_sat, "mdd-sat"}}};
 constexpr Names<CostSearch, 2> kSearches{
     {{CostSearch::iterative, "iterative"}, {CostSearch::core_guided, "core-guided"}}};
+constexpr Names<Tie, 2> kTies{{{Tie::any, "any"}, {Tie::fewest_moves, "fewest-moves"}}};
 constexpr Names<MddGrowth, 2> kGrowths{
     {{MddGrowth::on_demand, "on-demand"}, {MddGrowth::full, "full"}}};
 
@@ -75,6 +76,9 @@ std::string_view to_string(MddGrowth growth) noexcept { return name_of(kGrowths,
 std::optional<MddGrowth> parse_mdd_growth(std::string_view text) noexcept {
   return value_of(kGrowths, text);
 }
+
+std::string_view to_string(Tie tie) noexcept { return name_of(kTies, tie); }
+std::optional<Tie> parse_tie(std::string_view text) noexcept { return value_of(kTies, text); }
 
 Result<CheckSchedule> parse_check_schedule(std::string_view text) {
   CheckSchedule schedule;

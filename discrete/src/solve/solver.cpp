@@ -17,6 +17,7 @@
 #include "quadrille/solve/time_origin.hpp"
 #include "solve/first_checks.hpp"
 #include "solve/portfolio.hpp"
+#include "solve/tie_break.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -60,6 +61,19 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
                   std::string(options.proof ? "a certificate" : "an explanation") +
                       " knows no rules: one-way edges, agents that leave, releases, deadlines, "
                       "waypoints, blockages, robust plans");
+  if (options.tie == Tie::fewest_moves) {
+    if (options.gap_percent)
+      return refuse(ErrorCode::out_of_range,
+                    "the fewest moves are those of plans of least cost: there is no gap then");
+    if (instance.has_goal_sets() || !MddModel::knows(instance))
+      return refuse(ErrorCode::out_of_range,
+                    "the fewest moves are not known for agents with several goals or waypoints");
+    if (vertices > kMaxMddVertices)
+      return refuse(ErrorCode::out_of_range,
+                    "the graph has " + std::to_string(vertices) + " vertices, more than " +
+                        std::to_string(kMaxMddVertices) +
+                        ", which are the most for plans with the fewest moves");
+  }
   if (options.system != System::dpll && !MddModel::knows(instance))
     return refuse(ErrorCode::out_of_range, "the system " + std::string(to_string(options.system)) +
                                                " knows no waypoints; they need the system dpll");
@@ -117,29 +131,14 @@ class Domain {
 
   void search(LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
               Knowledge& known, solve::Pulse<Plan>& pulse) {
-    pulse.enter(Phase::feasibility);
-    if (instance_.is_plain()) {
-      Feasibility feasibility = decide_feasibility(instance_, limits);
-      invariant_ = feasibility.invariant;
-      if (!feasibility.feasible) known.infeasible = as_answer(std::move(feasibility));
-    } else {
-      known.infeasible = refuted_by_rules(instance_, limits);
-    }
-    if (known.infeasible) return;
-    account_ = account;
-    // The published systems know nothing of groups, and a certificate is one for all.
-    if (options_.system == System::dpll && !options_.proof) {
-      const auto groups = solve::with_lone_agents_together(independent_groups(instance_));
-      if (groups.size() > 1) {
-        Apart(*this, options_, account, limits, known, pulse).run(groups);
-        return;
-      }
-    }
-    solve::Exchange<Message> alone;
-    search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone},
-                        proof_);
-    if (known.has_floor) floor_ = known.floor;
+    search_costs(limits, account, known, pulse);
+    if (options_.tie == Tie::any || !known.plan || known.infeasible || known.error) return;
+    moves_ = count_moves(instance_, *known.plan);
+    if (*known.cost == known.lower())
+      moves_ = break_tie(instance_, options_, tuner_, account, limits.conflicts(), known);
   }
+  /// Those of the plan that is known in the end, if that was asked for.
+  [[nodiscard]] const std::optional<Moves>& moves() const noexcept { return moves_; }
 
   // What solve::Apart asks for.
   [[nodiscard]] Apart::Search search_of(const std::vector<AgentId>& agents) const {
@@ -173,6 +172,32 @@ class Domain {
   }
 
  private:
+  void search_costs(LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
+                    Knowledge& known, solve::Pulse<Plan>& pulse) {
+    pulse.enter(Phase::feasibility);
+    if (instance_.is_plain()) {
+      Feasibility feasibility = decide_feasibility(instance_, limits);
+      invariant_ = feasibility.invariant;
+      if (!feasibility.feasible) known.infeasible = as_answer(std::move(feasibility));
+    } else {
+      known.infeasible = refuted_by_rules(instance_, limits);
+    }
+    if (known.infeasible) return;
+    account_ = account;
+    // The published systems know nothing of groups, and a certificate is one for all.
+    if (options_.system == System::dpll && !options_.proof) {
+      const auto groups = solve::with_lone_agents_together(independent_groups(instance_));
+      if (groups.size() > 1) {
+        Apart(*this, options_, account, limits, known, pulse).run(groups);
+        return;
+      }
+    }
+    solve::Exchange<Message> alone;
+    search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone},
+                        proof_);
+    if (known.has_floor) floor_ = known.floor;
+  }
+
   /// Of a solve that a limit ended before the search began.
   [[nodiscard]] Cost bound_without_claim(const SolveOutcome& outcome) const {
     return options_.known_lower_bound ? 0 : outcome.lower_bound;
@@ -184,6 +209,7 @@ class Domain {
   std::shared_ptr<ResourceAccount> account_;  // of the search
   ProofDraft proof_;
   Invariant invariant_;
+  std::optional<Moves> moves_;
   std::optional<Cost> floor_;  // what agents cost when each is alone
 };
 
@@ -192,11 +218,10 @@ class Domain {
 Result<SolveOutcome> solve_tuned(const Instance& instance, const SolveOptions& options,
                                  const Tuner& tuner) {
   if (auto error = check_options(instance, options)) return *std::move(error);
-  const auto search = [&](const Instance& from_0, SolveOptions asked) {
-    // First plans and their improvement know no rules.
-    asked.first_plan = asked.first_plan && from_0.is_plain();
+  const auto search = [&](const Instance& from_0, const SolveOptions& asked) {
     Domain domain(from_0, asked, tuner);
     auto outcome = solve::Frame<Domain>(domain, asked).solve();
+    if (outcome && outcome->plan) outcome->moves = domain.moves();
     if (outcome && asked.proof) domain.certify(outcome.value());
     return outcome;
   };

@@ -17,7 +17,7 @@ bool may_search_from_above(const SolveOptions& options) noexcept {
 }  // namespace
 
 Features features_of(const Instance& instance) {
-  return {is_open(instance.graph()), instance.num_agents()};
+  return {is_open(instance.graph()), instance.num_agents(), instance.is_plain()};
 }
 
 /// Measured: on open maps the search from above closes most of the gap; elsewhere it takes time
@@ -36,7 +36,7 @@ Tuning choose_tuning(const Features& features, const SolveOptions& options) {
     settings.above_share = settings.above_share_open;
     settings.above_candidates_within = settings.above_candidates_within_open;
   }
-  tuning.cores = {settings.above_share > 0 && may_search_from_above(options),
+  tuning.cores = {settings.above_share > 0 && features.is_plain && may_search_from_above(options),
                   settings.core_most_lift > 1};
   return tuning;
 }

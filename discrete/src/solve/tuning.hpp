@@ -15,6 +15,7 @@ namespace quadrille::discrete {
 struct Features {
   bool is_open = false;  ///< See model/open_maps.hpp.
   std::size_t num_agents = 0;
+  bool is_plain = true;  ///< Searches from above know no rules.
 };
 [[nodiscard]] Features features_of(const Instance& instance);
 

@@ -17,6 +17,7 @@ struct Position {
   bool is_moving = false, is_done = false;
   std::size_t place = 0;  // an edge or a vertex
   Ticks age = 0;          // of a move
+  bool has_left = false;  // its start and its first move; of agents that overlap there only
   friend auto operator<=>(const Position&, const Position&) = default;
 };
 /// At `now`, or later if that is after all that the clock knows.
@@ -127,7 +128,7 @@ class Search {
                 state.now, state.now + instance_.duration(instance_.class_of(i), e)},
                edge.shape))
         continue;
-      next.agents[k] = {true, false, e.index(), 0};
+      next.agents[k] = {true, false, e.index(), 0, p.has_left};
       decide(next, k + 1);
     }
   }
@@ -146,7 +147,8 @@ class Search {
       if (!p.is_moving) continue;
       const EdgeId e(p.place);
       if (++p.age == instance_.duration(instance_.class_of(AgentId(k)), e))
-        p = {false, false, instance_.roadmap().edge(e).to.index(), 0};
+        p = {false, false, instance_.roadmap().edge(e).to.index(), 0,
+             instance_.agent(AgentId(k)).overlaps_at_start};
     }
     reach(next, cost_ + (objective_ == Objective::makespan ? 1 : busy));
   }
@@ -154,7 +156,9 @@ class Search {
   /// Whether the move of agent i collides in the coming tick, with a stay, or ever, with another
   /// move that begins now.
   bool collide(const Position& a, AgentId i, const Position& b, AgentId j) {
-    if (!a.is_moving || (b.is_done && instance_.agent(j).leaves)) return false;
+    if (b.is_done && instance_.agent(j).leaves) return false;
+    if (are_parked(a, i, b, j)) return false;
+    if (!a.is_moving) return do_overlap_later(a, i, b, j);
     const ClassId ci = instance_.class_of(i), cj = instance_.class_of(j);
     if (b.is_moving) {
       if (b.age != 0) return false;
@@ -163,6 +167,29 @@ class Search {
     }
     const auto clear = meetings_.stay(ci, EdgeId(a.place), cj, VertexId(b.place));
     return clear && -(a.age + 1) < clear->after_leaving && a.age < clear->before_arrival;
+  }
+
+  /// They overlap at their starts, where one of them is, and the other one is or comes from, to a
+  /// place where they are apart.
+  bool are_parked(const Position& a, AgentId i, const Position& b, AgentId j) const {
+    const Agent &x = instance_.agent(i), &y = instance_.agent(j);
+    if (!x.overlaps_at_start || !y.overlaps_at_start || a.has_left || b.has_left) return false;
+    const auto overlap = [&](std::size_t v, std::size_t w) {
+      return meet(stay(v, 0, 1), x.body, stay(w, 0, 1), y.body);
+    };
+    const auto end = [&](const Position& p) {
+      return p.is_moving ? instance_.roadmap().edge(EdgeId(p.place)).to.index() : p.place;
+    };
+    if ((a.is_moving && b.is_moving) || !overlap(x.start.index(), y.start.index())) return false;
+    return a.is_moving == b.is_moving || !overlap(end(a), end(b));
+  }
+  /// Two that stand where they did not overlap from the beginning: only who may park there comes
+  /// there without a collision on the way.
+  bool do_overlap_later(const Position& a, AgentId i, const Position& b, AgentId j) const {
+    const Agent &x = instance_.agent(i), &y = instance_.agent(j);
+    if (b.is_moving || (a.is_done && x.leaves) || !x.overlaps_at_start || !y.overlaps_at_start)
+      return false;
+    return meet(stay(a.place, 0, 1), x.body, stay(b.place, 0, 1), y.body);
   }
 
   static constexpr Ticks kEnd = 1'000'000'000;  // later than all else

@@ -175,6 +175,34 @@ TEST_P(RulesRandom, AreReadAsTheyWereWritten) {
   }
 }
 
+// Where the search for the bound gets no time, plans are those of prioritised planning, and made
+// cheaper: valid ones, for most instances.
+TEST_P(RulesRandom, FirstPlansKeepAllRules) {
+  int found = 0, asked = 0;
+  for (std::size_t number = 0; number < scaled(60); ++number) {
+    Random random(GetParam().seed + 900'000 + number);
+    const Instance plain = random_grid(random, {7, 10, 15, 5, 12});
+    const Instance instance = with_random_rules(random, plain, GetParam().kinds);
+    if (instance.is_plain()) continue;
+    SolveOptions options;
+    options.objective = random.percent(50) ? Objective::sum_of_costs : Objective::makespan;
+    options.limits.conflicts = 1;
+    options.threads = random.percent(25) ? 2 : 1;
+    const auto outcome = solve(instance, options);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    ASSERT_FALSE(outcome->internal_error) << outcome->internal_error->message << "\n"
+                                          << text_of(instance, {});
+    if (outcome->status == Status::infeasible) continue;
+    ++asked;
+    if (!outcome->plan) continue;
+    ASSERT_EQ(replay_rules(instance, *outcome->plan), "") << text_of(instance, {});
+    found += outcome->statistics.first_plan == "prioritised" ? 1 : 0;
+  }
+  RecordProperty("found", found);
+  RecordProperty("asked", asked);
+  EXPECT_GE(2 * found, asked) << found << " of " << asked;
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, RulesRandom,
                          testing::Values(Kind{"leaving", 1'000'000, {.leaving = true}},
                                          Kind{"times", 2'000'000, {.times = true}},

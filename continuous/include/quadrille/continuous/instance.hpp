@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "quadrille/continuous/resolution.hpp"
@@ -54,6 +55,11 @@ struct Agent {
   /// None: it is `body` wherever it is. A shape of an edge contains those of both its ends. All
   /// shapes are relative to the position of the robot, and none turns of itself.
   std::vector<Body> shapes = {};
+  /// At its start its body may overlap with that of another agent of which that is said, too: they
+  /// are parked nearer than bodies that are drawn with a margin. The two do not collide as long as
+  /// both stand there, nor while one of them does and the other one makes the first move of its
+  /// path, if they are apart when that ends; from then on as all do. Not if it is under way.
+  bool overlaps_at_start = false;
 
   /// Its body where the shape is that one. Requires one that it has.
   [[nodiscard]] const Body& body_as(ShapeId shape) const {
@@ -104,13 +110,14 @@ class Instance {
   /// duration outside [1, geometry::kMaxDuration], a resolution that is not positive and finite,
   /// likewise for bodies, places and times of obstacles; invalid_instance for vertices that do not
   /// exist, agents without a goal, agents that are under way but not at a place of their own, or
-  /// released after `now`, obstacles without stops, whose times go back, or that vanish when they
-  /// appear, polygons in an instance that is not flat, agents with shapes that lack one of the
-  /// roadmap, or one of whose shapes at a vertex is not inside of that of an edge there that they
-  /// may use; no_plan for overlapping starts, also
-  /// with an obstacle at `now`, overlapping goals (interiors) of agents that stay there and have no
-  /// other one, and agents that can reach no goal, or none by the deadline. Agents are named by
-  /// index. `places`: where each agent comes from, for errors about it; none, or one per agent.
+  /// released after `now` or that overlap at their starts, obstacles without stops, whose times go
+  /// back, or that vanish when they appear, polygons in an instance that is not flat, agents with
+  /// shapes that lack one of the roadmap, or one of whose shapes at a vertex is not inside of that
+  /// of an edge there that they may use; no_plan for overlapping starts, unless both agents say so,
+  /// and with an obstacle at `now`, overlapping goals (interiors) of agents that stay there and
+  /// have no other one, and agents that can reach no goal, or none by the deadline. Agents are
+  /// named by index. `places`: where each agent comes from, for errors about it; none, or one per
+  /// agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents, Resolution resolution = {},
                                              std::span<const SourcePlace> places = {},
@@ -137,6 +144,10 @@ class Instance {
   [[nodiscard]] Ticks now() const noexcept { return now_; }
   /// Some agent has more than one goal.
   [[nodiscard]] bool has_goal_sets() const noexcept { return has_goal_sets_; }
+  /// The agents that overlap at their starts, in pairs, each of them ascending.
+  [[nodiscard]] const std::vector<std::pair<AgentId, AgentId>>& parked_pairs() const noexcept {
+    return parked_pairs_;
+  }
 
   [[nodiscard]] const std::vector<MovingObstacle>& obstacles() const noexcept { return obstacles_; }
   /// Whether all is in the plane z = 0, vertices and stops of obstacles. Otherwise all bodies are
@@ -208,6 +219,7 @@ class Instance {
   bool is_flat_ = true;
   bool has_goal_sets_ = false;
   bool has_shapes_ = false;
+  std::vector<std::pair<AgentId, AgentId>> parked_pairs_;
   Resolution resolution_;
   IdVector<ClassId, Class> classes_;
   IdVector<AgentId, ClassId> class_of_;

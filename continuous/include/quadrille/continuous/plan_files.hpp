@@ -50,6 +50,13 @@ struct PlanFile {
                                          const GridRoadmap* grid = nullptr,
                                          std::optional<PlanFormat> format = std::nullopt);
 
+/// The paths of a log of CCBS whose agents are not known: where they begin and end is where agents
+/// do. A move takes as long as the log says, which is not what its edge takes. `roadmap`: an
+/// instance without agents. Errors as those of `read_plan`.
+[[nodiscard]] Result<Plan> read_log_alone(std::istream& in, const std::string& file,
+                                          const Instance& roadmap,
+                                          const GridRoadmap* grid = nullptr);
+
 /// Writes a plan. Reading it back with the same instance and grid gives an equal plan. In ccbs
 /// there is one <section> per move or wait, with its duration in the input's unit of time; with a
 /// grid, sections name cells, else vertex numbers. Errors: io; invalid_plan if a path is empty or a

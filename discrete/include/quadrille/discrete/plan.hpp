@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "quadrille/core/export.hpp"
@@ -35,6 +36,9 @@ struct Plan {
   [[nodiscard]] Cost cost(Objective objective) const;
   friend bool operator==(const Plan&, const Plan&) = default;
 };
+
+/// Timesteps in which an agent changes its vertex, of all agents.
+[[nodiscard]] std::int64_t num_moves(const Plan& plan);
 
 /// Drops trailing repetitions, so that every path ends with its arrival.
 void trim(Plan& plan);

@@ -72,6 +72,15 @@ enum class MddGrowth {
 [[nodiscard]] std::string_view to_string(MddGrowth growth) noexcept;  ///< "on-demand" | "full"
 [[nodiscard]] std::optional<MddGrowth> parse_mdd_growth(std::string_view text) noexcept;
 
+/// Which of the plans of least cost is looked for.
+enum class Tie {
+  any,
+  fewest_moves,  ///< One with as few moves in all as any: timesteps in which an agent does not
+                 ///< wait.
+};
+[[nodiscard]] std::string_view to_string(Tie tie) noexcept;  ///< "any" | "fewest-moves"
+[[nodiscard]] std::optional<Tie> parse_tie(std::string_view text) noexcept;
+
 /// Of the systems with MDDs.
 struct MddOptions {
   CheckSchedule check;  ///< Of dpll_mdd; the other systems check when they have to.
@@ -100,17 +109,32 @@ struct SolveOptions : Request<Plan> {
   std::optional<CostSearch> cost_search;
   MddOptions mdd;
   LazyOptions lazy;
+  /// With fewest_moves a second search follows, in the MDD model whatever the system, when a plan
+  /// is proved optimal. Not with goal sets, waypoints or a gap.
+  Tie tie = Tie::any;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
-  /// primal.hpp): then a search that a limit ends has a plan. None are made under rules.
+  /// primal.hpp): then a search that a limit ends has a plan. Under rules: of prioritised planning.
   bool first_plan = true;
   /// Keep all that the lower bound follows from, for SolveOutcome::certificate. Not with goal sets
   /// or rules. The search is the same. Takes 1 to 3 MB of memory per second and thread.
   bool proof = false;
 };
 
+/// How many moves a plan has.
+struct Moves {
+  std::int64_t number = 0;
+  std::int64_t lower_bound = 0;  ///< No plan of least cost has fewer.
+  /// The plan is one of least cost, and as many moves as the bound are proved to be needed.
+  bool is_proved = false;
+  friend bool operator==(const Moves&, const Moves&) = default;
+};
+
 /// Infeasible: see Feasibility. `explain` is for dpll, and not for instances with rules. With
 /// `proof` there is a certificate, or a word why there is none.
-struct SolveOutcome : Outcome<Plan>, CertifiedOutcome {};
+struct SolveOutcome : Outcome<Plan>, CertifiedOutcome {
+  /// With Tie::fewest_moves, where there is a plan.
+  std::optional<Moves> moves;
+};
 
 /// Finds a plan of least cost, or proves that there is none. Deterministic for the same instance,
 /// options and seed as long as no limit is met. Does not print. Thread-safe. Errors: out_of_range

@@ -73,7 +73,9 @@ class ClearanceWatch {
 /// outlive it.
 class ConflictWatch {
  public:
-  explicit ConflictWatch(const discrete::Plan& plan) : plan_(plan) {}
+  /// `leaves`: who is nowhere after the step in which it arrives; empty: nobody.
+  explicit ConflictWatch(const discrete::Plan& plan, IdVector<AgentId, bool> leaves = {})
+      : plan_(plan), leaves_(std::move(leaves)) {}
 
   /// All agents go on from `before` to `after`, at most one timestep each, at the same time.
   /// O(agents * log).
@@ -85,6 +87,7 @@ class ConflictWatch {
 
  private:
   const discrete::Plan& plan_;
+  IdVector<AgentId, bool> leaves_;
   std::set<std::pair<AgentId, AgentId>> contacts_;
 };
 

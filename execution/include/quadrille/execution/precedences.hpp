@@ -74,16 +74,17 @@ struct Precedences {
 /// Of a plan on a roadmap. The slack of two moves is what is left between their offset in the plan
 /// and the nearest offset at which they collide (geometry::BodyPair::unsafe_offsets). Errors:
 /// invalid_plan, with the first violation, if `verify` finds any; invalid_instance if there are
-/// moving obstacles, which wait for nobody. Releases and deadlines are not looked at. Time:
-/// quadratic in the number of different moves near each other, and in how often each is made.
+/// moving obstacles, which wait for nobody, or agents that overlap at their starts. Releases and
+/// deadlines are not looked at. Time: quadratic in the number of different moves near each other,
+/// and in how often each is made.
 [[nodiscard]] Result<Precedences> precedences(const continuous::Instance& instance,
                                               const continuous::Plan& plan);
 
-/// Of a plan with timesteps: each agent that comes to a vertex follows the one that left it last.
-/// What else could collide, swaps and earlier visitors, follows from these. Clocks are whole
-/// timesteps, and in one timestep all moves are made at the same time, so that agents may follow
-/// each other in a circle. Errors: invalid_plan, out_of_range (an instance with rules). O(size of
-/// the plan * log).
+/// Of a plan with timesteps: each agent that comes to a vertex follows the one that left it last,
+/// or that vanished there. Releases and deadlines are not looked at. What else could collide, swaps
+/// and earlier visitors, follows from these. Clocks are whole timesteps, and in one timestep all
+/// moves are made at the same time, so that agents may follow each other in a circle. Errors:
+/// invalid_plan, out_of_range (blockages, robust plans). O(size of the plan * log).
 [[nodiscard]] Result<Precedences> precedences(const discrete::Instance& instance,
                                               const discrete::Plan& plan);
 

@@ -28,7 +28,8 @@ struct RoadmapOptions {
   std::string roadmap, task;
   std::optional<double> radius, speed, resolution;
   std::optional<std::int64_t> neighbourhood;
-  std::string level, vehicle_type;             ///< Of a roadmap that has several.
+  std::string level, vehicle_type;  ///< Of a roadmap that has several.
+  bool overlap_at_start = false;    ///< All agents may, see continuous::Agent::overlaps_at_start.
   std::optional<std::int64_t> headings, turn;  ///< Robots that turn, and in how many timesteps.
 
   /// By themselves, whatever `--instance` contains.
