@@ -245,3 +245,40 @@ def test_one_way_edges_of_files(tmp_path):
     fleet = q.read(path)
     assert fleet.graph.edges.tolist() == [[0, 1], [1, 2], [2, 0]]
     assert q.solve(fleet).cost == 2
+
+
+def test_the_fewest_moves():
+    # Two have to change places in a lane with a bay.
+    grid = q.Grid([[1, 1, 1, 1], [0, 0, 1, 0]])
+    fleet = q.Fleet(grid, [(0, 0), (3, 0)], [(3, 0), (0, 0)])
+    result = q.solve(fleet, tie="fewest-moves")
+    assert result.status == "optimal" and result.cost == q.solve(fleet).cost
+    moves = sum(int(np.any(path[1:] != path[:-1], axis=1).sum()) for path in result.plan.paths)
+    assert result.moves == q.Moves(moves, moves, True)
+    assert q.solve(fleet).moves is None and q.solve(fleet, tie="any").moves is None
+    assert q.solve(fleet, tie="fewest-moves", time_limit=0).moves is None
+    with pytest.raises(q.InputError, match="gap"):
+        q.solve(fleet, tie="fewest-moves", gap=1)
+    with pytest.raises(q.InputError, match="tie"):
+        q.solve(fleet, tie="fewest")
+    with pytest.raises(q.InputError, match="tie does not apply to roadmaps"):
+        q.solve(alone(), tie="any")
+
+
+def test_parked_nearer_than_bodies(tmp_path):
+    bays = q.Roadmap([(0, 0), (0.5, 0), (0, 2), (0.5, -2)], [(0, 2), (1, 3)], resolution=0.001)
+
+    def fleet(**rules):
+        return q.Fleet(bays, [0, 1], [2, 3], radius=0.3, **rules)
+
+    assert fleet().no_plan is not None and q.solve(fleet()).status == "infeasible"
+    assert fleet(overlap_at_start=[True, False]).no_plan is not None
+    parked = fleet(overlap_at_start=True)
+    assert parked.overlap_at_start.tolist() == [True, True]
+    result = q.solve(parked)
+    assert result.status == "optimal" and 4 < result.cost < 5
+    assert result.plan.verify().valid
+    parked.save(tmp_path / "parked.json")
+    assert q.solve(q.read(tmp_path / "parked.json")).cost == result.cost
+    with pytest.raises(ValueError, match="overlap_at_start is for roadmaps"):
+        q.Fleet(q.Grid([[1, 1]]), [(0, 0)], [(1, 0)], overlap_at_start=True)

@@ -12,20 +12,12 @@
 namespace quadrille::continuous {
 
 /// The places of agents that overlap at their starts, where these are *private*: no edge leads
-/// there. Then whoever is there has not left yet, and a move from there is a first move; so what
-/// the two may do is a matter of places (docs/soundness/continuous.md, "Parked nearer than their
-/// bodies").
+/// there, and nobody else begins there. Then whoever is there has not left yet, and a move from
+/// there is a first move; so what the two may do is a matter of places
+/// (docs/soundness/continuous.md, "Parked nearer than their bodies").
 class ParkedPlaces {
  public:
-  explicit ParkedPlaces(const Instance& instance) : instance_(instance) {
-    for (const auto& [i, j] : instance.parked_pairs()) {
-      const VertexId v = instance.agent(i).start, w = instance.agent(j).start;
-      if (!is_private(v) || !is_private(w)) continue;
-      pairs_.emplace_back(v, w);
-      pairs_.emplace_back(w, v);
-    }
-    std::sort(pairs_.begin(), pairs_.end());
-  }
+  explicit ParkedPlaces(const Instance& instance);
 
   /// Two agents that stand there do not collide.
   [[nodiscard]] bool may_stand(VertexId v, VertexId w) const {
@@ -42,10 +34,6 @@ class ParkedPlaces {
   }
 
  private:
-  [[nodiscard]] bool is_private(VertexId v) const {
-    return instance_.roadmap().in_edges(v).empty();
-  }
-
   const Instance& instance_;
   std::vector<std::pair<VertexId, VertexId>> pairs_;  // in both orders, ascending
 };

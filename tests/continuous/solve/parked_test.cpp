@@ -157,8 +157,9 @@ TEST_P(Parked, AgreeWithTheOracle) {
     if (!oracle.is_complete) continue;
     asked.debug.audit = seed % 8 == 0;
     asked.limits.cpu_s.reset();
-    asked.limits.conflicts = oracle.best ? 2000 : 100;
-    if (seed % 3 != 0) asked.joint_work = 0;
+    asked.limits.conflicts = oracle.best ? 500 : 10;
+    // Without plans the search for the least cost has no end.
+    if (seed % 3 != 0 && oracle.best) asked.joint_work = 0;
     if (seed % 4 == 0) asked.route_work = 0;
     const auto outcome = solve(*instance, asked);
     ASSERT_TRUE(outcome) << outcome.error().message;
