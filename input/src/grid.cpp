@@ -83,7 +83,7 @@ Result<discrete::Instance> read_instance(const InputOptions& options, text::Name
   }
   if (auto error = text::refuse_other(
           *options.instance_text, options.instance,
-          {text::FileKind::own_instance, text::FileKind::own_roadmap, text::FileKind::own_plan,
+          {text::FileKind::own_instance, text::FileKind::own_roadmap,
            text::FileKind::libmrp_instance, text::FileKind::libmrp_roadmap}))
     return *error;
   std::istringstream in(*options.instance_text);

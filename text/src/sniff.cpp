@@ -200,8 +200,8 @@ bool has_line_with(std::string_view text, std::initializer_list<std::string_view
 FileKind own_kind(const TopKeys& keys) {
   if (keys.has("roadmap") && !keys.has("status")) return FileKind::own_roadmap;
   if (keys.has_any("grid", "graph") && !keys.has("status")) return FileKind::own_instance;
-  if (keys.is("quadrille", "instance")) return FileKind::own_instance;
   if (keys.has_any("plan", "status") || keys.is("quadrille", "plan")) return FileKind::own_plan;
+  if (keys.is("quadrille", "instance")) return FileKind::own_instance;
   return FileKind::unknown;
 }
 

@@ -252,7 +252,7 @@ Result<Instance> read_instance_json(std::istream& in, const std::string& file,
   if (!text) return text.error();
   if (auto error = text::refuse_other(
           *text, file,
-          {text::FileKind::own_instance, text::FileKind::own_roadmap, text::FileKind::own_plan}))
+          {text::FileKind::own_instance, text::FileKind::own_roadmap}))
     return *error;
   const auto document = parse_json(*text, file);
   if (!document) return document.error();

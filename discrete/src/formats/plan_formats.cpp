@@ -96,7 +96,7 @@ Result<PlanFile> read_any_plan(std::istream& in, const std::string& file, const 
           text::refuse_other(kind, file,
                              {FileKind::own_plan, FileKind::cbsh2_paths, FileKind::visualizer_plan,
                               FileKind::lacam_result, FileKind::libmrp_schedule, FileKind::planviz,
-                              FileKind::tracker_csv, FileKind::own_instance}))
+                              FileKind::tracker_csv}))
     return *error;
   // These two have no name as a format: what they are is beyond doubt.
   const bool is_nameless = kind == FileKind::planviz || kind == FileKind::tracker_csv;

@@ -89,6 +89,7 @@ bool RuledPlans::give_path(AgentId agent) {
 bool RuledPlans::find(std::int64_t steps) {
   const std::int64_t end = effort() + steps;
   do {
+    ++num_attempts_;
     for (Path& path : paths_) path.clear();
     std::size_t at = 0;
     while (at < order_.size() && give_path(order_[at])) ++at;

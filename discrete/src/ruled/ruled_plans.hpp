@@ -38,6 +38,8 @@ class RuledPlans {
   /// Makes it cheaper, for so many steps or some more. True if it is. Requires a plan.
   bool improve(std::int64_t steps);
 
+  /// Attempts to find a plan so far.
+  [[nodiscard]] std::int64_t num_attempts() const noexcept { return num_attempts_; }
   [[nodiscard]] bool has_plan() const noexcept { return cost_.has_value(); }
   /// Require one.
   [[nodiscard]] Plan plan() const;
@@ -71,7 +73,7 @@ class RuledPlans {
   std::vector<AgentId> order_;     // of the next attempt
   IdVector<AgentId, Path> paths_;  // empty: none
   std::optional<Price> cost_;      // of the paths, if all have one
-  std::int64_t loaded_ = 0;
+  std::int64_t loaded_ = 0, num_attempts_ = 0;
 };
 
 }  // namespace quadrille::discrete

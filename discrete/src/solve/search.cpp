@@ -24,11 +24,11 @@
 namespace quadrille::discrete {
 namespace {
 
-/// Under rules: how long a first plan is looked for before the search, in which slices, and the
-/// share of the search's effort that plans get beside it.
-constexpr Effort kMostRuled = Effort::microseconds(2'000'000),
-                 kRuledSlice = Effort::microseconds(62'500);
-constexpr std::int64_t kRuledShare = 8;
+/// Under rules: how long a first plan is looked for before the search, in which slices, in how many
+/// attempts, and the share of the search's effort that plans get beside it.
+constexpr Effort kMostRuled = Effort::microseconds(1'000'000),
+                 kRuledSlice = Effort::microseconds(6'250);
+constexpr std::int64_t kMostAttempts = 32, kLastAttempt = 4096, kRuledShare = 8;
 
 /// One search, with what all systems have in common: bounds from both sides.
 class Search final : private sat::YieldPoint {
@@ -104,7 +104,7 @@ class Search final : private sat::YieldPoint {
       if (!known_.plan) enter(Phase::first_plan);
       const auto is_due = [&] {
         return !known_.plan && ruled_->effort() < steps_of_plans(kMostRuled) &&
-               !limits_.exhausted_now();
+               ruled_->num_attempts() < kMostAttempts && !limits_.exhausted_now();
       };
       while (role_ == Role::all && is_due()) {
         make_ruled_plans(kRuledSlice);
@@ -119,7 +119,8 @@ class Search final : private sat::YieldPoint {
   void make_ruled_plans(Effort effort) {
     const std::int64_t steps = steps_of_plans(effort);
     if (!incumbent_.upper()) {
-      if (ruled_->find(steps)) incumbent_.offer(ruled_->plan(), "prioritised");
+      // What so many orders of agents have not found, others do not find either.
+      if (ruled_->num_attempts() < kLastAttempt && ruled_->find(steps)) incumbent_.offer(ruled_->plan(), "prioritised");
       return;
     }
     if (!ruled_->has_plan() || *incumbent_.upper() < ruled_->cost())
