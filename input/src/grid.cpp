@@ -81,10 +81,10 @@ Result<discrete::Instance> read_instance(const InputOptions& options, text::Name
     if (extension == ".yaml" || extension == ".yml") return discrete::read_instance_yaml(path);
     return discrete::read_instance_json(path);
   }
-  if (auto error = text::refuse_other(
-          *options.instance_text, options.instance,
-          {text::FileKind::own_instance, text::FileKind::own_roadmap,
-           text::FileKind::libmrp_instance, text::FileKind::libmrp_roadmap}))
+  if (auto error =
+          text::refuse_other(*options.instance_text, options.instance,
+                             {text::FileKind::own_instance, text::FileKind::own_roadmap,
+                              text::FileKind::libmrp_instance, text::FileKind::libmrp_roadmap}))
     return *error;
   std::istringstream in(*options.instance_text);
   return is_yaml(*options.instance_text, extension)

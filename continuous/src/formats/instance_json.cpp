@@ -388,9 +388,8 @@ class InstanceReader {
 Result<Instance> read_instance_json(std::istream& in, const std::string& file, text::Names* names) {
   const auto text = text::read_all(in, file);
   if (!text) return text.error();
-  if (auto error = text::refuse_other(
-          *text, file,
-          {text::FileKind::own_roadmap, text::FileKind::own_instance}))
+  if (auto error = text::refuse_other(*text, file,
+                                      {text::FileKind::own_roadmap, text::FileKind::own_instance}))
     return *error;
   const auto document = text::parse_json(*text, file);
   if (!document) return document.error();

@@ -44,8 +44,8 @@ Result<PlanFile> read_plan(std::istream& in, const std::string& file, const Inst
                            const GridRoadmap* grid, std::optional<PlanFormat> format) {
   const auto text = text::read_all(in, file);
   if (!text) return text.error();
-  if (auto error = text::refuse_other(*text, file,
-                                      {text::FileKind::own_plan, text::FileKind::ccbs_log}))
+  if (auto error =
+          text::refuse_other(*text, file, {text::FileKind::own_plan, text::FileKind::ccbs_log}))
     return *error;
   const auto first = text->find_first_not_of(" \t\r\n");
   const bool is_xml = first != std::string::npos && (*text)[first] == '<';

@@ -250,9 +250,8 @@ Result<Instance> read_instance_json(std::istream& in, const std::string& file,
                                     std::size_t most_vertices, text::Names* names) {
   const auto text = read_all(in, file);
   if (!text) return text.error();
-  if (auto error = text::refuse_other(
-          *text, file,
-          {text::FileKind::own_instance, text::FileKind::own_roadmap}))
+  if (auto error = text::refuse_other(*text, file,
+                                      {text::FileKind::own_instance, text::FileKind::own_roadmap}))
     return *error;
   const auto document = parse_json(*text, file);
   if (!document) return document.error();

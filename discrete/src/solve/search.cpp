@@ -120,7 +120,8 @@ class Search final : private sat::YieldPoint {
     const std::int64_t steps = steps_of_plans(effort);
     if (!incumbent_.upper()) {
       // What so many orders of agents have not found, others do not find either.
-      if (ruled_->num_attempts() < kLastAttempt && ruled_->find(steps)) incumbent_.offer(ruled_->plan(), "prioritised");
+      if (ruled_->num_attempts() < kLastAttempt && ruled_->find(steps))
+        incumbent_.offer(ruled_->plan(), "prioritised");
       return;
     }
     if (!ruled_->has_plan() || *incumbent_.upper() < ruled_->cost())

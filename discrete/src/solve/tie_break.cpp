@@ -18,6 +18,7 @@ class TieBreak final : private sat::YieldPoint, private sat::Bounds {
   TieBreak(const SolveOptions& options, LimitMonitor& limits, Knowledge& known)
       : limits_(limits),
         known_(known),
+        objective_(options.objective),
         progress_(options.on_progress, options.progress_interval_s, limits, known),
         number_(num_moves(*known.plan)) {}
 
@@ -64,11 +65,14 @@ class TieBreak final : private sat::YieldPoint, private sat::Bounds {
     const std::int64_t number = num_moves(run_->plan());
     if (number >= number_) return;
     number_ = number;
-    known_.plan = std::make_shared<const Plan>(run_->plan());
+    // It is cheaper where the user claims a bound that is too high, and refutes that.
+    const Cost cost = run_->plan().cost(objective_);
+    known_.take(std::make_shared<const Plan>(run_->plan()), cost);
   }
 
   LimitMonitor& limits_;
   Knowledge& known_;
+  const Objective objective_;
   solve::ProgressReporter progress_;
   std::int64_t number_;
   const Run* run_ = nullptr;

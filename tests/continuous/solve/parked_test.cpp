@@ -90,6 +90,24 @@ TEST_P(Parked, TheyAreApartAfterTheFirstMove) {
   EXPECT_EQ(kinds({{VertexId(1), 0, 7}, {VertexId(4), 67, 67}, {VertexId(3), 1007, 1007}}), 1U);
 }
 
+TEST_P(Parked, TheyDoNotSetOutAtOnce) {
+  const Instance instance =
+      Instance::make(two_bays(), {parked(0, 2, 100), parked(1, 3, 100)}).value();
+  const auto is_plan = [&](Ticks second) {
+    const Plan plan{IdVector<AgentId, Path>(std::vector<Path>{
+        {{VertexId(0), 0, 0}, {VertexId(2), 1000, 1000}},
+        {{VertexId(1), 0, second}, {VertexId(3), second + 1000, second + 1000}}})};
+    const bool is_valid = verify(instance, plan).valid();
+    EXPECT_EQ(ask_fcl(instance, plan).verdict == SecondOpinion::Verdict::collision, !is_valid);
+    return is_valid;
+  };
+  // Although they part from each other.
+  EXPECT_FALSE(is_plan(0));
+  EXPECT_FALSE(is_plan(100));
+  EXPECT_FALSE(is_plan(132));
+  EXPECT_TRUE(is_plan(133));
+}
+
 TEST_P(Parked, ComingBackIsACollision) {
   // A road to and fro: whoever has left its bay finds it too near to the other one.
   const auto map = roadmap({{0, 0}, {150, 0}, {0, 1000}}, {{0, 2}, {2, 0}});

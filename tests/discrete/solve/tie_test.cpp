@@ -141,6 +141,42 @@ TEST(FewestMoves, WaitingIsNoMove) {
   EXPECT_FALSE(solve_text(text, {})->moves);
 }
 
+// A claim that a dear plan is optimal holds, or is refuted; it is no error of the program.
+TEST(FewestMoves, WrongClaims) {
+  int refuted = 0, held = 0;
+  for (std::size_t number = 0; number < scaled(200); ++number) {
+    Random random(740'000 + number);
+    const Instance instance = draw(random, number % 2 == 1);
+    SolveOptions options;
+    // Without a plan the search may have no end.
+    if (fewest_moves_search(instance, options.objective, 50'000).status != Status::optimal)
+      continue;
+    const auto best = solve(instance, options);
+    ASSERT_TRUE(best && best->plan);
+    Plan dear = *best->plan;
+    const AgentId slow(random.below(instance.num_agents()));
+    const VertexId start = dear.paths[slow].front();
+    dear.paths[slow].insert(dear.paths[slow].begin(), {start, start});
+    if (!verify(instance, dear).valid()) continue;
+    options.initial_plan = dear;
+    options.known_lower_bound = dear.cost(options.objective);
+    options.tie = Tie::fewest_moves;
+    const auto outcome = solve(instance, options);
+    if (!outcome) {
+      EXPECT_EQ(outcome.error().code, ErrorCode::out_of_range);
+      ++refuted;
+      continue;
+    }
+    ASSERT_FALSE(outcome->internal_error) << outcome->internal_error->message;
+    ASSERT_TRUE(outcome->plan && outcome->moves);
+    EXPECT_EQ(outcome->moves->number, num_moves(*outcome->plan));
+    EXPECT_LE(outcome->moves->number, num_moves(dear));
+    ++held;
+  }
+  EXPECT_GT(held, 0);
+  RecordProperty("refuted", refuted);
+}
+
 TEST(FewestMoves, RefusesWhatItIsNotFor) {
   const std::string text = R"({"quadrille": "instance", "version": 1,
     "graph": {"vertices": 3, "edges": [[0, 1], [1, 2]]}, "agents": [)";
