@@ -117,10 +117,10 @@ std::optional<Assignment> cheapest_assignment(const std::vector<std::vector<Reac
   return Hungarian(reach, num_goals).run(limits);
 }
 
-void keep_prices_that_are_always_paid(const std::vector<std::vector<Reach>>& reach,
-                                      std::vector<Cost>& prices) {
+std::vector<bool> may_be_left_over(const std::vector<std::vector<Reach>>& reach,
+                                   std::size_t num_goals) {
   // Goals that an agent can choose among are in one part: the part of a goal is that of its root.
-  std::vector<std::size_t> parent(prices.size());
+  std::vector<std::size_t> parent(num_goals);
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto root = [&](std::size_t goal) {
     while (parent[goal] != goal) goal = parent[goal] = parent[parent[goal]];
@@ -128,12 +128,13 @@ void keep_prices_that_are_always_paid(const std::vector<std::vector<Reach>>& rea
   };
   for (const auto& goals : reach)
     for (const Reach& to : goals) parent[root(to.goal)] = root(goals.front().goal);
-  std::vector<std::size_t> num_left(prices.size(), 0);
-  for (std::size_t goal = 0; goal < prices.size(); ++goal) ++num_left[root(goal)];
+  std::vector<std::size_t> num_left(num_goals, 0);
+  for (std::size_t goal = 0; goal < num_goals; ++goal) ++num_left[root(goal)];
   for (const auto& goals : reach)
     if (!goals.empty()) --num_left[root(goals.front().goal)];
-  for (std::size_t goal = 0; goal < prices.size(); ++goal)
-    if (num_left[root(goal)] > 0) prices[goal] = 0;
+  std::vector<bool> may_be_left(num_goals);
+  for (std::size_t goal = 0; goal < num_goals; ++goal) may_be_left[goal] = num_left[root(goal)] > 0;
+  return may_be_left;
 }
 
 }  // namespace quadrille

@@ -70,6 +70,25 @@ Lit Vocabulary::rests(const Rest& rest, FormulaWriter& writer) {
   return made;
 }
 
+Lit Vocabulary::left_over(VertexId goal, FormulaWriter& writer) {
+  Lit& known = left_over_[goal];
+  if (known.valid()) return known;
+  known = writer.new_lit();
+  remember(known, {VariableKind::left_over, {}, 0, ObstacleId(), 0, goal});
+  return known;
+}
+
+void Vocabulary::take(VertexId goal, std::span<const MayEndElsewhere> elsewhere,
+                      FormulaWriter& writer) {
+  std::vector<Lit> clause{left_over(goal, writer)};
+  std::vector<sat::Usage> usages;
+  for (const MayEndElsewhere& one : elsewhere) {
+    clause.push_back(~one.allowed);
+    usages.push_back({one.agent, one.obstacle.value()});
+  }
+  writer.add({sat::why::Taken{goal}, clause, usages, false});
+}
+
 Lit Vocabulary::new_usage(AgentId agent, ObstacleId obstacle, FormulaWriter& writer) {
   const Lit allowed = ~writer.new_lit();
   remember(allowed, {VariableKind::usage, agent, 0, obstacle, 0, {}});

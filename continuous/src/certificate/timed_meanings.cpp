@@ -29,6 +29,7 @@ bool TimedMeanings::declare(int variable, CertificateWriter& writer) const {
     case Kind::auxiliary:
     case Kind::own:
     case Kind::rest:  // of agents with several goals
+    case Kind::left_over:
       return false;
     case Kind::usage:
       declare(variable, model_.obstacles()[meaning.obstacle], writer);

@@ -56,7 +56,8 @@ CoreShrinker::Ladder CoreShrinker::ladder(const Level& level, Cost ceiling) cons
   for (auto next = problem_.next_threshold(level.agent, level.cost); next && *next <= ceiling + 1;
        next = problem_.next_threshold(level.agent, *next))
     ladder.higher.push_back(*next);
-  if (ceiling < kAnyCost && ladder.cost(ladder.higher.size()) <= ceiling)
+  if (!problem_.is_fee(level.agent) && ceiling < kAnyCost &&
+      ladder.cost(ladder.higher.size()) <= ceiling)
     ladder.higher.push_back(ceiling + 1);
   ladder.bad = ladder.higher.size() + 1;
   return ladder;

@@ -29,7 +29,10 @@ CostProblem::CostProblem(Model& model, sat::Engine& engine, ContinuousTheory& th
       yield_point_(yield_point),
       auditor_(auditor),
       writer_(engine),
-      keeps_ceilings_(engine.proof() != nullptr) {}
+      keeps_ceilings_(engine.proof() != nullptr) {
+  // Made later, they would end the model that asks for them.
+  for (const Fee& fee : fees()) static_cast<void>(model_.left_over(fee.goal, writer_));
+}
 
 Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
   using Search = Question::Search;
@@ -44,11 +47,12 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
   // Certificates have no rule for two agents at once.
   if (engine_.proof() != nullptr) asked.pairs = PairLemmas::Scope::none;
   std::vector<Level> assumed = question.below;
-  IdVector<AgentId, Cost> ceilings(model_.instance().num_agents(), kAnyCost);
+  IdVector<AgentId, Cost> ceilings(num_payers(), kAnyCost);
   if (!question.ceilings.empty() && !is_known_only) ceilings = question.ceilings;
   for (const Level& level : question.below) ceilings[level.agent] = kAnyCost;
-  for (const AgentId i : model_.instance().agent_ids())
-    if (ceilings[i] < kAnyCost) assumed.push_back({i, ceilings[i] + 1});
+  for (const AgentId i : payers())
+    if (ceilings[i] < kAnyCost)
+      if (const auto level = level_above(i, ceilings[i])) assumed.push_back(*level);
   theory_.ask(asked);
   Verdict verdict = solve_assuming(question, assumed, limits);
   while (verdict == Verdict::sat && !is_known_only && !accept_model())
@@ -59,8 +63,7 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
 Verdict CostProblem::solve_assuming(const Question& question, const std::vector<Level>& assumed,
                                     LimitMonitor& limits) {
   std::vector<Lit> literals;
-  for (const Level& level : assumed)
-    literals.push_back(~model_.above(level.agent, level.cost - 1, writer_));
+  for (const Level& level : assumed) literals.push_back(~literal_of(level));
   const Verdict verdict = solve_in_slices(literals, limits, question.budget);
   if (yield_point_ != nullptr) yield_point_->yield();
   core_.clear();
@@ -102,7 +105,20 @@ Verdict CostProblem::solve_in_slices(const std::vector<Lit>& assumptions, LimitM
   }
 }
 
-bool CostProblem::accept_model() {
+bool CostProblem::accept_model() { return accept_paths() && accept_fees(); }
+
+bool CostProblem::accept_fees() {
+  if (fees().empty()) return true;
+  std::vector<VertexId> unpaid;
+  for (const Fee& fee : fees())
+    if (!engine_.model_value(model_.left_over(fee.goal, writer_)) && !ends_at(plan(), fee.goal))
+      unpaid.push_back(fee.goal);
+  // A clause ends the model.
+  for (const VertexId goal : unpaid) model_.take(goal, writer_);
+  return unpaid.empty();
+}
+
+bool CostProblem::accept_paths() {
   if (theory_in_search_) {
     QUADRILLE_REQUIRE(theory_.accepted().has_value(), "models are accepted by the theory");
     return true;
@@ -113,7 +129,24 @@ bool CostProblem::accept_model() {
   return theory_.check_complete(assignment, writer_);
 }
 
+Cost CostProblem::cost_in(const Plan& plan, AgentId payer) const {
+  if (!is_fee(payer)) return cost(plan.paths[payer]);
+  return ends_at(plan, fee(payer).goal) ? 0 : fee(payer).amount;
+}
+
+std::optional<Level> CostProblem::level_above(AgentId payer, Cost cap) const {
+  if (!is_fee(payer)) return Level{payer, cap + 1};
+  if (cap >= fee(payer).amount) return std::nullopt;
+  return Level{payer, fee(payer).amount};
+}
+
+Lit CostProblem::literal_of(const Level& level) {
+  return is_fee(level.agent) ? model_.left_over(fee(level.agent).goal, writer_)
+                             : model_.above(level.agent, level.cost - 1, writer_);
+}
+
 std::optional<Cost> CostProblem::next_threshold(AgentId agent, Cost cost) const {
+  if (is_fee(agent)) return std::nullopt;
   const auto& known = model_.rungs(agent);
   const auto at = std::find_if(known.begin(), known.end(),
                                [&](const Model::Rung& t) { return t.cost > cost && t.is_natural; });
@@ -131,8 +164,9 @@ void CostProblem::add_core(const std::vector<Level>& core, const IdVector<AgentI
   }
   if (auditor_ != nullptr) {
     std::vector<Lit> given;
-    for (const AgentId i : model_.instance().agent_ids())
-      if (ceilings[i] < kAnyCost) given.push_back(~model_.above(i, ceilings[i], writer_));
+    for (const AgentId i : payers())
+      if (ceilings[i] < kAnyCost)
+        if (const auto level = level_above(i, ceilings[i])) given.push_back(~literal_of(*level));
     auditor_->assume(std::move(given));
     if (clause.empty()) auditor_->audit(clause);
   }
@@ -150,8 +184,7 @@ void CostProblem::take_core(const std::vector<Level>& core) {
 
 std::vector<Lit> CostProblem::clause_of(const std::vector<Level>& core) {
   std::vector<Lit> clause;
-  for (const Level& level : core)
-    clause.push_back(model_.above(level.agent, level.cost - 1, writer_));
+  for (const Level& level : core) clause.push_back(literal_of(level));
   return clause;
 }
 

@@ -35,6 +35,9 @@ struct Question {
 
 /// Asks the engine. What it learns stays true for later questions, relative to the incumbent: see
 /// Model.
+///
+/// Levels and costs are those of *payers*: the agents, and after them the fees of the scene. A fee
+/// costs nothing, or its amount, which is its only level.
 class CostProblem {
  public:
   /// `theory_in_search`: the engine consults the theory while it searches; otherwise complete
@@ -58,7 +61,21 @@ class CostProblem {
     return ceilings_of_core_;
   }
 
-  /// The smallest natural rung (see lazy::Vocabulary) above `cost`.
+  [[nodiscard]] IdRange<AgentId> payers() const { return IdRange<AgentId>(num_payers()); }
+  [[nodiscard]] bool is_fee(AgentId payer) const { return payer.index() >= num_agents(); }
+  [[nodiscard]] Cost free_cost(AgentId payer) const {
+    return is_fee(payer) ? 0 : model_.free_cost(payer);
+  }
+  /// What the payer pays in a plan.
+  [[nodiscard]] Cost cost_in(const Plan& plan, AgentId payer) const;
+  /// What all of them do.
+  [[nodiscard]] Cost cost_of(const Plan& plan) const {
+    return model_.scene().cost(plan, Objective::sum_of_costs);
+  }
+  /// The least level above `cap`; nothing for a fee that is capped by no less than its amount.
+  [[nodiscard]] std::optional<Level> level_above(AgentId payer, Cost cap) const;
+
+  /// The smallest natural rung (see lazy::Vocabulary) above `cost`; none of a fee.
   [[nodiscard]] std::optional<Cost> next_threshold(AgentId agent, Cost cost) const;
   /// Tells the engine that one of the levels is reached in every plan that is cheaper than the
   /// incumbent, because it is in those that keep to the ceilings. An empty core is audited only.
@@ -84,7 +101,15 @@ class CostProblem {
   [[nodiscard]] sat::Verdict solve_in_slices(const std::vector<sat::Lit>& assumptions,
                                              LimitMonitor& limits, const sat::SolveBudget& budget);
   [[nodiscard]] bool accept_model();
+  [[nodiscard]] bool accept_paths();
+  /// Clauses for the fees that the model does not pay and its plan does. False: there are some.
+  [[nodiscard]] bool accept_fees();
+  [[nodiscard]] sat::Lit literal_of(const Level& level);
   [[nodiscard]] std::vector<sat::Lit> clause_of(const std::vector<Level>& core);
+  [[nodiscard]] std::size_t num_agents() const { return model_.instance().num_agents(); }
+  [[nodiscard]] std::size_t num_payers() const { return num_agents() + fees().size(); }
+  [[nodiscard]] const std::vector<Fee>& fees() const { return model_.scene().fees(); }
+  [[nodiscard]] const Fee& fee(AgentId payer) const { return fees()[payer.index() - num_agents()]; }
 
   Model& model_;
   sat::Engine& engine_;

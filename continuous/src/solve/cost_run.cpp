@@ -33,6 +33,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
         exchange_(desk.exchange) {}
 
   void run(Scene& scene) {
+    scene_ = &scene;
     pulse_.enter(Phase::search);
     Model model(scene);
     ContinuousTheory theory(model);
@@ -123,7 +124,9 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
     *warm_.learned_after = std::move(learned);
   }
 
-  [[nodiscard]] Cost cost_of(const Plan& plan) const { return cost(plan, options_.objective); }
+  [[nodiscard]] Cost cost_of(const Plan& plan) const {
+    return scene_->cost(plan, options_.objective);
+  }
 
   void take(const CostReport& report) {
     known_.raise(report.lower_bound);
@@ -195,6 +198,7 @@ class CostRun final : private sat::YieldPoint, private Correspondent {
   Knowledge& known_;
   solve::Pulse<Plan>& pulse_;
   Exchange& exchange_;
+  const Scene* scene_ = nullptr;
   const sat::Engine* engine_ = nullptr;
   Effort effort_;  // besides the engine's
   std::vector<std::shared_ptr<const LevelCore>> cores_;

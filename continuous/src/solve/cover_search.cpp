@@ -18,16 +18,8 @@ using sat::Verdict;
 using Core = LevelCore;
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-constexpr Objective kSum = Objective::sum_of_costs;
 
 sat::SolveBudget conflicts(std::int64_t count) { return {static_cast<int>(count), {}}; }
-
-/// The levels that are one above caps.
-std::vector<Level> above(const IdVector<AgentId, Cost>& caps) {
-  std::vector<Level> levels;
-  for (const AgentId i : IdRange<AgentId>(caps.size())) levels.push_back({i, caps[i] + 1});
-  return levels;
-}
 
 Cost sum(const IdVector<AgentId, Cost>& costs) {
   return std::accumulate(costs.begin(), costs.end(), Cost{0});
@@ -101,11 +93,20 @@ class CoverSearch {
   }
 
  private:
+  /// The levels that are just above caps.
+  [[nodiscard]] std::vector<Level> above(const IdVector<AgentId, Cost>& caps) const {
+    std::vector<Level> levels;
+    for (const AgentId i : problem_.payers())
+      if (const auto level = problem_.level_above(i, caps[i])) levels.push_back(*level);
+    return levels;
+  }
+  /// Requires one.
+  [[nodiscard]] Cost cost_of_plan() const { return problem_.cost_of(*report_.plan); }
+
   /// Tells what is known, and hears what others know.
   bool is_closed() {
     const Message heard = context_.correspondent.report(report_);
-    if (heard.plan && (!report_.plan || heard.cost < cost(*report_.plan, kSum)))
-      report_.plan = *heard.plan;
+    if (heard.plan && (!report_.plan || heard.cost < cost_of_plan())) report_.plan = *heard.plan;
     raise_bound(heard.lower);
     for (const ToldCores::Of& told : heard.extra.all)
       for (const auto& core : told.list) {
@@ -113,7 +114,7 @@ class CoverSearch {
         cover_.add(*core);
         has_new_cores_ = true;
       }
-    if (!report_.plan || cost(*report_.plan, kSum) > report_.lower_bound) return false;
+    if (!report_.plan || cost_of_plan() > report_.lower_bound) return false;
     report_.end = End::found;
     return true;
   }
@@ -147,9 +148,11 @@ class CoverSearch {
     if (!report_.plan) return;
     if (!improver_)
       improver_.emplace(problem_.model().scene(), *report_.plan);
-    else if (cost(*report_.plan, kSum) < improver_->cost())
+    else if (cost_of_plan() < problem_.cost_of(improver_->plan()))
       improver_->restart_from(*report_.plan);
-    if (improver_->improve(effort)) report_.plan = improver_->plan();
+    // It knows no fees.
+    if (improver_->improve(effort) && problem_.cost_of(improver_->plan()) < cost_of_plan())
+      report_.plan = improver_->plan();
     count(improver_->effort(), seen_plan_effort_);
   }
 
@@ -162,10 +165,10 @@ class CoverSearch {
     for (std::int64_t misses = 0; misses <= settings_.cover_guess_misses;) {
       if (is_closed() || limits_.exhausted_now()) return true;
       IdVector<AgentId, Cost> drawn = free_costs();
-      for (const AgentId i : problem_.model().instance().agent_ids())
+      for (const AgentId i : problem_.payers())
         if (random_.below(100) < kept_percent) drawn[i] = last[i];
       drawn = cover_.completed(std::move(drawn));
-      if (report_.plan && sum(drawn) >= cost(*report_.plan, kSum)) {
+      if (report_.plan && sum(drawn) >= cost_of_plan()) {
         ++misses;
         continue;
       }
@@ -204,9 +207,9 @@ class CoverSearch {
   [[nodiscard]] IdVector<AgentId, Cost> towards_plan() const {
     IdVector<AgentId, Cost> costs = cover_.costs();
     if (report_.plan)
-      for (const AgentId i : problem_.model().instance().agent_ids())
-        costs[i] +=
-            std::max<Cost>(cost(report_.plan->paths[i]) - costs[i], 0) / settings_.cover_inner_part;
+      for (const AgentId i : problem_.payers())
+        costs[i] += std::max<Cost>(problem_.cost_in(*report_.plan, i) - costs[i], 0) /
+                    settings_.cover_inner_part;
     return costs;
   }
 
@@ -233,14 +236,13 @@ class CoverSearch {
 
   [[nodiscard]] IdVector<AgentId, Cost> free_costs() const {
     IdVector<AgentId, Cost> costs;
-    for (const AgentId i : problem_.model().instance().agent_ids())
-      costs.push_back(problem_.model().free_cost(i));
+    for (const AgentId i : problem_.payers()) costs.push_back(problem_.free_cost(i));
     return costs;
   }
 
   /// Cores say nothing about plans that are no cheaper than the known one.
   void raise_bound(Cost bound) {
-    if (report_.plan) bound = std::min(bound, cost(*report_.plan, kSum));
+    if (report_.plan) bound = std::min(bound, cost_of_plan());
     report_.lower_bound = std::max(report_.lower_bound, bound);
   }
 
@@ -249,8 +251,7 @@ class CoverSearch {
   [[nodiscard]] IdVector<AgentId, Cost> ceilings() const {
     IdVector<AgentId, Cost> ceilings = free_costs();
     Cost rest = kAnyCost;
-    if (report_.plan)
-      rest = std::max(cost(*report_.plan, kSum) - 1, context_.spared) - sum(ceilings);
+    if (report_.plan) rest = std::max(cost_of_plan() - 1, context_.spared) - sum(ceilings);
     for (Cost& ceiling : ceilings) ceiling = std::min(ceiling + rest, kAnyCost);
     return ceilings;
   }
@@ -287,7 +288,7 @@ class CoverSearch {
     for (const Core& candidate : context_.candidates) {
       if (is_closed() || limits_.exhausted()) return true;
       const bool is_hit = std::any_of(candidate.begin(), candidate.end(), [&](const Level& level) {
-        return level.cost <= problem_.model().free_cost(level.agent);
+        return level.cost <= problem_.free_cost(level.agent);
       });
       const IdVector<AgentId, Cost> highest = ceilings();
       if (is_hit || !shrinker_.is_core(candidate, highest)) continue;

@@ -69,12 +69,13 @@ solve::Infeasibility infeasibility(const Instance& instance, const std::vector<A
 void Phases::run() {
   desk_.pulse.enter(Phase::set_up);
   Scene scene(instance_, desk_.limits, warm_.store, options_.settings);
+  scene.set_fees(fees_);
   if (!scene.is_complete() || are_kept_off(scene)) return;
   const auto free_cost = [&](AgentId i) { return scene.free_cost(i); };
   const auto agents = instance_.agent_ids();
   if (options_.explain)
     known_.attribution = solve::free_charges(agents, options_.objective, free_cost);
-  if (learn(free_bound(agents, options_.objective, free_cost), std::nullopt, "")) return;
+  if (learn(scene, free_bound(agents, options_.objective, free_cost), std::nullopt, "")) return;
   if (take_warm_start(scene)) return;
   const auto groups = options_.joint_work > 0 ? small_groups(scene) : std::vector<JointGroup>();
   const bool is_joint_first = !groups.empty();
@@ -109,10 +110,10 @@ Cost Phases::bound_of_all(const Scene& scene, const GroupBound& group) const {
 
 bool Phases::take_warm_start(Scene& scene) {
   for (const GroupBound& group : warm_.bounds)
-    if (learn(unless_proof(bound_of_all(scene, group)), std::nullopt, "")) return true;
+    if (learn(scene, unless_proof(bound_of_all(scene, group)), std::nullopt, "")) return true;
   for (const auto& draft : warm_.drafts) {
     desk_.pulse.enter(Phase::first_plan);
-    if (learn(known_.floor, complete_plan(scene, draft), "mended")) return true;
+    if (learn(scene, known_.floor, complete_plan(scene, draft), "mended")) return true;
   }
   return false;
 }
@@ -121,26 +122,26 @@ bool Phases::search_jointly(Scene& scene, const std::vector<JointGroup>& groups)
   desk_.pulse.enter(Phase::joint_search);
   SmallReport report = search_small_groups(scene, groups, options_.objective, options_.joint_work);
   return is_blocked(report.blocked) ||
-         learn(unless_proof(report.lower_bound), std::move(report.plan), "joint");
+         learn(scene, unless_proof(report.lower_bound), std::move(report.plan), "joint");
 }
 
 bool Phases::look_at_routes(Scene& scene) {
   desk_.pulse.enter(Phase::routes);
   auto routes = search_routes(scene, options_.objective, options_.route_work);
-  return learn(unless_proof(routes.lower_bound), std::move(routes.plan), "routes");
+  return learn(scene, unless_proof(routes.lower_bound), std::move(routes.plan), "routes");
 }
 
 bool Phases::find_some_plan(Scene& scene, bool was_joint) {
   if (!known_.plan || was_joint) {
     desk_.pulse.enter(Phase::first_plan);
-    keep_cheaper(find_first_plan(scene), "prioritised");
+    keep_cheaper(scene, find_first_plan(scene), "prioritised");
   }
   if (!known_.plan) with_one_goal_each(scene, &Phases::move_one_by_one);
   if (!known_.plan && !was_joint) {
     desk_.pulse.enter(Phase::feasibility);
     Feasibility feasibility = check_feasibility(scene);
     if (is_blocked(feasibility.blocked)) return true;
-    keep_cheaper(std::move(feasibility.plan), "joint");
+    keep_cheaper(scene, std::move(feasibility.plan), "joint");
     if (!known_.plan) with_one_goal_each(scene, &Phases::search_longer);
   }
   return false;
@@ -155,18 +156,19 @@ void Phases::with_one_goal_each(Scene& scene, void (Phases::*search)(Scene&)) {
   }
   if (!chosen) return;
   Scene with_ends(*chosen, desk_.limits, nullptr, options_.settings);
+  with_ends.set_fees(fees_);
   if (with_ends.is_complete()) (this->*search)(with_ends);
 }
 
 void Phases::search_longer(Scene& scene) {
-  keep_cheaper(search_serial_plan(scene, kLongSearch), "serial-search");
+  keep_cheaper(scene, search_serial_plan(scene, kLongSearch), "serial-search");
 }
 
 /// The settled one is dear where it can be had, and the search finds a cheaper one soon or not at
 /// all.
 void Phases::move_one_by_one(Scene& scene) {
-  keep_cheaper(search_serial_plan(scene, kShortSearch), "serial-search");
-  if (!known_.plan) keep_cheaper(settle_agents(scene), "settling");
+  keep_cheaper(scene, search_serial_plan(scene, kShortSearch), "serial-search");
+  if (!known_.plan) keep_cheaper(scene, settle_agents(scene), "settling");
 }
 
 bool Phases::is_blocked(const std::vector<AgentId>& blocked) {
@@ -174,10 +176,10 @@ bool Phases::is_blocked(const std::vector<AgentId>& blocked) {
   return !blocked.empty();
 }
 
-bool Phases::learn(Cost bound, std::optional<Plan> plan, const char* source) {
+bool Phases::learn(const Scene& scene, Cost bound, std::optional<Plan> plan, const char* source) {
   known_.prove(bound);
   if (known_.attribution) charge_search(*known_.attribution, known_.floor);
-  keep_cheaper(std::move(plan), source);
+  keep_cheaper(scene, std::move(plan), source);
   if (known_.floor > most_cost(instance_, options_.objective)) {
     known_.infeasible = solve::Infeasibility{"no plan keeps all deadlines"};
     return true;
@@ -185,9 +187,9 @@ bool Phases::learn(Cost bound, std::optional<Plan> plan, const char* source) {
   return known_.cost && *known_.cost <= known_.lower();
 }
 
-void Phases::keep_cheaper(std::optional<Plan> plan, const char* source) {
+void Phases::keep_cheaper(const Scene& scene, std::optional<Plan> plan, const char* source) {
   if (!plan) return;
-  const Cost its_cost = cost(*plan, options_.objective);
+  const Cost its_cost = scene.cost(*plan, options_.objective);
   known_.offer(std::make_shared<const Plan>(*std::move(plan)), its_cost);
   known_.credit(source);
 }

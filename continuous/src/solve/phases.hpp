@@ -35,6 +35,8 @@ class Phases {
         known_(desk.known),
         proof_(proof) {}
 
+  /// Besides what agents cost, of sums of costs. To be called before `run`.
+  void set_fees(const std::vector<Fee>& fees) { fees_ = fees; }
   /// Throws LimitReached, and what callbacks throw.
   void run();
 
@@ -52,7 +54,8 @@ class Phases {
   void with_one_goal_each(Scene& scene, void (Phases::*search)(Scene&));
   [[nodiscard]] bool is_blocked(const std::vector<AgentId>& blocked);
   /// `source`: where the plan came from.
-  [[nodiscard]] bool learn(Cost bound, std::optional<Plan> plan, const char* source);
+  [[nodiscard]] bool learn(const Scene& scene, Cost bound, std::optional<Plan> plan,
+                           const char* source);
 
   /// What a group costs, and the others when each is alone.
   [[nodiscard]] Cost bound_of_all(const Scene& scene, const GroupBound& group) const;
@@ -60,7 +63,7 @@ class Phases {
   [[nodiscard]] Cost unless_proof(Cost bound) const {
     return options_.proof ? known_.floor : bound;
   }
-  void keep_cheaper(std::optional<Plan> plan, const char* source);
+  void keep_cheaper(const Scene& scene, std::optional<Plan> plan, const char* source);
 
   const Instance& instance_;
   const SolveOptions& options_;
@@ -69,6 +72,7 @@ class Phases {
   const Desk desk_;
   Knowledge& known_;
   std::optional<ProofDraft>& proof_;
+  std::vector<Fee> fees_;
 };
 
 }  // namespace quadrille::continuous

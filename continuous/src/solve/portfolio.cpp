@@ -41,6 +41,7 @@ void search_side_by_side(Scene& scene, const SolveOptions& options,
     const SolveOptions own_options = options_of(options, worker);
     if (worker == 0) return search_costs(scene, own_options, own, warm, proofs[0]);
     Scene own_scene(scene.instance(), own.limits, nullptr, options.settings);
+    own_scene.set_fees(scene.fees());
     if (own_scene.is_complete()) search_costs(own_scene, own_options, own, {}, proofs[worker]);
   };
   solve::Portfolio<Plan, Message>(options, account, pace, role_of, search_as).run(desk);

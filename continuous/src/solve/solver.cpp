@@ -13,6 +13,7 @@
 #include "quadrille/solve/frame.hpp"
 #include "quadrille/solve/time_origin.hpp"
 #include "solve/phases.hpp"
+#include "solve/priced_search.hpp"
 #include "solve/warm_start.hpp"
 
 namespace quadrille::continuous {
@@ -124,7 +125,14 @@ class Domain {
       }
     }
     Exchange alone;
-    Phases(instance_, options_, warm_, account, {limits, known, pulse, alone}, proof_).run();
+    const Desk desk{limits, known, pulse, alone};
+    // What a session leaves to its next solve is told without prices.
+    const auto priced =
+        warm_.store == nullptr ? price_goals(instance_, options_, limits) : std::nullopt;
+    if (priced)
+      search_with_prices(instance_, *priced, options_, account, desk);
+    else
+      Phases(instance_, options_, warm_, account, desk, proof_).run();
     if (known.has_floor) floor_ = known.floor;
   }
 
@@ -135,12 +143,15 @@ class Domain {
     return [this, part = instance_.with_agents(std::move(tasks)).value()](
                const SolveOptions& options, LimitMonitor& limits, Knowledge& known,
                solve::Pulse<Plan>& pulse) {
+      Exchange alone;
+      const Desk desk{limits, known, pulse, alone};
+      if (const auto priced = price_goals(part, options, limits))
+        return search_with_prices(part, *priced, options, account_, desk);
       store_->adopt(part);
       WarmStart warm;
       warm.store = store_.get();
-      Exchange alone;
       std::optional<ProofDraft> none;
-      Phases(part, options, warm, account_, {limits, known, pulse, alone}, none).run();
+      Phases(part, options, warm, account_, desk, none).run();
     };
   }
   [[nodiscard]] solve::Infeasibility told(solve::Infeasibility infeasibility) const {

@@ -80,6 +80,8 @@ std::string LemmaAuditor::audit(const sat::Lemma& lemma) {
   if (lemma.is<sat::why::Moves>() || lemma.is<sat::why::Stay>() || lemma.is<sat::why::Goal>())
     return audit_collision(lemma);
   if (lemma.is<sat::why::Rest>()) return audit_rest(lemma);
+  if (const auto* taken = std::get_if<sat::why::Taken>(&lemma.why))
+    return audit_taken(lemma, taken->goal);
   if (lemma.is<sat::why::Pair>()) return audit_pair(lemma);
   if (lemma.is<sat::why::Order>() || lemma.is<sat::why::Ceiling>()) return audit_order(lemma);
   return "continuous time has no such lemmas";
@@ -99,6 +101,10 @@ std::optional<bool> LemmaAuditor::find_in_plan(sat::Lit lit) const {
                          as_cost(path.arrival) < meaning.cost;
       return rests == lit.positive();
     }
+    case Kind::left_over:
+      return std::none_of(uses_.begin(), uses_.end(), [&](const PathUses& uses) {
+               return uses.breaks(Ban::end(meaning.goal));
+             }) == lit.positive();
     case Kind::auxiliary:
     case Kind::own:
       break;
@@ -313,6 +319,30 @@ std::string LemmaAuditor::audit_rest(const sat::Lemma& lemma) const {
                      late.kind == Kind::cost && lemma.clause[1].positive() &&
                      rests.kind == Kind::rest && lemma.clause[2].positive();
   return holds && is_of_one && late.cost <= rests.cost ? "" : "a rest that does not follow";
+}
+
+// "Nobody ends there, or one of all those who can does not end elsewhere."
+std::string LemmaAuditor::audit_taken(const sat::Lemma& lemma, VertexId goal) const {
+  if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
+  const auto left_over = model_.variable(lemma.clause.front());
+  if (left_over.kind != Kind::left_over || left_over.goal != goal ||
+      !lemma.clause.front().positive())
+    return "a goal that is taken begins with that it is left over";
+  for (const AgentId i : model_.instance().agent_ids()) {
+    const Goals& goals = model_.instance().agent(i).goals;
+    if (!goals.contains(goal)) continue;
+    std::vector<Ban> elsewhere;
+    for (const VertexId other : goals.vertices())
+      if (other != goal) elsewhere.push_back(Ban::end(other));
+    const bool is_named =
+        std::any_of(lemma.clause.begin() + 1, lemma.clause.end(), [&](sat::Lit lit) {
+          const auto usage = model_.variable(lit);
+          return usage.kind == Kind::usage && usage.agent == i && lit.positive() &&
+                 model_.obstacles()[usage.obstacle].bans == elsewhere;
+        });
+    if (!is_named) return "somebody else can take the goal";
+  }
+  return "";
 }
 
 std::string LemmaAuditor::audit_order(const sat::Lemma& lemma) const {

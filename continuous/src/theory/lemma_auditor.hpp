@@ -40,6 +40,7 @@ class LemmaAuditor final : public sat::ClauseAuditor {
   [[nodiscard]] std::string audit_goal_bans(const Obstacle& obstacle, AgentId resident,
                                             VertexId goal, Ticks tick) const;
   [[nodiscard]] std::string audit_rest(const sat::Lemma& lemma) const;
+  [[nodiscard]] std::string audit_taken(const sat::Lemma& lemma, VertexId goal) const;
 
   [[nodiscard]] const Obstacle& obstacle(const sat::Usage& usage) const {
     return model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))];

@@ -25,7 +25,7 @@ ObstacleId Model::usage(AgentId agent, std::vector<Ban> bans, AgentId partner,
     obstacles_.push_back({agent, allowed, std::move(bans), {}, cause});
   }
   auto& partners = obstacles_[at->second].partners;
-  if (std::find(partners.begin(), partners.end(), partner) == partners.end())
+  if (partner != agent && std::find(partners.begin(), partners.end(), partner) == partners.end())
     partners.push_back(partner);
   return at->second;
 }
@@ -45,6 +45,23 @@ ObstacleId Model::keep_off_goal(AgentId agent, AgentId resident, VertexId goal, 
   const auto [id, inserted] = goal_obstacle(agent, rest, writer, make);
   is_new = inserted;
   return id;
+}
+
+void Model::take(VertexId goal, FormulaWriter& writer) {
+  std::vector<MayEndElsewhere> all;
+  for (const AgentId i : instance().agent_ids()) {
+    const Goals& goals = instance().agent(i).goals;
+    if (!goals.contains(goal)) continue;
+    // Whoever has no other goal takes it in every plan.
+    if (goals.is_single()) return;
+    std::vector<Ban> elsewhere;
+    for (const VertexId other : goals.vertices())
+      if (other != goal) elsewhere.push_back(Ban::end(other));
+    bool is_new = false;
+    const ObstacleId id = usage(i, std::move(elsewhere), i, writer, is_new);
+    all.push_back({i, id, obstacles_[id].allowed});
+  }
+  take(goal, all, writer);
 }
 
 // Let the resident arrive for good before `tick`, that is at tick - 1 or earlier. Moves that

@@ -68,6 +68,9 @@ class Model final : public lazy::Vocabulary {
                                bool& is_new) {
     return usage(agent, {Ban::end(goal)}, partner, writer, is_new);
   }
+  /// Writes that somebody ends at the goal, unless it is left over.
+  void take(VertexId goal, FormulaWriter& writer);
+  using Vocabulary::take;
 
  private:
   /// Of that obstacle.

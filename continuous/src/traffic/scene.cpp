@@ -7,6 +7,11 @@
 
 namespace quadrille::continuous {
 
+bool ends_at(const Plan& plan, VertexId goal) {
+  return std::any_of(plan.paths.begin(), plan.paths.end(),
+                     [&](const Path& path) { return path.back().vertex == goal; });
+}
+
 Scene::Scene(const Instance& instance, LimitMonitor& limits, SceneStore* store,
              const Settings& settings)
     : instance_(instance),
@@ -26,6 +31,13 @@ Scene::Scene(const Instance& instance, LimitMonitor& limits, SceneStore* store,
   standing_.resize(instance.num_classes());
   keep_moving();
   is_complete_ = instance.obstacles().empty() || avoid_obstacles();
+}
+
+Cost Scene::cost(const Plan& plan, Objective objective) const {
+  Cost cost = continuous::cost(plan, objective);
+  for (const Fee& fee : fees_)
+    if (!ends_at(plan, fee.goal)) cost += fee.amount;
+  return cost;
 }
 
 // A ban for a class is one for a single agent here: nobody else can be where it begins.

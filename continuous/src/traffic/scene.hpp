@@ -11,6 +11,14 @@
 
 namespace quadrille::continuous {
 
+/// What plans pay, besides what agents cost, in which nobody ends at the goal.
+struct Fee {
+  VertexId goal;
+  Cost amount = 0;  ///< At least 1.
+};
+/// Whether somebody does.
+[[nodiscard]] bool ends_at(const Plan& plan, VertexId goal);
+
 /// What every part of a solve looks at: the instance, how far the goals are, what is in whose way,
 /// and the limits. Nothing here knows of literals.
 class Scene {
@@ -27,6 +35,11 @@ class Scene {
   [[nodiscard]] LimitMonitor& limits() noexcept { return limits_; }
   [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
   [[nodiscard]] Contacts& contacts() noexcept { return contacts_; }
+  /// Of sums of costs; none at first.
+  void set_fees(std::vector<Fee> fees) { fees_ = std::move(fees); }
+  [[nodiscard]] const std::vector<Fee>& fees() const noexcept { return fees_; }
+  /// Of a plan, with fees.
+  [[nodiscard]] Cost cost(const Plan& plan, Objective objective) const;
   [[nodiscard]] PathTask task(AgentId i) { return {i, distances_[i.index()], detours_[i.index()]}; }
   /// What keeps agents of the class clear of the moving obstacles, and those that are under way
   /// from stopping, sorted.
@@ -58,6 +71,7 @@ class Scene {
   std::vector<Detours> detours_;
   std::vector<std::vector<Ban>> standing_;  // by class
   std::vector<Cost> free_costs_;            // none: distances say it
+  std::vector<Fee> fees_;
   Contacts contacts_;
 };
 

@@ -22,6 +22,7 @@ bool LazyMeanings::declare(int variable, CertificateWriter& writer) const {
   switch (meaning.kind) {
     case Kind::auxiliary:
     case Kind::rest:  // of agents with several goals, as ends: certificates know of neither
+    case Kind::left_over:
       return false;
     case Kind::usage:
       declare_usage(variable, model_.obstacles()[meaning.obstacle], writer);
@@ -58,6 +59,7 @@ void LazyMeanings::declare_usage(int variable, const Obstacle& o, CertificateWri
       return writer.record('f', values);
     }
     case Obstacle::Kind::end:
+    case Obstacle::Kind::elsewhere:
       return;
   }
 }

@@ -39,12 +39,13 @@ std::optional<PricedGoals> price_goals(const Instance& instance, LimitMonitor& l
   if (!reach) return std::nullopt;
   auto assignment = cheapest_assignment(reach->agents, reach->goals.size(), limits);
   if (!assignment) return std::nullopt;
-  keep_prices_that_are_always_paid(reach->agents, assignment->prices);
+  const std::vector<bool> may_be_left = may_be_left_over(reach->agents, reach->goals.size());
   GoalPrices prices(instance.graph().num_vertices(), 0);
   PricedGoals priced;
   for (std::size_t k = 0; k < reach->goals.size(); ++k) {
     prices[reach->goals[k]] = static_cast<Timestep>(assignment->prices[k]);
     priced.paid += assignment->prices[k];
+    if (assignment->prices[k] > 0 && may_be_left[k]) priced.left_over.push_back(reach->goals[k]);
   }
   if (priced.paid == 0) return std::nullopt;
   priced.distances = GoalDistances::make(instance, prices, limits);

@@ -22,12 +22,14 @@ struct GoalReach {
 [[nodiscard]] std::optional<GoalReach> find_goal_reach(const Instance& instance,
                                                        LimitMonitor& limits);
 
-/// Prices that make agents take different goals by themselves, as far as all plans pay them: then
-/// the least sum of costs and prices is nearer to what agents cost who choose different goals.
+/// Prices that make agents take different goals by themselves: the least costs and prices of all
+/// agents, less all prices, come to what a cheapest assignment costs. Every plan costs the agents'
+/// costs and prices, and the prices of the goals that are left over, less all prices.
 struct PricedGoals {
   std::shared_ptr<const GoalPrices> prices;
   std::shared_ptr<const GoalDistances> distances;  ///< With prices.
-  Cost paid = 0;                                   ///< In every plan.
+  std::vector<VertexId> left_over;                 ///< With a price, where plans need not use them.
+  Cost paid = 0;                                   ///< All prices.
 };
 
 /// nullopt where prices change nothing, if nobody can reach different goals, or if a limit was met.

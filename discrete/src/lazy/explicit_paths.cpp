@@ -160,7 +160,8 @@ void ExplicitPaths::link(AgentId agent, ObstacleId id, Timestep old_cap, Formula
       for (const Visit& v : model_.obstacles().visits(o))
         d.for_each_state(v.vertex, [&](VertexId state) { visit(state, v.timestep); });
       break;
-    case Obstacle::Kind::end:  // path lemmas say what follows
+    case Obstacle::Kind::end:
+    case Obstacle::Kind::elsewhere:  // path lemmas say what follows
       break;
   }
 }

@@ -27,6 +27,7 @@ bool LazyAuditor::forbids_visit(const Obstacle& o, VertexId v, Timestep t) const
     }
     case Kind::edge:
     case Kind::end:
+    case Kind::elsewhere:
       return false;
   }
   return false;
@@ -67,6 +68,8 @@ std::string LazyAuditor::audit(const sat::Lemma& lemma) {
     return audit_explicit(lemma.clause, path->agent);
   if (lemma.is<sat::why::Order>()) return audit_order(lemma.clause);
   if (lemma.is<sat::why::Rest>()) return audit_rest(lemma.clause);
+  if (const auto* taken = std::get_if<sat::why::Taken>(&lemma.why))
+    return audit_taken(lemma, taken->goal);
   if (sat::is_collision(lemma.why)) return audit_collision(lemma);
   return "the lazy model has no such lemmas";
 }
@@ -271,8 +274,34 @@ std::string LazyAuditor::audit_rest(Clause clause) const {
   return holds ? "" : "a lemma about a rest does not hold";
 }
 
+// "Nobody ends there, or one of all those does who can": they do not end elsewhere.
+std::string LazyAuditor::audit_taken(const sat::Lemma& lemma, VertexId goal) const {
+  if (std::string wrong = audit_usages(lemma); !wrong.empty()) return wrong;
+  const auto left_over = model_.variable(lemma.clause.front());
+  if (left_over.kind != VariableKind::left_over || left_over.goal != goal ||
+      !lemma.clause.front().positive())
+    return "a lemma about a goal that is taken begins with that it is left over";
+  for (const AgentId i : model_.instance().agent_ids()) {
+    if (!model_.instance().agents()[i].goals.contains(goal)) continue;
+    const bool is_named = std::any_of(lemma.clause.begin() + 1, lemma.clause.end(), [&](Lit lit) {
+      const auto var = model_.variable(lit);
+      if (var.kind != VariableKind::usage || var.agent != i || !lit.positive()) return false;
+      const Obstacle& o = model_.obstacles()[var.obstacle];
+      return o.kind == Kind::elsewhere && o.vertex == goal;
+    });
+    if (!is_named) return "somebody else can take the goal";
+  }
+  return "";
+}
+
 std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
   const auto var = model_.variable(lit);
+  if (var.kind == VariableKind::left_over) {
+    const auto& paths = known_plan_->paths;
+    return std::none_of(paths.begin(), paths.end(), [&](const Path& path) {
+             return path.back() == var.goal;
+           }) == lit.positive();
+  }
   const Path& path = known_plan_->paths[var.agent];
   const Cost cost = arrival(path) + model_.price(path.back());
   switch (var.kind) {
@@ -287,6 +316,7 @@ std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
     case VariableKind::own:
       return (model_.distances(var.agent).state_at(path, model_.visit(var).timestep) ==
               model_.visit(var).vertex) == lit.positive();
+    case VariableKind::left_over:
     case VariableKind::auxiliary:
       break;
   }
@@ -307,6 +337,8 @@ std::string LazyAuditor::describe(Clause clause) const {
               std::to_string(visit.timestep) + ")";
     } else if (var.kind == VariableKind::auxiliary) {
       text += "v" + std::to_string(lit.variable());
+    } else if (var.kind == VariableKind::left_over) {
+      text += "left over(" + vertex_name(model_.instance().graph(), var.goal) + ")";
     } else if (var.kind == VariableKind::rest) {
       text += "rest(" + agent + "," + vertex_name(model_.instance().graph(), var.goal) + ",<" +
               std::to_string(var.cost) + ")";

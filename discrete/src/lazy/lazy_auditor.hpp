@@ -28,6 +28,7 @@ class LazyAuditor final : public sat::ClauseAuditor {
   [[nodiscard]] std::string audit_explicit(Clause clause, AgentId agent) const;
   /// Of the order lemmas that define rests.
   [[nodiscard]] std::string audit_rest(Clause clause) const;
+  [[nodiscard]] std::string audit_taken(const sat::Lemma& lemma, VertexId goal) const;
   [[nodiscard]] std::string audit_usages(const sat::Lemma& lemma) const;
 
   [[nodiscard]] bool forbids_visit(const Obstacle& obstacle, VertexId v, Timestep t) const;

@@ -11,11 +11,12 @@ namespace quadrille::discrete {
 using sat::Lit;
 
 LazyModel::LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-                     std::shared_ptr<const GoalPrices> prices)
+                     std::shared_ptr<const GoalPrices> prices, std::vector<VertexId> left_over)
     : Vocabulary(instance.num_agents(), Costs::negative),
       instance_(instance),
       goal_distances_(std::move(distances)),
-      prices_(std::move(prices)) {
+      prices_(std::move(prices)),
+      left_over_(std::move(left_over)) {
   if (!instance.rules().blockages.empty())
     blocked_ = std::make_shared<const BlockedTimes>(instance);
   distances_.reserve(instance.num_agents());
@@ -100,6 +101,23 @@ ObstacleId LazyModel::end(AgentId agent, VertexId goal, FormulaWriter& writer) {
   const ObstacleId made = obstacles_.add_end(agent, make_usage(agent, writer), goal);
   join(users, made, sat::why::Goal{agent}, writer);
   return made;
+}
+
+ObstacleId LazyModel::elsewhere(AgentId agent, VertexId goal, FormulaWriter& writer) {
+  const auto key = std::make_pair(agent, goal);
+  if (const auto known = elsewheres_.find(key); known != elsewheres_.end()) return known->second;
+  const Lit allowed = make_usage(agent, writer);
+  return elsewheres_[key] = obstacles_.add_elsewhere(agent, allowed, goal);
+}
+
+void LazyModel::take(VertexId goal, FormulaWriter& writer) {
+  std::vector<MayEndElsewhere> all;
+  for (const AgentId i : instance_.agent_ids()) {
+    if (!instance_.agents()[i].goals.contains(goal)) continue;
+    const ObstacleId id = elsewhere(i, goal, writer);
+    all.push_back({i, id, obstacles_[id].allowed});
+  }
+  take(goal, all, writer);
 }
 
 ObstacleId LazyModel::keep_off_goal(AgentId agent, AgentId resident, Visit goal,

@@ -23,8 +23,10 @@ class LazyModel final : public lazy::Vocabulary {
  public:
   /// Requires that all agents have a path when they are alone, and the distances of `instance`,
   /// which outlives the model. With prices, which are those of the distances, costs include them.
+  /// `left_over`: the goals with prices that plans need not use.
   LazyModel(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
-            std::shared_ptr<const GoalPrices> prices = nullptr);
+            std::shared_ptr<const GoalPrices> prices = nullptr,
+            std::vector<VertexId> left_over = {});
 
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] const AgentDistances& distances(AgentId agent) const {
@@ -33,6 +35,10 @@ class LazyModel final : public lazy::Vocabulary {
   [[nodiscard]] const ObstacleTable& obstacles() const noexcept { return obstacles_; }
   /// Of a goal.
   [[nodiscard]] Timestep price(VertexId goal) const { return prices_ ? (*prices_)[goal] : 0; }
+  /// The goals with prices that plans need not use.
+  [[nodiscard]] const std::vector<VertexId>& may_be_left_over() const noexcept {
+    return left_over_;
+  }
 
   [[nodiscard]] Cost free_cost(AgentId agent) const override {
     return distances(agent).free_cost();
@@ -62,6 +68,11 @@ class LazyModel final : public lazy::Vocabulary {
                                    FormulaWriter& writer);
   /// End in that goal, for an agent that shares it with others: of these only one may.
   [[nodiscard]] ObstacleId end(AgentId agent, VertexId goal, FormulaWriter& writer);
+  /// End in any goal but that one.
+  [[nodiscard]] ObstacleId elsewhere(AgentId agent, VertexId goal, FormulaWriter& writer);
+  /// Writes that somebody ends at the goal, unless it is left over.
+  void take(VertexId goal, FormulaWriter& writer);
+  using Vocabulary::take;
   /// Keeps `agent` away from a goal of `resident` from its timestep on, or as long before as rules
   /// ask for, while that rests there and costs no more than if it had arrived then.
   ObstacleId keep_off_goal(AgentId agent, AgentId resident, Visit goal, FormulaWriter& writer);
@@ -89,6 +100,7 @@ class LazyModel final : public lazy::Vocabulary {
   const Instance& instance_;
   std::shared_ptr<const GoalDistances> goal_distances_;
   std::shared_ptr<const GoalPrices> prices_;
+  std::vector<VertexId> left_over_;
   std::shared_ptr<const BlockedTimes> blocked_;  // Null: nothing is.
   std::vector<AgentDistances> distances_;
   ObstacleTable obstacles_;
@@ -96,6 +108,7 @@ class LazyModel final : public lazy::Vocabulary {
   std::map<std::tuple<VertexId, VertexId, Timestep>, Users> edges_;
   std::map<VertexId, Users> ends_;
   std::map<std::tuple<AgentId, VertexId, Timestep, Timestep>, ObstacleId> ranges_;
+  std::map<std::pair<AgentId, VertexId>, ObstacleId> elsewheres_;
   std::map<std::tuple<AgentId, Visit, Visit>, ObstacleId> barriers_;
   std::vector<Visit> visits_;  // of the literals of explicit paths
 };

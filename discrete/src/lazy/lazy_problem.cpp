@@ -15,13 +15,14 @@ using sat::Lit;
 LazyProblem::LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theory,
                          Objective objective)
     : model_(model),
+      engine_(engine),
       theory_(theory),
       objective_(objective),
       writer_(engine),
-      total_delay_(engine, model.instance().num_agents(), [this](std::size_t input, int k) {
-        const AgentId agent(input);
-        return model_.cost_above(agent, model_.distances(agent).free_cost() + k - 1, writer_);
-      }) {
+      total_delay_(engine, model.instance().num_agents() + model.may_be_left_over().size(),
+                   [this](std::size_t input, int k) { return delay(input, k); }) {
+  for (const VertexId goal : model.may_be_left_over())
+    fees_.push_back({model.left_over(goal, writer_), model.price(goal)});
   std::vector<Cost> free_costs;
   for (const AgentId i : model.instance().agent_ids()) {
     free_costs.push_back(free_cost(i));
@@ -33,6 +34,15 @@ LazyProblem::LazyProblem(LazyModel& model, sat::Engine& engine, LazyTheory& theo
   }
   if (engine.proof() != nullptr)
     engine.proof()->set_inputs_beyond(total_delay_.proof_number(), free_costs);
+}
+
+Lit LazyProblem::delay(std::size_t input, int k) {
+  if (input < num_agents()) {
+    const AgentId agent(input);
+    return model_.cost_above(agent, model_.distances(agent).free_cost() + k - 1, writer_);
+  }
+  const Fee& fee = fees_[input - num_agents()];
+  return k <= fee.amount ? fee.due : Lit();
 }
 
 // Every agent gets a cap: what the bound leaves to it alone.
@@ -53,7 +63,19 @@ bool LazyProblem::assume_at_most(Cost bound, LimitMonitor&, std::vector<Lit>& as
 bool LazyProblem::accept_model() {
   QUADRILLE_REQUIRE(theory_.accepted().has_value(), "every agent had a bound");
   plan_ = *theory_.accepted();
-  return true;
+  std::vector<VertexId> unpaid;
+  for (std::size_t k = 0; k < fees_.size(); ++k)
+    if (const VertexId goal = model_.may_be_left_over()[k];
+        !engine_.model_value(fees_[k].due) && !is_taken(goal))
+      unpaid.push_back(goal);
+  // A clause ends the model.
+  for (const VertexId goal : unpaid) model_.take(goal, writer_);
+  return unpaid.empty();
+}
+
+bool LazyProblem::is_taken(VertexId goal) const {
+  return std::any_of(plan_.paths.begin(), plan_.paths.end(),
+                     [&](const Path& path) { return path.back() == goal; });
 }
 
 Cost LazyProblem::next_bound(Cost refuted, std::span<const Lit>) { return refuted + 1; }

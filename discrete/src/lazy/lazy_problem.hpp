@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "lazy/lazy_model.hpp"
 #include "lazy/lazy_theory.hpp"
@@ -31,6 +33,8 @@ class LazyProblem final : public sat::CostProblem {
   /// Nothing: paths have no clauses here.
   [[nodiscard]] bool grow_to(AgentId, Cost, LimitMonitor&) override { return true; }
   [[nodiscard]] sat::Lit cost_above(AgentId agent, Cost cost) override;
+  /// Prices of goals that nobody takes.
+  [[nodiscard]] std::span<const Fee> fees() const override { return fees_; }
   void on_solve(bool all_present) override;
   [[nodiscard]] std::vector<AgentId> agents_of(std::span<const sat::Lit> core) const override;
 
@@ -38,11 +42,17 @@ class LazyProblem final : public sat::CostProblem {
   [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
 
  private:
+  /// What the input of that number, an agent or else a fee, comes to beyond its least.
+  [[nodiscard]] sat::Lit delay(std::size_t input, int k);
+  [[nodiscard]] bool is_taken(VertexId goal) const;
+
   LazyModel& model_;
+  sat::Engine& engine_;
   LazyTheory& theory_;
   const Objective objective_;
   lazy::EngineWriter writer_;
   Cost lower_bound_ = 0;
+  std::vector<Fee> fees_;  // of LazyModel::may_be_left_over, in their order
   sat::Totalizer total_delay_;
   Plan plan_;
 };

@@ -32,6 +32,9 @@ void ObstacleMap::load(const ObstacleTable& table, std::span<const ObstacleId> a
         add_visit(visit.vertex, visit.timestep, visit.timestep, slot);
         block_goal(visit.vertex, visit.timestep, slot);
       }
+    } else if (o.kind == Obstacle::Kind::elsewhere) {
+      for (const VertexId goal : all)
+        if (goal != o.vertex) block_goal(goal, kForever, slot);
     } else {
       if (o.kind != Obstacle::Kind::end) add_visit(o.vertex, o.first, o.last, slot);
       block_goal(o.vertex, o.last, slot);

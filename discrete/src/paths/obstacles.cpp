@@ -33,6 +33,10 @@ ObstacleId ObstacleTable::add_end(AgentId agent, sat::Lit allowed, VertexId vert
   return add({Kind::end, agent, allowed, vertex, {}, 0, kForever, 0, 0});
 }
 
+ObstacleId ObstacleTable::add_elsewhere(AgentId agent, sat::Lit allowed, VertexId vertex) {
+  return add({Kind::elsewhere, agent, allowed, vertex, {}, 0, kForever, 0, 0});
+}
+
 ObstacleId ObstacleTable::add_barrier(AgentId agent, sat::Lit allowed,
                                       std::span<const Visit> visits) {
   QUADRILLE_REQUIRE(!visits.empty(), "a barrier is not empty");
@@ -76,12 +80,15 @@ bool ObstacleTable::hits(ObstacleId id, const Path& path, bool leaves) const {
       return false;
     case Kind::end:
       return path.back() == o.vertex;
+    case Kind::elsewhere:
+      return path.back() != o.vertex;
   }
   return false;
 }
 
 Timestep ObstacleTable::last_block(const Obstacle& o, VertexId vertex) const {
   if (o.kind == Kind::edge) return -1;
+  if (o.kind == Kind::elsewhere) return o.vertex == vertex ? -1 : kForever;
   if (o.kind != Kind::barrier) return o.vertex == vertex ? o.last : -1;
   Timestep last = -1;
   for (const Visit& visit : visits(o))

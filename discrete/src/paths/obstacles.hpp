@@ -28,6 +28,7 @@ struct Obstacle {
     range,    ///< Be in `vertex` at any timestep from `first` to `last`, which can be kForever.
     barrier,  ///< Make any of a list of visits.
     end,      ///< Rest in `vertex` in the end, whenever. Being there before is nothing.
+    elsewhere,  ///< Rest anywhere but in `vertex` in the end.
   };
   Kind kind = Kind::point;
   AgentId agent;
@@ -46,6 +47,7 @@ class ObstacleTable {
   ObstacleId add_range(AgentId agent, sat::Lit allowed, VertexId vertex, Timestep first,
                        Timestep last);
   ObstacleId add_end(AgentId agent, sat::Lit allowed, VertexId vertex);
+  ObstacleId add_elsewhere(AgentId agent, sat::Lit allowed, VertexId vertex);
   /// Requires at least one visit.
   ObstacleId add_barrier(AgentId agent, sat::Lit allowed, std::span<const Visit> visits);
 

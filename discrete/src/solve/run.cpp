@@ -56,7 +56,7 @@ class MddRun final : public Run {
                                             engine_options(options, tuning, auditor_.get(), log_));
   }
 
-  bool prepare(std::shared_ptr<const GoalDistances> distances, std::shared_ptr<const GoalPrices>,
+  bool prepare(std::shared_ptr<const GoalDistances> distances, const PricedGoals*,
                LimitMonitor& limits) override {
     const Instance& instance = model_.instance();
     IdVector<AgentId, Timestep> lone;
@@ -101,9 +101,11 @@ class LazyRun final : public Run {
   LazyRun(const Instance& instance, const SolveOptions& options, const Tuning& tuning)
       : instance_(instance), options_(options), tuning_(tuning) {}
 
-  bool prepare(std::shared_ptr<const GoalDistances> distances,
-               std::shared_ptr<const GoalPrices> prices, LimitMonitor& limits) override {
-    model_ = std::make_unique<LazyModel>(instance_, std::move(distances), std::move(prices));
+  bool prepare(std::shared_ptr<const GoalDistances> distances, const PricedGoals* priced,
+               LimitMonitor& limits) override {
+    model_ = priced == nullptr ? std::make_unique<LazyModel>(instance_, std::move(distances))
+                               : std::make_unique<LazyModel>(instance_, std::move(distances),
+                                                             priced->prices, priced->left_over);
     theory_ = std::make_unique<LazyTheory>(*model_, limits, tuning_.explicit_paths);
     if (limits.exhausted_now()) return false;
     if (options_.debug.audit || options_.debug.known_plan)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "feasibility/goal_reach.hpp"
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/result.hpp"
@@ -23,11 +24,10 @@ namespace quadrille::discrete {
 class Run {
  public:
   virtual ~Run() = default;
-  /// To be called once, first. With prices, which are those of the distances, the costs of the
-  /// problem include them. False if `limits` ended that early.
+  /// To be called once, first. Null unless there are prices: then the distances are theirs, and the
+  /// costs of the problem include them. False if `limits` ended that early.
   [[nodiscard]] virtual bool prepare(std::shared_ptr<const GoalDistances> distances,
-                                     std::shared_ptr<const GoalPrices> prices,
-                                     LimitMonitor& limits) = 0;
+                                     const PricedGoals* priced, LimitMonitor& limits) = 0;
   [[nodiscard]] virtual sat::Engine& engine() = 0;
   [[nodiscard]] virtual const sat::Engine& engine() const = 0;
   [[nodiscard]] virtual sat::CostProblem& problem() = 0;

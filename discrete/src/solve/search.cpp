@@ -282,7 +282,7 @@ class Search final : private sat::YieldPoint {
     enter(Phase::search);
     const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
     if (has_prices()) priced_ = price_goals(instance_, limits_);
-    const bool is_ready = priced_ ? run->prepare(priced_->distances, priced_->prices, limits_)
+    const bool is_ready = priced_ ? run->prepare(priced_->distances, &*priced_, limits_)
                                   : run->prepare(distances, nullptr, limits_);
     if (!is_ready) return;
     run_ = run.get();

@@ -54,7 +54,7 @@ Outcome CandidateSearch::advance(Slice slice) {
 }
 
 // The counter knows, for each agent, of costs so high that one of them alone is too much. So each
-// agent has a cap in the model, and together they cost what was asked for.
+// agent has a cap in the model, and together with the fees they cost what was asked for.
 std::vector<Lit> CandidateSearch::caps_of_candidate() {
   CostProblem& problem = context_.problem;
   std::vector<Lit> caps;
@@ -63,6 +63,8 @@ std::vector<Lit> CandidateSearch::caps_of_candidate() {
     while (offline_.candidate_has(problem.cost_above(i, cost))) ++cost;
     caps.push_back(~problem.cost_above(i, cost));
   }
+  for (const CostProblem::Fee& fee : problem.fees())
+    if (!offline_.candidate_has(fee.due)) caps.push_back(~fee.due);
   return caps;
 }
 

@@ -14,15 +14,19 @@ bool Relaxation::start() {
     if (!add({nullptr, 0, i, problem_.free_cost(i)})) return false;
     bound_ += problem_.free_cost(i);
   }
+  for (const CostProblem::Fee& fee : problem_.fees())
+    if (!add({nullptr, 0, AgentId(), 0, &fee})) return false;
   return true;
 }
 
 bool Relaxation::grow(const Soft& soft, Cost units) {
-  return soft.counter != nullptr || problem_.grow_to(soft.agent, soft.bound + units - 1, limits_);
+  return soft.counter != nullptr || soft.fee != nullptr ||
+         problem_.grow_to(soft.agent, soft.bound + units - 1, limits_);
 }
 
 Lit Relaxation::violated_by(const Soft& soft, Cost units) const {
   const Cost least = soft.bound + units;
+  if (soft.fee != nullptr) return least <= soft.fee->amount ? soft.fee->due : Lit();
   if (soft.counter == nullptr) return problem_.cost_above(soft.agent, least - 1);
   if (soft.rank == 0) return soft.counter->at_least(1, static_cast<int>(least) + 1);
   return soft.counter->at_least(static_cast<int>(least), soft.rank);
@@ -97,6 +101,7 @@ bool Relaxation::relax(std::span<const Lit> core, Cost lift) {
 std::vector<AgentId> Relaxation::agents_of(const std::vector<Soft>& softs) const {
   std::vector<AgentId> agents;
   for (const Soft& soft : softs) {
+    if (soft.fee != nullptr) continue;
     if (soft.counter == nullptr) {
       agents.push_back(soft.agent);
       continue;
@@ -116,6 +121,7 @@ Totalizer::Input Relaxation::excess() const {
 }
 
 ProofItem Relaxation::proof_item(const Soft& soft) {
+  QUADRILLE_REQUIRE(soft.fee == nullptr, "certificates know of no fees");
   ProofItem item;
   item.kind = soft.counter == nullptr ? ProofItem::Kind::agent : ProofItem::Kind::counter;
   item.agent = soft.agent;

@@ -16,7 +16,7 @@
 namespace quadrille::sat {
 
 /// The softs of OLL, numbers that each cost one per unit beyond a bound: at first what each agent
-/// costs beyond its free cost. Every plan costs `bound()` plus what it violates.
+/// costs beyond its free cost, and fees. Every plan costs `bound()` plus what it violates.
 class Relaxation {
  public:
   /// All must outlive the relaxation. Adds nothing yet.
@@ -58,13 +58,14 @@ class Relaxation {
   void retire();
 
  private:
-  /// Violated by as many units as a number exceeds `bound`: what an agent costs, or one that a
-  /// counter keeps.
+  /// Violated by as many units as a number exceeds `bound`: what an agent costs, one that a counter
+  /// keeps, or a fee.
   struct Soft {
-    CoreCounter* counter;  // null: of an agent
+    CoreCounter* counter;  // null: of an agent, or a fee
     int rank;              // of the counter's numbers; 0: all but the largest, as one number
     AgentId agent;
     Cost bound;
+    const CostProblem::Fee* fee = nullptr;
   };
   [[nodiscard]] bool grow(const Soft& soft, Cost units);
   /// That the soft is violated by `units` >= 1 or more. Invalid if it never is.

@@ -9,7 +9,7 @@ std::string_view to_string(const Why& why) noexcept {
   // In the order of the types.
   constexpr std::array<std::string_view, std::variant_size_v<Why>> kNames = {
       "path", "explicit path", "vertex", "edge",    "goal", "rectangle", "corridor", "moves",
-      "stay", "pair",          "order",  "ceiling", "rest", "counter",   "core"};
+      "stay", "pair",          "order",  "ceiling", "rest", "taken",     "counter",  "core"};
   return kNames[why.index()];
 }
 
@@ -29,6 +29,7 @@ struct IsCollision {
   bool operator()(const why::Order&) const { return false; }
   bool operator()(const why::Ceiling&) const { return false; }
   bool operator()(const why::Rest&) const { return false; }
+  bool operator()(const why::Taken&) const { return false; }
   bool operator()(const why::Counter&) const { return false; }
   bool operator()(const why::Core&) const { return false; }
 };

@@ -12,7 +12,9 @@
 namespace quadrille::discrete::support {
 
 inline bool forbids_visit(const ObstacleTable& table, const Obstacle& o, VertexId v, Timestep t) {
-  if (o.kind == Obstacle::Kind::edge || o.kind == Obstacle::Kind::end) return false;
+  if (o.kind == Obstacle::Kind::edge || o.kind == Obstacle::Kind::end ||
+      o.kind == Obstacle::Kind::elsewhere)
+    return false;
   if (o.kind != Obstacle::Kind::barrier) return o.vertex == v && o.first <= t && t <= o.last;
   const auto visits = table.visits(o);
   return std::find(visits.begin(), visits.end(), Visit{v, t}) != visits.end();
@@ -70,7 +72,8 @@ struct Situation {
   [[nodiscard]] bool may_end(AgentId i, VertexId v) const {
     return model.instance().agents()[i].goals.contains(v) &&
            std::none_of(active[i].begin(), active[i].end(), [&](const Obstacle& o) {
-             return o.kind == Obstacle::Kind::end && o.vertex == v;
+             return (o.kind == Obstacle::Kind::end && o.vertex == v) ||
+                    (o.kind == Obstacle::Kind::elsewhere && o.vertex != v);
            });
   }
   [[nodiscard]] bool may_move(AgentId i, VertexId v, VertexId w, Timestep t) const {

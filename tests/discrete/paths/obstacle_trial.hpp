@@ -51,7 +51,7 @@ inline Trial random_trial(unsigned seed) {
   if (below(3) == 0) trial.task.goals = Goals({vertex(), vertex(), vertex()});
   const AgentId agent(0);
   for (std::size_t k = below(14); k > 0; --k) {
-    const std::size_t kind = below(7);
+    const std::size_t kind = below(8);
     if (kind < 2) {
       trial.active.push_back(trial.table.add_point(agent, {}, {vertex(), 1 + time()}));
     } else if (kind < 4) {
@@ -66,6 +66,10 @@ inline Trial random_trial(unsigned seed) {
       trial.active.push_back(trial.table.add_range(agent, {}, vertex(), first, last));
     } else if (kind == 5) {
       trial.active.push_back(trial.table.add_end(agent, {}, vertex()));
+    } else if (kind == 6) {
+      const auto goals = trial.task.goals.vertices();
+      if (below(3) == 0)
+        trial.active.push_back(trial.table.add_elsewhere(agent, {}, goals[below(goals.size())]));
     } else {
       std::vector<Visit> visits;
       for (std::size_t v = 1 + below(3); v > 0; --v) visits.push_back({vertex(), 1 + time()});
@@ -82,7 +86,7 @@ inline bool allows(const Trial& trial, std::span<const ObstacleId> obstacles, Ve
     if (o.kind == Obstacle::Kind::edge)
       return o.first == arrival - 1 &&
              ((o.vertex == from && o.to == to) || (o.vertex == to && o.to == from));
-    if (o.kind == Obstacle::Kind::end) return false;
+    if (o.kind == Obstacle::Kind::end || o.kind == Obstacle::Kind::elsewhere) return false;
     if (o.kind != Obstacle::Kind::barrier)
       return o.vertex == to && o.first <= arrival && arrival <= o.last;
     const auto visits = trial.table.visits(o);
@@ -125,7 +129,9 @@ inline std::optional<Timestep> least_cost(const Trial& trial, std::span<const Ob
   for (const VertexId goal : trial.task.goals.vertices()) {
     if (!allows(trial, obstacles, goal, goal, kHorizon)) continue;
     if (std::any_of(obstacles.begin(), obstacles.end(), [&](ObstacleId id) {
-          return trial.table[id].kind == Obstacle::Kind::end && trial.table[id].vertex == goal;
+          const Obstacle& o = trial.table[id];
+          return (o.kind == Obstacle::Kind::end && o.vertex == goal) ||
+                 (o.kind == Obstacle::Kind::elsewhere && o.vertex != goal);
         }))
       continue;
     Timestep from = kHorizon;  // the goal is allowed from then on

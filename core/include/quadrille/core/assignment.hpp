@@ -36,11 +36,10 @@ struct Assignment {
 [[nodiscard]] std::optional<Assignment> cheapest_assignment(
     const std::vector<std::vector<Reach>>& reach, std::size_t num_goals, LimitMonitor& limits);
 
-/// Sets prices to 0 where goals may be left over: in each part of agents and goals that have to do
-/// with each other, unless it has as many agents as goals. Those that are left are paid in every
-/// plan, so that plans can be compared by costs and prices together.
-void keep_prices_that_are_always_paid(const std::vector<std::vector<Reach>>& reach,
-                                      std::vector<Cost>& prices);
+/// By goal: whether a plan may leave it over. In each part of agents and goals that have to do with
+/// each other, all goals are taken if there are as many agents.
+[[nodiscard]] std::vector<bool> may_be_left_over(const std::vector<std::vector<Reach>>& reach,
+                                                 std::size_t num_goals);
 
 }  // namespace quadrille
 

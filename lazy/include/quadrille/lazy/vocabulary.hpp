@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -32,6 +33,7 @@ inline constexpr Cost kNoCap = std::numeric_limits<std::int64_t>::max() / 4;
 ///   false. Where it can end elsewhere, its cost does not say where it rests: then a literal does,
 ///   "it rests there, and costs less than `cost`", which follows from "it ends there" and "it costs
 ///   less than `cost`".
+/// - Where goals have prices and may be left over, a literal "nobody ends there" for each of these.
 ///
 /// In lemmas, the resource number of a usage is the index of its obstacle.
 class Vocabulary {
@@ -64,7 +66,8 @@ class Vocabulary {
     usage,
     cost,
     rest,  ///< The positive literal says that the agent rests at `goal` and costs less than `cost`.
-    own    ///< Of the domain: it knows what.
+    left_over,  ///< The positive literal says that nobody ends at `goal`. Of no agent.
+    own         ///< Of the domain: it knows what.
   };
   struct Variable {
     VariableKind kind = VariableKind::auxiliary;
@@ -72,7 +75,7 @@ class Vocabulary {
     Cost cost = 0;        // cost: see is_at_least; rest
     ObstacleId obstacle;  // usage: true says that it is forbidden
     std::uint32_t own = 0;
-    VertexId goal;  // rest
+    VertexId goal;  // rest, left_over
   };
   [[nodiscard]] Variable variable(sat::Lit lit) const {
     const auto index = static_cast<std::size_t>(lit.variable());
@@ -91,6 +94,17 @@ class Vocabulary {
   };
   /// All that were made, in that order.
   [[nodiscard]] const std::vector<GoalObstacle>& goal_obstacles() const { return goal_obstacles_; }
+  /// The literal "nobody ends at the goal". By itself it says nothing: see `take`.
+  [[nodiscard]] sat::Lit left_over(VertexId goal, FormulaWriter& writer);
+  /// Writes that the goal is left over, or somebody ends there. `elsewhere`: of each agent that can
+  /// end there the obstacle that forbids to end at another goal, each with its usage literal.
+  struct MayEndElsewhere {
+    AgentId agent;
+    ObstacleId obstacle;
+    sat::Lit allowed;
+  };
+  void take(VertexId goal, std::span<const MayEndElsewhere> elsewhere, FormulaWriter& writer);
+
   /// The positive literals of all usage, cost and rest variables, in the order in which they were
   /// made.
   [[nodiscard]] std::vector<sat::Lit> literals() const;
@@ -138,6 +152,7 @@ class Vocabulary {
   IdVector<AgentId, std::vector<Rung>> ladders_;
   std::map<std::tuple<AgentId, AgentId, VertexId, Cost>, ObstacleId> goals_;
   std::map<std::tuple<AgentId, VertexId, Cost>, sat::Lit> rests_;
+  std::map<VertexId, sat::Lit> left_over_;
   std::vector<GoalObstacle> goal_obstacles_;
   std::vector<Variable> variables_;  // by variable
 };

@@ -35,6 +35,14 @@ class CostProblem {
   /// cost >= free_cost and that the problem has grown to it. Not during solve.
   [[nodiscard]] virtual Lit cost_above(AgentId agent, Cost cost) = 0;
 
+  /// What plans pay besides what agents cost: `amount` >= 1 where `due` is true.
+  struct Fee {
+    Lit due;
+    Cost amount = 1;
+  };
+  /// All that there are, each literal once; the same ones at each call.
+  [[nodiscard]] virtual std::span<const Fee> fees() const { return {}; }
+
   /// No plan is cheaper.
   [[nodiscard]] virtual Cost lower_bound() const = 0;
   /// Appends assumptions that hold only in plans that cost at most `bound`, after adding the
@@ -56,8 +64,8 @@ class CostProblem {
     for (const AgentId i : IdRange<AgentId>(num_agents())) all.push_back(i);
     return all;
   }
-  /// Looks at the engine's model for all agents. False: it is no plan, clauses that exclude it were
-  /// added.
+  /// Looks at the engine's model for all agents. False: it is no plan, or one that pays a fee whose
+  /// literal is false in the model; clauses that exclude it were added.
   [[nodiscard]] virtual bool accept_model() = 0;
 };
 

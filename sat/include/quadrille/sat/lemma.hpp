@@ -74,6 +74,10 @@ struct Ceiling {
 struct Rest {
   AgentId agent;
 };
+/// Nobody ends at a goal, or one of those does who can. 6.10.
+struct Taken {
+  VertexId goal;
+};
 /// Defines a counter over other literals (see Totalizer). 4.
 struct Counter {};
 /// Follows from all clauses so far: a core of assumptions, negated. 5.
@@ -83,7 +87,7 @@ struct Core {};
 
 using Why = std::variant<why::Path, why::ExplicitPath, why::Vertex, why::Edge, why::Goal,
                          why::Rectangle, why::Corridor, why::Moves, why::Stay, why::Pair,
-                         why::Order, why::Ceiling, why::Rest, why::Counter, why::Core>;
+                         why::Order, why::Ceiling, why::Rest, why::Taken, why::Counter, why::Core>;
 
 /// "path", "explicit path", "vertex", ...
 [[nodiscard]] std::string_view to_string(const Why& why) noexcept;
