@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "certificate/certify.hpp"
+#include "flow/one_group.hpp"
 #include "mdd/mdd_model.hpp"
 #include "mdd/usages.hpp"
 #include "model/independent_groups.hpp"
@@ -80,6 +81,28 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   return std::nullopt;
 }
 
+/// Edges of time-expanded graphs, for flows before the search: a few seconds.
+constexpr std::int64_t kMostFlowSteps = 300'000'000;
+
+/// For the makespan of agents that share goals: what each group of them takes at least, and where
+/// there is no other agent, a plan. True if that is all there is to know.
+bool is_closed_by_flow(const Instance& instance, const SolveOptions& options, LimitMonitor& limits,
+                       Knowledge& known) {
+  if (options.objective != Objective::makespan || options.explain || !instance.is_plain())
+    return false;
+  for (const std::vector<AgentId>& group : groups_that_share(instance)) {
+    GroupMakespan flow = least_makespan(instance, group, kMostFlowSteps, limits);
+    known.prove(flow.lower);
+    if (flow.paths && group.size() == instance.num_agents()) {
+      Plan plan{IdVector<AgentId, Path>(*std::move(flow.paths))};
+      trim(plan);
+      known.offer(std::make_shared<const Plan>(std::move(plan)), flow.lower);
+      known.credit("flow");
+    }
+  }
+  return known.cost && *known.cost <= known.lower();
+}
+
 /// What solve::search_from_0 asks for.
 class Border {
  public:
@@ -147,6 +170,7 @@ class Domain {
     return [this, part = instance_.with_agents(std::move(tasks)).value()](
                const SolveOptions& options, LimitMonitor& limits, Knowledge& known,
                solve::Pulse<Plan>& pulse) {
+      if (is_closed_by_flow(part, options, limits, known)) return;
       solve::Exchange<Message> alone;
       ProofDraft none;
       search_side_by_side(part, options, tuner_, account_, {limits, known, pulse, alone}, none);
@@ -192,6 +216,7 @@ class Domain {
         return;
       }
     }
+    if (is_closed_by_flow(instance_, options_, limits, known)) return;
     solve::Exchange<Message> alone;
     search_side_by_side(instance_, options_, tuner_, account, {limits, known, pulse, alone},
                         proof_);
