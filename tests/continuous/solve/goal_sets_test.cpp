@@ -172,6 +172,33 @@ TEST(GoalSetsByHand, TwoRobotsShareTwoDocks) {
   EXPECT_EQ(site->end, CollisionSite::kForever);
 }
 
+// Each has a dock of its own, and both are nearer to the one in the middle. Its price makes both
+// docks as dear for both: a plan that leaves it over has to pay that.
+TEST(GoalSetsByHand, ADockThatBothWouldPayForIsNotLeftOver) {
+  // In each order of docks and of robots.
+  for (const std::size_t other_dock : {2U, 4U})
+    for (const bool is_left_first : {false, true}) {
+      std::vector<Point> points{{2000, 0}, {4000, 0}, {0, 0}, {3000, 0}, {6000, 0}};
+      std::swap(points[3], points[other_dock]);
+      const auto at = [&](Length x) {
+        const auto found = std::find(points.begin(), points.end(), Point{x, 0});
+        return static_cast<std::size_t>(found - points.begin());
+      };
+      const Roads line{
+          {at(0), at(2000)}, {at(2000), at(3000)}, {at(3000), at(4000)}, {at(4000), at(6000)}};
+      std::vector<Agent> agents{agent(0, 0, 300), agent(1, 1, 300)};
+      agents[0].goals = Goals({VertexId(at(0)), VertexId(at(3000))});
+      agents[1].goals = Goals({VertexId(at(6000)), VertexId(at(3000))});
+      if (!is_left_first) std::swap(agents[0], agents[1]);
+      const auto instance = Instance::make(roadmap(points, line), agents).value();
+      SolveOptions options;
+      options.joint_work = 0;
+      const SolveOutcome outcome = solve(instance, options).value();
+      EXPECT_EQ(outcome.status, Status::optimal);
+      EXPECT_EQ(outcome.cost, 3000);
+    }
+}
+
 // Nobody looks at all agents together, because they are too many, nor at the three of them. So it
 // is clauses that say that no two end in one place: by how long they stay away there is no end.
 TEST(GoalSetsByHand, ThreeRobotsFindNoRoomInTwoDocks) {
