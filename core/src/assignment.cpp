@@ -117,6 +117,51 @@ std::optional<Assignment> cheapest_assignment(const std::vector<std::vector<Reac
   return Hungarian(reach, num_goals).run(limits);
 }
 
+std::vector<AgentId> find_crowd(const std::vector<std::vector<Reach>>& reach,
+                                std::size_t num_goals) {
+  std::vector<std::size_t> owner(num_goals, kNobody), asker(num_goals, kNobody);
+  std::vector<std::size_t> goal_of(reach.size(), kNobody), seen(num_goals, kNobody);
+  for (std::size_t first = 0; first < reach.size(); ++first) {
+    std::vector<std::size_t> queue{first};
+    std::size_t free = kNobody;
+    for (std::size_t head = 0; head < queue.size() && free == kNobody; ++head)
+      for (const Reach& to : reach[queue[head]]) {
+        if (seen[to.goal] == first) continue;
+        seen[to.goal] = first;
+        asker[to.goal] = queue[head];
+        if (owner[to.goal] == kNobody) {
+          free = to.goal;
+          break;
+        }
+        queue.push_back(owner[to.goal]);
+      }
+    if (free == kNobody) {
+      std::sort(queue.begin(), queue.end());
+      std::vector<AgentId> crowd;
+      for (const std::size_t agent : queue) crowd.emplace_back(agent);
+      return crowd;
+    }
+    // Each takes the goal that it asked for, and leaves its own to the one who asked for that.
+    while (free != kNobody) {
+      owner[free] = asker[free];
+      free = std::exchange(goal_of[owner[free]], free);
+    }
+  }
+  return {};
+}
+
+std::string describe_crowd(const std::vector<AgentId>& agents) {
+  std::string who;
+  for (std::size_t k = 0; k < agents.size(); ++k)
+    who += (k == 0                   ? ""
+            : k + 1 == agents.size() ? " and "
+                                     : ", ") +
+           std::to_string(agents[k].value());
+  if (agents.size() == 1) return "agent " + who + " cannot reach any of its goals";
+  return "agents " + who + " can only end at " + std::to_string(agents.size() - 1) +
+         (agents.size() == 2 ? " goal" : " different goals");
+}
+
 std::vector<bool> may_be_left_over(const std::vector<std::vector<Reach>>& reach,
                                    std::size_t num_goals) {
   // Goals that an agent can choose among are in one part: the part of a goal is that of its root.

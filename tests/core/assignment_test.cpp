@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <random>
+#include <set>
 
 #include "quadrille/core/random.hpp"
 
@@ -98,6 +100,32 @@ TEST(Assignment, GoalsAreLeftOverWhereThereAreMoreThanAgents) {
   EXPECT_GT(assignment->prices[0], 0);
   EXPECT_GT(assignment->prices[2], 0);
   EXPECT_EQ(may_be_left_over(reach, 5), (std::vector<bool>{false, false, true, true, true}));
+}
+
+// A crowd is what Hall's theorem says: there is one exactly if nobody can be left without a goal.
+TEST(Assignment, CrowdsAreWhoCanReachTooFewGoals) {
+  std::mt19937 random(11);
+  int num_crowds = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const std::size_t num_goals = 1 + random() % 5;
+    Reaches reach(1 + random() % 5);
+    for (auto& own : reach)
+      for (std::size_t goal = 0; goal < num_goals; ++goal)
+        if (random() % 3 == 0) own.push_back({goal, 1});
+    LimitMonitor limits{Limits{}};
+    const auto crowd = find_crowd(reach, num_goals);
+    ASSERT_EQ(crowd.empty(), cheapest_assignment(reach, num_goals, limits).has_value());
+    if (crowd.empty()) continue;
+    ++num_crowds;
+    ASSERT_TRUE(std::is_sorted(crowd.begin(), crowd.end()));
+    std::set<std::size_t> goals;
+    for (const AgentId i : crowd)
+      for (const Reach& to : reach[i.index()]) goals.insert(to.goal);
+    ASSERT_EQ(goals.size() + 1, crowd.size());
+  }
+  EXPECT_GT(num_crowds, 500);
+  EXPECT_EQ(describe_crowd({AgentId(4)}), "agent 4 cannot reach any of its goals");
+  EXPECT_EQ(describe_crowd({AgentId(1), AgentId(4)}), "agents 1 and 4 can only end at 1 goal");
 }
 
 TEST(Assignment, EndsAtALimit) {

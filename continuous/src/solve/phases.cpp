@@ -11,6 +11,7 @@
 #include "primal/first_plan.hpp"
 #include "primal/serial_plan.hpp"
 #include "quadrille/core/free_bound.hpp"
+#include "quadrille/geometry/body_pair.hpp"
 #include "quadrille/solve/frame.hpp"
 #include "routes/route_search.hpp"
 #include "solve/portfolio.hpp"
@@ -43,6 +44,18 @@ Cost most_cost(const Instance& instance, Objective objective) {
   return most;
 }
 
+bool cannot_both_end(const Instance& instance, AgentId i, AgentId j) {
+  const Agent &a = instance.agent(i), &b = instance.agent(j);
+  if (a.leaves || b.leaves) return false;
+  const geometry::BodyPair bodies(a.body, b.body);
+  const auto first = a.goals.vertices(), second = b.goals.vertices();
+  return std::all_of(first.begin(), first.end(), [&](VertexId g) {
+    return std::all_of(second.begin(), second.end(), [&](VertexId h) {
+      return bodies.overlap(instance.roadmap().place(g), instance.roadmap().place(h));
+    });
+  });
+}
+
 }  // namespace
 
 solve::Infeasibility infeasibility(const Instance& instance, const std::vector<AgentId>& blocked) {
@@ -51,6 +64,12 @@ solve::Infeasibility infeasibility(const Instance& instance, const std::vector<A
                 " cannot get past the moving obstacles" +
                 (instance.agent(blocked.front()).deadline ? " by its deadline" : "") +
                 ", even without other agents",
+            blocked,
+            {}};
+  if (blocked.size() == 2 && cannot_both_end(instance, blocked[0], blocked[1]))
+    return {"agents " + std::to_string(blocked[0].index()) + " and " +
+                std::to_string(blocked[1].index()) +
+                " cannot both be at a goal: their bodies overlap at every two of their goals",
             blocked,
             {}};
   const bool are_all = blocked.size() == instance.num_agents();

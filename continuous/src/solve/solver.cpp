@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "certificate/certify.hpp"
+#include "feasibility/goal_reach.hpp"
 #include "joint/joint_groups.hpp"
 #include "model/parked.hpp"
 #include "model/since_now.hpp"
@@ -113,6 +114,11 @@ class Domain {
   void search(LimitMonitor& limits, const std::shared_ptr<ResourceAccount>& account,
               Knowledge& known, solve::Pulse<Plan>& pulse) {
     account_ = account;
+    if (auto crowd = find_crowd(instance_, limits); !crowd.empty()) {
+      std::string why = describe_crowd(crowd);
+      known.infeasible = solve::Infeasibility{std::move(why), std::move(crowd), {}};
+      return;
+    }
     // What a session leaves to its next solve is about all agents.
     // And a certificate is one for all.
     if (options_.system == System::dpll && warm_.store == nullptr && !options_.proof &&

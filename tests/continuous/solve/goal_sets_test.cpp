@@ -199,16 +199,22 @@ TEST(GoalSetsByHand, ADockThatBothWouldPayForIsNotLeftOver) {
     }
 }
 
-// Nobody looks at all agents together, because they are too many, nor at the three of them. So it
-// is clauses that say that no two end in one place: by how long they stay away there is no end.
+// Three docks, of which the last two are too near to each other. Nobody looks at all agents
+// together, because they are too many, nor at the three of them. So it is clauses that say that no
+// two end in one place: by how long they stay away there is no end.
 TEST(GoalSetsByHand, ThreeRobotsFindNoRoomInTwoDocks) {
   std::vector<Point> points = row();
+  points.push_back({3400, 0});
+  Roads roads = kRow;
+  roads.emplace_back(3, 4);
   std::vector<Agent> agents{docker(0), docker(1), docker(2)};
+  for (Agent& agent : agents) agent.goals = Goals({VertexId(2), VertexId(3), VertexId(4)});
   for (std::int64_t k = 1; k <= 6; ++k) {
     agents.push_back(agent(points.size(), points.size(), 300));
     points.push_back({Length(10'000 * k), 0});
   }
-  const auto instance = Instance::make(roadmap(std::move(points), kRow), std::move(agents)).value();
+  const auto instance =
+      Instance::make(roadmap(std::move(points), roads), std::move(agents)).value();
   SolveOptions options;
   options.joint_work = 0;
   options.limits.conflicts = 1000;
@@ -217,6 +223,30 @@ TEST(GoalSetsByHand, ThreeRobotsFindNoRoomInTwoDocks) {
   const SolveOutcome outcome = solve(instance, options).value();
   EXPECT_FALSE(outcome.internal_error);
   EXPECT_EQ(outcome.status, Status::infeasible);
+}
+
+TEST(GoalSetsByHand, InfeasibleInTheUsersWords) {
+  // More robots than docks, among others who are far away: too many to be searched together.
+  std::vector<Point> points = row();
+  std::vector<Agent> agents{docker(0), docker(1), docker(2)};
+  for (std::int64_t k = 1; k <= 30; ++k) {
+    agents.push_back(agent(points.size(), points.size(), 300));
+    points.push_back({Length(10'000 * k), 0});
+  }
+  const auto crowd = Instance::make(roadmap(std::move(points), kRow), std::move(agents)).value();
+  const SolveOutcome outcome = solve(crowd, {}).value();
+  EXPECT_EQ(outcome.status, Status::infeasible);
+  EXPECT_EQ(outcome.explanation, "agents 0, 1 and 2 can only end at 2 different goals");
+  EXPECT_EQ(outcome.blocked, (std::vector{AgentId(0), AgentId(1), AgentId(2)}));
+  // Two docks that are too near to each other for two.
+  std::vector<Point> near = row();
+  near[3].x = 2500;
+  const auto tight = Instance::make(roadmap(near, kRow), {docker(0), docker(1)}).value();
+  const SolveOutcome refused = solve(tight, {}).value();
+  EXPECT_EQ(refused.status, Status::infeasible);
+  EXPECT_EQ(refused.explanation,
+            "agents 0 and 1 cannot both be at a goal: their bodies overlap at every two of their "
+            "goals");
 }
 
 TEST(GoalSetsByHand, ErrorsOfInstances) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "quadrille/core/export.hpp"
@@ -35,6 +36,13 @@ struct Assignment {
 /// no assignment, or if a limit was met. O(agents * (E log E)), E being all that can be reached.
 [[nodiscard]] std::optional<Assignment> cheapest_assignment(
     const std::vector<std::vector<Reach>>& reach, std::size_t num_goals, LimitMonitor& limits);
+
+/// Agents that together can reach fewer goals than they are, increasing; empty if all can have
+/// different goals. Augmenting paths, found breadth first: O(agents * E).
+[[nodiscard]] std::vector<AgentId> find_crowd(const std::vector<std::vector<Reach>>& reach,
+                                              std::size_t num_goals);
+/// Says so, with the numbers of the agents.
+[[nodiscard]] std::string describe_crowd(const std::vector<AgentId>& agents);
 
 /// By goal: whether a plan may leave it over. In each part of agents and goals that have to do with
 /// each other, all goals are taken if there are as many agents.
