@@ -19,7 +19,10 @@ export function drawAgents(context, state) {
   const positions = scene.agents.map((agent) => positionAt(agent, player.time));
   const selected = state.agent();
   if (selected !== null && state.showSwept) drawSwept(context, state, selected);
-  if (selected !== null) drawSelectedPath(context, state, selected);
+  if (selected !== null) {
+    drawOtherGoals(context, state, selected);
+    drawSelectedPath(context, state, selected);
+  }
   drawObstacles(context, state);
   AGENT_COLOURS.forEach((colour, kind) => {
     context.fillStyle = colour;
@@ -31,6 +34,23 @@ export function drawAgents(context, state) {
   outline(context, state, positions);
   if (state.showOrder) drawPrecedences(context, state);
   drawLabels(context, state, positions);
+}
+
+/**
+ * Dashed squares where the agent may end, and does not.
+ * @param {CanvasRenderingContext2D} context
+ * @param {State} state
+ * @param {Agent} agent
+ */
+function drawOtherGoals(context, { camera, scene }, agent) {
+  const size = Math.max(2.5, Math.min(0.6 * scene.bodies[agent.body].radius * camera.scale, 12));
+  context.save();
+  context.strokeStyle = agentColour(agent.index);
+  context.lineWidth = 1.5;
+  context.setLineDash([3, 2]);
+  for (const goal of agent.otherGoals)
+    context.strokeRect(camera.toPixelX(goal.x) - size, camera.toPixelY(goal.y) - size, 2 * size, 2 * size);
+  context.restore();
 }
 
 /**

@@ -171,6 +171,7 @@ export class Panel {
     const facts = [
       ["start", placeName(state, agent.start)],
       ["goal", placeName(state, agent.goal)],
+      ...otherGoals(state, agent),
       ["cost", agent.cost === null ? "no path" : state.show(agent.cost)],
       ["free cost", agent.free === null ? "no way to the goal" : state.show(agent.free)],
     ];
@@ -189,6 +190,19 @@ export class Panel {
       return [term, text];
     }));
   }
+}
+
+/**
+ * Where else the agent may end: the first few.
+ * @param {State} state
+ * @param {Agent} agent
+ * @returns {[string, string][]}
+ */
+function otherGoals(state, { otherGoals: goals }) {
+  if (goals.length === 0) return [];
+  const shown = goals.slice(0, 3).map((goal) => placeName(state, goal));
+  const rest = goals.length - shown.length;
+  return [["or goal", shown.join(" or ") + (rest > 0 ? ` or ${rest} more` : "")]];
 }
 
 /**

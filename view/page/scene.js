@@ -20,6 +20,7 @@
  * @property {Float64Array} ys
  * @property {Float64Array} zs
  * @property {boolean} leaves   it is nowhere after its arrival
+ * @property {Place[]} otherGoals   where it may end, too
  *
  * A body of others on a known path, nowhere before the first time, and if it leaves nowhere after the last.
  * @typedef {{body: number, leaves: boolean, times: Float64Array, xs: Float64Array, ys: Float64Array,
@@ -187,7 +188,8 @@ function readAgent(data, index) {
     index, start: readPlace(data.start), goal: readPlace(data.goal),
     body: data.body ?? 0, looks: data.looks ? looksOf(data.looks, data.stops) : [],
     free: data.free ?? null, cost: data.cost ?? null,
-    leaves: Boolean(data.leaves), ...columnsOf(frames),
+    leaves: Boolean(data.leaves), otherGoals: (data.other_goals ?? []).map(readPlace),
+    ...columnsOf(frames),
   };
 }
 

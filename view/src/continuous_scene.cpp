@@ -160,7 +160,14 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
     const auto goal = goal_shown(task.goals, has_path ? plan.paths[i].back().vertex : VertexId());
     const continuous::Roadmap& roadmap = instance.roadmap();
     const std::size_t look = body(i, roadmap.shape(task.start));
-    SceneAgent agent{task.start.index(), goal.index(), look, {}, {}, {}, task.leaves};
+    SceneAgent agent{task.start.index(),
+                     goal.index(),
+                     look,
+                     {},
+                     {},
+                     {},
+                     task.leaves,
+                     goals_not_shown(task.goals, goal)};
     agent.goal_body = body(i, roadmap.shape(goal));
     if (!task.shapes.empty() && has_path) agent.looks = looks_of(roadmap, i, plan.paths[i], body);
     if (const auto alone = continuous::free_cost(instance, i)) agent.free_cost = alone->value();

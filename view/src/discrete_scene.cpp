@@ -98,7 +98,14 @@ Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan)
     const discrete::Agent& task = instance.agents()[i];
     const bool has_path = i.index() < plan.paths.size() && !plan.paths[i].empty();
     const auto goal = goal_shown(task.goals, has_path ? plan.paths[i].back() : VertexId());
-    SceneAgent agent{task.start.index(), goal.index(), 0, {}, {}, {}, task.leaves};
+    SceneAgent agent{task.start.index(),
+                     goal.index(),
+                     0,
+                     {},
+                     {},
+                     {},
+                     task.leaves,
+                     goals_not_shown(task.goals, goal)};
     const Timestep alone = distances_to_nearest(instance.graph(), task.goals)[task.start];
     if (alone != discrete::kUnreachable && instance.is_plain()) agent.free_cost = alone;
     if (i.index() < plan.paths.size())

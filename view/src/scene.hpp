@@ -48,6 +48,14 @@ struct SceneStop {
   return goals.contains(end) ? end : goals.vertices().front();
 }
 
+/// All the others.
+[[nodiscard]] inline std::vector<std::size_t> goals_not_shown(const Goals& goals, VertexId shown) {
+  std::vector<std::size_t> places;
+  for (const VertexId goal : goals.vertices())
+    if (goal != shown) places.push_back(goal.index());
+  return places;
+}
+
 struct SceneAgent {
   std::size_t start, goal;                ///< Places. Of several goals the one where it ends.
   std::size_t body = 0;                   ///< At its start; into Scene::bodies, if there are any.
@@ -55,6 +63,7 @@ struct SceneAgent {
   std::optional<std::int64_t> cost;       ///< Nullopt without a path.
   std::vector<SceneStop> stops;           ///< In order of time; empty without a path.
   bool leaves = false;                    ///< It is nowhere after its arrival.
+  std::vector<std::size_t> other_goals;   ///< Places where it may end, too.
   std::size_t goal_body = 0;              ///< At its goal.
   /// Of one whose body changes on the way: at the first stop, from there to the next, at that, ...
   std::vector<std::size_t> looks = {};

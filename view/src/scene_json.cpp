@@ -81,6 +81,8 @@ Json agent_json(const Scene& scene, const SceneAgent& agent) {
   if (agent.free_cost) json["free"] = *agent.free_cost;
   if (agent.cost) json["cost"] = *agent.cost;
   if (agent.leaves) json["leaves"] = true;
+  for (const std::size_t place : agent.other_goals)
+    json["other_goals"].push_back(point(scene, scene.places[place]));
   if (agent.stops.empty()) return json;
   if (!agent.looks.empty()) json["looks"] = agent.looks;
   const Json moves = agent.looks.empty() ? moves_of(scene, agent) : Json();

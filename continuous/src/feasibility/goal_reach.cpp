@@ -19,11 +19,13 @@ bool are_in_each_others_way(const Instance& instance) {
   std::sort(classes.begin(), classes.end());
   classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
   for (const ClassId a : classes)
-    for (const ClassId b : classes) {
-      const auto& body = instance.body(a);
-      if (std::holds_alternative<Disc>(body)) break;  // with discs pairs are seen from there
-      if (!geometry::bodies_overlap(body, Point{}, instance.body(b), Point{})) return false;
-    }
+    for (const ClassId b : classes)
+      for (const ShapeId shape : IdRange<ShapeId>(instance.roadmap().num_shapes())) {
+        const auto& body = instance.body(a, shape);
+        if (std::holds_alternative<Disc>(body)) continue;  // with discs pairs are seen from there
+        if (!geometry::bodies_overlap(body, Point{}, instance.body(b, shape), Point{}))
+          return false;
+      }
   return true;
 }
 

@@ -47,8 +47,10 @@ std::optional<PricedGoals> PricedGoals::make(const Instance& instance, LimitMoni
 bool PricedGoals::build(const Instance& instance) {
   RoadmapParts parts(instance.roadmap());
   for (const Price& price : prices_) {
+    const ShapeId shape = instance.roadmap().shape(price.goal);
     parts.vertices.push_back(instance.roadmap().position(price.goal));
-    parts.edges.push_back({price.goal, price.end, price.ticks});
+    if (!parts.shapes.empty()) parts.shapes.push_back(shape);
+    parts.edges.push_back({price.goal, price.end, price.ticks, Groups::all(), shape});
   }
   auto roadmap = std::move(parts).make();
   if (!roadmap) return false;
