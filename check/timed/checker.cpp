@@ -29,6 +29,8 @@ void TimedChecker::check(const Record& record) {
     case 'f':
     case 'c':
       return meanings_.add(record);
+    case 'm':
+      return rules_.add_contact(record);
     case 'a': {
       const auto parameters = record.parameters();
       const auto clause = record.literals();

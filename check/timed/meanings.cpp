@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -33,14 +34,10 @@ void TimedMeanings::add(const Record& record) {
     require(values[2] == kBans && values.size() % 4 == 3, "a ban has four numbers");
     made.kind = TimedVariable::Kind::does_not;
     for (std::size_t k = 3; k < values.size(); k += 4) {
-      const std::size_t size = values[k] == 0 ? road_.edges.size() : road_.points.size();
-      require((values[k] == 0 || values[k] == 1) && values[k + 1] >= 0 &&
-                  values[k + 1] < static_cast<Int>(size),
-              "no such place");
-      const Int end = values[k + 3] == -1 ? kNever : values[k + 3];
-      require(values[k + 2] > -kNever && values[k + 2] < end && end <= kNever,
-              "a ban ends after it begins");
-      made.bans.push_back({values[k] == 1, static_cast<int>(values[k + 1]), values[k + 2], end});
+      made.bans.push_back(read_ban(road_, values[k], values[k + 1], values[k + 2],
+                                   values[k + 3] == -1 ? kNever : values[k + 3]));
+      TimedBan& ban = made.bans.back();
+      if (!ban.is_stay) ban.begin = std::max<Int>(ban.begin, 0);
     }
   }
   require(values[0] > 0 && values[0] <= num_variables() + kMostUnused, "no such variable");

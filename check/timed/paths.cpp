@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "timed/paths.hpp"
+
 #include <algorithm>
 #include <functional>
 #include <queue>
-
-#include "timed/rules.hpp"
 
 namespace quadrille_check {
 namespace {

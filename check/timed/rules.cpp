@@ -10,23 +10,12 @@ namespace {
 
 /// Of two agents' bans: no search makes so many, and no file keeps the checker for hours.
 constexpr std::size_t kMostPairs = 1'000'000;
-constexpr Int kPaths = 11, kEncounter = 12, kCeiling = 13;
-
-Motion move(const Road& road, int agent, int edge, Int begin) {
-  const Road::Edge& e = road.edges[static_cast<std::size_t>(edge)];
-  return {road.points[static_cast<std::size_t>(e.from)],
-          road.points[static_cast<std::size_t>(e.to)], begin, begin + road.duration(agent, edge),
-          road.agents[static_cast<std::size_t>(agent)].body};
-}
-Motion stay(const Road& road, int agent, int vertex, Int begin, Int end) {
-  const Road::Point& at = road.points[static_cast<std::size_t>(vertex)];
-  return {at, at, begin, end, road.agents[static_cast<std::size_t>(agent)].body};
-}
+constexpr Int kPaths = 11, kEncounter = 12, kCeiling = 13, kPair = 14;
 
 }  // namespace
 
 TimedRules::TimedRules(const Road& road, const TimedMeanings& meanings)
-    : road_(road), meanings_(meanings), paths_(road) {
+    : road_(road), meanings_(meanings), paths_(road), contacts_(road) {
   for (int agent = 0; agent < static_cast<int>(road.agents.size()); ++agent) {
     const auto cost = paths_.arrival(agent, {}, kNever - 1);
     if (!cost) throw BadInput("an agent cannot come to its goal");
@@ -45,40 +34,60 @@ bool TimedRules::holds(Int rule, std::span<const Int> parameters, std::span<cons
   for (const Int lit : clause) static_cast<void>(meanings_.variable(lit));
   if (rule == kPaths) return has_no_path(parameters, clause);
   if (rule == kEncounter) return is_encounter(clause);
+  if (rule == kPair) return is_pair(parameters, clause);
   require(rule == kCeiling, "no such rule");
   return is_ceiling(clause);
 }
 
-// What the negated literals say of the agent. Whatever else they say is left out.
-bool TimedRules::has_no_path(std::span<const Int> parameters, std::span<const Int> clause) {
-  require(!parameters.empty(), "the rule has an agent");
-  const int agent = meanings_.agent(parameters[0]);
-  Int most = kNever - 1, more_than = -1;
-  std::vector<const TimedBan*> bans;
+struct TimedRules::Demand : TimedParty {
+  Int more_than = -1;
+  [[nodiscard]] bool is_contradiction() const { return most <= more_than; }
+};
+
+// Whatever else the literals say is left out.
+std::optional<TimedRules::Demand> TimedRules::demand(Int agent, std::span<const Int> variables,
+                                                     std::span<const Int> clause) {
+  Demand demand;
+  demand.agent = meanings_.agent(agent);
+  demand.most =
+      std::min(kNever - 1, road_.agents[static_cast<std::size_t>(demand.agent)].deadline);
   const auto keep = [&](const TimedVariable& x) {
-    for (const TimedBan& ban : x.bans) bans.push_back(&ban);
+    for (const TimedBan& ban : x.bans) demand.bans.push_back(&ban);
   };
   for (const Int lit : clause) {
     const TimedVariable& x = meanings_.variable(lit);
-    if (x.agent != agent) continue;
+    if (x.agent != demand.agent) continue;
     if (x.kind == TimedVariable::Kind::does_not) {
       if (lit < 0) keep(x);
     } else if (lit < 0) {
-      most = std::min(most, x.number);
+      demand.most = std::min(demand.most, x.number);
     } else {
-      more_than = std::max(more_than, x.number);
+      demand.more_than = std::max(demand.more_than, x.number);
     }
   }
-  for (const Int variable : parameters.subspan(1)) {
+  for (const Int variable : variables) {
     const TimedVariable& x = meanings_.variable(variable);
+    if (x.agent != demand.agent) continue;
     const auto is_due_to = [&](Int lit) { return is_kept_out(lit, variable); };
-    if (x.agent != agent || (std::none_of(clause.begin(), clause.end(), is_due_to) &&
-                             !is_kept_out_by_obstacles(variable)))
-      return false;
+    if (std::none_of(clause.begin(), clause.end(), is_due_to) &&
+        !is_kept_out_by_obstacles(variable))
+      return std::nullopt;
     keep(x);
   }
-  most = std::min(most, road_.agents[static_cast<std::size_t>(agent)].deadline);
-  return most <= more_than || !paths_.arrival(agent, bans, most);
+  return demand;
+}
+
+bool TimedRules::has_no_path(std::span<const Int> parameters, std::span<const Int> clause) {
+  require(!parameters.empty(), "the rule has an agent");
+  const auto only = demand(parameters[0], parameters.subspan(1), clause);
+  return only && (only->is_contradiction() || !paths_.arrival(only->agent, only->bans, only->most));
+}
+
+bool TimedRules::is_pair(std::span<const Int> parameters, std::span<const Int> clause) {
+  require(parameters.size() >= 2 && parameters[0] != parameters[1], "the rule has two agents");
+  const auto first = demand(parameters[0], parameters.subspan(2), clause),
+             second = demand(parameters[1], parameters.subspan(2), clause);
+  return first && second && have_no_plan(road_, contacts_, paths_, *first, *second);
 }
 
 bool TimedRules::is_encounter(std::span<const Int> clause) const {
@@ -96,24 +105,8 @@ bool TimedRules::is_encounter(std::span<const Int> clause) const {
 // By convexity the extreme starts of the other one decide.
 bool TimedRules::do_all_meet(int i, const TimedBan& a, int j, const TimedBan& b) const {
   if (b.is_stay) return !a.is_stay && do_all_meet(j, b, i, a);
-  return b.end < kNever && is_in_the_way(move(road_, j, b.place, b.begin), i, a) &&
-         is_in_the_way(move(road_, j, b.place, b.end - 1), i, a);
-}
-
-// The starts that meet a motion are an interval, and so are the moments at which it is in contact
-// with a place: the extreme ones decide. Of one that stands for ever both have no end.
-bool TimedRules::is_in_the_way(const Motion& other, int i, const TimedBan& ban) const {
-  const bool is_for_ever = ban.end == kNever;
-  if (is_for_ever && other.end < kNever) return false;
-  if (!ban.is_stay)
-    return do_meet(move(road_, i, ban.place, std::max<Int>(ban.begin, 0)), other) &&
-           (is_for_ever || do_meet(move(road_, i, ban.place, ban.end - 1), other));
-  // A stay that breaks the ban is there at one of the ticks between, or else from one to the next.
-  const auto is_met = [&](Int begin, Int end) {
-    return do_meet(stay(road_, i, ban.place, begin, end), other);
-  };
-  if (ban.end == ban.begin + 1) return is_met(ban.begin, ban.end);
-  return is_met(ban.begin + 1, ban.begin + 1) && (is_for_ever || is_met(ban.end - 1, ban.end - 1));
+  return b.end < kNever && is_in_the_way(road_, move_along(road_, j, b.place, b.begin), i, a) &&
+         is_in_the_way(road_, move_along(road_, j, b.place, b.end - 1), i, a);
 }
 
 // "The agent does none of that" while another one, which costs less, rests at its goal.
@@ -126,9 +119,9 @@ bool TimedRules::is_kept_out(Int lit, Int variable) {
   if (other.leaves) return false;
   if (kept_out_.count({lit, variable}) != 0) return true;
   const Motion resting =
-      stay(road_, resident->first, other.goal, std::max<Int>(resident->second - 1, 0), kNever);
+      stay_at(road_, resident->first, other.goal, std::max<Int>(resident->second - 1, 0), kNever);
   for (const TimedBan& ban : x.bans)
-    if (!is_in_the_way(resting, x.agent, ban)) return false;
+    if (!is_in_the_way(road_, resting, x.agent, ban)) return false;
   kept_out_.insert({lit, variable});
   return true;
 }
@@ -141,7 +134,7 @@ bool TimedRules::is_kept_out_by_obstacles(Int variable) {
   for (const TimedBan& ban : x.bans)
     if (std::none_of(road_.obstacles.begin(), road_.obstacles.end(), [&](const auto& motions) {
           return std::any_of(motions.begin(), motions.end(), [&](const Motion& motion) {
-            return is_in_the_way(motion, x.agent, ban);
+            return is_in_the_way(road_, motion, x.agent, ban);
           });
         }))
       return false;

@@ -11,19 +11,9 @@
 #include <tuple>
 #include <vector>
 
-#include "read/records.hpp"
-#include "timed/meeting.hpp"
-#include "timed/road.hpp"
+#include "timed/pairs.hpp"
 
 namespace quadrille_check {
-
-/// Setting out along an edge at one of the ticks from `begin` to before `end`; or being at a vertex
-/// at some moment between the two.
-struct TimedBan {
-  bool is_stay = false;
-  int place = 0;
-  Int begin = 0, end = 0;  // kNever: for ever
-};
 
 /// What a variable says of a plan.
 struct TimedVariable {
@@ -52,28 +42,12 @@ class TimedMeanings {
   std::vector<TimedVariable> variables_ = std::vector<TimedVariable>(1);
 };
 
-/// What single agents can do.
-class TimedPaths {
- public:
-  explicit TimedPaths(const Road& road);  ///< Which outlives it.
-  /// When the agent can be at its goal for good at the earliest if it keeps all bans, and the
-  /// release and the deadline; nullopt: not by `most`.
-  [[nodiscard]] std::optional<Int> arrival(int agent, std::span<const TimedBan* const> bans,
-                                           Int most);
-
- private:
-  using Table = std::shared_ptr<const std::vector<Int>>;
-  /// How long the agent is under way to its goal at least, by vertex.
-  [[nodiscard]] Table distances(int agent);
-
-  const Road& road_;
-  std::map<std::tuple<int, std::size_t, int>, Table> known_;
-};
-
 /// All rules.
 class TimedRules {
  public:
   TimedRules(const Road& road, const TimedMeanings& meanings);  ///< Which outlive it.
+  /// Record m.
+  void add_contact(const Record& record) { contacts_.add(record); }
   [[nodiscard]] bool holds(Int rule, std::span<const Int> parameters, std::span<const Int> clause);
   /// Plans count that cost less than this. To be called once, before any rule is asked for.
   void count_below(Int cost, bool is_makespan);
@@ -84,17 +58,21 @@ class TimedRules {
 
  private:
   [[nodiscard]] bool has_no_path(std::span<const Int> parameters, std::span<const Int> clause);
+  [[nodiscard]] bool is_pair(std::span<const Int> parameters, std::span<const Int> clause);
+  struct Demand;
+  /// What the negated literals say of the agent, and these variables.
+  [[nodiscard]] std::optional<Demand> demand(Int agent, std::span<const Int> variables,
+                                             std::span<const Int> clause);
   [[nodiscard]] bool is_encounter(std::span<const Int> clause) const;
   [[nodiscard]] bool is_ceiling(std::span<const Int> clause) const;
   [[nodiscard]] bool do_all_meet(int i, const TimedBan& a, int j, const TimedBan& b) const;
   [[nodiscard]] bool is_kept_out(Int lit, Int variable);
   [[nodiscard]] bool is_kept_out_by_obstacles(Int variable);
-  /// Whether all that breaks the ban, by agent i, meets this motion.
-  [[nodiscard]] bool is_in_the_way(const Motion& other, int i, const TimedBan& ban) const;
 
   const Road& road_;
   const TimedMeanings& meanings_;
   TimedPaths paths_;
+  TimedContacts contacts_;
   std::vector<Int> free_costs_;
   Int free_sum_ = 0;
   std::optional<Int> below_;

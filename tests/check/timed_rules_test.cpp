@@ -15,6 +15,7 @@
 #include "support/environment.hpp"
 #include "support/random.hpp"
 #include "timed/cover.hpp"
+#include "timed/meeting.hpp"
 
 namespace quadrille_check::support {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "certificate/timed_meanings.hpp"
 
+#include <algorithm>
+
 namespace quadrille::continuous {
 
 using sat::CertificateWriter;
@@ -8,13 +10,14 @@ namespace why = sat::why;
 
 namespace {
 
-constexpr int kEncounterRule = 12, kCeilingRule = 13;
+constexpr int kEncounterRule = 12, kCeilingRule = 13, kPairRule = 14;
 
 }  // namespace
 
-TimedMeanings::TimedMeanings(const Model& model, int num_variables)
+TimedMeanings::TimedMeanings(Model& model, int num_variables)
     : model_(model),
       standing_(model.scene(), num_variables),
+      contacts_(model.scene()),
       num_variables_(standing_.last_variable()) {
   for (const auto& goal : model.goal_obstacles())
     goals_[{goal.agent, model.obstacles()[goal.obstacle].allowed.dimacs()}] = goal.obstacle;
@@ -53,25 +56,53 @@ std::vector<ObstacleId> TimedMeanings::goals_around(AgentId agent,
 
 void TimedMeanings::prepare(const sat::Why& reason, std::span<const sat::Lit> clause,
                             CertificateWriter& writer) const {
-  const auto* path = std::get_if<why::Path>(&reason);
-  if (path == nullptr) return;
-  for (const ObstacleId goal : goals_around(path->agent, clause))
+  if (const auto* path = std::get_if<why::Path>(&reason))
+    declare_goals(path->agent, clause, writer);
+  if (const auto* pair = std::get_if<why::Pair>(&reason)) {
+    declare_goals(pair->first, clause, writer);
+    declare_goals(pair->second, clause, writer);
+    contacts_.write(party(pair->first, clause), party(pair->second, clause), writer);
+  }
+}
+
+void TimedMeanings::declare_goals(AgentId agent, std::span<const sat::Lit> clause,
+                                  CertificateWriter& writer) const {
+  for (const ObstacleId goal : goals_around(agent, clause))
     if (const auto [made, is_new] = variables_.try_emplace(goal, num_variables_ + 1); is_new) {
       ++num_variables_;
       declare(made->second, model_.obstacles()[goal], writer);
     }
 }
 
+PairContacts::Party TimedMeanings::party(AgentId agent, std::span<const sat::Lit> clause) const {
+  PairContacts::Party party{agent, model_.cost_bound(agent)};
+  for (const sat::Lit lit : clause)
+    if (const auto meaning = model_.variable(lit);
+        meaning.kind == Model::VariableKind::cost && meaning.agent == agent)
+      party.most = std::min(party.most, meaning.cost - 1);
+  return party;
+}
+
+sat::ProofMeanings::Rule TimedMeanings::rule_of_paths(int number,
+                                                      std::initializer_list<AgentId> agents,
+                                                      std::span<const sat::Lit> clause) const {
+  Rule rule{number, {}};
+  for (const AgentId agent : agents) rule.parameters.push_back(agent_number(agent));
+  for (const AgentId agent : agents) {
+    if (const int standing = standing_.variable(agent); standing != 0)
+      rule.parameters.push_back(standing);
+    for (const ObstacleId goal : goals_around(agent, clause))
+      rule.parameters.push_back(variables_.at(goal));
+  }
+  return rule;
+}
+
 sat::ProofMeanings::Rule TimedMeanings::rule_of(const sat::Why& reason,
                                                 std::span<const sat::Lit> clause) const {
-  if (const auto* path = std::get_if<why::Path>(&reason)) {
-    Rule rule{kPathRule, {agent_number(path->agent)}};
-    if (const int standing = standing_.variable(path->agent); standing != 0)
-      rule.parameters.push_back(standing);
-    for (const ObstacleId goal : goals_around(path->agent, clause))
-      rule.parameters.push_back(variables_.at(goal));
-    return rule;
-  }
+  if (const auto* path = std::get_if<why::Path>(&reason))
+    return rule_of_paths(kPathRule, {path->agent}, clause);
+  if (const auto* pair = std::get_if<why::Pair>(&reason))
+    return rule_of_paths(kPairRule, {pair->first, pair->second}, clause);
   if (const auto* order = std::get_if<why::Order>(&reason))
     return {kPathRule, {agent_number(order->agent)}};
   if (std::holds_alternative<why::Moves>(reason) || std::holds_alternative<why::Stay>(reason))

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "certificate/pair_contacts.hpp"
 #include "certificate/standing_bans.hpp"
 #include "quadrille/sat/certificate.hpp"
 #include "theory/model.hpp"
@@ -17,7 +19,7 @@ namespace quadrille::continuous {
 class TimedMeanings final : public sat::ProofMeanings {
  public:
   /// `model` outlives it. `num_variables`: of the engine.
-  TimedMeanings(const Model& model, int num_variables);
+  TimedMeanings(Model& model, int num_variables);
 
   void begin(sat::CertificateWriter& writer) const override { standing_.write(writer); }
   [[nodiscard]] bool declare(int variable, sat::CertificateWriter& writer) const override;
@@ -34,9 +36,18 @@ class TimedMeanings final : public sat::ProofMeanings {
   /// about its paths.
   [[nodiscard]] std::vector<ObstacleId> goals_around(AgentId agent,
                                                      std::span<const sat::Lit> clause) const;
+  /// Of a clause about their paths: the agents, and which variables besides keep them out.
+  [[nodiscard]] Rule rule_of_paths(int number, std::initializer_list<AgentId> agents,
+                                   std::span<const sat::Lit> clause) const;
+  void declare_goals(AgentId agent, std::span<const sat::Lit> clause,
+                     sat::CertificateWriter& writer) const;
+
+  /// What the agent costs at most if the clause is false; its deadline, or kAnyCost: nothing is said.
+  [[nodiscard]] PairContacts::Party party(AgentId agent, std::span<const sat::Lit> clause) const;
 
   const Model& model_;
   const StandingBans standing_;
+  mutable PairContacts contacts_;
   std::map<std::pair<AgentId, int>, ObstacleId> goals_;  // by agent and literal
   // Obstacles at goals have no variable in the solver.
   mutable std::map<ObstacleId, int> variables_;

@@ -44,8 +44,6 @@ Verdict CostProblem::solve(const Question& question, LimitMonitor& limits) {
   // What quick tests ask is often hopeless, and a search of a pair would find no answer; but where
   // one has, the levels of the two and of a third agent would rise tick by tick without it.
   if (question.search == Search::quick) asked.pairs = PairLemmas::Scope::proven;
-  // Certificates have no rule for two agents at once.
-  if (engine_.proof() != nullptr) asked.pairs = PairLemmas::Scope::none;
   std::vector<Level> assumed = question.below;
   IdVector<AgentId, Cost> ceilings(num_payers(), kAnyCost);
   if (!question.ceilings.empty() && !is_known_only) ceilings = question.ceilings;

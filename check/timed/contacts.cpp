@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "timed/contacts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille_check {
+namespace {
+
+/// Longer than all moves.
+constexpr Int kMostTicks = Int{1} << 42;
+
+}  // namespace
+
+TimedContacts::TimedContacts(const Road& road) : road_(road) {
+  std::map<std::tuple<std::size_t, Int, std::vector<Point>>, int> first;
+  for (const Road::Agent& agent : road.agents) {
+    const auto corners = agent.body.corners ? *agent.body.corners : std::vector<Point>();
+    likes_.push_back(first
+                         .try_emplace({agent.durations, agent.body.radius, corners},
+                                      static_cast<int>(likes_.size()))
+                         .first->second);
+  }
+}
+
+void TimedContacts::add(const Record& record) {
+  const auto& values = record.values;
+  require(values.size() == 7, "a contact has seven numbers");
+  const auto agent = [&](Int number) {
+    require(number >= 0 && number < static_cast<Int>(likes_.size()), "no such agent");
+    return static_cast<int>(number);
+  };
+  const int mover = agent(values[0]), other = agent(values[2]);
+  require(values[1] >= 0 && values[1] < static_cast<Int>(road_.edges.size()), "no such place");
+  const int edge = static_cast<int>(values[1]);
+  const TimedBan ban = read_ban(road_, values[3], values[4], values[5], values[6]);
+  require(-kMostTicks < ban.begin && ban.end < kMostTicks, "a contact lasts too long");
+  require(is_in_the_way(road_, move_along(road_, mover, edge, 0), other, ban),
+          "the two do not always meet");
+  known_[{like(mover), edge, like(other), ban.is_stay, ban.place}] = {ban.begin, ban.end};
+  if (!ban.is_stay)
+    known_[{like(other), ban.place, like(mover), false, edge}] = {1 - ban.end, 1 - ban.begin};
+}
+
+std::optional<TimedContacts::Stretch> TimedContacts::find(int agent, int edge, int other,
+                                                          bool is_stay, int place) const {
+  const auto at = known_.find({like(agent), edge, like(other), is_stay, place});
+  if (at == known_.end()) return std::nullopt;
+  return at->second;
+}
+
+}  // namespace quadrille_check
