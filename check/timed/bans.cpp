@@ -35,8 +35,7 @@ bool is_in_the_way(const Road& road, const Motion& other, int agent, const Timed
                                : move_along(road, agent, ban.place, begin),
                    other);
   };
-  if (!ban.is_stay)
-    return is_met(ban.begin, 0) && (is_for_ever || is_met(ban.end - 1, 0));
+  if (!ban.is_stay) return is_met(ban.begin, 0) && (is_for_ever || is_met(ban.end - 1, 0));
   // A stay that breaks the ban is there at one of the ticks between, or else from one to the next.
   if (ban.end == ban.begin + 1) return is_met(ban.begin, ban.end);
   return is_met(ban.begin + 1, ban.begin + 1) && (is_for_ever || is_met(ban.end - 1, ban.end - 1));

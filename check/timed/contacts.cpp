@@ -2,7 +2,7 @@
 #include "timed/contacts.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <tuple>
 
 namespace quadrille_check {
 namespace {
@@ -37,16 +37,24 @@ void TimedContacts::add(const Record& record) {
   require(-kMostTicks < ban.begin && ban.end < kMostTicks, "a contact lasts too long");
   require(is_in_the_way(road_, move_along(road_, mover, edge, 0), other, ban),
           "the two do not always meet");
-  known_[{like(mover), edge, like(other), ban.is_stay, ban.place}] = {ban.begin, ban.end};
+  known_[{like(mover), like(other)}][key(edge, ban.is_stay)][ban.place] = {ban.begin, ban.end};
   if (!ban.is_stay)
-    known_[{like(other), ban.place, like(mover), false, edge}] = {1 - ban.end, 1 - ban.begin};
+    known_[{like(other), like(mover)}][key(ban.place, false)][edge] = {1 - ban.end, 1 - ban.begin};
+}
+
+const TimedContacts::Places* TimedContacts::of(int agent, int edge, int other, bool is_stay) const {
+  const auto both = known_.find({like(agent), like(other)});
+  if (both == known_.end()) return nullptr;
+  const auto places = both->second.find(key(edge, is_stay));
+  return places == both->second.end() ? nullptr : &places->second;
 }
 
 std::optional<TimedContacts::Stretch> TimedContacts::find(int agent, int edge, int other,
                                                           bool is_stay, int place) const {
-  const auto at = known_.find({like(agent), edge, like(other), is_stay, place});
-  if (at == known_.end()) return std::nullopt;
-  return at->second;
+  const Places* const places = of(agent, edge, other, is_stay);
+  if (places == nullptr) return std::nullopt;
+  const auto at = places->find(place);
+  return at == places->end() ? std::nullopt : std::optional(at->second);
 }
 
 }  // namespace quadrille_check

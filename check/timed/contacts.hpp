@@ -3,7 +3,8 @@
 
 #include <map>
 #include <optional>
-#include <tuple>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "timed/bans.hpp"
@@ -24,23 +25,23 @@ class TimedContacts {
   /// Nothing: none is known.
   [[nodiscard]] std::optional<Stretch> find(int agent, int edge, int other, bool is_stay,
                                             int place) const;
-  /// Calls visit(is_stay, place, stretch) for all that is known of the edge.
+  /// Calls visit(is_stay, place, stretch) for all that is known of the edge, in any order.
   template <class Visit>
   void visit(int agent, int edge, int other, const Visit& visit) const {
-    const int a = like(agent), b = like(other);
-    for (auto at = known_.lower_bound({a, edge, b, false, 0}); at != known_.end(); ++at) {
-      const auto& [mover, along, another, is_stay, place] = at->first;
-      if (mover != a || along != edge || another != b) return;
-      visit(is_stay, place, at->second);
-    }
+    for (const bool is_stay : {false, true})
+      if (const Places* const places = of(agent, edge, other, is_stay))
+        for (const auto& [place, stretch] : *places) visit(is_stay, place, stretch);
   }
 
  private:
+  using Places = std::unordered_map<int, Stretch>;
+  [[nodiscard]] static Int key(int edge, bool is_stay) { return 2 * Int{edge} + (is_stay ? 1 : 0); }
+  [[nodiscard]] const Places* of(int agent, int edge, int other, bool is_stay) const;
   [[nodiscard]] int like(int agent) const { return likes_[static_cast<std::size_t>(agent)]; }
 
   const Road& road_;
   std::vector<int> likes_;  // by agent: the first one with the same body and durations
-  std::map<std::tuple<int, int, int, bool, int>, Stretch> known_;
+  std::map<std::pair<int, int>, std::unordered_map<Int, Places>> known_;  // by likes, edge and kind
 };
 
 }  // namespace quadrille_check

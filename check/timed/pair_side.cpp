@@ -75,26 +75,26 @@ Int PairSide::leave_by(int vertex) const {
 
 void PairSide::meet(PairSide& other) {
   for (Move& move : moves_)
-    contacts_.visit(agent(), move.edge, other.agent(),
-                    [&](bool is_stay, int place, const TimedContacts::Stretch& when) {
-                      const Range& own = move.starts;
-                      if (is_stay) {
-                        const auto at = other.arrivals_.find(place);
-                        if (at == other.arrivals_.end() || at->second >= own.high + when.end ||
-                            other.leave_by(place) <= own.low + when.begin)
-                          return;
-                        other.stays_.insert(place);
-                      } else {
-                        const auto at = other.move_along_.find(place);
-                        if (at == other.move_along_.end()) return;
-                        Move& met = other.moves_[at->second];
-                        if (met.starts.low - own.high >= when.end ||
-                            met.starts.high - own.low < when.begin)
-                          return;
-                        met.matters = true;
-                      }
-                      move.matters = true;
-                    });
+    contacts_.visit(
+        agent(), move.edge, other.agent(),
+        [&](bool is_stay, int place, const TimedContacts::Stretch& when) {
+          const Range& own = move.starts;
+          if (is_stay) {
+            const auto at = other.arrivals_.find(place);
+            if (at == other.arrivals_.end() || at->second >= own.high + when.end ||
+                other.leave_by(place) <= own.low + when.begin)
+              return;
+            other.stays_.insert(place);
+          } else {
+            const auto at = other.move_along_.find(place);
+            if (at == other.move_along_.end()) return;
+            Move& met = other.moves_[at->second];
+            if (met.starts.low - own.high >= when.end || met.starts.high - own.low < when.begin)
+              return;
+            met.matters = true;
+          }
+          move.matters = true;
+        });
 }
 
 void PairSide::make_elements() {
@@ -139,8 +139,7 @@ bool PairSide::breaks_ban(const Element& before, const Element& after) const {
   const auto bans = banned_stays_.find(before.to);
   return bans != banned_stays_.end() &&
          std::any_of(bans->second.begin(), bans->second.end(), [&](const TimedBan& ban) {
-           return before.starts.high + before.duration <= ban.begin &&
-                  after.starts.low >= ban.end;
+           return before.starts.high + before.duration <= ban.begin && after.starts.low >= ban.end;
          });
 }
 

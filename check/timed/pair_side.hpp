@@ -93,9 +93,9 @@ class PairSide {
   std::map<int, std::vector<TimedBan>> banned_starts_, banned_stays_;
   std::map<int, Int> arrivals_;  // the earliest, by vertex
   std::vector<Move> moves_;
-  std::map<int, std::size_t> move_along_;             // by edge
+  std::map<int, std::size_t> move_along_;               // by edge
   std::map<int, std::vector<std::size_t>> moves_from_;  // by vertex
-  std::set<int> stays_;                               // that matter
+  std::set<int> stays_;                                 // that matter
   std::vector<Element> elements_;
   std::map<int, std::vector<std::size_t>> leaving_;  // elements, by vertex
   std::map<int, Ways> ways_;

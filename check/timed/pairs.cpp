@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 namespace quadrille_check {
@@ -63,19 +64,19 @@ class PairSearch {
   void advance(std::size_t side, std::size_t at_x, std::size_t at_y, const Zone& zone);
   void step(std::size_t side, std::size_t at_x, std::size_t to, Int ticks, std::size_t at_y,
             const Zone& zone);
-  [[nodiscard]] std::optional<Int> passes_by(const PairSide& x, const Element& a,
-                                             const PairSide& y, const Element& b) const;
+  [[nodiscard]] std::optional<Int> passes_by(const PairSide& x, const Element& a, const PairSide& y,
+                                             const Element& b) const;
 
   const TimedContacts& contacts_;
   PairSide* sides_[2];
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<Zone>> reached_;
+  std::unordered_map<std::size_t, std::vector<Zone>> reached_;  // by both elements
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   bool has_plan_ = false;
   std::size_t looks_ = 0;
 };
 
 void PairSearch::reach(std::size_t first, std::size_t second, const Zone& zone) {
-  std::vector<Zone>& known = reached_[{first, second}];
+  std::vector<Zone>& known = reached_[first * sides_[1]->elements().size() + second];
   looks_ += 1 + known.size();
   for (const Zone& other : known)
     if (other.contains(zone)) return;

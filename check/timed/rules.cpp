@@ -49,8 +49,7 @@ std::optional<TimedRules::Demand> TimedRules::demand(Int agent, std::span<const 
                                                      std::span<const Int> clause) {
   Demand demand;
   demand.agent = meanings_.agent(agent);
-  demand.most =
-      std::min(kNever - 1, road_.agents[static_cast<std::size_t>(demand.agent)].deadline);
+  demand.most = std::min(kNever - 1, road_.agents[static_cast<std::size_t>(demand.agent)].deadline);
   const auto keep = [&](const TimedVariable& x) {
     for (const TimedBan& ban : x.bans) demand.bans.push_back(&ban);
   };

@@ -139,7 +139,7 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
     json.add("proof", proof_json(outcome, [&](const std::optional<Cost>& ticks) {
                return Json{{"claim", ticks ? time(*ticks) : Json(nullptr)},
                            {"claim_ticks", or_null(ticks)},
-                           {"without", {"pairs", "bounds of joint search", "bounds of routes"}}};
+                           {"without", {"bounds of joint search", "bounds of routes"}}};
              }));
   if (arguments.history) add_history(json, notes.history);
   return json.finish(outcome.statistics, options.seed, options_json(arguments, options),

@@ -134,8 +134,7 @@ class RoadmapSolve {
     text += describe_proof(outcome, [&](Cost claim) {
       return fmt::format("{}", continuous::in_input_units(claim, instance().resolution()));
     });
-    if (options_.proof)
-      text += "           without pairs, and without the bounds of joint search and routes\n";
+    if (options_.proof) text += "           without the bounds of joint search and routes\n";
     if (outcome.attribution)
       text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
                                    kMaxSites);

@@ -34,9 +34,9 @@ class PairContacts {
   /// All that an agent can do, by edge and by vertex.
   struct Reach {
     AgentId agent;
-    std::vector<Move> moves;                  // by edge
-    std::vector<std::size_t> places;          // by edge, of the moves; kNone
-    std::vector<Ticks> arrivals;              // by vertex, the earliest; kForever
+    std::vector<Move> moves;          // by edge
+    std::vector<std::size_t> places;  // by edge, of the moves; kNone
+    std::vector<Ticks> arrivals;      // by vertex, the earliest; kForever
   };
   static constexpr std::size_t kNone = ~std::size_t{0};
   [[nodiscard]] Reach reach(const Party& party);

@@ -42,7 +42,8 @@ class TimedMeanings final : public sat::ProofMeanings {
   void declare_goals(AgentId agent, std::span<const sat::Lit> clause,
                      sat::CertificateWriter& writer) const;
 
-  /// What the agent costs at most if the clause is false; its deadline, or kAnyCost: nothing is said.
+  /// What the agent costs at most if the clause is false; its deadline, or kAnyCost: nothing is
+  /// said.
   [[nodiscard]] PairContacts::Party party(AgentId agent, std::span<const sat::Lit> clause) const;
 
   const Model& model_;
