@@ -19,7 +19,7 @@ class PbExport {
   PbExport(const std::string& content, const Checker& checker)
       : meanings_(checker.meanings()),
         ledger_(checker.ledger()),
-        proof_(meanings_.num_variables()),
+        proof_(meanings_.last_variable()),
         numbers_(meanings_, proof_) {
     RecordReader reader(content);
     for (Record record; reader.next(record);) {

@@ -9,6 +9,8 @@
 namespace quadrille_check {
 namespace {
 
+/// What the binary form has room for.
+constexpr Int kMostNumber = Int{1} << 62;
 constexpr std::string_view kBinary = "qcert 1 bin\n", kText = "qcert 1 text\n";
 
 void append(std::string& text, std::span<const Int> values) {
@@ -125,7 +127,9 @@ void RecordReader::read_fields(const std::string& line, Record& record) const {
     }
     Int value = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    require(error == std::errc() && end == field.data() + field.size(), "a field is no number");
+    require(error == std::errc() && end == field.data() + field.size() && value > -kMostNumber &&
+                value < kMostNumber,
+            "a field is no number");
     if (value == 0 && record.tag == 'l' && separator < 0) {
       separator = static_cast<Int>(record.values.size());
       continue;

@@ -8,7 +8,17 @@ namespace quadrille_check {
 
 void Clauses::add(std::span<const Int> clause) {
   where_.push_back({literals_.size(), clause.size(), true});
-  for (const Int lit : clause) literals_.push_back(static_cast<std::int32_t>(lit));
+  for (const Int lit : clause) literals_.push_back(dense(lit));
+}
+
+std::int32_t Clauses::dense(Int lit) {
+  const auto [at, is_new] =
+      dense_.try_emplace(std::abs(lit), static_cast<std::int32_t>(numbers_.size()));
+  if (is_new) {
+    numbers_.push_back(at->first);
+    values_.push_back(0);
+  }
+  return lit > 0 ? at->second : -at->second;
 }
 
 const Clauses::Place& Clauses::place(Int number) const {
@@ -20,8 +30,12 @@ const Clauses::Place& Clauses::place(Int number) const {
 
 std::vector<Int> Clauses::operator[](Int number) const {
   const Place& at = place(number);
-  const auto begin = literals_.begin() + static_cast<std::ptrdiff_t>(at.begin);
-  return {begin, begin + static_cast<std::ptrdiff_t>(at.size)};
+  std::vector<Int> clause;
+  for (std::size_t k = at.begin; k < at.begin + at.size; ++k) {
+    const Int variable = numbers_[static_cast<std::size_t>(std::abs(literals_[k]))];
+    clause.push_back(literals_[k] > 0 ? variable : -variable);
+  }
+  return clause;
 }
 
 void Clauses::remove(Int number) {
@@ -39,13 +53,11 @@ void Clauses::make_true(std::int32_t lit) {
   trail_.push_back(lit);
 }
 
-bool Clauses::implied(std::span<const Int> clause, std::span<const Int> hints, Int num_variables) {
+bool Clauses::implied(std::span<const Int> clause, std::span<const Int> hints) {
   for (const std::int32_t lit : std::exchange(trail_, {}))
     values_[static_cast<std::size_t>(std::abs(lit))] = 0;
-  if (values_.size() <= static_cast<std::size_t>(num_variables))
-    values_.resize(static_cast<std::size_t>(num_variables) + 1);
-  for (const Int wide : clause) {
-    const auto lit = static_cast<std::int32_t>(wide);
+  for (const Int number : clause) {
+    const std::int32_t lit = dense(number);
     if (value(lit) > 0) return true;  // with its opposite
     if (value(lit) == 0) make_true(-lit);
   }

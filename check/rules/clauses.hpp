@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "read/basics.hpp"
@@ -22,10 +23,8 @@ class Clauses {
 
   /// Whether the clause follows by unit propagation: with its literals false, the hints, in their
   /// order, each imply one literal more, until one is false. Hints that imply nothing are passed
-  /// over. `hints`: how many clauses before the next one they are. Literals are of variables that
-  /// `num_variables` does not exceed.
-  [[nodiscard]] bool implied(std::span<const Int> clause, std::span<const Int> hints,
-                             Int num_variables);
+  /// over. `hints`: how many clauses before the next one they are.
+  [[nodiscard]] bool implied(std::span<const Int> clause, std::span<const Int> hints);
 
  private:
   struct Place {
@@ -36,9 +35,14 @@ class Clauses {
   [[nodiscard]] int value(std::int32_t lit) const;
   void make_true(std::int32_t lit);
 
+  /// Variables are numbered again, without gaps.
+  [[nodiscard]] std::int32_t dense(Int lit);
+
+  std::unordered_map<Int, std::int32_t> dense_;
+  std::vector<Int> numbers_ = std::vector<Int>(1);  // by dense number
   std::vector<std::int32_t> literals_;
   std::vector<Place> where_ = std::vector<Place>(1);
-  std::vector<signed char> values_;
+  std::vector<signed char> values_ = std::vector<signed char>(1);
   std::vector<std::int32_t> trail_;
 };
 

@@ -2,15 +2,8 @@
 #include "rules/meanings.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace quadrille_check {
-namespace {
-
-/// A sparse numbering would make a small file take much memory.
-constexpr std::size_t kMostUnused = 1'000'000;
-
-}  // namespace
 
 int Meanings::agent(Int number) const {
   require(number >= 0 && number < static_cast<Int>(instance_.agents().size()), "no such agent");
@@ -80,12 +73,7 @@ void Meanings::add_variable(const Record& record) {
     made.node = values[1];
     made.number = values[2];
   }
-  require(values[0] > 0 && values[0] <= num_variables() + static_cast<Int>(kMostUnused),
-          "no such variable");
-  const auto index = static_cast<std::size_t>(values[0]);
-  if (variables_.size() <= index) variables_.resize(index + 1);
-  require(variables_[index].kind == Variable::Kind::none, "a variable has two meanings");
-  variables_[index] = std::move(made);
+  variables_.add(values[0], std::move(made));
 }
 
 void Meanings::add_node(const Record& record) {
@@ -122,13 +110,6 @@ void Meanings::add_node(const Record& record) {
     require(made.base >= 0 && made.base < kEndOfTime, "no such base");
   }
   nodes_.push_back(std::move(made));
-}
-
-const Variable& Meanings::variable(Int lit) const {
-  require(lit != 0 && lit >= -num_variables() && lit <= num_variables(), "no such variable");
-  const Variable& found = variables_[static_cast<std::size_t>(std::abs(lit))];
-  require(found.kind != Variable::Kind::none, "a variable without a meaning");
-  return found;
 }
 
 const Node& Meanings::node(Int number) const {

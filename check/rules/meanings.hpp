@@ -9,6 +9,7 @@
 #include "read/basics.hpp"
 #include "read/instance.hpp"
 #include "read/records.hpp"
+#include "rules/table.hpp"
 
 namespace quadrille_check {
 
@@ -19,8 +20,8 @@ struct Visit {
 
 /// What a variable says of a plan.
 struct Variable {
-  enum class Kind { none, does_not, costs_at_most, is_there, number_is_at_least };
-  Kind kind = Kind::none;
+  enum class Kind { does_not, costs_at_most, is_there, number_is_at_least };
+  Kind kind = Kind::does_not;
   int agent = 0;
   Int number = 0;             ///< Of a cost, or of what a node is at least.
   std::vector<Visit> visits;  ///< does_not: make any of these; is_there: the one visit.
@@ -49,9 +50,9 @@ class Meanings {
   void add_node(const Record& record);
 
   /// Of the literal. Throws Rejected if it has no meaning.
-  [[nodiscard]] const Variable& variable(Int lit) const;
+  [[nodiscard]] const Variable& variable(Int lit) const { return variables_[lit]; }
   [[nodiscard]] const Node& node(Int number) const;
-  [[nodiscard]] Int num_variables() const { return static_cast<Int>(variables_.size()) - 1; }
+  [[nodiscard]] Int last_variable() const { return variables_.last(); }
   [[nodiscard]] Int num_nodes() const { return static_cast<Int>(nodes_.size()); }
 
   /// The largest k such that the literal, if true, implies that the node is at least k; 0: none.
@@ -74,7 +75,7 @@ class Meanings {
   [[nodiscard]] static int time(Int number);
 
   const Instance& instance_;
-  std::vector<Variable> variables_ = std::vector<Variable>(1);
+  VariableTable<Variable> variables_;
   std::vector<Node> nodes_;
   mutable std::map<std::pair<Int, Int>, bool> at_most_;
   mutable int depth_ = 0;  // of is_at_most

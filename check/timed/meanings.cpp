@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "timed/rules.hpp"
@@ -8,8 +7,6 @@
 namespace quadrille_check {
 namespace {
 
-/// A sparse numbering would make a small file take much memory.
-constexpr Int kMostUnused = 1'000'000;
 constexpr Int kBans = 4;
 
 }  // namespace
@@ -40,18 +37,7 @@ void TimedMeanings::add(const Record& record) {
       if (!ban.is_stay) ban.begin = std::max<Int>(ban.begin, 0);
     }
   }
-  require(values[0] > 0 && values[0] <= num_variables() + kMostUnused, "no such variable");
-  const auto index = static_cast<std::size_t>(values[0]);
-  if (variables_.size() <= index) variables_.resize(index + 1);
-  require(variables_[index].kind == TimedVariable::Kind::none, "a variable has two meanings");
-  variables_[index] = std::move(made);
-}
-
-const TimedVariable& TimedMeanings::variable(Int lit) const {
-  require(lit != 0 && lit >= -num_variables() && lit <= num_variables(), "no such variable");
-  const TimedVariable& found = variables_[static_cast<std::size_t>(std::abs(lit))];
-  require(found.kind != TimedVariable::Kind::none, "a variable without a meaning");
-  return found;
+  variables_.add(values[0], std::move(made));
 }
 
 std::optional<std::pair<int, Int>> TimedMeanings::at_least(Int lit) const {

@@ -31,7 +31,6 @@ void TimedRules::count_below(Int cost, bool is_makespan) {
 }
 
 bool TimedRules::holds(Int rule, std::span<const Int> parameters, std::span<const Int> clause) {
-  for (const Int lit : clause) static_cast<void>(meanings_.variable(lit));
   if (rule == kPaths) return has_no_path(parameters, clause);
   if (rule == kEncounter) return is_encounter(clause);
   if (rule == kPair) return is_pair(parameters, clause);

@@ -11,14 +11,15 @@
 #include <tuple>
 #include <vector>
 
+#include "rules/table.hpp"
 #include "timed/pairs.hpp"
 
 namespace quadrille_check {
 
 /// What a variable says of a plan.
 struct TimedVariable {
-  enum class Kind { none, does_not, costs_at_most };
-  Kind kind = Kind::none;
+  enum class Kind { does_not, costs_at_most };
+  Kind kind = Kind::does_not;
   int agent = 0;
   Int number = 0;              ///< Of a cost.
   std::vector<TimedBan> bans;  ///< does_not: do any of these.
@@ -31,15 +32,14 @@ class TimedMeanings {
   /// Records f and c. Throws Rejected.
   void add(const Record& record);
   /// Of the literal. Throws Rejected if it has no meaning.
-  [[nodiscard]] const TimedVariable& variable(Int lit) const;
-  [[nodiscard]] Int num_variables() const { return static_cast<Int>(variables_.size()) - 1; }
+  [[nodiscard]] const TimedVariable& variable(Int lit) const { return variables_[lit]; }
   /// The agent, and more than what it costs, by a literal "costs more than"; nullopt otherwise.
   [[nodiscard]] std::optional<std::pair<int, Int>> at_least(Int lit) const;
   [[nodiscard]] int agent(Int number) const;
 
  private:
   const Road& road_;
-  std::vector<TimedVariable> variables_ = std::vector<TimedVariable>(1);
+  VariableTable<TimedVariable> variables_;
 };
 
 /// All rules.

@@ -139,8 +139,6 @@ bool Interpretation::is_true(Int lit) const {
     case Variable::Kind::number_is_at_least:
       holds = value(x.node) >= x.number;
       break;
-    case Variable::Kind::none:
-      std::abort();
   }
   return holds == (lit > 0);
 }
