@@ -284,6 +284,80 @@ TEST(Rules, CoresArePaidOnce) {
   EXPECT_EQ(ledger.lower(), 14);
 }
 
+TEST(Rules, TheExcessCountsOpenUnitsOnce) {
+  Checker checker(kLanes);
+  Meanings& meanings = const_cast<Meanings&>(checker.meanings());
+  // Nodes: 2 says how many of agents 0 and 1 cost more than 4; 3 to 6 what agents cost beyond
+  // something; 7 and 12 what 2 says beyond 1; 9, 10, 11 and 13 are sums of two.
+  for (const Record& record : records_of(
+           "qcert 1 text\nc 1 0 4\nc 2 1 4\nn 0 0 -1\nn 1 0 -2\nn 2 3 0 1\ns 5 2 2\nn 3 1 0 4\n"
+           "n 4 1 0 5\nn 5 1 1 4\nn 6 1 2 3\nn 7 2 2 1\nn 8 0 -1\nn 9 3 3 4\nn 10 3 4 5\n"
+           "n 11 3 7 7\nn 12 4 2 0 2\nn 13 3 7 12\ns 6 10 1\ns 7 9 1\n"))
+    record.tag == 'n' ? meanings.add_node(record) : meanings.add_variable(record);
+  const auto counts = [&](Int node, const std::vector<std::vector<Int>>& paid) {
+    Ledger ledger(kLanes, meanings);
+    for (const auto& core : paid) ledger.pay(core, core.size() == 2 ? 2 : -1);
+    try {
+      ledger.count_excess(node);
+    } catch (const Rejected&) {
+      return false;
+    }
+    EXPECT_THROW(ledger.count_excess(node), Rejected);
+    EXPECT_THROW(ledger.pay({-1}, -1), Rejected);
+    return true;
+  };
+  EXPECT_TRUE(counts(3, {}));
+  EXPECT_TRUE(counts(10, {}));
+  EXPECT_FALSE(counts(9, {}));  // an agent twice
+  EXPECT_FALSE(counts(6, {}));  // what it costs anyway
+  EXPECT_FALSE(counts(7, {}));  // nobody opened it
+  EXPECT_FALSE(counts(12, {}));
+  EXPECT_FALSE(counts(8, {}));      // no number of units
+  EXPECT_FALSE(counts(3, {{-1}}));  // paid
+  EXPECT_TRUE(counts(4, {{-1}}));
+  EXPECT_FALSE(counts(10, {{-2}}));
+  const std::vector<Int> core{-1, -2};
+  EXPECT_TRUE(counts(7, {core}));
+  EXPECT_TRUE(counts(12, {core}));
+  EXPECT_FALSE(counts(11, {core}));  // a unit twice
+  EXPECT_FALSE(counts(13, {core}));
+  EXPECT_FALSE(counts(7, {core, {5}}));  // paid
+  EXPECT_FALSE(counts(12, {core, {5}}));
+
+  const Ledger ledger(kLanes, meanings);
+  EXPECT_EQ(ledger.bound(Ints{-1}, false), 13);
+  EXPECT_EQ(ledger.bound(Ints{6}, false), 13);
+  EXPECT_THROW(static_cast<void>(ledger.bound(Ints{7}, false)), Rejected);  // an agent twice
+  EXPECT_THROW(static_cast<void>(ledger.bound(Ints{1}, false)), Rejected);
+  EXPECT_THROW(static_cast<void>(ledger.bound(Ints{-1, 5}, false)), Rejected);
+  EXPECT_THROW(static_cast<void>(ledger.bound(Ints{6}, true)), Rejected);
+  EXPECT_THROW(static_cast<void>(ledger.bound(Ints{}, false)), Rejected);
+}
+
+TEST(Rules, VariablesAndNodesAreOfWhatThereIs) {
+  const std::string sum = "c 1 0 4\nc 2 1 4\nn 0 0 -1\nn 1 0 -2\nn 2 3 0 1\n";
+  for (const char* good :
+       {"f 3 0 0 0 0", "f 3 0 1 0 1 0", "f 3 0 2 0 3 -1", "f 3 0 3 0 0 1 1", "x 3 0 0 0", "s 3 2 1",
+        "n 3 1 0 4", "n 3 2 2 0", "n 3 4 2 0 2", "n 3 4 2 0 2 2", "c 2147483647 0 4"})
+    EXPECT_TRUE(accepts(kLane, sum + good + "\n")) << good;
+  for (const char* bad :
+       {// Agents, places, times.
+        "f 3 2 0 0 0", "f 3 -1 0 0 0", "f 3 0 0 10 0", "f 3 0 0 -1 0", "f 3 0 0 0 -1",
+        "f 3 0 0 0 268435456", "c 3 2 4", "c 3 0 -1", "x 3 2 0 0", "x 3 0 10 0", "x 3 0 0 -1",
+        "f 3 0 1 0 2 0", "f 3 0 2 0 3 2", "f 3 0 2 0 -1 -1",
+        // Shorter, longer, of another kind.
+        "f 3 0 0 0", "f 3 0 0 0 0 0", "f 3 0 1 0 1", "f 3 0 2 0 3", "f 3 0 3 0 0 0", "f 3 0 4 0 0",
+        "c 3 0", "c 3 0 4 4", "x 3 0 0", "s 3 2", "n 3 1 0", "n 3 0 -1 0", "n 3 5 0 4",
+        "n 3 -1 0 4",
+        // Numbers of variables and nodes.
+        "c 0 0 4", "c -3 0 4", "c 2147483648 0 4", "c 1 0 5", "n 4 1 0 4", "n 2 1 0 4", "n 3 0 -3",
+        "n 3 1 2 4", "n 3 1 0 -1", "n 3 1 0 268435456", "n 3 3 0 3", "n 3 3 -1 0",
+        // What is no sum, or not in order.
+        "s 3 0 1", "s 3 2 0", "s 3 2 268435456", "s 3 3 1", "n 3 2 0 1", "n 3 4 2 0 0", "n 3 4 2 0",
+        "n 3 4 1 0 2", "n 3 3 0 0\nn 4 4 2 0 3 2", "n 3 4 2 -1 2"})
+    EXPECT_FALSE(accepts(kLane, sum + bad + "\n")) << bad;
+}
+
 // ---- hints --------------------------------------------------------------------------------------
 
 TEST(Rules, DerivedClausesNeedTheirHints) {

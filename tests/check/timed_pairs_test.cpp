@@ -208,6 +208,41 @@ std::optional<bool> has_plan(const Case& c) {
   return PairReplay(c.instance, parties[0], parties[1]).has_plan(200'000);
 }
 
+/// Makes what the first one may cost the least with which they have a plan, if that is some ticks
+/// more: where a single tick counts.
+void tighten(Case& c) {
+  Case more = c;
+  more.most[0] += 40;
+  if (has_plan(c) != std::optional(false) || has_plan(more) != std::optional(true)) return;
+  for (Cost low = c.most[0]; low + 1 < more.most[0];) {
+    Case middle = c;
+    middle.most[0] = (low + more.most[0]) / 2;
+    if (has_plan(middle).value_or(true))
+      more = middle;
+    else
+      low = middle.most[0];
+  }
+  c = more;
+}
+
+TEST(TimedPairs, AreRefutedExactlyBelowTheLeastCost) {
+  std::size_t least = 0;
+  for (std::uint32_t seed = 100'000; seed < 100'000 + scaled(1500); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Case c = draw(seed);
+    const Cost most = c.most[0];
+    tighten(c);
+    if (c.most[0] == most) continue;
+    ++least;
+    const Road road = checked(c.instance);
+    ASSERT_FALSE(is_accepted(road, proof(c))) << describe(c.instance);
+    --c.most[0];
+    ASSERT_TRUE(is_accepted(road, proof(c))) << describe(c.instance);
+  }
+  EXPECT_GT(least, 0U);
+  RecordProperty("cases", static_cast<int>(least));
+}
+
 TEST(TimedPairs, AreRefutedExactlyWhereTheyHaveNoPlan) {
   std::size_t some = 0, none = 0, broken = 0;
   for (std::uint32_t seed = 0; seed < scaled(3000); ++seed) {

@@ -399,6 +399,12 @@ TEST(TimedRules, PlansAreReplayed) {
     return verdict(road, first, second).reason;
   };
   EXPECT_NE(refusal(passes, "1 8 18 0 18 28").find("collide"), std::string::npos);
+  EXPECT_NE(refusal(passes, lane + " 0").find("three numbers"), std::string::npos);
+  const std::string late = "1500000000000000000 1500000000000000010";
+  EXPECT_NE(refusal("1 " + late + " 2 1600000000000000000 1600000000000000010",
+                    "1 " + late + " 0 1600000000000000000 1600000000000000010")
+                .find("too long"),
+            std::string::npos);
   EXPECT_NE(refusal(passes, "1 0 10 0 10 20").find("collide"), std::string::npos);
   EXPECT_NE(refusal("1 0 10 2 10 20", lane).find("collide"), std::string::npos);
   EXPECT_NE(refusal("1 0 10 3 10 20 1 20 30 2 30 39", lane).find("not"), std::string::npos);
@@ -408,6 +414,11 @@ TEST(TimedRules, PlansAreReplayed) {
   EXPECT_NE(verdict(road, passes, lane, "u 90\nq 80 0").reason.find("more than"),
             std::string::npos);
   EXPECT_TRUE(verdict(pocket(R"(, "deadline": 40)"), passes, lane).is_verified);
+  EXPECT_TRUE(verdict(pocket(R"(, "at_start": "under_way")"), passes, lane).is_verified);
+  EXPECT_FALSE(verdict(pocket(R"(, "at_start": "under_way")"), "1 1 11 3 11 21 1 21 31 2 31 41",
+                       "1 10 20 0 20 30")
+                   .is_verified);
+  EXPECT_TRUE(verdict(road, "1 1 11 3 11 21 1 21 31 2 31 41", "1 10 20 0 20 30").is_verified);
   EXPECT_FALSE(verdict(pocket(R"(, "deadline": 39)"), passes, lane).is_verified);
   EXPECT_FALSE(verdict(pocket(R"(, "release": 1)"), passes, lane).is_verified);
   // What is in the way of the pocket until it is too late, or in time.
@@ -443,6 +454,65 @@ TEST(TimedRules, MovingObstaclesAreInTheWay) {
   EXPECT_TRUE(accepts(road, raised + "b 1\nq 20 0\n"));
   EXPECT_FALSE(accepts(road, raised + "b 1\nq 21 0\n"));
   EXPECT_FALSE(accepts(road, "f 1 0 4 0 1 0 10\nc 2 0 19\na 11 0 | -2 -1\nb 1\n"));
+}
+
+TEST(TimedRules, CostsAreRaisedBeforeTrees) {
+  const std::string core =
+      "f 1 0 4 0 0 0 5\nf 2 1 4 0 3 0 5\nc 3 0 24\nc 4 1 24\na 12 | 1 2\n"
+      "a 11 0 | -1 -3\na 11 1 | -2 -4\nl -3 -4 0 2 3 1\n";
+  const std::string tree = "t 5 1 0 1 4 5\n", raise = "c 5 0 19\na 11 0 | -5\nb 5\n";
+  EXPECT_TRUE(accepts(kLane, core + raise + tree + "q 45 0\n"));
+  EXPECT_FALSE(accepts(kLane, core + raise + tree + "q 46 0\n"));
+  EXPECT_FALSE(accepts(kLane, core + tree + raise));
+  EXPECT_FALSE(accepts(kLane, core + "b 4\n"));  // two literals
+  EXPECT_FALSE(accepts(kLane, core + "b 1\n"));
+}
+
+TEST(TimedRules, VariablesAreOfWhatThereIs) {
+  for (const char* good : {"f 3 0 4 0 0 0 1", "f 3 0 4 1 0 -1 -1", "f 3 0 4", "c 3 0 4"})
+    EXPECT_TRUE(accepts(kLane, std::string("c 1 0 4\n") + good + "\n")) << good;
+  for (const char* bad : {"f 3 2 4 0 0 0 1",
+                          "f 3 -1 4 0 0 0 1",
+                          "f 3 0 4 0 5 0 1",
+                          "f 3 0 4 0 -1 0 1",
+                          "f 3 0 4 1 7 0 1",
+                          "f 3 0 4 2 0 0 1",
+                          "f 3 0 4 0 0 5 5",
+                          "f 3 0 4 0 0 0",
+                          "f 3 0",
+                          "f 3 0 3 0 0 0 1",
+                          "f 3 0 4 0 0 -2305843009213693952 1",
+                          "f 3 0 4 0 0 0 2305843009213693953",
+                          "c 3 0",
+                          "c 3 0 4 4",
+                          "c 3 2 4",
+                          "c 3 0 -1",
+                          "c 3 0 2305843009213693952",
+                          "c 0 0 4",
+                          "c 2147483648 0 4",
+                          "c 1 0 5",
+                          "t",
+                          "t 0",
+                          "t 0 1",
+                          "t 0 0 0 0",
+                          "t -1 1 0 0",
+                          "t 0 1048577 0 0",
+                          "t 0 1 0 1",
+                          "t 0 1 0 -1",
+                          "t 0 1 0 0 0",
+                          "t 0 1 1 2 5",
+                          "t 0 1 1 0 5 0 0",
+                          "u",
+                          "u -1",
+                          "u 2305843009213693952",
+                          "q 0",
+                          "q -1 0",
+                          "b",
+                          "a 14 | 1",
+                          "a 15 | 1",
+                          "a 11 | 1",
+                          "e 0"})
+    EXPECT_FALSE(accepts(kLane, std::string("c 1 0 4\n") + bad + "\n")) << bad;
 }
 
 // ---- trees --------------------------------------------------------------------------------------
