@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/roadmap_support.hpp"
@@ -121,6 +122,50 @@ TEST_F(RulesCliTest, ParkedNearerThanTheirBodies) {
   expect_refusal(small("solve", {"--headings", "4", "--overlap-at-start"}), "--overlap-at-start");
   expect_refusal(near + std::vector<std::string>{"--overlap-at-start", "--proof", path("p")},
                  "overlap at their starts", 65);
+}
+
+TEST_F(RulesCliTest, OrdersHaveTimeStamps) {
+  ASSERT_EQ(run(xml("solve", {"--quiet", "--plan", path("plan.json")})).code, 0);
+  const auto orders = [&](const std::vector<std::string>& more) {
+    return run(xml("export", std::vector<std::string>{"--to", "vda5050"} + more +
+                                 std::vector<std::string>{path("plan.json")}));
+  };
+  const std::string time = "2028-02-29T23:59:59.001Z";
+  for (const auto& [more, stamp] :
+       {std::pair(std::vector<std::string>{}, std::string("1970-01-01T00:00:00.000Z")),
+        std::pair(std::vector<std::string>{"--time-stamp", time}, time)}) {
+    const Finished done = orders(more);
+    ASSERT_EQ(done.code, 0) << done.err;
+    const auto json = nlohmann::json::parse(done.out);
+    ASSERT_EQ(json.size(), 2U);
+    for (const auto& order : json) EXPECT_EQ(order["timestamp"], stamp);
+  }
+  for (const char* const wrong :
+       {"", "now", "2027-02-29T00:00:00.000Z", "2028-13-01T00:00:00.000Z",
+        "2028-00-01T00:00:00.000Z", "2028-01-01T24:00:00.000Z", "2028-01-01T00:60:00.000Z",
+        "2028-01-01 00:00:00.000Z", "2028-01-01T00:00:00Z", "2028-01-01T00:00:00.000+01"}) {
+    const Finished refused = orders({"--time-stamp", wrong});
+    EXPECT_EQ(refused.code, 64) << wrong;
+    EXPECT_THAT(refused.err, HasSubstr("--time-stamp"));
+  }
+  expect_refusal(xml("export", {"--to", "csv", "--time-stamp", time, path("plan.json")}),
+                 "--time-stamp belongs to --to vda5050");
+}
+
+TEST_F(RulesCliTest, ConvertedPosesKeepTheirHeadings) {
+  const Finished converted = run(small("convert", {"--headings", "4", "--to", "json"}));
+  ASSERT_EQ(converted.code, 0) << converted.err;
+  const auto json = nlohmann::json::parse(converted.out);
+  const auto& names = json["roadmap"]["names"];
+  ASSERT_EQ(names.size(), json["roadmap"]["vertices"].size());
+  const char* const headings[] = {"east", "south", "west", "north"};
+  for (std::size_t v = 0; v < names.size(); ++v) {
+    EXPECT_EQ(names[v][2], headings[v % 4]);
+    EXPECT_EQ(names[v][0], json["roadmap"]["vertices"][v][0]);
+    EXPECT_EQ(names[v][1], json["roadmap"]["vertices"][v][1]);
+  }
+  write("poses.json", converted.out);
+  EXPECT_EQ(run({"solve", "--instance", path("poses.json"), "--quiet"}).code, 0);
 }
 
 }  // namespace

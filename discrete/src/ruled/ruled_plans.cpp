@@ -90,6 +90,7 @@ bool RuledPlans::find(std::int64_t steps) {
   const std::int64_t end = effort() + steps;
   do {
     ++num_attempts_;
+    loaded_ += 4;  // so that each one counts
     for (Path& path : paths_) path.clear();
     std::size_t at = 0;
     while (at < order_.size() && give_path(order_[at])) ++at;

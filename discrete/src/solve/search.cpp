@@ -15,20 +15,14 @@
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/sat/cost_search.hpp"
 #include "quadrille/solve/frame.hpp"
-#include "ruled/ruled_plans.hpp"
 #include "solve/incumbent.hpp"
 #include "solve/plan_search.hpp"
 #include "solve/priced_bounds.hpp"
+#include "solve/ruled_search.hpp"
 #include "solve/run.hpp"
 
 namespace quadrille::discrete {
 namespace {
-
-/// Under rules: how long a first plan is looked for before the search, in which slices, in how many
-/// attempts, and the share of the search's effort that plans get beside it.
-constexpr Effort kMostRuled = Effort::microseconds(1'000'000),
-                 kRuledSlice = Effort::microseconds(6'250);
-constexpr std::int64_t kMostAttempts = 32, kLastAttempt = 4096, kRuledShare = 8;
 
 /// One search, with what all systems have in common: bounds from both sides.
 class Search final : private sat::YieldPoint {
@@ -98,61 +92,24 @@ class Search final : private sat::YieldPoint {
 
   /// The same of an instance with rules.
   void begin_ruled_plans(const std::shared_ptr<const GoalDistances>& distances) {
-    if (role_ != Role::bound) {
-      ruled_distances_ = distances;
-      ruled_.emplace(instance_, *distances, options_.objective, options_.seed, limits_);
-      if (!known_.plan) enter(Phase::first_plan);
-      const auto is_due = [&] {
-        return !known_.plan && ruled_->effort() < steps_of_plans(kMostRuled) &&
-               ruled_->num_attempts() < kMostAttempts && !limits_.exhausted_now();
-      };
-      while (role_ == Role::all && is_due()) {
-        make_ruled_plans(kRuledSlice);
-        yield();
-      }
+    if (role_ != Role::bound)
+      ruled_.emplace(instance_, distances, options_.objective, options_.seed, incumbent_, limits_);
+    if (ruled_ && !known_.plan) enter(Phase::first_plan);
+    while (role_ == Role::all && ruled_->is_first_plan_due() && !limits_.exhausted_now()) {
+      static_cast<void>(ruled_->work());
+      yield();
     }
     exchange({});
     consider_stop();
-  }
-
-  /// Looks for a plan, or improves the one there is.
-  void make_ruled_plans(Effort effort) {
-    const std::int64_t steps = steps_of_plans(effort);
-    if (!incumbent_.upper()) {
-      // What so many orders of agents have not found, others do not find either.
-      if (ruled_->num_attempts() < kLastAttempt && ruled_->find(steps))
-        incumbent_.offer(ruled_->plan(), "prioritised");
-      return;
-    }
-    if (!ruled_->has_plan() || *incumbent_.upper() < ruled_->cost())
-      ruled_->restart_from(incumbent_.plan());
-    if (ruled_->improve(steps)) incumbent_.offer(ruled_->plan(), "improvement");
-  }
-
-  /// Beside the search: a share of its effort.
-  void make_ruled_plans_beside(Effort search_effort) {
-    ruled_credit_ += (search_effort - ruled_seen_) / kRuledShare;
-    ruled_seen_ = search_effort;
-    for (; ruled_credit_ >= kRuledSlice && !incumbent_.are_closed(); consider_stop()) {
-      const std::int64_t before = ruled_->effort();
-      make_ruled_plans(kRuledSlice);
-      ruled_credit_ -= std::max(kRuledSlice, effort_of_plans(ruled_->effort() - before));
-    }
-  }
-
-  [[nodiscard]] Effort work_on_plans() {
-    if (plans_)
-      return plans_->work([this] { return draft_ ? *std::exchange(draft_, nullptr) : Plan(); });
-    const std::int64_t before = ruled_->effort();
-    make_ruled_plans(kRuledSlice);
-    return std::max(kRuledSlice, effort_of_plans(ruled_->effort() - before));
   }
 
   /// Makes plans for as long as somebody else works on the bound.
   void look_for_plans() {
     Effort effort;
     while (!limits_.exhausted_now() && !others_ended_) {
-      effort += work_on_plans();
+      effort += ruled_ ? ruled_->work() : plans_->work([this] {
+        return draft_ ? *std::exchange(draft_, nullptr) : Plan();
+      });
       exchange(effort);
       incumbent_.raise(heard_lower_);
       consider_stop();
@@ -212,7 +169,7 @@ class Search final : private sat::YieldPoint {
     if (run_ != nullptr) {
       exchange_while_searching();
       if (plans_) make_plans(run_->engine().effort());
-      if (ruled_) make_ruled_plans_beside(run_->engine().effort());
+      if (ruled_) ruled_->advance(run_->engine().effort(), [this] { consider_stop(); });
     }
     share();
     pulse_.beat();
@@ -332,11 +289,8 @@ class Search final : private sat::YieldPoint {
   std::optional<Instance> chosen_;      // with one goal for each agent, if some have several
   std::optional<PlanSearch> plans_;
   std::optional<PlanMerger> merger_;
-  // Instead of these, under rules.
-  std::shared_ptr<const GoalDistances> ruled_distances_;
-  std::optional<RuledPlans> ruled_;
-  Effort ruled_credit_, ruled_seen_;
-  const Run* run_ = nullptr;  // when it is prepared
+  std::optional<RuledSearch> ruled_;  // instead of these, under rules
+  const Run* run_ = nullptr;          // when it is prepared
   // What was heard from others, and told to them.
   Cost heard_lower_ = 0;
   std::shared_ptr<const Plan> heard_plan_, draft_, told_plan_;
