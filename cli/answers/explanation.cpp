@@ -161,6 +161,22 @@ std::string list_agents(const std::vector<AgentId>& agents) {
   return text;
 }
 
+std::string describe_farther_goals(const std::vector<FartherGoal>& goals, const Names& names) {
+  std::string text;
+  for (std::size_t k = 0; k < goals.size() && k < kMaxListedAgents; ++k) {
+    const FartherGoal& one = goals[k];
+    text += fmt::format("{}agent {} takes {}, {} farther than {}, {}\n",
+                        k == 0 ? "goals      " : "           ", one.agent.index(),
+                        names.vertex(one.end), names.cost(one.farther), names.vertex(one.nearest),
+                        one.owner ? fmt::format("because agent {} takes that", one.owner->index())
+                                  : std::string("which nobody takes"));
+  }
+  if (goals.size() > kMaxListedAgents)
+    text += fmt::format("           and {} more agents do not take their nearest goals\n",
+                        goals.size() - kMaxListedAgents);
+  return text;
+}
+
 std::string describe_attribution(const Attribution& attribution, const std::vector<Reason>& reasons,
                                  const Names& names, std::size_t max_sites) {
   const bool is_sum = attribution.objective == Objective::sum_of_costs;

@@ -52,6 +52,39 @@ class RemainingLimits {
                                                const std::vector<Reason>& reasons,
                                                const Names& names, std::size_t max_sites);
 
+/// That an agent with several goals does not end at the nearest one: who does, if anybody.
+struct FartherGoal {
+  AgentId agent;
+  VertexId end, nearest;
+  Cost farther = 0;  ///< Than that one, each if the agent is alone.
+  std::optional<AgentId> owner;
+};
+/// Of all agents for whom that is so. `end(i)`: where the agent ends; `cost_to(i, goal)`: of its
+/// way there if it is alone; nullopt if there is none.
+template <class Instance, class End, class CostTo>
+[[nodiscard]] std::vector<FartherGoal> find_farther_goals(const Instance& instance, const End& end,
+                                                          const CostTo& cost_to) {
+  std::vector<FartherGoal> found;
+  for (const AgentId i : instance.agent_ids()) {
+    const VertexId own = end(i);
+    const std::optional<Cost> cost = cost_to(i, own);
+    FartherGoal farther{i, own, own, 0, std::nullopt};
+    for (const VertexId goal : instance.agents()[i].goals.vertices())
+      if (const auto other = cost_to(i, goal); cost && other && *cost - *other > farther.farther) {
+        farther.nearest = goal;
+        farther.farther = *cost - *other;
+      }
+    if (farther.farther == 0) continue;
+    for (const AgentId j : instance.agent_ids())
+      if (j != i && end(j) == farther.nearest && !farther.owner) farther.owner = j;
+    found.push_back(farther);
+  }
+  return found;
+}
+/// A line for each of the first ones; none if there are none.
+[[nodiscard]] std::string describe_farther_goals(const std::vector<FartherGoal>& goals,
+                                                 const Names& names);
+
 /// The keys "attribution" and "reasons" of a result, documented in docs/formats.md.
 void add_explanation(ResultJson& result, const std::optional<Attribution>& attribution,
                      const std::vector<Reason>& reasons, const Names& names);

@@ -18,6 +18,7 @@
 #include "grid/picture.hpp"
 #include "grid/reason_map.hpp"
 #include "quadrille/discrete/feasibility.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
 #include "quadrille/input/grid.hpp"
 #include "quadrille/view/page.hpp"
@@ -136,11 +137,28 @@ class GridSolve {
       text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
                                    kMaxSites);
     if (!arguments_.finds_reasons) return text;
+    if (outcome.plan && instance().has_goal_sets() && instance().is_plain())
+      text += describe_farther_goals(farther_goals(*outcome.plan), names_of(instance()));
     if (outcome.attribution)
       text += draw_reasons(instance(), *outcome.attribution, notes_.reasons, kMaxSites);
     if (outcome.status == Status::infeasible)
       text += draw_obstruction(instance(), check_feasibility(instance()));
     return text;
+  }
+  [[nodiscard]] std::vector<FartherGoal> farther_goals(const discrete::Plan& plan) const {
+    const auto end = [&](AgentId i) { return plan.paths[i].back(); };
+    // Without rules all edges lead both ways.
+    std::optional<VertexId> start;
+    IdVector<VertexId, Timestep> ways;
+    const auto cost_to = [&](AgentId i, VertexId goal) -> std::optional<Cost> {
+      if (start != instance().agents()[i].start) {
+        start = instance().agents()[i].start;
+        ways = discrete::distances_to_nearest(instance().graph(), Goals(*start));
+      }
+      const Timestep way = ways[goal];
+      return way == discrete::kUnreachable ? std::nullopt : std::optional<Cost>(way);
+    };
+    return find_farther_goals(instance(), end, cost_to);
   }
   [[nodiscard]] std::string picture(const discrete::Plan& plan) const {
     return arguments_.finds_reasons ? "" : draw_plan(instance(), plan);

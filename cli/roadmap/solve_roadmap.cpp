@@ -12,6 +12,7 @@
 
 #include "asked/solving.hpp"
 #include "frame/arguments.hpp"
+#include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/solver.hpp"
@@ -138,7 +139,25 @@ class RoadmapSolve {
     if (outcome.attribution)
       text += describe_attribution(*outcome.attribution, notes_.reasons, names_of(instance()),
                                    kMaxSites);
+    if (arguments_.finds_reasons && outcome.plan && instance().has_goal_sets())
+      text += describe_farther_goals(farther_goals(*outcome.plan), names_of(instance()));
     return text;
+  }
+  /// Each goal takes a search of the roadmap: none are named where there are many.
+  [[nodiscard]] std::vector<FartherGoal> farther_goals(const continuous::Plan& plan) const {
+    constexpr std::size_t kMostGoals = 2000;
+    std::size_t num_goals = 0;
+    for (const continuous::Agent& agent : instance().agents()) num_goals += agent.goals.size();
+    if (num_goals > kMostGoals) return {};
+    const auto end = [&](AgentId i) { return plan.paths[i].back().vertex; };
+    const auto cost_to = [&](AgentId i, VertexId goal) -> std::optional<Cost> {
+      continuous::Agent one = instance().agent(i);
+      one.goals = goal;
+      const auto alone = instance().with_agents({one});
+      const auto way = alone ? continuous::free_cost(*alone, AgentId(0)) : std::nullopt;
+      return way ? std::optional<Cost>(continuous::as_cost(*way)) : std::nullopt;
+    };
+    return find_farther_goals(instance(), end, cost_to);
   }
   [[nodiscard]] std::string picture(const continuous::Plan& plan) const {
     return arguments_.finds_reasons ? "" : list_paths(instance(), plan);

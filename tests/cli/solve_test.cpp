@@ -78,6 +78,27 @@ TEST_F(SolveTest, OnlyDpllKnowsGoalSets) {
   EXPECT_THAT(proved.err, HasSubstr("which --proof does not know yet"));
 }
 
+// Both are nearer to the dock in the middle than to their own.
+TEST_F(SolveTest, ExplanationsSayWhoTakesWhichGoal) {
+  const std::string docks = write(
+      "docks.json",
+      "{\"quadrille\": \"instance\", \"version\": 1, \"grid\": {\"width\": 7, \"height\": 1, "
+      "\"rows\": [\".......\"]},\n\"agents\": [{\"start\": [2, 0], \"goals\": [[0, 0], [3, 0]]}, "
+      "{\"start\": [4, 0], \"goals\": [[3, 0]]}]}");
+  EXPECT_THAT(run({"explain", "--instance", docks}).out,
+              HasSubstr("goals      agent 0 takes (0, 0), 1 farther than (3, 0), because agent 1 "
+                        "takes that\n"));
+  const std::string roads =
+      write("roads.json",
+            "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": 0.001, \"roadmap\": "
+            "{\"vertices\": [[0, 0], [2, 0], [3, 0], [4, 0]], \"edges\": [[0, 1], [1, 0], [1, 2], "
+            "[2, 1], [2, 3], [3, 2]]},\n\"agents\": [{\"start\": 1, \"goals\": [0, 2], \"radius\": "
+            "0.3}, {\"start\": 3, \"goals\": [2], \"radius\": 0.3}]}");
+  EXPECT_THAT(run({"explain", "--instance", roads}).out,
+              HasSubstr("goals      agent 0 takes vertex 0, 1 farther than vertex 2, because agent "
+                        "1 takes that\n"));
+}
+
 // Six agents in a column, whose goals beside them are in the opposite order: for all, each takes
 // the goal of its row; in pairs, that of its partner.
 TEST_F(SolveTest, AgentsShareGoals) {
