@@ -34,8 +34,32 @@ std::vector<Rule> random_rules(Random& random) {
   return rules;
 }
 
-Cost cheapest_by_enumeration(const std::vector<Rule>& rules) {
-  Cost best = kAgents * kMaxCost;
+/// What plans pay in which the agent costs no more than `cost`.
+struct Charge {
+  std::size_t agent;
+  int cost;
+  Cost amount;
+};
+
+std::vector<Charge> random_charges(Random& random) {
+  std::vector<Charge> charges(1 + random.below(4));
+  for (Charge& charge : charges)
+    charge = {random.below(kAgents), static_cast<int>(random.below(kMaxCost)),
+              static_cast<Cost>(1 + random.below(4))};
+  return charges;
+}
+
+template <class Costs>
+Cost charged(const std::vector<Charge>& charges, const Costs& costs) {
+  Cost sum = 0;
+  for (const Charge& charge : charges)
+    if (costs[charge.agent] <= charge.cost) sum += charge.amount;
+  return sum;
+}
+
+Cost cheapest_by_enumeration(const std::vector<Rule>& rules,
+                             const std::vector<Charge>& charges = {}) {
+  Cost best = kAgents * kMaxCost + 100;
   std::vector<int> cost(kAgents, 0);
   while (true) {
     const bool works = std::all_of(rules.begin(), rules.end(), [&](const Rule& rule) {
@@ -46,6 +70,7 @@ Cost cheapest_by_enumeration(const std::vector<Rule>& rules) {
     });
     Cost sum = 0;
     for (const int c : cost) sum += c;
+    sum += charged(charges, cost);
     if (works) best = std::min(best, sum);
     std::size_t i = 0;
     while (i < kAgents && cost[i] == kMaxCost) cost[i++] = 0;
@@ -57,8 +82,12 @@ Cost cheapest_by_enumeration(const std::vector<Rule>& rules) {
 /// The rules as clauses, and the plans that are their models.
 class RulesProblem final : public CostProblem, public Bounds {
  public:
-  RulesProblem(Engine& engine, const std::vector<Rule>& rules, int max_cost = kMaxCost)
-      : engine_(engine), max_cost_(static_cast<std::size_t>(max_cost)), above_(kAgents) {
+  RulesProblem(Engine& engine, const std::vector<Rule>& rules, int max_cost = kMaxCost,
+               std::vector<Charge> charges = {})
+      : engine_(engine),
+        max_cost_(static_cast<std::size_t>(max_cost)),
+        above_(kAgents),
+        charges_(std::move(charges)) {
     for (std::vector<Lit>& lits : above_)
       while (lits.size() <= max_cost_) add_literal(lits);
     for (const Rule& rule : rules) {
@@ -67,8 +96,14 @@ class RulesProblem final : public CostProblem, public Bounds {
       for (const auto& [agent, cost] : rule.cheap) clause.push_back(~above(agent, cost));
       engine_.add_clause({why::Vertex{}, clause, {}, false});
     }
+    for (const Charge& charge : charges_) {
+      fees_.push_back({engine_.new_lit(), charge.amount});
+      const std::vector<Lit> clause{fees_.back().due, above(charge.agent, charge.cost)};
+      engine_.add_clause({why::Vertex{}, clause, {}, false});
+    }
   }
 
+  std::span<const Fee> fees() const override { return fees_; }
   std::size_t num_agents() const override { return kAgents; }
   Cost free_cost(AgentId) const override { return 0; }
   bool grow_to(AgentId, Cost, LimitMonitor&) override { return true; }
@@ -91,7 +126,7 @@ class RulesProblem final : public CostProblem, public Bounds {
 
   std::optional<Cost> upper() const override {
     if (best_.empty()) return std::nullopt;
-    return std::accumulate(best_.begin(), best_.end(), Cost{0});
+    return std::accumulate(best_.begin(), best_.end(), charged(charges_, best_));
   }
   Cost incumbent_cost_of(AgentId agent) const override { return best_[agent.index()]; }
   void offer_accepted() override {
@@ -102,7 +137,9 @@ class RulesProblem final : public CostProblem, public Bounds {
   }
   /// The rules allow it.
   void take_costliest() { best_.assign(kAgents, kMaxCost); }
-  Cost accepted() const { return std::accumulate(accepted_.begin(), accepted_.end(), Cost{0}); }
+  Cost accepted() const {
+    return std::accumulate(accepted_.begin(), accepted_.end(), charged(charges_, accepted_));
+  }
   int num_taken = 0;
 
  private:
@@ -121,6 +158,8 @@ class RulesProblem final : public CostProblem, public Bounds {
   Engine& engine_;
   const std::size_t max_cost_;
   std::vector<std::vector<Lit>> above_;
+  const std::vector<Charge> charges_;
+  std::vector<Fee> fees_;
   std::vector<Cost> accepted_, best_;
 };
 
@@ -146,11 +185,12 @@ struct Answer {
 
 /// Share 0: from below only. `has_plan`: the search starts with a dear one.
 Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t share, bool has_plan,
-                   std::int64_t head_start = 1, bool raise_cores = false) {
+                   std::int64_t head_start = 1, bool raise_cores = false,
+                   const std::vector<Charge>& charges = {}) {
   EngineOptions engine_options;
   engine_options.keep_clauses = true;
   Engine engine(nullptr, engine_options);
-  RulesProblem problem(engine, rules);
+  RulesProblem problem(engine, rules, kMaxCost, charges);
   LimitMonitor limits{Limits{}};
   Statistics statistics;
   CoreGuidedOptions options;
@@ -170,6 +210,24 @@ Answer solve_rules(const std::vector<Rule>& rules, int passes, std::int64_t shar
   return {found ? problem.accepted() : problem.upper().value_or(-1), problem.lower(),
           problem.num_taken - (found ? 1 : 0),  // from below comes the last one
           statistics.cores};
+}
+
+// From below alone, and in turns with searches from above.
+TEST(CoreGuidedSearch, FeesArePartOfTheCost) {
+  Random random(5);
+  int num_dearer = 0;
+  for (int round = 0; round < 400; ++round) {
+    const std::vector<Rule> rules = random_rules(random);
+    const std::vector<Charge> charges = random_charges(random);
+    const Cost expected = cheapest_by_enumeration(rules, charges);
+    num_dearer += expected > cheapest_by_enumeration(rules) ? 1 : 0;
+    const std::int64_t share = round % 2 == 0 ? 0 : 5;
+    const Answer answer =
+        solve_rules(rules, 1 + round % 3, share, round % 4 == 1, 1, round % 5 == 0, charges);
+    ASSERT_EQ(answer.cost, expected) << round;
+    ASSERT_EQ(answer.lower_bound, expected) << round;
+  }
+  EXPECT_GT(num_dearer, 100);
 }
 
 TEST(CoreGuidedSearch, ALongHeadStartLeavesNothingToTheSearchFromAbove) {
