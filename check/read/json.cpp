@@ -42,8 +42,10 @@ class Parser {
       json.content = text();
     } else if (json.kind == '{' || json.kind == '[') {
       read_members(json, depth);
+    } else if (text_.compare(at_, 4, "true") == 0 || text_.compare(at_, 5, "false") == 0) {
+      at_ += first == 't' ? 4 : 5;
     } else {
-      expect(json.kind == '0', "an object, a list, a text or a number");
+      expect(json.kind == '0', "an object, a list, a text, a number, true or false");
       read_number(json);
     }
     return json;
@@ -119,7 +121,8 @@ const Json& Json::at(const std::string& key) const {
 }
 void Json::only(const std::set<std::string>& keys) const {
   expect(kind == '{', "an object");
-  for (const std::string& name : names) expect(keys.count(name) != 0, "no key \"" + name + "\"");
+  for (const std::string& name : names)
+    expect(keys.count(name) != 0, "no key \"" + name + "\", for which there is no rule");
 }
 std::vector<const Json*> Json::list() const {
   expect(kind == '[', "a list");
@@ -130,6 +133,10 @@ std::vector<const Json*> Json::list() const {
 const std::string& Json::text() const {
   expect(kind == '"', "a text");
   return content;
+}
+bool Json::is_true() const {
+  expect(kind == 't' || kind == 'f', "true or false");
+  return kind == 't';
 }
 Int Json::number(Int least, Int most) const {
   expect(kind == '0' && value && *value >= least && *value <= most,

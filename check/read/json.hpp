@@ -10,10 +10,10 @@
 
 namespace quadrille_check {
 
-/// As much of JSON as instances need: objects, lists, texts and numbers. All functions
+/// As much of JSON as instances need: objects, lists, texts, numbers, true and false. All functions
 /// throw BadInput when the value is of another kind.
 struct Json {
-  char kind = '0';                 // { [ " or 0
+  char kind = '0';                 // { [ " 0 t or f
   std::vector<std::string> names;  // of the members of an object
   std::vector<Json> members;
   std::string content;
@@ -26,6 +26,7 @@ struct Json {
   void only(const std::set<std::string>& keys) const;
   [[nodiscard]] std::vector<const Json*> list() const;
   [[nodiscard]] const std::string& text() const;
+  [[nodiscard]] bool is_true() const;
   [[nodiscard]] Int number(Int least, Int most) const;
   [[nodiscard]] double any_number() const;
 };

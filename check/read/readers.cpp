@@ -147,7 +147,9 @@ Instance graph_of(const Json& root) {
     return Instance::on_grid(static_cast<int>(width), static_cast<int>(height), passable);
   }
   const Json& graph = root.at("graph");
-  graph.only({"vertices", "edges"});
+  graph.only({"vertices", "edges", "directed"});
+  if (const Json* directed = graph.find("directed"); directed != nullptr && directed->is_true())
+    throw BadInput("there is no rule for directed graphs");
   const Int size = graph.at("vertices").number(0, kMaxVertices);
   std::vector<std::pair<int, int>> edges;
   for (const Json* edge : graph.at("edges").list()) {

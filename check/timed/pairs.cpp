@@ -85,10 +85,10 @@ void PairSearch::reach(std::size_t first, std::size_t second, const Zone& zone) 
 }
 
 // How much later than a, at least, b has to begin if the stay after b, which goes on until a has
-// ended, is to begin when a has passed it.
+// ended, is to begin when a has passed it. (Where agents leave no stay matters.)
 std::optional<Int> PairSearch::passes_by(const PairSide& x, const Element& a, const PairSide& y,
                                          const Element& b) const {
-  if (a.edge < 0 || !y.does_stay_matter(b.to) || y.is_gone(b)) return std::nullopt;
+  if (a.edge < 0 || !y.does_stay_matter(b.to)) return std::nullopt;
   const auto w = contacts_.find(x.agent(), a.edge, y.agent(), true, b.to);
   if (!w || w->begin >= a.duration) return std::nullopt;
   return w->end - b.duration;

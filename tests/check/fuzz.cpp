@@ -50,7 +50,7 @@ void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 namespace {
 
 constexpr unsigned kMostSeconds = 60;
-constexpr std::size_t kMostTimes = 20, kBase = 200'000;
+constexpr std::size_t kMostTimes = 20, kBase = 500'000;
 
 using Random = std::mt19937_64;
 std::size_t below(Random& random, std::size_t bound) { return random() % bound; }

@@ -271,6 +271,7 @@ TEST(Rules, CoresArePaidOnce) {
   Ledger ledger(kLanes, meanings);
   EXPECT_THROW(ledger.pay({5}, -1), Rejected);   // nobody opened it
   EXPECT_THROW(ledger.pay({-4}, -1), Rejected);  // every plan costs that
+  EXPECT_THROW(ledger.pay({1}, -1), Rejected);   // that somebody costs no more
   EXPECT_THROW(ledger.pay({}, -1), Rejected);
   EXPECT_EQ(ledger.lower(), 12);
   Ledger wrong(kLanes, meanings);
@@ -279,6 +280,7 @@ TEST(Rules, CoresArePaidOnce) {
   EXPECT_EQ(ledger.lower(), 13);
   EXPECT_THROW(ledger.pay({-1}, -1), Rejected);  // paid
   EXPECT_THROW(ledger.pay({6}, -1), Rejected);   // that there is one was paid
+  EXPECT_THROW(ledger.pay({-5}, -1), Rejected);  // that there are not two
   ledger.pay({5}, -1);
   EXPECT_THROW(ledger.pay({5}, -1), Rejected);
   EXPECT_EQ(ledger.lower(), 14);
@@ -332,6 +334,26 @@ TEST(Rules, TheExcessCountsOpenUnitsOnce) {
   EXPECT_THROW(static_cast<void>(ledger.bound(Ints{-1, 5}, false)), Rejected);
   EXPECT_THROW(static_cast<void>(ledger.bound(Ints{6}, true)), Rejected);
   EXPECT_THROW(static_cast<void>(ledger.bound(Ints{}, false)), Rejected);
+}
+
+TEST(Rules, PlansAreReplayed) {
+  // Two change places on a ring of six.
+  const Instance ring = grid(".../...", {{0, 1}, {1, 0}});
+  const auto refusal = [&](const std::string& first, const std::string& second) {
+    return ask(ring, "qcert 1 text\ni 2 0\nq 2 0\n" + first + "\n" + second + "\n").reason;
+  };
+  EXPECT_EQ(refusal("p 0 0 1", "p 1 1 4 3 0"), "");
+  EXPECT_NE(refusal("p 0 0 1", "p 1 1 0").find("swap"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 0 1", "p 1 1 1 0").find("swap"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "p 1 1 1 4 3 0").find("one place"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "p 1 1 4 0").find("jumps"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "p 1 1 4 3").find("goal"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "p 1 4 3 0").find("start"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "p 1").find("start"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "p 1 1 7 0").find("no such place"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "p 2 1 4 3 0").find("no such agent"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "p 0 0 1").find("two paths"), std::string::npos);
+  EXPECT_NE(refusal("p 0 0 1", "").find("no path"), std::string::npos);
 }
 
 TEST(Rules, VariablesAndNodesAreOfWhatThereIs) {
