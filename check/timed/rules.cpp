@@ -127,7 +127,6 @@ bool TimedRules::is_kept_out(Int lit, Int variable) {
 // Each of its bans by one stretch of an obstacle's path.
 bool TimedRules::is_kept_out_by_obstacles(Int variable) {
   const TimedVariable& x = meanings_.variable(variable);
-  if (x.kind != TimedVariable::Kind::does_not) return false;
   if (kept_out_.count({0, variable}) != 0) return true;
   for (const TimedBan& ban : x.bans)
     if (std::none_of(road_.obstacles.begin(), road_.obstacles.end(), [&](const auto& motions) {

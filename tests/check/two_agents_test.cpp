@@ -98,6 +98,9 @@ TEST(Rules, TwoAgentsPassACorridor) {
   }();
   // Agent 0 is in 4 at 5 the earliest, the other way at 7; agent 1 likewise in 0.
   EXPECT_TRUE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 6\na 5 2 | 1 2\n"));
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 6\na 5 | 1 2\n"));
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 6\na 5 2 3 | 1 2\n"));
+  EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 6\na 5 99 | 1 2\n"));
   EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 7\nf 2 1 2 0 5 6\na 5 2 | 1 2\n"));
   EXPECT_FALSE(accepts(ring, "f 1 0 2 4 5 6\nf 2 1 2 0 5 7\na 5 2 | 1 2\n"));
   EXPECT_FALSE(
