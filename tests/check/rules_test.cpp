@@ -286,6 +286,24 @@ TEST(Rules, CoresArePaidOnce) {
   EXPECT_EQ(ledger.lower(), 14);
 }
 
+// Node 3 is what node 2 has, not that variable 2 is true.
+TEST(Rules, TheCounterOfACoreCountsItsLiterals) {
+  Checker checker(kLanes);
+  Meanings& meanings = const_cast<Meanings&>(checker.meanings());
+  for (const Record& record :
+       records_of("qcert 1 text\nc 1 0 4\nc 5 1 4\nc 6 2 4\nn 0 0 -1\nn 1 0 -5\nn 2 3 0 1\n"
+                  "s 2 2 2\nn 3 2 2 0\nn 4 0 -6\nn 5 3 3 4\nn 6 0 2\nn 7 3 6 4\n"))
+    record.tag == 'n' ? meanings.add_node(record) : meanings.add_variable(record);
+  for (const Int node : {5, 7}) {
+    Ledger ledger(kLanes, meanings);
+    ledger.pay({-1, -5}, 2);
+    if (node == 5)
+      EXPECT_THROW(ledger.pay({2, -6}, node), Rejected);
+    else
+      EXPECT_NO_THROW(ledger.pay({2, -6}, node));
+  }
+}
+
 TEST(Rules, TheExcessCountsOpenUnitsOnce) {
   Checker checker(kLanes);
   Meanings& meanings = const_cast<Meanings&>(checker.meanings());
