@@ -35,18 +35,35 @@ double ResourceAccount::memory_mib() const noexcept {
   return static_cast<double>(memory_bytes_) / (1 << 20);
 }
 
-ResourceMeter::ResourceMeter(std::shared_ptr<ResourceAccount> account) noexcept
-    : account_(std::move(account)), cpu_seen_s_(thread_cpu_seconds()), seen_(memory_now()) {}
+std::list<ResourceMeter::Thread>& ResourceMeter::threads() noexcept {
+  thread_local std::list<Thread> threads;
+  return threads;
+}
+
+std::list<ResourceMeter::Thread>::iterator ResourceMeter::join(const ResourceAccount& account) {
+  std::list<Thread>& all = threads();
+  auto own = std::find_if(all.begin(), all.end(),
+                          [&](const Thread& thread) { return thread.account == &account; });
+  if (own == all.end())
+    own = all.insert(all.end(), {&account, 0, thread_cpu_seconds(), memory_now()});
+  ++own->num_meters;
+  return own;
+}
+
+ResourceMeter::ResourceMeter(std::shared_ptr<ResourceAccount> account)
+    : account_(std::move(account)), thread_(join(*account_)) {}
 
 ResourceMeter::~ResourceMeter() {
   look_at_cpu();
-  held_by_all -= held_bytes_;
+  if (--thread_->num_meters > 0) return;
+  held_by_all -= thread_->held_bytes;
+  threads().erase(thread_);
 }
 
 void ResourceMeter::look_at_cpu() noexcept {
   const double now = thread_cpu_seconds();
-  account_->cpu_ns_ += static_cast<std::int64_t>(1e9 * (now - cpu_seen_s_));
-  cpu_seen_s_ = now;
+  account_->cpu_ns_ += static_cast<std::int64_t>(1e9 * (now - thread_->cpu_seen_s));
+  thread_->cpu_seen_s = now;
 }
 
 ResourceMeter::Memory ResourceMeter::memory_now() noexcept {
@@ -56,20 +73,20 @@ ResourceMeter::Memory ResourceMeter::memory_now() noexcept {
 
 void ResourceMeter::look_at_memory() noexcept {
   const Memory now = memory_now();
-  const std::int64_t growth = now.resident_bytes - seen_.resident_bytes;
+  const std::int64_t growth = now.resident_bytes - thread_->seen.resident_bytes;
   std::int64_t change = 0;
   if (growth > 0) {
-    const std::int64_t own = now.own_faults - seen_.own_faults;
-    const std::int64_t all = std::max(own, now.all_faults - seen_.all_faults);
+    const std::int64_t own = now.own_faults - thread_->seen.own_faults;
+    const std::int64_t all = std::max(own, now.all_faults - thread_->seen.all_faults);
     change = all == 0 ? growth : share(growth, own, all);
   } else if (growth < 0) {
-    const std::int64_t all = std::max(held_bytes_, held_by_all.load());
-    if (all > 0) change = std::max(share(growth, held_bytes_, all), -held_bytes_);
+    const std::int64_t all = std::max(thread_->held_bytes, held_by_all.load());
+    if (all > 0) change = std::max(share(growth, thread_->held_bytes, all), -thread_->held_bytes);
   }
-  held_bytes_ += change;
+  thread_->held_bytes += change;
   held_by_all += change;
   account_->memory_bytes_ += change;
-  seen_ = now;
+  thread_->seen = now;
 }
 
 }  // namespace quadrille

@@ -342,6 +342,10 @@ TEST(TimedCertificate, RefusesWhatThereIsNoRuleFor) {
   EXPECT_EQ(refusal(1), "");
   asked.goal_sets_percent = 100;
   EXPECT_NE(refusal(1).find("several goals"), std::string::npos);
+  asked.goal_sets_percent = 0;
+  asked.shapes_percent = 100;
+  asked.space_percent = 0;
+  EXPECT_NE(refusal(2).find("bodies change"), std::string::npos);
   // In the middle of a move of five ticks, two of which lie behind.
   auto roadmap =
       Roadmap::make({{0, 0}, {10, 0}, {4, 0}},

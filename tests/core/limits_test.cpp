@@ -142,5 +142,28 @@ TEST(Limits, RoomIsAskedForBeforeItIsTaken) {
   EXPECT_TRUE(unlimited.has_room_for(SIZE_MAX));
 }
 
+// A solve in several parts has a monitor for each, beside its own.
+TEST(LimitMonitor, OneInsideOfAnotherIsChargedOnce) {
+  const auto account = std::make_shared<ResourceAccount>();
+  LimitMonitor outer({}, account);
+  const double begin = thread_cpu_seconds();
+  const auto work = [&](LimitMonitor& monitor) {
+    const double until = thread_cpu_seconds() + 0.02;
+    while (thread_cpu_seconds() < until) static_cast<void>(monitor.elapsed_cpu());
+  };
+  work(outer);
+  {
+    LimitMonitor inner({}, account);
+    work(inner);
+    work(outer);
+    work(inner);
+  }
+  work(outer);
+  const double charged = outer.elapsed_cpu(), used = thread_cpu_seconds() - begin;
+  EXPECT_LE(charged, used);
+  EXPECT_GE(charged, 0.09);
+  EXPECT_GE(charged, 0.9 * used);
+}
+
 }  // namespace
 }  // namespace quadrille

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <list>
 #include <memory>
 
 #include "quadrille/core/export.hpp"
@@ -31,8 +32,9 @@ class ResourceAccount {
   std::atomic<std::int64_t> cpu_ns_{0}, memory_bytes_{0};
 };
 
-/// Adds what one thread uses to an account; one meter per thread of a solve, used by that thread
-/// only.
+/// Adds what one thread uses to an account. A meter is used by the thread that made it only, and
+/// destroyed there. Several of one thread for one account count together, whichever looks: a solve
+/// inside of a solve is charged once.
 ///
 /// CPU time is the thread's own clock. Resident memory is known for the process alone, so a thread
 /// is charged with the growth since its last look in proportion to its page faults among the
@@ -42,7 +44,7 @@ class ResourceAccount {
 /// less exactly: their faults are not all of one size.
 class ResourceMeter {
  public:
-  explicit ResourceMeter(std::shared_ptr<ResourceAccount> account) noexcept;
+  explicit ResourceMeter(std::shared_ptr<ResourceAccount> account);
   /// A last look at the CPU time.
   ~ResourceMeter();
   ResourceMeter(const ResourceMeter&) = delete;
@@ -57,12 +59,21 @@ class ResourceMeter {
   struct Memory {
     std::int64_t resident_bytes = 0, own_faults = 0, all_faults = 0;
   };
+  /// What a thread has charged to an account so far.
+  struct Thread {
+    const ResourceAccount* account;
+    int num_meters;
+    double cpu_seen_s;
+    Memory seen;
+    std::int64_t held_bytes = 0;
+  };
   [[nodiscard]] static Memory memory_now() noexcept;
+  /// Those of the calling thread that have a meter.
+  [[nodiscard]] static std::list<Thread>& threads() noexcept;
+  [[nodiscard]] static std::list<Thread>::iterator join(const ResourceAccount& account);
 
   const std::shared_ptr<ResourceAccount> account_;
-  double cpu_seen_s_;
-  Memory seen_;
-  std::int64_t held_bytes_ = 0;
+  const std::list<Thread>::iterator thread_;
 };
 
 }  // namespace quadrille
