@@ -236,10 +236,10 @@ ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments, InputWatch& 
     return usage_error(app,
                        "some agents have waypoints or several goals, which --tie does not know");
   if (!input->instance.is_plain() && (arguments.options.proof || arguments.options.explain))
-    return usage_error(
-        app,
-        "--proof and --explain know no one-way edges, agents that leave, releases, deadlines, "
-        "waypoints, blockages and robust plans");
+    return usage_error(app,
+                       "--proof and --explain know no rules: one-way edges, agents that leave, "
+                       "releases, deadlines, "
+                       "waypoints, blockages and robust plans");
   return solve_and_deliver(GridSolve(arguments, *input, used), arguments);
 }
 

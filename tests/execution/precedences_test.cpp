@@ -203,8 +203,11 @@ TEST(Precedences, OneTickMoreThanEachSlackAndTheTwoCollide) {
       SCOPED_TRACE("seed " + std::to_string(seed));
       ASSERT_GE(p.slack, Ticks(0));
       const std::int64_t slack = p.slack.value();
-      if (!std::holds_alternative<Disc>(c->instance.agent(p.leader.agent).body) ||
-          !std::holds_alternative<Disc>(c->instance.agent(p.follower.agent).body)) {
+      const auto is_disc = [&](AgentId i) {
+        const Agent& agent = c->instance.agent(i);
+        return agent.shapes.empty() && std::holds_alternative<Disc>(agent.body);
+      };
+      if (!is_disc(p.leader.agent) || !is_disc(p.follower.agent)) {
         ++num_polygons;
         for (const std::int64_t less : {0, 1, 2, 5, 10, 20, 50, 100})
           ASSERT_GE(separation(replay, *order, p.leader, p.follower,

@@ -203,7 +203,7 @@ const std::optional<Run>& Meetings::moves(ClassId a, EdgeId e, ClassId b, EdgeId
   const Roadmap& roadmap = instance_.roadmap();
   known = {true, meeting_starts(element(a, e), instance_.body(a, roadmap.edge(e).shape),
                                 element(b, f), instance_.body(b, roadmap.edge(f).shape))};
-  if (instance_.has_shapes()) known.value = without_ends(known.value, element(a, e), element(b, f));
+  if (have_shapes(a, b)) known.value = without_ends(known.value, element(a, e), element(b, f));
   return known.value;
 }
 
@@ -217,7 +217,7 @@ const std::optional<Clearance>& Meetings::stay(ClassId a, EdgeId e, ClassId b, V
   const Roadmap& roadmap = instance_.roadmap();
   known = {true, clearance(element(a, e), instance_.body(a, roadmap.edge(e).shape),
                            roadmap.position(v), instance_.body(b, roadmap.shape(v)))};
-  if (instance_.has_shapes()) known.value = without_ends(known.value, element(a, e));
+  if (have_shapes(a, b)) known.value = without_ends(known.value, element(a, e));
   return known.value;
 }
 

@@ -63,6 +63,10 @@ class Meetings {
     std::optional<T> value;
   };
   [[nodiscard]] Element element(ClassId c, EdgeId e) const;
+  /// One of the two.
+  [[nodiscard]] bool have_shapes(ClassId a, ClassId b) const {
+    return instance_.bodies(a).size() > 1 || instance_.bodies(b).size() > 1;
+  }
 
   const Instance& instance_;
   std::vector<Known<Run>> moves_;
