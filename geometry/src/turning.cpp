@@ -230,12 +230,12 @@ bool is_same_way(const Direction& d, const Direction& e) {
 
 Direction Direction::at(double angle) {
   QUADRILLE_REQUIRE(std::isfinite(angle), "a direction");
-  const auto part = [](double x) {
-    return static_cast<std::int64_t>(std::llround(x * static_cast<double>(kMost)));
+  const auto part = [](double share) {
+    return static_cast<std::int64_t>(std::llround(share * static_cast<double>(kMost)));
   };
-  const std::int64_t x = part(std::cos(angle)), y = part(std::sin(angle));
-  const std::int64_t common = std::gcd(x, y);
-  return {x / common, y / common};
+  const std::int64_t ahead = part(std::cos(angle)), left = part(std::sin(angle));
+  const std::int64_t common = std::gcd(ahead, left);
+  return {ahead / common, left / common};
 }
 
 Result<Body> turned(const Body& body, const Direction& facing) {

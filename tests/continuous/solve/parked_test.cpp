@@ -146,7 +146,9 @@ std::optional<Instance> draw(Draw& draw) {
       if (v != w && points[v] != points[w] && draw.chance(45))
         edges.push_back({VertexId(v), VertexId(w), std::nullopt});
   std::vector<Agent> agents;
-  const auto vertex = [&] { return static_cast<std::size_t>(draw.number(0, num_vertices - 1)); };
+  const auto vertex = [&] {
+    return static_cast<std::size_t>(draw.number(0, static_cast<std::int64_t>(num_vertices) - 1));
+  };
   for (std::int64_t k = draw.number(2, 3); k > 0; --k) {
     agents.push_back(agent(vertex(), vertex(), draw.length(1, 3)));
     agents.back().overlaps_at_start = draw.chance(90);
