@@ -105,9 +105,23 @@ Result<TimedPlan> TimedPlan::make(const Fleet& fleet, const continuous::Plan& pl
   return TimedPlan(std::make_shared<const State>(std::move(state)));
 }
 
+namespace {
+
+/// A body that turns with its robot, as one that does not: the disc around all its headings.
+Body without_heading(const Polygon& polygon) {
+  Metres reach{};
+  for (const Point& corner : polygon.corners) reach = std::max(reach, distance({}, corner));
+  return Disc(reach);
+}
+
+}  // namespace
+
 std::optional<MovingObstacle> as_obstacle(const Fleet& fleet, const TimedPlan& plan,
                                           AgentId robot) {
   MovingObstacle obstacle{plan[robot].name(), fleet.spec(robot).body, {}, fleet.leaves(robot)};
+  const auto* polygon = std::get_if<Polygon>(&obstacle.body);
+  if (polygon != nullptr && fleet.roadmap().turns() != nullptr)
+    obstacle.body = without_heading(*polygon);
   for (const Stop& stop : plan[robot].stops())
     obstacle.path.push_back({stop.place, stop.arrive, stop.depart});
   if (obstacle.leaves && plan[robot].cost() == Seconds(0)) return std::nullopt;

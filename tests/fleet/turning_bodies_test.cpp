@@ -180,6 +180,22 @@ TEST(TurningBodies, PassWhereTheirDiscsDoNot) {
   EXPECT_EQ(solve_aisles(1.45_m, disc)->cost, 12_s);
 }
 
+// An obstacle does not turn: it has to contain the robot with every heading.
+TEST(TurningBodies, AreDiscsToOtherFleets) {
+  RoadmapBuilder builder({.length = 1_mm, .time = 100_ms});
+  const VertexId a = builder.vertex(0_m, 0_m), b = builder.vertex(0_m, 6_m);
+  builder.road(a, b);
+  const auto poses = PoseBuilder(builder.build().value(), 90_degps).build().value();
+  Fleet fleet(poses.roadmap());
+  fleet.robot({.body = rectangle(1.2_m, 0.9_m), .speed = 1_mps})
+      .from(poses.facing(a, 90_deg))
+      .to(poses.facing(b, 90_deg));
+  const auto outcome = solve(fleet).value();
+  const auto obstacle = as_obstacle(fleet, *outcome.plan, AgentId(0));
+  ASSERT_TRUE(std::holds_alternative<Disc>(obstacle->body));
+  EXPECT_NEAR(std::get<Disc>(obstacle->body).radius.value(), 0.75, 1e-9);
+}
+
 TEST(TurningBodies, FaceAlongXAsTheyAreGiven) {
   // Up and down the rectangle is as long as it was wide.
   RoadmapBuilder builder({.length = 1_mm, .time = 100_ms});

@@ -230,8 +230,8 @@ std::optional<Error> check_all(const Roadmap& roadmap, const std::vector<Agent>&
                                bool is_flat, Ticks now, std::size_t& at) {
   for (at = 0; at < agents.size(); ++at) {
     if (auto error = check(roadmap, agents, at)) return error;
-    for (const Body& body : bodies_of(agents[at]))
-      if (!is_flat)
+    if (!is_flat)
+      for (const Body& body : bodies_of(agents[at]))
         if (auto error = check_flat(body, name(at))) return error;
     if (auto error = check_under_way(roadmap, agents[at], at, now)) return error;
   }

@@ -47,11 +47,12 @@ Cost most_cost(const Instance& instance, Objective objective) {
 bool cannot_both_end(const Instance& instance, AgentId i, AgentId j) {
   const Agent &a = instance.agent(i), &b = instance.agent(j);
   if (a.leaves || b.leaves) return false;
-  const geometry::BodyPair bodies(a.body, b.body);
+  const Roadmap& roadmap = instance.roadmap();
   const auto first = a.goals.vertices(), second = b.goals.vertices();
   return std::all_of(first.begin(), first.end(), [&](VertexId g) {
     return std::all_of(second.begin(), second.end(), [&](VertexId h) {
-      return bodies.overlap(instance.roadmap().place(g), instance.roadmap().place(h));
+      return geometry::bodies_overlap(a.body_as(roadmap.shape(g)), roadmap.place(g),
+                                      b.body_as(roadmap.shape(h)), roadmap.place(h));
     });
   });
 }

@@ -132,7 +132,8 @@ class TimedPlan {
   std::shared_ptr<const State> state_;
 };
 
-/// What another fleet has to keep clear of, when the robot does what the plan says; nullopt for one
+/// What another fleet has to keep clear of, when the robot does what the plan says. A polygon that
+/// turns with its robot becomes the disc around all its headings. Nullopt for one
 /// that leaves where it begins, and so is never anywhere. `fleet`: whose plan it is. Requires a
 /// robot of the plan.
 [[nodiscard]] std::optional<MovingObstacle> as_obstacle(const Fleet& fleet, const TimedPlan& plan,
