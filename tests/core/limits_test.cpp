@@ -145,8 +145,8 @@ TEST(Limits, RoomIsAskedForBeforeItIsTaken) {
 // A solve in several parts has a monitor for each, beside its own.
 TEST(LimitMonitor, OneInsideOfAnotherIsChargedOnce) {
   const auto account = std::make_shared<ResourceAccount>();
-  LimitMonitor outer({}, account);
   const double begin = thread_cpu_seconds();
+  LimitMonitor outer({}, account);
   const auto work = [&](LimitMonitor& monitor) {
     const double until = thread_cpu_seconds() + 0.02;
     while (thread_cpu_seconds() < until) static_cast<void>(monitor.elapsed_cpu());
