@@ -58,6 +58,20 @@ class Book {
       ++stage;
     return stage;
   }
+  [[nodiscard]] bool turns() const { return instance_.rules().turn > 0; }
+  /// Where somebody faces at its start: 0 east, 1 south, 2 west, 3 north.
+  [[nodiscard]] int faces_at_first(std::size_t agent) const {
+    return static_cast<int>(instance_.agents()[AgentId(agent)].heading);
+  }
+  [[nodiscard]] int of_a_turn() const { return instance_.rules().turn; }
+  /// Of two neighbouring cells the second is where somebody comes who goes ahead.
+  [[nodiscard]] bool is_ahead(int facing, int v, int w) const {
+    const GridLayout& cells = *instance_.graph().layout();
+    const Cell from = cells.cell_of(VertexId(static_cast<std::size_t>(v)));
+    const Cell to = cells.cell_of(VertexId(static_cast<std::size_t>(w)));
+    constexpr int kRight[] = {1, 0, -1, 0}, kDown[] = {0, 1, 0, -1};
+    return to.x - from.x == kRight[facing] && to.y - from.y == kDown[facing];
+  }
   [[nodiscard]] bool may_end(std::size_t agent, int stage, int v) const {
     const Agent& task = instance_.agents()[AgentId(agent)];
     return static_cast<std::size_t>(stage) == task.waypoints.size() &&
@@ -76,6 +90,7 @@ class Book {
 
 struct State {
   std::vector<int> at, stage, done;
+  std::vector<int> facing, turning;      // where turns take time: timesteps of the turn to come
   std::vector<std::vector<int>> before;  // the last timesteps, the latest first
   int time = 0;
   friend auto operator<=>(const State&, const State&) = default;
@@ -99,6 +114,10 @@ class RuledSearch {
       start.at.push_back(static_cast<int>(instance_.agents()[AgentId(i)].start.value()));
       start.stage.push_back(book_.visit(i, 0, start.at.back()));
       start.done.push_back(0);
+      if (book_.turns()) {
+        start.facing.push_back(book_.faces_at_first(i));
+        start.turning.push_back(0);
+      }
       if (!book_.may_be(start.at.back(), 0)) return {Status::infeasible, 0, {}};
     }
     reach(start, 0, {});
@@ -172,18 +191,36 @@ class RuledSearch {
       return move(state, next, i + 1, cost, node);
     }
     const int v = state.at[i];
-    std::vector<int> ways{v};
-    if (state.done[i] == 0)
-      for (const VertexId w : instance_.graph().neighbours(VertexId(static_cast<std::size_t>(v))))
-        ways.push_back(static_cast<int>(w.value()));
-    for (const int w : ways) {
-      if (!book_.may_go(i, v, w, state.time) || !book_.may_be(w, state.time + 1)) continue;
-      if (state.done[i] == 0 && book_.is_late(i, state.time + 1)) continue;
-      if (!is_free(state, next, i, w)) continue;
-      next.at[i] = w;
-      next.stage[i] = state.done[i] != 0 ? state.stage[i] : book_.visit(i, state.stage[i], w);
-      move(state, next, i + 1, w == v ? cost : cost + of_move_, node);
+    const bool is_turning = book_.turns() && state.turning[i] > 0;
+    if (book_.turns()) {
+      next.facing[i] = state.facing[i];
+      next.turning[i] = std::max(0, state.turning[i] - 1);
     }
+    go(state, next, i, v, cost, node);
+    if (state.done[i] != 0 || is_turning) return;
+    for (const VertexId w : instance_.graph().neighbours(VertexId(static_cast<std::size_t>(v))))
+      if (!book_.turns() || book_.is_ahead(state.facing[i], v, static_cast<int>(w.value())))
+        go(state, next, i, static_cast<int>(w.value()), cost, node);
+    for (const int quarters : {1, 3}) {
+      if (!book_.turns()) break;
+      next.facing[i] = (state.facing[i] + quarters) % 4;
+      next.turning[i] = book_.of_a_turn() - 1;
+      go(state, next, i, v, cost, node);
+    }
+  }
+
+  /// Agent i is at `w` next.
+  void go(const State& state, State& next, std::size_t i, int w, Cost cost, std::size_t node) {
+    const int v = state.at[i];
+    if (!book_.may_go(i, v, w, state.time) || !book_.may_be(w, state.time + 1)) return;
+    if (state.done[i] == 0 && book_.is_late(i, state.time + 1)) return;
+    if (!is_free(state, next, i, w)) return;
+    const State before = book_.turns() ? next : State();
+    next.at[i] = w;
+    next.stage[i] = state.done[i] != 0 ? state.stage[i] : book_.visit(i, state.stage[i], w);
+    move(state, next, i + 1, w == v ? cost : cost + of_move_, node);
+    // Those after it leave where they face behind.
+    if (book_.turns()) next = before;
   }
 
   bool is_free(const State& state, const State& next, std::size_t i, int w) const {
@@ -211,7 +248,8 @@ class RuledSearch {
       for (const State* state : states) {
         // To be done takes no time.
         if (last != nullptr && last->at == state->at && last->stage == state->stage &&
-            last->before == state->before && last->done != state->done) {
+            last->before == state->before && last->facing == state->facing &&
+            last->turning == state->turning && last->done != state->done) {
           last = state;
           continue;
         }
@@ -267,6 +305,8 @@ std::string replay_rules(const Instance& instance, const Plan& plan) {
     const std::string name = "agent " + std::to_string(i);
     if (path.empty() || path.front() != task.start) return name + ": wrong start";
     int stage = 0;
+    // All that it may face, and what is left of a turn.
+    std::set<std::pair<int, int>> poses{{book.faces_at_first(i), 0}};
     for (std::size_t t = 0; t < length; ++t) {
       const int here = place(task, path, t), next = place(task, path, t + 1);
       const std::string when = name + " at timestep " + std::to_string(t);
@@ -275,6 +315,17 @@ std::string replay_rules(const Instance& instance, const Plan& plan) {
       if (!book.may_be(here, static_cast<int>(t))) return when + ": blocked";
       if (next != kGone && !book.may_go(i, here, next, static_cast<int>(t)))
         return when + ": no such move";
+      if (next == kGone || !book.turns()) continue;
+      std::set<std::pair<int, int>> then;
+      for (const auto& [facing, left] : poses) {
+        if (next == here) then.emplace(facing, std::max(0, left - 1));
+        if (next != here && left == 0 && book.is_ahead(facing, here, next)) then.emplace(facing, 0);
+        for (const int quarters : {1, 3})
+          if (next == here && left == 0)
+            then.emplace((facing + quarters) % 4, book.of_a_turn() - 1);
+      }
+      if (then.empty()) return when + ": it faces elsewhere";
+      poses = std::move(then);
     }
     if (!book.may_end(i, stage, static_cast<int>(path.back().value()))) return name + ": end";
     if (book.is_late(i, static_cast<int>(arrival(path)))) return name + ": late";
@@ -325,6 +376,10 @@ Instance with_random_rules(Random& random, const Instance& instance, RuleKinds k
       for (std::size_t k = random.below(3); k > 0; --k) agent.waypoints.push_back(any());
   }
   Rules rules;
+  if (kinds.turning && graph.layout()) {
+    rules.turn = static_cast<Timestep>(random.between(1, 3));
+    for (Agent& agent : agents) agent.heading = kHeadings[random.below(kHeadings.size())];
+  }
   if (kinds.robust) rules.robust = static_cast<Timestep>(random.between(1, 2));
   for (std::size_t k = kinds.blockages ? random.between(1, 5) : 0; k > 0; --k) {
     Blockage blockage{any(), {}, static_cast<Timestep>(random.below(7)), {}};

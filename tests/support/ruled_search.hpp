@@ -33,7 +33,7 @@ struct Cheapest {
 /// Which rules `with_random_rules` may draw.
 struct RuleKinds {
   bool leaving = false, times = false, one_way = false, blockages = false, robust = false,
-       waypoints = false;
+       waypoints = false, turning = false;
 };
 /// The instance with rules, most of them of the kinds named. Agents that leave may get the goals of
 /// others. May be infeasible.

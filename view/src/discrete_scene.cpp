@@ -25,6 +25,8 @@ std::string name_of(Violation::Kind kind) {
       return "wrong goal";
     case Violation::Kind::not_adjacent:
       return "jump";
+    case Violation::Kind::turn:
+      return "no time to turn";
     case Violation::Kind::too_early:
       return "too early";
     case Violation::Kind::too_late:
@@ -45,7 +47,8 @@ std::string name_of(Violation::Kind kind) {
 
 /// A move is best looked at half way.
 bool is_move(Violation::Kind kind) {
-  return kind == Violation::Kind::swap || kind == Violation::Kind::not_adjacent;
+  return kind == Violation::Kind::swap || kind == Violation::Kind::not_adjacent ||
+         kind == Violation::Kind::turn;
 }
 
 /// One stop per stay, up to the first vertex that the graph does not have.

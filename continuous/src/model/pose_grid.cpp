@@ -20,11 +20,6 @@ Heading heading_of(Cell from, Cell to) {
 
 }  // namespace
 
-std::string_view to_string(Heading heading) noexcept {
-  constexpr std::array<std::string_view, kHeadings.size()> kNames{"east", "south", "west", "north"};
-  return kNames[static_cast<std::size_t>(heading)];
-}
-
 Result<PoseGrid> PoseGrid::make(const OccupancyGrid& grid, Ticks turn) {
   if (turn < 1 || turn > geometry::kMaxDuration)
     return Error{ErrorCode::out_of_range, "a turn takes one timestep or more", {}};

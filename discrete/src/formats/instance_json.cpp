@@ -28,7 +28,7 @@ class JsonInstanceReader {
       : document_(document), check_(document), most_vertices_(most_vertices) {}
 
   Result<Instance> run(text::Names* names) {
-    std::optional<Node> kind, version, now, graph, grid, agents, goal_sets, obstacles, robust;
+    std::optional<Node> kind, version, now, graph, grid, agents, goal_sets, obstacles, robust, turn;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"now", &now, false},
@@ -37,7 +37,8 @@ class JsonInstanceReader {
                                           {"agents", &agents},
                                           {"goal_sets", &goal_sets, false},
                                           {"obstacles", &obstacles, false},
-                                          {"robust", &robust, false}}) ||
+                                          {"robust", &robust, false},
+                                          {"turn", &turn, false}}) ||
         !read_version(*kind, *version) || (now && !read_now(check_, *now, now_)))
       return check_.error();
     if (graph.has_value() == grid.has_value()) {
@@ -51,7 +52,8 @@ class JsonInstanceReader {
     RulesReader reader(check_, document_, *graph_, now_);
     if (!read_agents(*agents, reader, tasks) ||
         (obstacles && !reader.read_obstacles(*obstacles, rules.blockages)) ||
-        (robust && !reader.read_robust(*robust, rules.robust)))
+        (robust && !reader.read_robust(*robust, rules.robust)) ||
+        (turn && !reader.read_turn(*turn, rules.turn)) || !reader.headings_mean_something(rules))
       return check_.error();
     auto instance = make_instance(check_, std::move(*graph_), tasks, now_, std::move(rules));
     if (instance && names != nullptr) *names = std::move(names_);
@@ -188,6 +190,7 @@ class JsonInstanceReader {
                               {"deadline", &rules.deadline, false},
                               {"at_goal", &rules.at_goal, false},
                               {"waypoints", &rules.waypoints, false},
+                              {"heading", &rules.heading, false},
                               {"name", &name, false}}))
         return false;
       auto& own = names_.agents.emplace_back();

@@ -40,7 +40,9 @@ bool RulesReader::read_place(Node node, VertexId& vertex) {
 bool RulesReader::read_agent(const OfAgent& nodes, Agent& agent) {
   if ((nodes.release && !read_time(*nodes.release, agent.release)) ||
       (nodes.deadline && !read_time(*nodes.deadline, agent.deadline.emplace())) ||
-      (nodes.at_goal && !text::read_choice(check_, *nodes.at_goal, "stay", "leave", agent.leaves)))
+      (nodes.at_goal &&
+       !text::read_choice(check_, *nodes.at_goal, "stay", "leave", agent.leaves)) ||
+      (nodes.heading && !read_heading(*nodes.heading, agent.heading)))
     return false;
   if (!nodes.waypoints) return true;
   if (!check_.array(*nodes.waypoints, "places")) return false;
@@ -55,6 +57,32 @@ bool RulesReader::read_robust(Node node, Timestep& robust) {
   if (!check_.integer(node, 0, kMaxRuleTime - 1, number)) return false;
   robust = static_cast<Timestep>(number);
   return true;
+}
+
+bool RulesReader::read_turn(Node node, Timestep& turn) {
+  std::int64_t number = 0;
+  if (!graph_.layout())
+    return check_.fail(node, ErrorCode::invalid_instance, "turns take time on a grid only");
+  if (!check_.integer(node, 1, kMaxTurn, number)) return false;
+  turn = static_cast<Timestep>(number);
+  return true;
+}
+
+bool RulesReader::headings_mean_something(const Rules& rules) {
+  return rules.turn > 0 || !heading_ ||
+         check_.fail(*heading_, "agents have headings only where there is the key 'turn'");
+}
+
+bool RulesReader::read_heading(Node node, Heading& heading) {
+  if (!heading_) heading_ = node;
+  std::string_view name;
+  if (!check_.text(node, name)) return false;
+  for (const Heading known : kHeadings)
+    if (to_string(known) == name) {
+      heading = known;
+      return true;
+    }
+  return check_.fail(node, "expected 'east', 'south', 'west' or 'north', found " + in_quotes(name));
 }
 
 bool RulesReader::read_obstacles(Node node, std::vector<Blockage>& blockages) {
@@ -170,6 +198,7 @@ void write_one_way(std::ostream& out, const Graph& graph) {
 
 void write_rules(std::ostream& out, const Graph& graph, const Rules& rules) {
   if (rules.robust > 0) out << ",\n  \"robust\": " << rules.robust;
+  if (rules.turn > 0) out << ",\n  \"turn\": " << rules.turn;
   if (rules.blockages.empty()) return;
   const char* begin = ",\n  \"obstacles\": [\n    ";
   for (const Blockage& b : rules.blockages) {
@@ -188,6 +217,7 @@ void write_agent_rules(std::ostream& out, const Graph& graph, const Agent& agent
   if (agent.release > 0) out << ", \"release\": " << agent.release;
   if (agent.deadline) out << ", \"deadline\": " << *agent.deadline;
   if (agent.leaves) out << ", \"at_goal\": \"leave\"";
+  if (agent.heading != Heading::east) out << ", \"heading\": \"" << to_string(agent.heading) << '"';
   if (agent.waypoints.empty()) return;
   const char* begin = ", \"waypoints\": [";
   for (const VertexId v : agent.waypoints) {

@@ -24,16 +24,20 @@ class RulesReader {
 
   /// Of one agent; each may be absent.
   struct OfAgent {
-    std::optional<Document::Node> release, deadline, at_goal, waypoints;
+    std::optional<Document::Node> release, deadline, at_goal, waypoints, heading;
   };
   [[nodiscard]] bool read_agent(const OfAgent& nodes, Agent& agent);
   [[nodiscard]] bool read_obstacles(Document::Node node, std::vector<Blockage>& blockages);
   [[nodiscard]] bool read_robust(Document::Node node, Timestep& robust);
+  [[nodiscard]] bool read_turn(Document::Node node, Timestep& turn);
+  /// False: an agent has a heading although turns take no time.
+  [[nodiscard]] bool headings_mean_something(const Rules& rules);
 
  private:
   using Node = Document::Node;
   bool read_time(Node node, Timestep& time);
   bool read_place(Node node, VertexId& vertex);
+  bool read_heading(Node node, Heading& heading);
   bool read_obstacle(Node node, std::vector<Blockage>& blockages);
   /// A body that goes from stop to stop.
   bool read_way(Node path, bool leaves, std::vector<Blockage>& blockages);
@@ -47,6 +51,7 @@ class RulesReader {
   const Document& document_;
   const Graph& graph_;
   const Timestep now_;
+  std::optional<Node> heading_;  // the first one that was read
 };
 
 /// `[x, y]` or a number.

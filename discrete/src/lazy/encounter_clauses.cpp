@@ -18,8 +18,8 @@ std::vector<ObstacleId> EncounterClauses::exclude(const Encounter& e, Timestep c
   if (e.kind == Encounter::Kind::rest && cap - model_.price(e.vertex) <= rest_from &&
       !model_.distances(e.second).is_inevitable(e.vertex, e.second_timestep()))
     return {model_.keep_off_goal(e.second, e.first, {e.vertex, rest_from}, writer)};
-  const bool may_widen =
-      e.gap == 0 && agents[e.first].waypoints.empty() && agents[e.second].waypoints.empty();
+  const bool may_widen = e.gap == 0 && agents[e.first].waypoints.empty() &&
+                         agents[e.second].waypoints.empty() && !model_.instance().poses();
   if (e.kind != Encounter::Kind::rest && may_widen)
     if (auto usages = exclude_corridor(e, writer); !usages.empty()) return usages;
   if (e.kind == Encounter::Kind::swap)

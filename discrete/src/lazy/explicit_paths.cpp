@@ -59,7 +59,7 @@ void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& wr
   // The clauses of MddPaths lead to one goal, without a price.
   const AgentDistances& d = model_.distances(agent);
   const Goals& goals = model_.instance().agents()[agent].goals;
-  if (!goals.is_single() || model_.price(goals.only()) > 0) return;
+  if (!goals.is_single() || model_.price(goals.only()) > 0 || d.has_headings()) return;
   if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
   const Timestep delay = cap - d.length();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;
@@ -70,7 +70,9 @@ void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& wr
   }
   const Graph& graph = d.states();
   if (!a.paths)
-    a.paths.emplace(graph, discrete::Agent{d.start_state(), d.goal_state(goals.only())});
+    d.for_each_end(goals.only(), [&](VertexId end) {
+      a.paths.emplace(graph, discrete::Agent{d.start_state(), end});
+    });
   AgentFormula formula(model_, agent, writer);
   if (!a.paths->extend(graph, delay, formula, nullptr)) {
     a.next_look = INT64_MAX;

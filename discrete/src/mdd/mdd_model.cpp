@@ -11,7 +11,8 @@ namespace quadrille::discrete {
 using sat::Lit;
 
 bool MddModel::knows(const Instance& instance) {
-  return std::all_of(instance.agents().begin(), instance.agents().end(),
+  return !instance.poses() &&
+         std::all_of(instance.agents().begin(), instance.agents().end(),
                      [](const auto& agent) { return agent.waypoints.empty(); });
 }
 

@@ -37,7 +37,7 @@ class MddModel {
     Timestep number = 0;  ///< Timestep or delay.
   };
 
-  /// Whether the model can express the rules of the instance: all but waypoints.
+  /// Whether the model can express the rules of the instance: all but waypoints and turns.
   [[nodiscard]] static bool knows(const Instance& instance);
 
   MddModel(const Instance& instance, Objective objective);

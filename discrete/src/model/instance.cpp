@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "model/poses.hpp"
+
 namespace quadrille::discrete {
 namespace {
 
@@ -95,6 +97,11 @@ std::optional<Error> refuse_rules(const Graph& graph, const Rules& rules, Timest
   if (rules.robust < 0 || rules.robust >= kMaxRuleTime)
     return out_of_range("plans cannot be " + std::to_string(rules.robust) + "-robust, only 0 to " +
                         std::to_string(kMaxRuleTime - 1));
+  if (rules.turn < 0 || rules.turn > kMaxTurn)
+    return out_of_range("a quarter turn takes " + std::to_string(rules.turn) +
+                        " timesteps, not 1 to " + std::to_string(kMaxTurn));
+  if (rules.turn > 0 && !graph.layout())
+    return invalid("turns take time on grids; this graph is none");
   for (std::size_t k = 0; k < rules.blockages.size(); ++k)
     if (auto error =
             refuse_blockage(graph, rules.blockages[k], "blockage " + std::to_string(k), now))
@@ -112,8 +119,10 @@ Timestep since(Timestep now, Timestep time) { return std::max<Timestep>(0, time 
 }  // namespace
 
 Instance::Instance(std::shared_ptr<const Graph> graph, IdVector<AgentId, Agent> agents,
-                   Timestep now, std::shared_ptr<const Rules> rules)
+                   Timestep now, std::shared_ptr<const Rules> rules,
+                   std::shared_ptr<const Graph> poses)
     : graph_(std::move(graph)),
+      poses_(std::move(poses)),
       agents_(std::move(agents)),
       now_(now),
       rules_(std::move(rules)),
@@ -136,8 +145,9 @@ Result<Instance> Instance::make(std::shared_ptr<const Graph> graph, std::vector<
   if (auto error = find_shared(*graph, agents, only_goal, "goal")) return *error;
   if (auto error = refuse_times(agents, now)) return *error;
   if (auto error = refuse_rules(*graph, rules, now)) return *error;
+  auto poses = rules.turn > 0 ? make_poses(*graph, rules.turn) : nullptr;
   return Instance(std::move(graph), IdVector<AgentId, Agent>(std::move(agents)), now,
-                  std::make_shared<const Rules>(std::move(rules)));
+                  std::make_shared<const Rules>(std::move(rules)), std::move(poses));
 }
 
 Result<Instance> Instance::make(Graph graph, std::vector<Agent> agents, Timestep now, Rules rules) {
@@ -164,14 +174,14 @@ Instance Instance::since_now() const {
     // A deadline that is over stays one that is over.
     if (agent.deadline) agent.deadline = std::max<Timestep>(-1, *agent.deadline - now_);
   }
-  Rules rules{{}, rules_->robust};
+  Rules rules{{}, rules_->robust, rules_->turn};
   for (Blockage blockage : rules_->blockages) {
     if (blockage.last && *blockage.last < now_) continue;
     blockage.first = since(now_, blockage.first);
     if (blockage.last) *blockage.last -= now_;
     rules.blockages.push_back(blockage);
   }
-  return {graph_, std::move(agents), 0, std::make_shared<const Rules>(std::move(rules))};
+  return {graph_, std::move(agents), 0, std::make_shared<const Rules>(std::move(rules)), poses_};
 }
 
 Instance Instance::relaxed() const {

@@ -15,8 +15,21 @@ AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& ta
       to_goal_(table.row(agent)),
       prices_(prices),
       blocked_(blocked),
+      layers_(instance.poses()),
+      num_poses_(states().num_vertices()),
       start_state_(task_.start) {
-  if (!task_.waypoints.empty()) make_layers();
+  if (layers_) {
+    num_headings_ = kHeadings.size();
+    const auto heading = static_cast<std::size_t>(task_.heading);
+    start_state_ = VertexId(heading * graph_->num_vertices() + task_.start.index());
+  }
+  if (!task_.waypoints.empty()) make_layers(states());
+  if (layers_) {
+    std::vector<VertexId> ends;
+    for (const VertexId goal : task_.goals.vertices())
+      for_each_end(goal, [&](VertexId state) { ends.push_back(state); });
+    own_to_goal_ = distances_to_nearest(*layers_, Goals(std::move(ends)));
+  }
   length_ = free_cost_ = to_goal(start_state_);
   QUADRILLE_REQUIRE(length_ != kUnreachable || !instance.is_plain(), "a goal is reachable");
   if (states().is_directed()) find_largest_step();
@@ -28,25 +41,23 @@ void AgentDistances::find_from_start() const {
 }
 
 // A waypoint that is come to is visited: who has visited more may do all that others may.
-void AgentDistances::make_layers() {
-  const std::size_t size = graph_->num_vertices(), last = task_.waypoints.size();
-  const auto state = [&](std::size_t visited, VertexId v) {
+void AgentDistances::make_layers(const Graph& poses) {
+  const std::size_t size = poses.num_vertices(), last = task_.waypoints.size();
+  const auto state = [&](std::size_t visited, VertexId pose) {
+    const VertexId v = place(pose);
     while (visited < last && task_.waypoints[visited] == v) ++visited;
-    return VertexId(visited * size + v.index());
+    return VertexId(visited * size + pose.index());
   };
   std::vector<Graph::Edge> arcs;
   for (std::size_t visited = 0; visited <= last; ++visited)
-    for (const VertexId v : IdRange<VertexId>(size)) {
-      const VertexId from(visited * size + v.index());
-      if (state(visited, v) != from) continue;  // Nobody is there.
-      for (const VertexId w : graph_->neighbours(v)) arcs.emplace_back(from, state(visited, w));
+    for (const VertexId pose : IdRange<VertexId>(size)) {
+      const VertexId from(visited * size + pose.index());
+      if (state(visited, pose) != from) continue;  // Nobody is there.
+      for (const VertexId next : poses.neighbours(pose))
+        arcs.emplace_back(from, state(visited, next));
     }
+  start_state_ = state(0, start_state_);
   layers_ = std::make_shared<const Graph>(Graph::make_directed(size * (last + 1), arcs).value());
-  start_state_ = state(0, task_.start);
-  std::vector<VertexId> goals;
-  for (const VertexId goal : task_.goals.vertices()) goals.push_back(goal_state(goal));
-  own_to_goal_ = distances_to_nearest(*layers_, Goals(std::move(goals)));
-  own_from_start_ = distances_from(*layers_, start_state_);
 }
 
 VertexId AgentDistances::state_at(const Path& path, Timestep t) const {

@@ -15,8 +15,9 @@ namespace quadrille::discrete {
 /// there, and distances on the empty graph. Where goals have prices, a path costs its arrival and
 /// the price of the goal where it ends, and all that is about costs means that.
 ///
-/// Searches go over *states*. Those of most agents are the vertices; an agent that has waypoints is
-/// in a vertex having visited the first so many of them, all that it could.
+/// Searches go over *states*. Those of most agents are the vertices. Where turns take time they are
+/// the poses, of which several are in one vertex. An agent that has waypoints is in one of these
+/// having visited the first so many of them, all that it could.
 class AgentDistances {
  public:
   /// Requires that a goal can be reached from the start unless the instance has rules. `instance`
@@ -27,7 +28,7 @@ class AgentDistances {
 
   // ---- the task
 
-  /// The vertices and edges; without waypoints the states.
+  /// The vertices and edges.
   [[nodiscard]] const Graph& graph() const noexcept { return *graph_; }
   /// A vertex.
   [[nodiscard]] VertexId start() const noexcept { return task_.start; }
@@ -45,15 +46,20 @@ class AgentDistances {
   // ---- states
 
   [[nodiscard]] const Graph& states() const noexcept { return layers_ ? *layers_ : *graph_; }
-  [[nodiscard]] bool has_waypoints() const noexcept { return layers_ != nullptr; }
+  /// Of several states in one vertex the heading differs.
+  [[nodiscard]] bool has_headings() const noexcept { return num_headings_ > 1; }
   [[nodiscard]] VertexId start_state() const noexcept { return start_state_; }
   /// The vertex.
   [[nodiscard]] VertexId place(VertexId state) const {
     return layers_ ? VertexId(state.index() % graph_->num_vertices()) : state;
   }
-  /// Where an agent is that is at that goal having visited all waypoints.
-  [[nodiscard]] VertexId goal_state(VertexId goal) const {
-    return VertexId(goal.index() + task_.waypoints.size() * graph_->num_vertices());
+  /// Calls `tell(state)` for each state in which the agent, at that goal, may end: of several only
+  /// the heading differs.
+  template <class Tell>
+  void for_each_end(VertexId goal, const Tell& tell) const {
+    const std::size_t first = task_.waypoints.size() * num_poses_ + goal.index();
+    for (std::size_t k = 0; k < num_headings_; ++k)
+      tell(VertexId(first + k * graph_->num_vertices()));
   }
   /// Calls `tell(state)` for each one in that vertex.
   template <class Tell>
@@ -141,14 +147,18 @@ class AgentDistances {
   [[nodiscard]] Timestep largest_step() const noexcept { return largest_step_; }
   /// To a state, without bans. Computed at the first call: only agents that meet others need it.
   [[nodiscard]] Timestep from_start(VertexId state) const {
-    if (layers_) return own_from_start_[state];
+    if (layers_) {
+      if (own_from_start_.empty()) own_from_start_ = distances_from(*layers_, start_state_);
+      return own_from_start_[state];
+    }
     if (from_start_ == nullptr) find_from_start();
     return (*from_start_)[state];
   }
 
  private:
   void find_from_start() const;
-  void make_layers();
+  /// Of poses or vertices, and how many waypoints are visited.
+  void make_layers(const Graph& poses);
   void find_largest_step();
 
   const Graph* graph_;
@@ -157,9 +167,12 @@ class AgentDistances {
   GoalDistances::Row to_goal_;
   const GoalPrices* prices_;
   const BlockedTimes* blocked_;
-  // Of an agent with waypoints; state = number of waypoints visited * V + vertex.
+  // state = number of waypoints visited * number of poses + pose, where a pose is in the vertex
+  // that is left over by V; null where the states are the vertices.
   std::shared_ptr<const Graph> layers_;
-  IdVector<VertexId, Timestep> own_to_goal_, own_from_start_;
+  IdVector<VertexId, Timestep> own_to_goal_;
+  mutable IdVector<VertexId, Timestep> own_from_start_;
+  std::size_t num_poses_, num_headings_ = 1;
   VertexId start_state_;
   Timestep length_ = 0, free_cost_ = 0, largest_step_ = 2;
   bool may_end_at_once_ = false;

@@ -6,6 +6,15 @@
 #include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
+namespace {
+
+bool can_come(const AgentDistances& d, VertexId goal, Timestep t) {
+  bool can = false;
+  d.for_each_end(goal, [&](VertexId state) { can = can || d.from_start(state) <= t; });
+  return can;
+}
+
+}  // namespace
 
 // A walk of cost at most K is one that is at a goal of price p at K - p and meets nothing there
 // from then on. So goals that a slot forbids then or later need no more. Let H be the slots that
@@ -90,8 +99,10 @@ void Explainer::cut_off_blocked_goals(const AgentDistances& d, const ObstacleMap
   frontier_.clear();
   ends_.clear();
   for (std::size_t k = 0; k < goals.size(); ++k)
-    if (is_cut_[k] == 0 && d.from_start(d.goal_state(goals[k])) <= last_arrival(k))
-      ends_.push_back({d.goal_state(goals[k]), last_arrival(k)});
+    if (is_cut_[k] == 0)
+      d.for_each_end(goals[k], [&](VertexId state) {
+        if (d.from_start(state) <= last_arrival(k)) ends_.push_back({state, last_arrival(k)});
+      });
   std::stable_sort(ends_.begin(), ends_.end(),
                    [](const Visit& a, const Visit& b) { return a.timestep > b.timestep; });
 }
@@ -102,8 +113,10 @@ void Explainer::begin_with_arrivals(const AgentDistances& d, Timestep bound, con
   ends_.clear();
   for (Timestep t = bound; t >= 0; --t)
     for (const VertexId goal : d.goals().vertices())
-      if (d.from_start(d.goal_state(goal)) <= t && !d.is_banned(goal, t) && !is_cut(goal, t))
-        ends_.push_back({d.goal_state(goal), t});
+      if (!d.is_banned(goal, t) && can_come(d, goal, t) && !is_cut(goal, t))
+        d.for_each_end(goal, [&](VertexId state) {
+          if (d.from_start(state) <= t) ends_.push_back({state, t});
+        });
 }
 
 }  // namespace quadrille::discrete

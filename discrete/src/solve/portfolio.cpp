@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t kLag = 1;
 
 /// What another worker does: plans, the lazy model with the other way to backtrack, the MDD model.
-/// The MDD model knows no goal sets and waypoints: there the lazy model takes its place, set
+/// The MDD model knows no goal sets, waypoints and turns: there the lazy model takes its place, set
 /// otherwise.
 SolveOptions options_of(const Instance& instance, const SolveOptions& options, const Tuner& tuner,
                         std::size_t worker) {

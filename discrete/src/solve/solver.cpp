@@ -61,14 +61,15 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
     return refuse(ErrorCode::out_of_range,
                   std::string(options.proof ? "a certificate" : "an explanation") +
                       " knows no rules: one-way edges, agents that leave, releases, deadlines, "
-                      "waypoints, blockages, robust plans");
+                      "waypoints, blockages, robust plans, turns");
   if (options.tie == Tie::fewest_moves) {
     if (options.gap_percent)
       return refuse(ErrorCode::out_of_range,
                     "the fewest moves are those of plans of least cost: there is no gap then");
     if (instance.has_goal_sets() || !MddModel::knows(instance))
       return refuse(ErrorCode::out_of_range,
-                    "the fewest moves are not known for agents with several goals or waypoints");
+                    "the fewest moves are not known for agents with several goals or waypoints, "
+                    "nor where turns take time");
     if (vertices > kMaxMddVertices)
       return refuse(ErrorCode::out_of_range,
                     "the graph has " + std::to_string(vertices) + " vertices, more than " +
@@ -77,7 +78,8 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   }
   if (options.system != System::dpll && !MddModel::knows(instance))
     return refuse(ErrorCode::out_of_range, "the system " + std::string(to_string(options.system)) +
-                                               " knows no waypoints; they need the system dpll");
+                                               " knows no waypoints and no turns; they need the "
+                                               "system dpll");
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 namespace quadrille::discrete {
 namespace {
@@ -24,6 +25,36 @@ void check_waypoints(const Graph& graph, const Agent& agent, const Path& path, c
   tell(Kind::waypoint, static_cast<Timestep>(end) - 1,
        "does not visit its waypoint " + name_of(graph, agent.waypoints[visited]) +
            (visited == 0 ? "" : " after the one before it"));
+}
+
+/// Turns begin as soon as they can: on the grid, by coordinates.
+void check_turns(const Instance& instance, const Agent& agent, const Path& path, std::size_t end,
+                 const Tell& tell) {
+  const Timestep turn = instance.rules().turn;
+  const GridLayout& layout = *instance.graph().layout();
+  std::size_t since = 0;
+  Heading heading = agent.heading;
+  for (std::size_t t = 1; t < end; ++t) {
+    if (path[t] == path[t - 1]) continue;
+    const bool are_cells =
+        path[t].index() < layout.num_vertices() && path[t - 1].index() < layout.num_vertices();
+    const Cell from = are_cells ? layout.cell_of(path[t - 1]) : Cell{};
+    const Cell to = are_cells ? layout.cell_of(path[t]) : Cell{};
+    Heading then = heading;
+    if (to.x - from.x == 1) then = Heading::east;
+    if (to.x - from.x == -1) then = Heading::west;
+    if (to.y - from.y == 1) then = Heading::south;
+    if (to.y - from.y == -1) then = Heading::north;
+    const int apart = std::abs(static_cast<int>(then) - static_cast<int>(heading));
+    const Timestep needed = (apart == 3 ? 1 : apart) * turn;
+    if (static_cast<Timestep>(t - 1 - since) < needed)
+      tell(Kind::turn, static_cast<Timestep>(t) - 1,
+           "moves " + std::string(to_string(then)) + ", but has faced " +
+               std::string(to_string(heading)) + " " + std::to_string(t - 1 - since) +
+               " timesteps before, and needs " + std::to_string(needed) + " to turn");
+    since = t;
+    heading = then;
+  }
 }
 
 /// One blockage and all of a path, the rest at its end included.
@@ -77,6 +108,7 @@ void check_own_rules(const Instance& instance, const Agent& agent, const Path& p
     tell(Kind::too_late, static_cast<Timestep>(arrival),
          "arrives after its deadline at timestep " + std::to_string(*agent.deadline));
   check_waypoints(instance.graph(), agent, path, tell);
+  if (instance.rules().turn > 0) check_turns(instance, agent, path, end, tell);
   for (const Blockage& blockage : instance.rules().blockages)
     check_blockage(instance.graph(), blockage, now, agent.leaves, path, end, tell);
 }

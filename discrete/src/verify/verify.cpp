@@ -263,6 +263,8 @@ std::string_view to_string(Violation::Kind kind) noexcept {
       return "wrong-goal";
     case Violation::Kind::not_adjacent:
       return "not-adjacent";
+    case Violation::Kind::turn:
+      return "no-time-to-turn";
     case Violation::Kind::too_early:
       return "too-early";
     case Violation::Kind::too_late:

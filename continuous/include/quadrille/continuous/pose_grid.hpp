@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "quadrille/continuous/grid.hpp"
@@ -14,22 +11,17 @@
 #include "quadrille/continuous/roadmap.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/goals.hpp"
+#include "quadrille/core/heading.hpp"
 
 QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
-/// Where a robot on a grid faces: clockwise on the map, whose rows go down.
-enum class Heading : std::uint8_t { east, south, west, north };
-inline constexpr std::array kHeadings{Heading::east, Heading::south, Heading::west, Heading::north};
-[[nodiscard]] std::string_view to_string(Heading heading) noexcept;  ///< "east" | ... | "north"
-/// The heading after a quarter turn.
-[[nodiscard]] constexpr Heading right_of(Heading heading) noexcept {
-  return static_cast<Heading>((static_cast<unsigned>(heading) + 1) % kHeadings.size());
-}
-[[nodiscard]] constexpr Heading left_of(Heading heading) noexcept {
-  return static_cast<Heading>((static_cast<unsigned>(heading) + 3) % kHeadings.size());
-}
+using quadrille::Heading;
+using quadrille::kHeadings;
+using quadrille::left_of;
+using quadrille::right_of;
+using quadrille::to_string;
 
 /// Where a robot on a grid is, and where it faces.
 struct Pose {

@@ -7,6 +7,7 @@
 
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/goals.hpp"
+#include "quadrille/core/heading.hpp"
 #include "quadrille/discrete/graph.hpp"
 
 QUADRILLE_API_BEGIN
@@ -18,6 +19,9 @@ inline constexpr Timestep kMaxNow = 1'000'000'000;
 
 /// The times of rules lie less than this many timesteps after Instance::now.
 inline constexpr Timestep kMaxRuleTime = 1 << 20;
+
+/// The most timesteps that a quarter turn may take.
+inline constexpr Timestep kMaxTurn = 16;
 
 /// Where an agent begins, and where it may end: it stays for ever at any one of its goals. And the
 /// rules that it alone obeys, whose timesteps are absolute.
@@ -34,6 +38,8 @@ struct Agent {
   bool leaves = false;
   /// Vertices that it has to visit before it ends, in this order. Its start and its goal count.
   std::vector<VertexId> waypoints = {};
+  /// Where it faces at its start; means something where turns take time.
+  Heading heading = Heading::east;
 
   /// Requires that there is one goal only.
   [[nodiscard]] VertexId goal() const { return goals.only(); }
@@ -58,6 +64,10 @@ struct Rules {
   /// k: nobody is in a vertex within k timesteps after another agent was in it. 1 forbids to follow
   /// another agent closely. 0: agents may follow.
   Timestep robust = 0;
+  /// On grids, for robots that turn: timesteps of a quarter turn. An agent moves ahead only, and
+  /// turns where it is, as early as it likes; where it faces in the end is nothing to anybody. 0:
+  /// agents have no headings.
+  Timestep turn = 0;
   friend bool operator==(const Rules&, const Rules&) = default;
 };
 
@@ -70,8 +80,9 @@ class Instance {
   /// the same start, two agents that stay at the same goal and have no other one, a blocked edge
   /// that does not exist or a blockage that ends before it begins; out_of_range for `now` outside
   /// [0, kMaxNow], times of rules that are negative or kMaxRuleTime or more after `now`, and
-  /// `robust` outside [0, kMaxRuleTime). Sets of several goals may overlap. Agents are named by
-  /// their index in the message. No agents are allowed. O(V + all goals + rules).
+  /// `robust` outside [0, kMaxRuleTime), and `turn` outside [0, kMaxTurn]; invalid_instance for
+  /// turns on graphs that are no grid. Sets of several goals may overlap. Agents are named by their
+  /// index in the message. No agents are allowed. O(V + all goals + rules).
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Graph> graph,
                                              std::vector<Agent> agents, Timestep now = 0,
                                              Rules rules = {});
@@ -97,19 +108,24 @@ class Instance {
   [[nodiscard]] IdRange<AgentId> agent_ids() const noexcept {
     return IdRange<AgentId>(num_agents());
   }
+  /// Where turns take time: a directed graph with several vertices, the poses, for each of the
+  /// graph's; null elsewhere. The pose k * V + v is in the vertex v; for k < 4 a robot faces there
+  /// as kHeadings[k] says, for larger k it is in the middle of a turn.
+  [[nodiscard]] const std::shared_ptr<const Graph>& poses() const noexcept { return poses_; }
   /// The timestep at which all agents are at their starts.
   [[nodiscard]] Timestep now() const noexcept { return now_; }
   [[nodiscard]] const Rules& rules() const noexcept { return *rules_; }
-  /// No rules: all edges lead both ways, nothing is blocked, agents may follow each other, and each
-  /// of them sets out when it likes, visits what it likes, and stays at its goal for ever.
+  /// No rules: all edges lead both ways, nothing is blocked, agents may follow each other, turns
+  /// take no time, and each of them sets out when it likes, visits what it likes, and stays at its
+  /// goal for ever.
   [[nodiscard]] bool is_plain() const noexcept { return is_plain_; }
   /// Some agent has more than one goal.
   [[nodiscard]] bool has_goal_sets() const noexcept { return has_goal_sets_; }
 
  private:
   Instance(std::shared_ptr<const Graph> graph, IdVector<AgentId, Agent> agents, Timestep now,
-           std::shared_ptr<const Rules> rules);
-  std::shared_ptr<const Graph> graph_;
+           std::shared_ptr<const Rules> rules, std::shared_ptr<const Graph> poses);
+  std::shared_ptr<const Graph> graph_, poses_;
   IdVector<AgentId, Agent> agents_;
   Timestep now_;
   std::shared_ptr<const Rules> rules_;

@@ -110,7 +110,7 @@ struct SolveOptions : Request<Plan> {
   MddOptions mdd;
   LazyOptions lazy;
   /// With fewest_moves a second search follows, in the MDD model whatever the system, when a plan
-  /// is proved optimal. Not with goal sets, waypoints or a gap.
+  /// is proved optimal. Not with goal sets, waypoints, turns or a gap.
   Tie tie = Tie::any;
   /// Look for a plan of any cost first and improve it while the bound rises (quadrille/discrete/
   /// primal.hpp): then a search that a limit ends has a plan. Under rules: of prioritised planning.

@@ -24,6 +24,7 @@ struct Violation {
     wrong_start,   ///< The path begins elsewhere.
     wrong_goal,    ///< The path ends elsewhere than at a goal of the agent.
     not_adjacent,  ///< A move between `timestep` and the next one that is no edge.
+    turn,          ///< A move that begins before the agent can have turned to face that way.
     too_early,     ///< A move that begins before the agent's release.
     too_late,      ///< An arrival after the agent's deadline.
     waypoint,      ///< One is not visited, or not after the one before it.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "quadrille/core/heading.hpp"
+#include "quadrille/discrete/graph.hpp"
+
+namespace quadrille::discrete {
+
+/// Of a move between two neighbouring cells.
+[[nodiscard]] Heading heading_of(Cell from, Cell to) noexcept;
+
+/// What Instance::poses says. Requires a grid and at least one timestep for a quarter turn. O(turn
+/// * (V + E)).
+[[nodiscard]] std::shared_ptr<const Graph> make_poses(const Graph& grid, Timestep turn);
+
+}  // namespace quadrille::discrete
