@@ -59,7 +59,7 @@ void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& wr
   // The clauses of MddPaths lead to one goal, without a price.
   const AgentDistances& d = model_.distances(agent);
   const Goals& goals = model_.instance().agents()[agent].goals;
-  if (!goals.is_single() || model_.price(goals.only()) > 0 || d.has_headings()) return;
+  if (!d.has_one_end() || model_.price(goals.only()) > 0) return;
   if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
   const Timestep delay = cap - d.length();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;

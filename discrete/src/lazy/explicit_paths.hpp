@@ -18,8 +18,8 @@ namespace quadrille::discrete {
 ///
 /// X(v,t) implies all usage literals of obstacles that (v,t) is part of, so the explicit paths keep
 /// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
-/// Agents whose goals are several or have prices have none, nor have those that turn: they end in
-/// several states.
+/// Agents whose goals are several or have prices have none, nor have those that turn where they are
+/// to stay: they may end in two states.
 class ExplicitPaths {
  public:
   /// As many `variables` are worth as many path `lemmas`, at least 1. No variables: no explicit

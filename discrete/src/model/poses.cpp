@@ -13,6 +13,7 @@ Heading heading_of(Cell from, Cell to) noexcept {
 std::shared_ptr<const Graph> make_poses(const Graph& grid, Timestep turn) {
   const GridLayout& layout = *grid.layout();
   const std::size_t size = grid.num_vertices(), num_headings = kHeadings.size();
+  const std::size_t first_turn = kParked + 1;
   const auto steps_within = static_cast<std::size_t>(turn) - 1;
   const auto pose = [&](std::size_t layer, VertexId v) {
     return VertexId(layer * size + v.index());
@@ -22,6 +23,7 @@ std::shared_ptr<const Graph> make_poses(const Graph& grid, Timestep turn) {
     for (const VertexId w : grid.neighbours(v)) {
       const auto ahead = static_cast<std::size_t>(heading_of(layout.cell_of(v), layout.cell_of(w)));
       arcs.emplace_back(pose(ahead, v), pose(ahead, w));
+      arcs.emplace_back(pose(ahead, v), pose(kParked, w));
     }
     for (const Heading from : kHeadings)
       for (const bool right : {false, true}) {
@@ -29,14 +31,14 @@ std::shared_ptr<const Graph> make_poses(const Graph& grid, Timestep turn) {
         const std::size_t begin = 2 * static_cast<std::size_t>(from) + (right ? 1 : 0);
         std::size_t layer = static_cast<std::size_t>(from);
         for (std::size_t k = 0; k < steps_within; ++k) {
-          const std::size_t next = num_headings + begin * steps_within + k;
+          const std::size_t next = first_turn + begin * steps_within + k;
           arcs.emplace_back(pose(layer, v), pose(next, v));
           layer = next;
         }
         arcs.emplace_back(pose(layer, v), pose(static_cast<std::size_t>(to), v));
       }
   }
-  const std::size_t num_layers = num_headings + 2 * num_headings * steps_within;
+  const std::size_t num_layers = first_turn + 2 * num_headings * steps_within;
   return std::make_shared<const Graph>(Graph::make_directed(num_layers * size, arcs).value());
 }
 

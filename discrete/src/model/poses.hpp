@@ -11,6 +11,9 @@ namespace quadrille::discrete {
 /// Of a move between two neighbouring cells.
 [[nodiscard]] Heading heading_of(Cell from, Cell to) noexcept;
 
+/// The pose, by vertices, of robots that have come to their goal for good.
+inline constexpr std::size_t kParked = kHeadings.size();
+
 /// What Instance::poses says. Requires a grid and at least one timestep for a quarter turn. O(turn
 /// * (V + E)).
 [[nodiscard]] std::shared_ptr<const Graph> make_poses(const Graph& grid, Timestep turn);

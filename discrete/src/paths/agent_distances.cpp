@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "quadrille/core/contract.hpp"
+
 namespace quadrille::discrete {
 
 AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& table, AgentId agent,
@@ -17,9 +19,9 @@ AgentDistances::AgentDistances(const Instance& instance, const GoalDistances& ta
       blocked_(blocked),
       layers_(instance.poses()),
       num_poses_(states().num_vertices()),
+      has_poses_(layers_ != nullptr),
       start_state_(task_.start) {
   if (layers_) {
-    num_headings_ = kHeadings.size();
     const auto heading = static_cast<std::size_t>(task_.heading);
     start_state_ = VertexId(heading * graph_->num_vertices() + task_.start.index());
   }
@@ -60,19 +62,34 @@ void AgentDistances::make_layers(const Graph& poses) {
   layers_ = std::make_shared<const Graph>(Graph::make_directed(size * (last + 1), arcs).value());
 }
 
+// Of several walks over states that are the path, always the same one.
 VertexId AgentDistances::state_at(const Path& path, Timestep t) const {
   if (!layers_) return position(path, t);
-  VertexId state = start_state_;
-  for (Timestep at = 1; at <= t; ++at) {
-    const VertexId v = position(path, at);
-    if (v == place(state)) continue;
-    for (const VertexId next : layers_->neighbours(state))
-      if (place(next) == v) {
-        state = next;
-        break;
-      }
+  struct Step {
+    VertexId state;
+    std::size_t before;
+  };
+  const auto end = static_cast<std::size_t>(arrival(path));
+  std::vector<std::vector<Step>> steps{{{start_state_, 0}}};
+  for (std::size_t at = 1; at <= end; ++at) {
+    std::vector<Step> next;
+    const auto add = [&](VertexId state, std::size_t before) {
+      const bool is_known = std::any_of(next.begin(), next.end(),
+                                        [&](const Step& known) { return known.state == state; });
+      if (place(state) == path[at] && !is_known) next.push_back({state, before});
+    };
+    for (std::size_t k = 0; k < steps.back().size(); ++k) {
+      add(steps.back()[k].state, k);
+      for (const VertexId w : layers_->neighbours(steps.back()[k].state)) add(w, k);
+    }
+    steps.push_back(std::move(next));
   }
-  return state;
+  std::size_t k = 0;
+  while (k < steps[end].size() && !is_goal(steps[end][k].state)) ++k;
+  QUADRILLE_REQUIRE(k < steps[end].size(), "the path is one of the agent");
+  std::size_t at = end;
+  for (; at > static_cast<std::size_t>(t); --at) k = steps[at][k].before;
+  return steps[at][k].state;
 }
 
 void AgentDistances::find_largest_step() {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "model/blocked_times.hpp"
+#include "model/poses.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
@@ -46,20 +47,25 @@ class AgentDistances {
   // ---- states
 
   [[nodiscard]] const Graph& states() const noexcept { return layers_ ? *layers_ : *graph_; }
-  /// Of several states in one vertex the heading differs.
-  [[nodiscard]] bool has_headings() const noexcept { return num_headings_ > 1; }
   [[nodiscard]] VertexId start_state() const noexcept { return start_state_; }
   /// The vertex.
   [[nodiscard]] VertexId place(VertexId state) const {
     return layers_ ? VertexId(state.index() % graph_->num_vertices()) : state;
   }
-  /// Calls `tell(state)` for each state in which the agent, at that goal, may end: of several only
-  /// the heading differs.
+  /// Calls `tell(state)` for each state in which the agent, at that goal, may end: one, or two
+  /// where it turns and need not go anywhere.
   template <class Tell>
   void for_each_end(VertexId goal, const Tell& tell) const {
-    const std::size_t first = task_.waypoints.size() * num_poses_ + goal.index();
-    for (std::size_t k = 0; k < num_headings_; ++k)
-      tell(VertexId(first + k * graph_->num_vertices()));
+    const std::size_t first = task_.waypoints.size() * num_poses_;
+    if (!has_poses_) return tell(VertexId(first + goal.index()));
+    tell(VertexId(first + kParked * graph_->num_vertices() + goal.index()));
+    if (VertexId(start_state_.index() % graph_->num_vertices()) == goal &&
+        start_state_.index() >= first)
+      tell(start_state_);
+  }
+  /// There is one goal, and one state to end in.
+  [[nodiscard]] bool has_one_end() const {
+    return task_.goals.is_single() && (!has_poses_ || task_.start != task_.goals.only());
   }
   /// Calls `tell(state)` for each one in that vertex.
   template <class Tell>
@@ -172,7 +178,8 @@ class AgentDistances {
   std::shared_ptr<const Graph> layers_;
   IdVector<VertexId, Timestep> own_to_goal_;
   mutable IdVector<VertexId, Timestep> own_from_start_;
-  std::size_t num_poses_, num_headings_ = 1;
+  std::size_t num_poses_;
+  bool has_poses_;
   VertexId start_state_;
   Timestep length_ = 0, free_cost_ = 0, largest_step_ = 2;
   bool may_end_at_once_ = false;

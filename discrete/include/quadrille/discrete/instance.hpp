@@ -109,8 +109,9 @@ class Instance {
     return IdRange<AgentId>(num_agents());
   }
   /// Where turns take time: a directed graph with several vertices, the poses, for each of the
-  /// graph's; null elsewhere. The pose k * V + v is in the vertex v; for k < 4 a robot faces there
-  /// as kHeadings[k] says, for larger k it is in the middle of a turn.
+  /// graph's; null elsewhere. The pose k * V + v is in the vertex v. For k < 4 a robot faces there
+  /// as kHeadings[k] says; for k = 4 it has come there and stays for ever, whatever it faces; for
+  /// larger k it is in the middle of a turn.
   [[nodiscard]] const std::shared_ptr<const Graph>& poses() const noexcept { return poses_; }
   /// The timestep at which all agents are at their starts.
   [[nodiscard]] Timestep now() const noexcept { return now_; }
