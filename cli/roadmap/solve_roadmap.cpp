@@ -16,6 +16,7 @@
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/solver.hpp"
+#include "quadrille/poses/steps.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
 #include "roadmap/opinion_report.hpp"
@@ -95,7 +96,8 @@ class RoadmapSolve {
       };
     if (arguments_.history) keep_history(options, notes_.history);
     const RemainingLimits left(options.limits);
-    auto outcome = continuous::solve(instance(), options);
+    auto outcome = input_.poses ? poses::solve(*input_.poses, instance(), options)
+                                : continuous::solve(instance(), options);
     if (outcome && outcome->plan && arguments_.check_with) ask_second_verifier(*outcome);
     if (outcome && arguments_.finds_reasons) trace_clauses(left, *outcome);
     if (outcome && outcome->attribution)

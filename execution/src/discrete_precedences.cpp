@@ -41,11 +41,12 @@ std::vector<TimedMove> moves_of(AgentId agent, const discrete::Path& path, Times
 }  // namespace
 
 Result<Precedences> precedences(const discrete::Instance& instance, const discrete::Plan& plan) {
-  if (!instance.rules().blockages.empty() || instance.rules().robust > 0)
+  const discrete::Rules& rules = instance.rules();
+  if (!rules.blockages.empty() || rules.robust > 0 || rules.turn > 0)
     return Error{
         ErrorCode::out_of_range,
-        "the order in which agents come to places keeps no blockages, which have times, and "
-        "makes nobody wait k timesteps longer, as robust plans ask",
+        "the order in which agents come to places keeps no blockages, which have times, "
+        "and leaves nobody time to turn or to wait k timesteps longer, as robust plans ask",
         {}};
   const auto report = discrete::verify(instance, plan);
   if (!report.valid()) return Error{ErrorCode::invalid_plan, report.violations.front().message, {}};

@@ -2,9 +2,13 @@
 #include "support/pose_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
+
+#include "support/random.hpp"
 
 namespace quadrille::support {
 namespace {
@@ -193,6 +197,46 @@ TurningAnswer search_poses(const TurningTask& task, Objective objective, std::si
   const std::size_t num_states = search.count_states(max_states);
   if (num_states > max_states) return {};
   return search.run(num_states);
+}
+
+TurningTask random_turning_task(std::uint64_t seed) {
+  Random random(seed);
+  TurningTask task;
+  task.width = random.between(2, 4);
+  task.height = random.between(1, 3);
+  task.turn = random.percent(70) ? 1 : static_cast<int>(random.between(2, 3));
+  const std::size_t blocked = random.below(4) * 10;
+  std::vector<std::size_t> starts;
+  for (std::size_t cell = 0; cell < task.width * task.height; ++cell) {
+    task.passable.push_back(cell == 0 || !random.percent(blocked));
+    if (task.passable.back()) starts.push_back(cell);
+  }
+  std::vector<std::size_t> goals = starts;
+  random.shuffle(starts);
+  random.shuffle(goals);
+  // As many as the joint search finds quickly.
+  const std::size_t states = 2 * 4 * starts.size() * static_cast<std::size_t>(task.turn);
+  std::size_t count = std::min(starts.size(), random.between(1, 4));
+  while (std::pow(states, count) > 550'000) --count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t heading = random.below(4);
+    task.robots.push_back({starts[i], heading, goals[i]});
+  }
+  // Seldom two have one goal.
+  if (count > 1 && random.percent(3)) task.robots[1].goal = task.robots[0].goal;
+  return task;
+}
+
+std::string describe(const TurningTask& task) {
+  std::string text = "turn " + std::to_string(task.turn) + "\n";
+  for (std::size_t cell = 0; cell < task.passable.size(); ++cell) {
+    text += task.passable[cell] ? '.' : '@';
+    if ((cell + 1) % task.width == 0) text += '\n';
+  }
+  for (const auto& robot : task.robots)
+    text += std::to_string(robot.start) + " " + std::to_string(robot.heading) + " -> " +
+            std::to_string(robot.goal) + "\n";
+  return text;
 }
 
 }  // namespace quadrille::support

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "quadrille/core/outcome.hpp"
@@ -33,5 +35,9 @@ struct TurningAnswer {
 /// `max_states` states.
 [[nodiscard]] TurningAnswer search_poses(const TurningTask& task, Objective objective,
                                          std::size_t max_states = 4'000'000);
+
+/// A small one at random, of one to four robots; now and then two of them have one goal.
+[[nodiscard]] TurningTask random_turning_task(std::uint64_t seed);
+[[nodiscard]] std::string describe(const TurningTask& task);
 
 }  // namespace quadrille::support

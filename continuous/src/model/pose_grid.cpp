@@ -12,12 +12,6 @@ namespace {
 /// Moves without diagonals.
 constexpr int kNeighbourhood = 2;
 
-/// Of a move to a neighbouring cell.
-Heading heading_of(Cell from, Cell to) {
-  if (from.y == to.y) return from.x < to.x ? Heading::east : Heading::west;
-  return from.y < to.y ? Heading::south : Heading::north;
-}
-
 }  // namespace
 
 Result<PoseGrid> PoseGrid::make(const OccupancyGrid& grid, Ticks turn) {
@@ -39,7 +33,8 @@ Result<PoseGrid> PoseGrid::make(const OccupancyGrid& grid, Ticks turn) {
         edges.push_back({facing(v, heading), facing(v, next), turn});
     }
   for (const Edge& road : roads.edges()) {
-    const Heading heading = heading_of(result.cells_.cell(road.from), result.cells_.cell(road.to));
+    const Cell from = result.cells_.cell(road.from), to = result.cells_.cell(road.to);
+    const Heading heading = heading_of_move(to.x - from.x, to.y - from.y);
     edges.push_back({facing(road.from, heading), facing(road.to, heading), Ticks(1)});
   }
   auto roadmap = Roadmap::make(std::move(places), std::move(edges));

@@ -5,11 +5,6 @@
 
 namespace quadrille::discrete {
 
-Heading heading_of(Cell from, Cell to) noexcept {
-  if (from.y == to.y) return from.x < to.x ? Heading::east : Heading::west;
-  return from.y < to.y ? Heading::south : Heading::north;
-}
-
 std::shared_ptr<const Graph> make_poses(const Graph& grid, Timestep turn) {
   const GridLayout& layout = *grid.layout();
   const std::size_t size = grid.num_vertices(), num_headings = kHeadings.size();
@@ -21,7 +16,8 @@ std::shared_ptr<const Graph> make_poses(const Graph& grid, Timestep turn) {
   std::vector<Graph::Edge> arcs;
   for (const VertexId v : IdRange<VertexId>(size)) {
     for (const VertexId w : grid.neighbours(v)) {
-      const auto ahead = static_cast<std::size_t>(heading_of(layout.cell_of(v), layout.cell_of(w)));
+      const Cell from = layout.cell_of(v), to = layout.cell_of(w);
+      const auto ahead = static_cast<std::size_t>(heading_of_move(to.x - from.x, to.y - from.y));
       arcs.emplace_back(pose(ahead, v), pose(ahead, w));
       arcs.emplace_back(pose(ahead, v), pose(kParked, w));
     }

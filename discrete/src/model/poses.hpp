@@ -8,9 +8,6 @@
 
 namespace quadrille::discrete {
 
-/// Of a move between two neighbouring cells.
-[[nodiscard]] Heading heading_of(Cell from, Cell to) noexcept;
-
 /// The pose, by vertices, of robots that have come to their goal for good.
 inline constexpr std::size_t kParked = kHeadings.size();
 

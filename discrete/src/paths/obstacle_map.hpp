@@ -23,6 +23,11 @@ class ObstacleMap {
   void load(const ObstacleTable& table, std::span<const ObstacleId> active,
             const AgentDistances& distances);
 
+  /// Adds to what is loaded, and is there for that agent from now on. Requires that no obstacle is
+  /// about ends (Obstacle::Kind::end, elsewhere). Goal blocks are in any order then. O(more).
+  void extend(const ObstacleTable& table, std::span<const ObstacleId> more,
+              const AgentDistances& distances);
+
   [[nodiscard]] std::size_t num_slots() const noexcept { return num_slots_; }
   /// No path around the obstacles that rests at a goal costs less; kForever: there is none.
   [[nodiscard]] Timestep least_cost() const noexcept { return least_cost_; }
@@ -86,6 +91,11 @@ class ObstacleMap {
     std::uint32_t slot;
     int next;
   };
+  /// Forgets what was said about goals.
+  void aim(const AgentDistances& distances);
+  void add(const ObstacleTable& table, const Obstacle& o, std::uint32_t slot,
+           const AgentDistances& distances);
+  void find_least_cost(const AgentDistances& distances);
   Head& head(VertexId v);
   void add_visit(VertexId v, Timestep first, Timestep last, std::uint32_t slot);
   void add_move(VertexId v, VertexId w, Timestep t, std::uint32_t slot);

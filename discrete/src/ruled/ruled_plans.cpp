@@ -2,6 +2,7 @@
 #include "ruled/ruled_plans.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace quadrille::discrete {
@@ -80,10 +81,40 @@ bool RuledPlans::give_path(AgentId agent) {
   for (const AgentId j : instance_.agent_ids())
     if (j != agent) avoid(j);
   loaded_ += static_cast<std::int64_t>(active_.size());
-  hits_.assign(active_.size(), kForever);
   map_.load(table_, active_, own);
-  if (own.length() == kUnreachable) return false;
-  return search_.find(own, map_, horizon_of(own), hits_, paths_[agent]);
+  return find_path(agent);
+}
+
+bool RuledPlans::find_path(AgentId agent) {
+  const AgentDistances& own = distances_[agent];
+  hits_.assign(map_.num_slots(), kForever);
+  return own.length() != kUnreachable &&
+         search_.find(own, map_, horizon_of(own), hits_, paths_[agent]);
+}
+
+// What others do is loaded once. Those without a path are in nobody's way after the first timestep
+// unless they are released later.
+bool RuledPlans::give_paths(const std::vector<AgentId>& agents) {
+  const bool is_released = std::all_of(agents.begin(), agents.end(), [&](AgentId i) {
+    return instance_.agents()[i].release <= 0 && instance_.rules().robust == 0;
+  });
+  if (!is_released)
+    return std::all_of(agents.begin(), agents.end(), [&](AgentId i) { return give_path(i); });
+  table_ = {};
+  active_.clear();
+  for (const AgentId j : instance_.agent_ids())
+    if (!paths_[j].empty()) avoid(j);
+  loaded_ += static_cast<std::int64_t>(active_.size());
+  map_.load(table_, active_, distances_[agents.front()]);
+  for (std::size_t k = 0; k < agents.size(); ++k) {
+    if (k > 0) {
+      const std::size_t first = active_.size();
+      avoid(agents[k - 1]);
+      map_.extend(table_, std::span(active_).subspan(first), distances_[agents[k]]);
+    }
+    if (!find_path(agents[k])) return false;
+  }
+  return true;
 }
 
 bool RuledPlans::find(std::int64_t steps) {
@@ -169,9 +200,7 @@ bool RuledPlans::improve(std::int64_t steps) {
     loaded_ += static_cast<std::int64_t>(instance_.graph().num_vertices());
     std::vector<Path> old;
     for (const AgentId i : chosen) old.push_back(std::exchange(paths_[i], {}));
-    const bool is_plan =
-        std::all_of(chosen.begin(), chosen.end(), [&](AgentId i) { return give_path(i); });
-    if (is_plan && price() <= *cost_) {
+    if (give_paths(chosen) && price() <= *cost_) {
       cost_ = price();
       continue;
     }

@@ -56,6 +56,10 @@ class RuledPlans {
   [[nodiscard]] Price price() const;
   /// False if the agent has no path around all others.
   bool give_path(AgentId agent);
+  /// The same for some who have none, one after the other.
+  bool give_paths(const std::vector<AgentId>& agents);
+  /// Around what is loaded for it.
+  bool find_path(AgentId agent);
   /// From now on the other's path is active, or what is known of it.
   void avoid(AgentId other);
   [[nodiscard]] std::vector<AgentId> choose_neighbourhood();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -17,8 +18,11 @@ class RuledSearch {
   /// `instance`, `incumbent` and `limits` outlive it.
   RuledSearch(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
               Objective objective, std::uint32_t seed, Incumbent& incumbent, LimitMonitor& limits)
-      : distances_(std::move(distances)),
+      : instance_(instance),
+        distances_(std::move(distances)),
         incumbent_(incumbent),
+        limits_(limits),
+        seed_(seed),
         plans_(instance, *distances_, objective, seed, limits) {}
 
   /// There is no plan yet, and the search for the bound can wait for one.
@@ -30,8 +34,16 @@ class RuledSearch {
   void advance(Effort search_effort, const std::function<void()>& after_slice);
 
  private:
+  [[nodiscard]] bool may_add_turns() const { return instance_.poses() && !has_added_turns_; }
+  /// Where agents turn, and nothing else is asked of them: of a plan in which they need not.
+  void add_turns();
+
+  const Instance& instance_;
   const std::shared_ptr<const GoalDistances> distances_;
   Incumbent& incumbent_;
+  LimitMonitor& limits_;
+  const std::uint32_t seed_;
+  bool has_added_turns_ = false;
   RuledPlans plans_;
   Effort credit_, seen_effort_;
 };

@@ -350,6 +350,32 @@ TEST(Rules, TurnsByHand) {
   EXPECT_EQ(broken(corner, {{0, 1, 2, 2, 5, 8}}), "no-time-to-turn 3;");
 }
 
+// Where orders of agents do not lead to a plan, turns are added to one without them, also to those
+// that go round in circles.
+TEST(Rules, CrowdsThatTurnHavePlans) {
+  int asked = 0, added = 0;
+  for (std::size_t number = 0; number < scaled(60); ++number) {
+    Random random(8'800'000 + number);
+    const Instance plain = random_grid(random, {4, 6, 10, 10, 22});
+    const Instance instance = with_random_rules(random, plain, {.turning = true});
+    if (!instance.poses()) continue;
+    SolveOptions options;
+    options.limits.conflicts = 1;
+    const auto outcome = solve(instance, options);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    ASSERT_FALSE(outcome->internal_error) << outcome->internal_error->message << "\n"
+                                          << text_of(instance, {});
+    if (outcome->status == Status::infeasible) continue;
+    ++asked;
+    ASSERT_TRUE(outcome->plan) << text_of(instance, {});
+    ASSERT_EQ(replay_rules(instance, *outcome->plan), "") << text_of(instance, {});
+    added += outcome->statistics.first_plan == "turns added" ? 1 : 0;
+  }
+  RecordProperty("asked", asked);
+  RecordProperty("added", added);
+  EXPECT_GT(3 * added, asked);
+}
+
 TEST(Rules, TurnsNeedAGridAndHeadingsNeedTurns) {
   const auto error_of = [](const std::string& text) {
     std::istringstream in(instance(text));

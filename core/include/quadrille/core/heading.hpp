@@ -26,12 +26,10 @@ inline constexpr std::array kHeadings{Heading::east, Heading::south, Heading::we
 [[nodiscard]] constexpr Heading left_of(Heading heading) noexcept {
   return static_cast<Heading>((static_cast<unsigned>(heading) + 3) % kHeadings.size());
 }
-/// Quarter turns from one to the other, the shorter way round: 0, 1 or 2.
-[[nodiscard]] constexpr int quarter_turns(Heading from, Heading to) noexcept {
-  const unsigned right =
-      (static_cast<unsigned>(to) + kHeadings.size() - static_cast<unsigned>(from)) %
-      static_cast<unsigned>(kHeadings.size());
-  return right == 3 ? 1 : static_cast<int>(right);
+/// Of a move to a neighbouring cell, so many columns to the right, or rows down: one of them is 0.
+[[nodiscard]] constexpr Heading heading_of_move(int right, int down) noexcept {
+  if (down == 0) return right > 0 ? Heading::east : Heading::west;
+  return down > 0 ? Heading::south : Heading::north;
 }
 
 }  // namespace quadrille
