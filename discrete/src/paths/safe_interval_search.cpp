@@ -100,7 +100,7 @@ void SafeIntervalSearch::hit(const Query& query, std::uint32_t slot, VertexId st
 void SafeIntervalSearch::expand(const Query& query, LabelIndex from) {
   const VertexId v = labels_[from].state;
   const Timestep end = intervals_[labels_[from].interval].end;
-  if (end < query.max_cost - query.distances.to_goal(v))
+  if (!query.first_hits.empty() && end < query.max_cost - query.distances.to_goal(v))
     query.obstacles.for_each_at(labels_[from].vertex, end + 1,
                                 [&](std::uint32_t slot) { hit(query, slot, v, end + 1); });
   for (const VertexId w : query.distances.states().neighbours(v))
@@ -117,22 +117,26 @@ void SafeIntervalSearch::reach(const Query& query, LabelIndex from, VertexId to)
       1;
   if (first > last) return;
   const VertexId there = query.distances.place(to);
-  query.obstacles.for_each_visit(there, [&](Timestep begin, Timestep end, std::uint32_t slot) {
-    if (begin <= last && end >= first) hit(query, slot, to, std::max(begin, first));
-  });
-  query.obstacles.for_each_move(label.vertex, there, [&](Timestep t, std::uint32_t slot) {
-    if (first <= t + 1 && t + 1 <= last) hit(query, slot, to, t + 1);
-  });
+  if (!query.first_hits.empty()) {
+    query.obstacles.for_each_visit(there, [&](Timestep begin, Timestep end, std::uint32_t slot) {
+      if (begin <= last && end >= first) hit(query, slot, to, std::max(begin, first));
+    });
+    query.obstacles.for_each_move(label.vertex, there, [&](Timestep t, std::uint32_t slot) {
+      if (first <= t + 1 && t + 1 <= last) hit(query, slot, to, t + 1);
+    });
+  }
   const auto is_blocked = [&](Timestep t) {
     bool blocked = false;
     query.obstacles.for_each_on(label.vertex, there, t, [&](std::uint32_t) { blocked = true; });
     return blocked;
   };
   const Head head = intervals_of(query, to);
-  for (std::uint32_t k = head.begin; k != head.end; ++k) {
+  const auto reachable =
+      std::partition_point(intervals_.begin() + head.begin, intervals_.begin() + head.end,
+                           [&](const Interval& interval) { return interval.end < first; });
+  for (auto k = static_cast<std::uint32_t>(reachable - intervals_.begin()); k != head.end; ++k) {
     const Interval interval = intervals_[k];
     if (interval.begin > last) return;
-    if (interval.end < first) continue;
     Timestep arrival = std::max(first, interval.begin);
     const Timestep latest = std::min(last, interval.end);
     // Obstacles forbid single moves, rules perhaps for ever.

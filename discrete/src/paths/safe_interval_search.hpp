@@ -24,9 +24,9 @@ class SafeIntervalSearch {
       : limits_(limits), heads_(num_vertices) {}
 
   /// Finds a cheapest path of at most `max_cost`. False if there is none. `first_hits`, one per
-  /// slot of the obstacles, is lowered to the smallest slack at which a slot blocked a step out of
-  /// a state that can be reached; complete for all slacks below that of the path found, or up to
-  /// the limit if none was. `obstacles` are loaded for the agent.
+  /// slot of the obstacles or none if they do not matter, is lowered to the smallest slack at which
+  /// a slot blocked a step out of a state that can be reached; complete for all slacks below that
+  /// of the path found, or up to the limit if none was. `obstacles` are loaded for the agent.
   [[nodiscard]] bool find(const AgentDistances& distances, const ObstacleMap& obstacles,
                           Timestep max_cost, std::span<Timestep> first_hits, Path& path);
 

@@ -87,9 +87,8 @@ bool RuledPlans::give_path(AgentId agent) {
 
 bool RuledPlans::find_path(AgentId agent) {
   const AgentDistances& own = distances_[agent];
-  hits_.assign(map_.num_slots(), kForever);
   return own.length() != kUnreachable &&
-         search_.find(own, map_, horizon_of(own), hits_, paths_[agent]);
+         search_.find(own, map_, horizon_of(own), {}, paths_[agent]);
 }
 
 // What others do is loaded once. Those without a path are in nobody's way after the first timestep

@@ -73,7 +73,6 @@ class RuledPlans {
   ObstacleMap map_;
   ObstacleTable table_;
   std::vector<ObstacleId> active_;
-  std::vector<Timestep> hits_;
   std::vector<AgentId> order_;     // of the next attempt
   IdVector<AgentId, Path> paths_;  // empty: none
   std::optional<Price> cost_;      // of the paths, if all have one

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "quadrille/core/outcome.hpp"
+#include "quadrille/discrete/plan_improver.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "ruled/turning_order.hpp"
 #include "solve/plan_search.hpp"
@@ -20,6 +21,9 @@ constexpr std::int64_t kMostAttempts = 32, kShare = 8;
 constexpr double kLargeGap = 2;
 /// Where agents turn, what so many orders of agents have not found is left to a plan without turns.
 constexpr std::int64_t kAttemptsWithTurns = 4;
+/// For making that plan cheaper before turns are added.
+constexpr Effort kMostWithoutTurns = Effort::microseconds(4'000'000);
+constexpr std::int64_t kSlicesWithoutTurns = 16;
 /// What so many orders of agents have not found, others do not find either.
 constexpr std::int64_t kLastAttempt = 4096;
 
@@ -52,7 +56,14 @@ void RuledSearch::add_turns() {
   const auto without = instance_.with_rules(std::move(rules));
   if (!without || !without->is_plain()) return;
   const auto plan = find_plan(*without, limits_, seed_);
-  if (plan) incumbent_.offer(with_turns(instance_, *plan), "turns added");
+  if (!plan) return;
+  incumbent_.offer(with_turns(instance_, *plan), "turns added");
+  // The less a plan jams, the fewer wait for those who turn.
+  PlanImprover improver(*without, distances_, objective_, *plan, seed_);
+  const std::int64_t slice = steps_of_plans(kMostWithoutTurns) / kSlicesWithoutTurns;
+  for (std::int64_t k = 0; k < kSlicesWithoutTurns && !limits_.exhausted_now(); ++k)
+    if (improver.improve(slice, limits_))
+      incumbent_.offer(with_turns(instance_, improver.plan()), "turns added");
 }
 
 void RuledSearch::advance(Effort search_effort, const std::function<void()>& after_slice) {

@@ -22,6 +22,7 @@ class RuledSearch {
         distances_(std::move(distances)),
         incumbent_(incumbent),
         limits_(limits),
+        objective_(objective),
         seed_(seed),
         plans_(instance, *distances_, objective, seed, limits) {}
 
@@ -42,6 +43,7 @@ class RuledSearch {
   const std::shared_ptr<const GoalDistances> distances_;
   Incumbent& incumbent_;
   LimitMonitor& limits_;
+  const Objective objective_;
   const std::uint32_t seed_;
   bool has_added_turns_ = false;
   RuledPlans plans_;
