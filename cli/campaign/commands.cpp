@@ -125,7 +125,7 @@ ExitCode list_jobs(const CampaignArguments& arguments) {
   std::string text;
   for (const Job& job : list->jobs)
     text +=
-        fmt::format("{}\t{}\t{}\t{}\t{}\t{}\n", job.name, terminal_line(job.family),
+        fmt::format("{}\t{}\t{}\t{}\t{}\t{}\n", job.name, terminal_line(family_name(job)),
                     terminal_line(job.scenario), job.agents, terminal_line(job.system), job.seed);
   console.print(text);
   return console.failure() == 0 ? ExitCode::success : ExitCode::output;

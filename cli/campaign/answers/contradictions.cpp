@@ -53,7 +53,7 @@ class Comparison {
   void check_reference(std::size_t number, const Row& row) {
     const Job& job = merged_.list.jobs[number];
     if (job.objective != Objective::sum_of_costs) return;
-    const auto known = merged_.reference.costs.find({job.family, job.scenario, job.agents});
+    const auto known = merged_.reference.costs.find(Reference::key_of(job));
     if (known == merged_.reference.costs.end()) return;
     const bool grid = !job.instance.empty() && job.instance[0] == "--map";
     // In continuous time others round otherwise.

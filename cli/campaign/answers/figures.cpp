@@ -108,8 +108,7 @@ std::string gap_plot(const Merged& merged, const Series& series) {
 std::vector<double> reference_seconds(const Merged& merged, std::size_t solver) {
   std::set<Reference::Key> asked;
   for (const Job& job : merged.list.jobs)
-    if (job.objective == Objective::sum_of_costs)
-      asked.insert({job.family, job.scenario, job.agents});
+    if (job.objective == Objective::sum_of_costs) asked.insert(Reference::key_of(job));
   std::vector<double> seconds;
   for (const auto& [key, by_solver] : merged.reference.seconds)
     if (asked.contains(key) && by_solver[solver]) seconds.push_back(*by_solver[solver]);
@@ -155,7 +154,7 @@ double par2(const Merged& merged, const std::vector<std::size_t>& jobs) {
 std::map<std::string, std::vector<std::size_t>> by_family(const Merged& merged,
                                                           const std::vector<std::size_t>& jobs) {
   std::map<std::string, std::vector<std::size_t>> families;
-  for (const std::size_t job : jobs) families[merged.list.jobs[job].family].push_back(job);
+  for (const std::size_t job : jobs) families[family_name(merged.list.jobs[job])].push_back(job);
   return families;
 }
 
@@ -209,9 +208,10 @@ std::string ladder_plots(const Merged& merged, const std::vector<Series>& series
     for (const std::size_t job : one.jobs) {
       const Job& asked = merged.list.jobs[job];
       if (asked.agents == 0) continue;
-      int& solved = maps[asked.family][one.style][asked.agents];
+      const std::string family = family_name(asked);
+      int& solved = maps[family][one.style][asked.agents];
       if (is_solved(merged, job)) ++solved;
-      scenarios[asked.family] = std::max(scenarios[asked.family], solved);
+      scenarios[family] = std::max(scenarios[family], solved);
     }
   std::string text;
   for (const auto& [map, systems] : maps) {

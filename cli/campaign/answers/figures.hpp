@@ -22,7 +22,7 @@ struct Series {
 /// Mean CPU seconds; what was not solved counts as twice the limit. To be compared only over
 /// `common_jobs`.
 [[nodiscard]] double par2(const Merged& merged, const std::vector<std::size_t>& jobs);
-/// Jobs by the family of their map.
+/// Jobs by the family of their map, and by who shares goals.
 [[nodiscard]] std::map<std::string, std::vector<std::size_t>> by_family(
     const Merged& merged, const std::vector<std::size_t>& jobs);
 [[nodiscard]] bool is_solved(const Merged& merged, std::size_t job);

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "campaign/jobs/job.hpp"
@@ -15,10 +14,17 @@
 namespace quadrille::cli::campaign {
 
 /// What other solvers found, from a CSV file with the columns map, scenario (or random_scen, a
-/// number), agents, optimal_sum_of_costs (or cost), and any *_cpu_s: seconds, empty for a run that
-/// was not made, ">30" for one that was not solved.
+/// number), agents, optimal_sum_of_costs (or cost), share_goals (or none), and any *_cpu_s:
+/// seconds, empty for a run that was not made, ">30" for one that was not solved.
 struct Reference {
-  using Key = std::tuple<std::string, std::string, std::int64_t>;  ///< Family, scenario, agents.
+  struct Key {
+    std::string family, scenario, share_goals;
+    std::int64_t agents;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+  [[nodiscard]] static Key key_of(const Job& job) {
+    return {job.family, job.scenario, job.share_goals, job.agents};
+  }
   std::vector<std::string> solvers;
   std::map<Key, std::int64_t> costs;  ///< Whole ones: those of continuous time are rounded.
   std::map<Key, std::vector<std::optional<double>>> seconds;  ///< By solver; only solved ones.

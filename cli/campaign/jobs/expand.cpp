@@ -30,6 +30,7 @@ struct Source {
   std::vector<std::string> options;  ///< That name the files.
   std::string id;                    ///< Hash of the contents, and of the options of the instance.
   std::int64_t agents = 0;
+  std::string share_goals;
 };
 
 std::int64_t count_agents(const std::string& text, const std::string& name) {
@@ -46,7 +47,7 @@ std::int64_t count_agents(const std::string& text, const std::string& name) {
 }
 
 /// "map" and "task" are no names; that of the folder is.
-std::string family_name(const fs::path& file) {
+std::string name_of_map(const fs::path& file) {
   const std::string stem = file.stem().string();
   return stem == "map" ? file.parent_path().filename().string() : stem;
 }
@@ -111,10 +112,15 @@ class Expansion {
     hash.add("instance");
     if (!graph.empty()) hash.add(facts(set, graph).hash);
     hash.add(facts(set, agents).hash);
+    source.options.insert(source.options.end(), set.options.begin(), set.options.end());
     for (const std::string& option : set.options) hash.add(option);
+    if (!source.share_goals.empty())
+      for (const std::string& option : {std::string("--share-goals"), source.share_goals}) {
+        hash.add(option);
+        source.options.push_back(option);
+      }
     source.id = hash.hex();
     source.agents = facts(set, agents).agents;
-    source.options.insert(source.options.end(), set.options.begin(), set.options.end());
     sources_.push_back(std::move(source));
   }
 
@@ -122,17 +128,21 @@ class Expansion {
     sources_.clear();
     if (!set.files.empty())
       for (const std::string& file : files(set, set.files))
-        add_source(set, {fs::path(file).stem().string(), "", {"--instance", absolute(file)}, "", 0},
+        add_source(set,
+                   {fs::path(file).stem().string(), "", {"--instance", absolute(file)}, "", 0, ""},
                    "", file);
     const bool grid = !set.maps.empty();
-    if (grid || !set.roadmaps.empty())
-      for (const std::string& graph : files(set, grid ? set.maps : set.roadmaps))
-        add_sources_of(set, grid, graph);
+    const std::vector<std::string> own{""};
+    for (const std::string& share_goals : set.share_goals.empty() ? own : set.share_goals)
+      if (grid || !set.roadmaps.empty())
+        for (const std::string& graph : files(set, grid ? set.maps : set.roadmaps))
+          add_sources_of(set, grid, graph, share_goals);
     return std::move(sources_);
   }
 
-  void add_sources_of(const InstanceSet& set, bool grid, const std::string& graph) {
-    const std::string family = family_name(graph);
+  void add_sources_of(const InstanceSet& set, bool grid, const std::string& graph,
+                      const std::string& share_goals) {
+    const std::string family = name_of_map(graph);
     std::string pattern = grid ? set.scenarios : set.tasks;
     pattern = substitute(std::move(pattern), "map", family);
     pattern = substitute(std::move(pattern), "folder", absolute(fs::path(graph).parent_path()));
@@ -145,7 +155,8 @@ class Expansion {
                   {grid ? "--map" : "--roadmap", absolute(graph), grid ? "--scen" : "--task",
                    absolute(tasks)},
                   "",
-                  0},
+                  0,
+                  share_goals},
                  graph, tasks);
     }
   }
@@ -170,6 +181,7 @@ class Expansion {
     Job job;
     job.family = source.family;
     job.scenario = source.scenario;
+    job.share_goals = source.share_goals;
     job.agents = agents;
     job.system = system.name;
     job.seed = seed;
@@ -181,8 +193,8 @@ class Expansion {
     }
     job.options = options_of(system, seed);
     job.objective = objective_of(job.options);
-    job.scenario_id = source.id;
     job.instance_id = StableHash().add(source.id).add(agents).hex();
+    job.scenario_id = source.share_goals.empty() ? source.id : job.instance_id;
     StableHash hash;
     hash.add("job").add(job.instance_id).add(job.program);
     for (const std::string& option : job.options) hash.add(option);
@@ -202,7 +214,10 @@ class Expansion {
     const bool together = set.stop == StopRule::half || set.stop == StopRule::none;
     for (std::size_t i = 0; i < sources.size();) {
       std::size_t end = i + 1;
-      while (together && end < sources.size() && sources[end].family == sources[i].family) ++end;
+      const auto& first = sources[i];
+      while (together && end < sources.size() && sources[end].family == first.family &&
+             sources[end].share_goals == first.share_goals)
+        ++end;
       add_ladder(set, {sources.data() + i, sources.data() + end}, system, seed);
       i = end;
     }

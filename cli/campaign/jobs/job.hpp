@@ -22,6 +22,7 @@ struct Job {
   std::string name;
   std::string family;       ///< Of the map: "empty-8-8".
   std::string scenario;     ///< "random-1".
+  std::string share_goals;  ///< "all" or a number, of --share-goals; empty without.
   std::int64_t agents = 0;  ///< 0: all of the file.
   std::string system;
   Objective objective = Objective::sum_of_costs;
@@ -31,7 +32,8 @@ struct Job {
   std::vector<std::string> options;   ///< The others: system, seed and limits.
   /// Equal for the jobs on one instance, whatever solves it and what is minimised.
   std::string instance_id;
-  /// Equal for the instances that are the first agents of the same scenario.
+  /// Equal for the instances that are the first agents of the same scenario. With goals that are
+  /// shared more agents bring more goals, and may cost less: then it is that of the instance.
   std::string scenario_id;
 };
 
@@ -63,6 +65,11 @@ struct JobList {
   std::vector<Job> jobs;
   std::vector<Ladder> ladders;
 };
+
+/// The family, and who shares goals: "empty-8-8", "empty-8-8, goals shared by all", or "... by each
+/// 10".
+[[nodiscard]] std::string family_name(const std::string& family, const std::string& share_goals);
+[[nodiscard]] std::string family_name(const Job& job);
 
 /// "empty-8-8 random-1, 12 agents, dpll, seed 0 (0123456789abcdef)"
 [[nodiscard]] std::string describe(const Job& job);

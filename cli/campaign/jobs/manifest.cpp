@@ -30,7 +30,7 @@ constexpr std::array kReserved = {
     "--task",       "--agents",       "--plan",         "--plan-format",
     "--plan-every", "--json",         "--quiet",        "--seed",
     "--time-limit", "--cpu-limit",    "--memory-limit", "--conflict-limit",
-    "--known-plan", "--initial-plan", "--known-bound"};
+    "--known-plan", "--initial-plan", "--known-bound",  "--share-goals"};
 
 std::optional<std::int64_t> natural(std::string_view text) {
   const text::Natural number = text::parse_natural(text, kMaxSeed);
@@ -82,7 +82,8 @@ class ManifestReader {
          {"reference", [&](const Node& n) { reference = yaml_.text(n, "the reference"); }}});
     const auto folder = std::filesystem::path(manifest_.file).parent_path();
     manifest_.data = data.empty() ? folder / own_data : std::filesystem::path(data);
-    if (!reference.empty()) manifest_.reference = manifest_.data / reference;
+    const bool is_beside = reference.starts_with("./") || reference.starts_with("../");
+    if (!reference.empty()) manifest_.reference = (is_beside ? folder : manifest_.data) / reference;
     if (!instances.IsDefined() || instances.IsNull()) yaml_.refuse(root, "there are no instances");
     if (!instances.IsSequence()) yaml_.refuse(instances, "the instances have to be a list");
     for (const Node& node : instances) read_instances(node, stop);
@@ -113,6 +114,24 @@ class ManifestReader {
         yaml_.refuse(node, fmt::format("the option {} is the campaign's own", name));
     }
     return words;
+  }
+
+  std::vector<std::string> share_goals(const Node& node) {
+    std::vector<std::string> values;
+    const auto add = [&](const Node& n) {
+      const std::string text = n.IsScalar() ? n.Scalar() : "";
+      if (text != "all" && natural(text).value_or(0) < 1)
+        yaml_.refuse(n,
+                     "share-goals has to be all, or a whole number from 1 on, or a list of both");
+      if (std::find(values.begin(), values.end(), text) != values.end())
+        yaml_.refuse(n, "share-goals has the same value twice");
+      values.push_back(text);
+    };
+    if (node.IsSequence())
+      for (const Node& n : node) add(n);
+    else
+      add(node);
+    return values;
   }
 
   StopRule read_stop(const Node& node) {
@@ -164,6 +183,7 @@ class ManifestReader {
                    pattern("files", set.files),
                    {"agents", [&](const Node& n) { set.agents = read_agents(n); }},
                    {"stop", [&](const Node& n) { set.stop = read_stop(n); }},
+                   {"share-goals", [&](const Node& n) { set.share_goals = share_goals(n); }},
                    {"options", [&](const Node& n) { set.options = options(n); }}});
     const bool maps = !set.maps.empty() && !set.scenarios.empty();
     const bool roadmaps = !set.roadmaps.empty() && !set.tasks.empty();
@@ -174,6 +194,8 @@ class ManifestReader {
       yaml_.refuse(node, "instances are maps with scenarios, or roadmaps with tasks, or files");
     if (!set.files.empty() && !set.agents.all)
       yaml_.refuse(set.agents.line, "the agents of files are in the files");
+    if (!set.files.empty() && !set.share_goals.empty())
+      yaml_.refuse(set.line, "the goals of files are in the files");
     manifest_.instances.push_back(std::move(set));
   }
 

@@ -39,6 +39,9 @@ struct InstanceSet {
   AgentSteps agents;
   StopRule stop = StopRule::first;
   std::vector<std::string> options;  ///< Of the instance, such as --passable S.
+  /// Values of --share-goals, each of which makes instances of its own; empty: each agent has the
+  /// goal of its row.
+  std::vector<std::string> share_goals;
 };
 
 struct SystemSpec {
