@@ -221,9 +221,7 @@ ExitCode solve_grid(const CLI::App& app, SolveArguments& arguments, InputWatch& 
     report_error(input.error());
     return ExitCode::bad_input;
   }
-  // Not bad input: another system takes it.
-  if (input->instance.has_goal_sets() && arguments.options.system != System::dpll)
-    return usage_error(app, "some agents have several goals, which needs --system dpll");
+  // Not bad input: another system takes it, or other options do.
   if (input->instance.has_goal_sets() && arguments.options.proof)
     return usage_error(app, "some agents have several goals, which --proof does not know yet");
   const auto& agents = input->instance.agents();

@@ -127,6 +127,30 @@ Instance with_more_goals(Random& random, const Instance& instance) {
   return made ? std::move(made).value() : instance;  // two may have the same only goal
 }
 
+Instance with_group_goals(Random& random, const Instance& instance) {
+  const std::size_t n = instance.graph().num_vertices();
+  const std::size_t groups = random.between(1, instance.num_agents());
+  std::vector<std::size_t> group_of, sizes(groups, 0);
+  for (std::size_t i = 0; i < instance.num_agents(); ++i) {
+    group_of.push_back(random.below(groups));
+    ++sizes[group_of.back()];
+  }
+  std::vector<Goals> sets;
+  for (const std::size_t size : sizes) {
+    const std::size_t least =
+        size > 1 && random.percent(20) ? size - 1 : std::max<std::size_t>(size, 1);
+    std::vector<VertexId> goals;
+    for (const std::size_t v : sample(random, n, std::min(n, random.between(least, size + 2))))
+      goals.emplace_back(v);
+    sets.emplace_back(std::move(goals));
+  }
+  std::vector<Agent> tasks;
+  for (const AgentId i : instance.agent_ids())
+    tasks.push_back({instance.agents()[i].start, sets[group_of[i.index()]]});
+  auto made = Instance::make(instance.shared_graph(), std::move(tasks));
+  return made ? std::move(made).value() : instance;  // two may have the same only goal
+}
+
 Instance random_grid(Random& random, const GridShape& shape) {
   const std::size_t width = random.between(shape.min_side, shape.max_side);
   const std::size_t height = random.between(shape.min_side, shape.max_side);

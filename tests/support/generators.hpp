@@ -27,6 +27,11 @@ using quadrille::support::Random;
 /// sets are alike. May be infeasible, also because agents have too few goals among them.
 [[nodiscard]] Instance with_more_goals(Random& random, const Instance& instance);
 
+/// The same with goals by group: agents fall into groups at random, and all of a group share a set
+/// that has fewer, as many or more goals than the group has agents, which sets of other groups may
+/// overlap. May be infeasible.
+[[nodiscard]] Instance with_group_goals(Random& random, const Instance& instance);
+
 /// What random grids may look like. Sizes, shares and numbers are drawn uniformly.
 struct GridShape {
   std::size_t min_side = 1, max_side = 6;

@@ -165,12 +165,6 @@ std::vector<TunedOptions> random_systems(Random& random, Objective objective) {
   return systems;
 }
 
-std::vector<TunedOptions> random_lazy_systems(Random& random, Objective objective) {
-  std::vector<TunedOptions> systems(2, make_options(objective, System::dpll));
-  randomise(random, systems);
-  return systems;
-}
-
 std::string find_inconsistency(const Instance& instance, const TunedOptions& options,
                                const SolveOutcome& outcome) {
   if (outcome.internal_error) return "an internal error";

@@ -18,9 +18,6 @@ namespace quadrille::discrete::support {
 /// One set of options per system, with random schedules, seeds and self-checks.
 [[nodiscard]] std::vector<TunedOptions> random_systems(Random& random, Objective objective);
 
-/// Two sets of options of the lazy system: for instances with goal sets, which the others refuse.
-[[nodiscard]] std::vector<TunedOptions> random_lazy_systems(Random& random, Objective objective);
-
 /// What is wrong with a completed search: empty if its answer is `expected` and consistent in
 /// itself.
 [[nodiscard]] std::string find_fault(const Instance& instance, const TunedOptions& options,

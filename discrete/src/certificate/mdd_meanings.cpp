@@ -12,6 +12,7 @@ bool MddMeanings::declare(int variable, sat::CertificateWriter& writer) const {
   const auto meaning = model_.variable(sat::Lit::from_dimacs(variable));
   switch (meaning.kind) {
     case VariableKind::auxiliary:
+    case VariableKind::end:  // of agents with several goals, which certificates do not know
       return false;
     case VariableKind::vertex:
       writer.record('x', {variable, agent_number(meaning.agent),

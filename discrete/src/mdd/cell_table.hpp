@@ -23,6 +23,8 @@ class CellTable {
     const auto at = static_cast<std::size_t>(t);
     return t >= 0 && at < row.size() ? row[at] : kNothing;
   }
+  /// The values of a vertex, by timestep.
+  [[nodiscard]] std::span<const T> row(VertexId v) const { return rows_[v]; }
   /// The value, to be changed. Requires t >= 0.
   [[nodiscard]] T& at(VertexId v, Timestep t) {
     auto& row = rows_[v];

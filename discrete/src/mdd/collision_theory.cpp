@@ -88,6 +88,7 @@ void CollisionTheory::enter_all(sat::TheoryContext& context) {
 
 void CollisionTheory::enter(Lit x, sat::TheoryContext& context) {
   const auto var = model_.variable(x);
+  if (var.kind == VariableKind::end) enter_end(var, context);
   if (var.kind != VariableKind::vertex) return;
   const CollisionClauses::Sink sink = [&](const sat::Lemma& lemma) { context.add_lemma(lemma); };
   Lit& place = occupant_.at(var.vertex, var.number);
@@ -104,12 +105,18 @@ void CollisionTheory::enter(Lit x, sat::TheoryContext& context) {
     exclude(occupant_(var.vertex, var.number + gap));
   }
   find_swaps(x, var, sink);
-  if (const auto resident = model_.resident(var.vertex); resident && *resident != var.agent) {
-    const Lit late = clauses_.late_for(*resident, var.number);
-    if (late.valid() && context.value(late) != Truth::is_true && !is_gone(x, context))
-      clauses_.rest(x, *resident, late, sink);
-  }
+  for (const AgentId resident : model_.residents(var.vertex)) keep_out(x, resident, context);
   if (schedule_.kind == CheckSchedule::Kind::propagate) deny_others(x, var, context);
+}
+
+void CollisionTheory::keep_out(Lit x, AgentId resident, sat::TheoryContext& context) {
+  const auto var = model_.variable(x);
+  if (var.agent == resident) return;
+  const Lit ends = model_.end_at(resident, var.vertex);
+  if (ends.valid() && context.value(ends) != Truth::is_true) return;
+  const Lit late = clauses_.late_for(resident, var.number);
+  if (!late.valid() || context.value(late) == Truth::is_true || is_gone(x, context)) return;
+  clauses_.rest(x, resident, late, [&](const sat::Lemma& lemma) { context.add_lemma(lemma); });
 }
 
 // "Not late" comes after the X literal of a visitor at the goal when both came in one batch with a
@@ -119,11 +126,24 @@ void CollisionTheory::enter_early_rest(Lit not_late, sat::TheoryContext& context
   if (var.kind != VariableKind::delay || model_.instance().agents()[var.agent].leaves) return;
   const Mdd& mdd = model_.mdd(var.agent);
   const Timestep t = mdd.distance() + var.number - 1 - model_.robust();
-  const Lit visitor = occupant_(mdd.task().goal(), t);
-  if (!visitor.valid() || model_.variable(visitor).agent == var.agent) return;
-  if (clauses_.late_for(var.agent, t) != ~not_late || is_gone(visitor, context)) return;
-  clauses_.rest(visitor, var.agent, ~not_late,
-                [&](const sat::Lemma& lemma) { context.add_lemma(lemma); });
+  if (clauses_.late_for(var.agent, t) != ~not_late) return;
+  for (const VertexId goal : mdd.task().goals.vertices())
+    if (const Lit visitor = occupant_(goal, t); visitor.valid())
+      keep_out(visitor, var.agent, context);
+}
+
+// Where an agent ends may become known after who was there, and after who else ends there.
+void CollisionTheory::enter_end(const MddModel::Variable& var, sat::TheoryContext& context) {
+  if (!model_.may_stay(var.agent, var.vertex)) return;
+  for (const Lit visitor : occupant_.row(var.vertex))
+    if (visitor.valid()) keep_out(visitor, var.agent, context);
+  for (const AgentId other : model_.residents(var.vertex)) {
+    if (other == var.agent) continue;
+    const Lit its = model_.end_at(other, var.vertex);
+    if (!its.valid() || context.value(its) == Truth::is_true)
+      clauses_.end(std::min(var.agent, other), std::max(var.agent, other), var.vertex,
+                   [&](const sat::Lemma& lemma) { context.add_lemma(lemma); });
+  }
 }
 
 // The moves that x begins or ends, against moves that entered literals make.

@@ -51,6 +51,9 @@ class CollisionTheory final : public sat::Theory {
   void enter_all(sat::TheoryContext& context);
   void enter(sat::Lit x, sat::TheoryContext& context);
   void enter_early_rest(sat::Lit not_late, sat::TheoryContext& context);
+  void enter_end(const MddModel::Variable& var, sat::TheoryContext& context);
+  /// Not both x, of a vertex, and the end of a resident there, if that is where it ends.
+  void keep_out(sat::Lit x, AgentId resident, sat::TheoryContext& context);
   void find_swaps(sat::Lit x, const MddModel::Variable& var, const CollisionClauses::Sink& sink);
   /// An agent that leaves is at its goal in the model, but is known to have left.
   [[nodiscard]] bool is_gone(sat::Lit x, const sat::TheoryContext& context) const;

@@ -100,10 +100,20 @@ void CollisionClauses::swap(Lit x, Lit x_next, Lit y, Lit y_next, const Sink& si
 void CollisionClauses::rest(Lit x, AgentId resident, Lit late, const Sink& sink) {
   const auto a = model_.variable(x);
   Clause clause;
+  const Lit ends = model_.end_at(resident, a.vertex);
   for (const Lit lit : {~x, late, model_.gone(x)}) clause.add(lit);
+  if (ends.valid()) clause.add(~ends);
   const sat::Usage usages[] = {rest_usage(resident, a.vertex, a.number + model_.robust()),
                                vertex_usage(a.agent, a.vertex, a.number)};
   sink({sat::why::Goal{resident}, clause.all(), usages, false});
+}
+
+void CollisionClauses::end(AgentId first, AgentId second, VertexId goal, const Sink& sink) {
+  Clause clause;
+  for (const AgentId agent : {first, second})
+    if (const Lit ends = model_.end_at(agent, goal); ends.valid()) clause.add(~ends);
+  const sat::Usage usages[] = {end_usage(first, goal), end_usage(second, goal)};
+  sink({sat::why::Goal{first}, clause.all(), usages, false});
 }
 
 }  // namespace quadrille::discrete

@@ -42,9 +42,12 @@ class CollisionClauses {
   /// Agent i does not use (u,v) at t while j uses (v,u). Requires x = X(i,u,t), x_next =
   /// X(i,v,t+1), y = X(j,v,t), y_next = X(j,u,t+1).
   void swap(sat::Lit x, sat::Lit x_next, sat::Lit y, sat::Lit y_next, const Sink& sink);
-  /// X(j,g_i,t) -> i arrives after t, and as long after as rules ask for. Requires x = X(j,g_i,t)
-  /// and late = late_for(i, t).
+  /// X(j,g,t) -> i does not end at g, or arrives after t, and as long after as rules ask for.
+  /// Requires x = X(j,g,t), a goal g of i, and late = late_for(i, t).
   void rest(sat::Lit x, AgentId resident, sat::Lit late, const Sink& sink);
+
+  /// Not both end at `goal`, which both have among theirs.
+  void end(AgentId first, AgentId second, VertexId goal, const Sink& sink);
 
   /// "The resident arrives so late that somebody may be at its goal at `t`", see arrival_after.
   [[nodiscard]] sat::Lit late_for(AgentId resident, Timestep t) const {
@@ -62,13 +65,23 @@ class CollisionClauses {
       return;
     }
     const auto y = model_.at(c.second, c.vertex, c.timestep + c.gap);
+    // Whether clauses can say that the agent is at rest there.
+    const auto is_at_rest = [&](AgentId agent, Timestep t) {
+      if (!model_.may_stay(agent, c.vertex)) return false;
+      const sat::Lit ends = model_.end_at(agent, c.vertex), late = late_for(agent, t);
+      return (!ends.valid() || is_true(ends)) && late.valid() && !is_true(late);
+    };
     const auto try_rest = [&](AgentId resident, sat::Lit other, Timestep t) {
-      if (model_.resident(c.vertex) != resident || !other.valid()) return false;
-      const sat::Lit late = late_for(resident, t);
-      if (!late.valid() || is_true(late)) return false;
-      rest(other, resident, late, sink);
+      if (!other.valid() || !is_at_rest(resident, t)) return false;
+      rest(other, resident, late_for(resident, t), sink);
       return true;
     };
+    // Who is there without a variable is at rest there, later than any clause needs to know.
+    const bool at_last = !x.valid() && !y.valid();
+    if (at_last || (is_at_rest(c.first, c.timestep) && is_at_rest(c.second, c.timestep + c.gap))) {
+      end(c.first, c.second, c.vertex, sink);
+      return;
+    }
     if (try_rest(c.first, y, c.timestep + c.gap) || try_rest(c.second, x, c.timestep)) return;
     QUADRILLE_REQUIRE(x.valid() && y.valid(), "who is not at rest has a variable");
     vertex(x, y, sink);

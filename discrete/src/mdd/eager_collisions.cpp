@@ -16,18 +16,30 @@ bool EagerCollisions::extend(sat::Engine& engine, LimitMonitor& limits) {
     if (limits.exhausted()) return false;
     const Lit x = Lit::from_dimacs(written_end_);
     const auto var = model_.variable(x);
+    if (var.kind == MddModel::VariableKind::end) add_ends(x, var, sink);
     if (var.kind != MddModel::VariableKind::vertex) continue;
     for (Timestep t = var.number - model_.robust(); t <= var.number + model_.robust(); ++t)
       for (const Lit y : users_(var.vertex, t))
         if (model_.variable(y).agent != var.agent) clauses_.vertex(y, x, sink);
     users_.at(var.vertex, var.number).push_back(x);
     add_swaps(x, var, sink);
-    if (const auto resident = model_.resident(var.vertex); resident && *resident != var.agent) {
-      const Lit late = clauses_.late_for(*resident, var.number);
-      if (late.valid()) clauses_.rest(x, *resident, late, sink);
+    for (const AgentId resident : model_.residents(var.vertex)) {
+      if (resident == var.agent) continue;
+      const Lit late = clauses_.late_for(resident, var.number);
+      if (late.valid()) clauses_.rest(x, resident, late, sink);
     }
   }
   return true;
+}
+
+void EagerCollisions::add_ends(Lit end, const MddModel::Variable& var,
+                               const CollisionClauses::Sink& sink) {
+  if (!model_.may_stay(var.agent, var.vertex)) return;
+  for (const AgentId other : model_.residents(var.vertex)) {
+    if (other == var.agent) continue;
+    const Lit its = model_.end_at(other, var.vertex);
+    if (!its.valid() || is_known(its, end)) clauses_.end(other, var.agent, var.vertex, sink);
+  }
 }
 
 void EagerCollisions::add_swaps(Lit x, const MddModel::Variable& var,

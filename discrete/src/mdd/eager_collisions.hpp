@@ -17,6 +17,7 @@ class EagerCollisions {
   [[nodiscard]] bool extend(sat::Engine& engine, LimitMonitor& limits);
 
  private:
+  void add_ends(sat::Lit end, const MddModel::Variable& var, const CollisionClauses::Sink& sink);
   void add_swaps(sat::Lit x, const MddModel::Variable& var, const CollisionClauses::Sink& sink);
   /// True if all clauses of literals with smaller variables are written, those of `lit` included.
   [[nodiscard]] bool is_known(sat::Lit lit, sat::Lit newest) const {

@@ -21,8 +21,18 @@ struct Escape {
     Timestep timestep;
     bool required;  // else forbidden
   };
+  struct End {
+    VertexId goal;
+    bool required;  // else forbidden
+  };
   std::vector<Visit> visits;
+  std::vector<End> ends;
   Timestep latest_arrival = std::numeric_limits<Timestep>::max();
+
+  [[nodiscard]] bool may_end_at(VertexId goal) const {
+    return std::all_of(ends.begin(), ends.end(),
+                       [&](const End& end) { return (end.goal == goal) == end.required; });
+  }
 
   [[nodiscard]] bool allows(VertexId v, Timestep t) const {
     return std::all_of(visits.begin(), visits.end(), [&](const Visit& visit) {
@@ -31,14 +41,15 @@ struct Escape {
   }
 };
 
-/// True if a path does all that. O((V + E) * horizon * visits): only for debugging.
-bool can_escape(const Graph& graph, const Agent& task, const Escape& escape) {
+/// True if a path does all that and ends at `goal`. O((V + E) * horizon * visits): only for
+/// debugging.
+bool can_escape(const Graph& graph, VertexId start, VertexId goal, const Escape& escape) {
   Timestep horizon = 0;
   for (const auto& visit : escape.visits) horizon = std::max(horizon, visit.timestep);
   const bool bounded = escape.latest_arrival != std::numeric_limits<Timestep>::max();
   if (bounded) horizon = std::max(horizon, escape.latest_arrival);
   IdVector<VertexId, bool> here(graph.num_vertices(), false);
-  here[task.start] = escape.allows(task.start, 0);
+  here[start] = escape.allows(start, 0);
   for (Timestep t = 1; t <= horizon; ++t) {
     IdVector<VertexId, bool> next(graph.num_vertices(), false);
     for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
@@ -48,11 +59,11 @@ bool can_escape(const Graph& graph, const Agent& task, const Escape& escape) {
     }
     if (bounded && t >= escape.latest_arrival)  // at rest by now
       for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
-        next[v] = next[v] && v == task.goal();
+        next[v] = next[v] && v == goal;
     here = std::move(next);
   }
-  if (bounded) return here[task.goal()] && escape.latest_arrival >= 0;
-  const auto to_goal = distances_from(graph, task.goal());
+  if (bounded) return here[goal] && escape.latest_arrival >= 0;
+  const auto to_goal = distances_from(graph, goal);
   for (const VertexId v : IdRange<VertexId>(graph.num_vertices()))
     if (here[v] && to_goal[v] != kUnreachable) return true;
   return false;
@@ -82,6 +93,8 @@ std::string LemmaAuditor::audit_path(Clause clause, AgentId agent) const {
     if (var.agent != agent) return "a path lemma is about one agent";
     if (var.kind == VariableKind::vertex) {
       escape.visits.push_back({var.vertex, var.number, !lit.positive()});
+    } else if (var.kind == VariableKind::end) {
+      escape.ends.push_back({var.vertex, !lit.positive()});
     } else if (lit.positive()) {
       const Timestep late = model_.mdd(agent).distance() + var.number;
       escape.latest_arrival = std::min(escape.latest_arrival, late - 1);
@@ -90,9 +103,11 @@ std::string LemmaAuditor::audit_path(Clause clause, AgentId agent) const {
     }
   }
   const auto& instance = model_.instance();
-  return can_escape(instance.graph(), instance.agents()[agent], escape)
-             ? "some path does not satisfy a path lemma"
-             : "";
+  const Agent& task = instance.agents()[agent];
+  for (const VertexId goal : task.goals.vertices())
+    if (escape.may_end_at(goal) && can_escape(instance.graph(), task.start, goal, escape))
+      return "some path does not satisfy a path lemma";
+  return "";
 }
 
 std::string LemmaAuditor::audit_order(Clause clause) const {
@@ -117,18 +132,23 @@ std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {
     if (u.kind == UsageKind::vertex || u.kind == UsageKind::move)
       expected.push_back(~model_.at(agent, u.vertex, u.timestep));
     if (u.kind == UsageKind::move) expected.push_back(~model_.at(agent, u.to, u.timestep + 1));
-    if (u.kind == UsageKind::rest) {
-      if (model_.instance().agents()[agent].goal() != u.vertex) return "agents rest at their goals";
-      expected.push_back(model_.arrival_after(agent, u.timestep));
+    if (u.kind == UsageKind::rest || u.kind == UsageKind::end) {
+      if (!model_.may_stay(agent, u.vertex)) return "agents rest at their goals";
+      if (const Lit ends = model_.end_at(agent, u.vertex); ends.valid()) expected.push_back(~ends);
     }
+    if (u.kind == UsageKind::rest) expected.push_back(model_.arrival_after(agent, u.timestep));
   }
   const bool same_place = use[0].vertex == use[1].vertex && use[0].timestep == use[1].timestep &&
-                          use[0].kind != UsageKind::move && use[1].kind == UsageKind::vertex;
+                          (use[0].kind == UsageKind::vertex || use[0].kind == UsageKind::rest) &&
+                          use[1].kind == UsageKind::vertex;
+  const bool same_end = use[0].kind == UsageKind::end && use[1].kind == UsageKind::end &&
+                        use[0].vertex == use[1].vertex;
   const bool crossing = use[0].kind == UsageKind::move && use[1].kind == UsageKind::move &&
                         use[0].timestep == use[1].timestep && use[0].vertex == use[1].to &&
                         use[0].to == use[1].vertex &&
                         model_.instance().graph().adjacent(use[0].vertex, use[0].to);
-  if (!same_place && !crossing) return "the usages of a collision lemma do not collide";
+  if (!same_place && !same_end && !crossing)
+    return "the usages of a collision lemma do not collide";
   std::vector<Lit> clause(lemma.clause.begin(), lemma.clause.end());
   std::sort(clause.begin(), clause.end());
   std::sort(expected.begin(), expected.end());
@@ -139,8 +159,9 @@ std::optional<bool> LemmaAuditor::find_in_plan(Lit lit) const {
   const auto var = model_.variable(lit);
   const Path& path = known_plan_->paths[var.agent];
   if (var.kind == VariableKind::auxiliary) return std::nullopt;
-  const bool value = var.kind == VariableKind::vertex
-                         ? position(path, var.number) == var.vertex
+  const bool value = var.kind == VariableKind::vertex ? position(path, var.number) == var.vertex
+                     : var.kind == VariableKind::end
+                         ? path.back() == var.vertex
                          : arrival(path) >= model_.mdd(var.agent).distance() + var.number;
   return value == lit.positive();
 }
@@ -155,6 +176,8 @@ std::string LemmaAuditor::describe(Clause clause) const {
     if (var.kind == VariableKind::vertex)
       text += "X(" + agent + "," + vertex_name(model_.instance().graph(), var.vertex) + "," +
               number + ")";
+    else if (var.kind == VariableKind::end)
+      text += "E(" + agent + "," + vertex_name(model_.instance().graph(), var.vertex) + ")";
     else if (var.kind == VariableKind::delay)
       text += "C(" + agent + "," + number + ")";
     else

@@ -7,7 +7,7 @@ namespace quadrille::discrete {
 
 Mdd::Mdd(const Graph& graph, const Agent& task)
     : task_(task),
-      to_goal_(distances_to_nearest(graph, task.goal())),
+      to_goal_(distances_to_nearest(graph, task.goals)),
       rank_(graph.num_vertices(), kNoRank),
       frontier_{{{task.start, 0}}} {
   QUADRILLE_REQUIRE(to_goal_[task.start] != kUnreachable, "the goal is reachable");

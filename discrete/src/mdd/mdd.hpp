@@ -12,7 +12,8 @@ namespace quadrille::discrete {
 /// The time-expanded graph of one agent, cut to what paths of bounded cost can use: its multi-value
 /// decision diagram (MDD) for every bound at once (Sharon et al. 2013, AIJ, section 3).
 ///
-/// With d the agent's distance and h(v) the distance from v to its goal, the *slack* of (v, t) is
+/// With d the agent's distance and h(v) the distance from v to its goal, or to the nearest one of
+/// several, the *slack* of (v, t) is
 /// t + h(v) - d: a path through (v, t) arrives at d + slack or later. The MDD for delay K has the
 /// pairs that are reachable from the start and have a slack of at most K. Layer K is what it has
 /// more than the MDD for K-1: at most one timestep per vertex. Vertices are found as layers are
@@ -23,6 +24,8 @@ class Mdd {
   Mdd(const Graph& graph, const Agent& task);
 
   [[nodiscard]] const Agent& task() const noexcept { return task_; }
+  /// O(log goals).
+  [[nodiscard]] bool is_goal(VertexId v) const { return task_.goals.contains(v); }
   /// Cost of the cheapest path, d.
   [[nodiscard]] Timestep distance() const noexcept { return to_goal_[task_.start]; }
   /// h(v); kUnreachable if there is none.

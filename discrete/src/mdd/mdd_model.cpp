@@ -20,9 +20,11 @@ MddModel::MddModel(const Instance& instance, Objective objective)
     : instance_(instance),
       objective_(objective),
       blocked_(instance),
-      resident_(instance.graph().num_vertices(), 0) {
+      residents_(instance.graph().num_vertices()) {
   for (const AgentId i : instance.agent_ids())
-    if (!instance.agents()[i].leaves) resident_[instance.agents()[i].goal()] = i.value() + 1;
+    if (!instance.agents()[i].leaves)
+      for (const VertexId goal : instance.agents()[i].goals.vertices())
+        residents_[goal].push_back(i);
 }
 
 bool MddModel::attach(sat::Engine& engine, LimitMonitor& limits, IdVector<AgentId, Timestep> lone) {
@@ -31,14 +33,22 @@ bool MddModel::attach(sat::Engine& engine, LimitMonitor& limits, IdVector<AgentI
   agents_.reserve(instance_.num_agents());
   for (const AgentId i : instance_.agent_ids()) {
     if (limits.exhausted_now()) return false;
-    agents_.push_back({MddPaths(instance_.graph(), instance_.agents()[i]), {}});
+    const Goals& goals = instance_.agents()[i].goals;
+    std::vector<Lit> ends;
+    if (!goals.is_single())
+      for (const VertexId goal : goals.vertices())
+        ends.push_back(new_lit({VariableKind::end, i, goal, 0}));
+    agents_.push_back({MddPaths(instance_.graph(), instance_.agents()[i]), {}, std::move(ends)});
   }
   return true;
 }
 
-std::optional<AgentId> MddModel::resident(VertexId v) const {
-  if (resident_[v] == 0) return std::nullopt;
-  return AgentId(resident_[v] - 1);
+Lit MddModel::end_at(AgentId agent, VertexId goal) const {
+  const Agent& own = agents_[agent];
+  if (own.ends.empty()) return {};
+  const auto goals = instance_.agents()[agent].goals.vertices();
+  const auto found = std::lower_bound(goals.begin(), goals.end(), goal);
+  return own.ends[static_cast<std::size_t>(found - goals.begin())];
 }
 
 Lit MddModel::new_lit(const Variable& variable) {
@@ -83,12 +93,13 @@ Lit MddModel::arrival_after(AgentId agent, Timestep t) const {
   return find_delay(agent, delay);
 }
 
-// Called for each new X(v,t): the resident may have come to rest without a variable that says so.
+// Called for each new X(v,t): a resident may have come to rest without a variable that says so.
 void MddModel::prepare_rest(AgentId agent, VertexId v, Timestep t) {
-  const auto other = resident(v);
-  if (!other || *other == agent) return;
-  const Timestep delay = t + robust() + 1 - mdd(*other).distance();
-  if (delay > std::max(0, cap(*other) + 1)) static_cast<void>(delay_at_least(*other, delay));
+  for (const AgentId other : residents(v)) {
+    if (other == agent) continue;
+    const Timestep delay = t + robust() + 1 - mdd(other).distance();
+    if (delay > std::max(0, cap(other) + 1)) static_cast<void>(delay_at_least(other, delay));
+  }
 }
 
 class MddModel::AgentFormula final : public MddPaths::Formula {
@@ -100,6 +111,7 @@ class MddModel::AgentFormula final : public MddPaths::Formula {
     return lit;
   }
   Lit delay_at_least(Timestep delay) override { return model_.delay_at_least(agent_, delay); }
+  Lit end_at(VertexId goal) override { return model_.end_at(agent_, goal); }
   void add(std::span<const Lit> clause) override {
     model_.engine_->add_clause({sat::why::Path{agent_}, clause, {}, false});
   }
@@ -124,7 +136,7 @@ bool MddModel::extend(AgentId agent, Timestep new_cap, LimitMonitor& limits) {
 Lit MddModel::gone(Lit x) const {
   const Variable var = variable(x);
   const auto& task = instance_.agents()[var.agent];
-  if (!task.leaves || var.vertex != task.goal()) return {};
+  if (!task.leaves || !task.goals.contains(var.vertex)) return {};
   const Timestep late = var.number - mdd(var.agent).distance();
   return late < 1 ? Lit() : ~find_delay(var.agent, late);
 }
@@ -136,8 +148,14 @@ void MddModel::add_rules(AgentId agent, Timestep old_cap) {
   const Timestep distance = mdd(agent).distance();
   if (old_cap < 0) {
     if (task.deadline) add_unit(~delay_at_least(agent, *task.deadline + 1 - distance));
-    const Timestep free_from = task.leaves ? 0 : blocked_.free_from(task.goal());
-    if (free_from > distance) add_unit(delay_at_least(agent, free_from - distance));
+    for (const VertexId goal : task.goals.vertices()) {
+      const Timestep free_from = task.leaves ? 0 : blocked_.free_from(goal);
+      if (free_from <= distance) continue;
+      std::vector<Lit> clause;
+      if (!task.goals.is_single()) clause.push_back(~end_at(agent, goal));
+      if (free_from < kForever) clause.push_back(delay_at_least(agent, free_from - distance));
+      formula.add(clause);
+    }
   }
   add_bans(agent, old_cap);
   const auto is_new = [&](VertexId v, Timestep t) { return mdd(agent).slack(v, t) > old_cap; };

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mdd/mdd_paths.hpp"
@@ -17,9 +18,9 @@
 namespace quadrille::discrete {
 
 /// The propositional formula over the agents' MDDs (docs/soundness/mdd.md): variables X(i,v,t)
-/// "agent i is in v at t" and C(i,k) "agent i arrives at d_i + k or later", and the clauses that
-/// each agent satisfies on its own. Grows; every clause stays valid when it does, so learned
-/// clauses survive.
+/// "agent i is in v at t", C(i,k) "agent i arrives at d_i + k or later" and, of agents with several
+/// goals, E(i,g) "agent i ends at g", and the clauses that each agent satisfies on its own. Grows;
+/// every clause stays valid when it does, so learned clauses survive.
 ///
 /// A true assignment contains a path per agent. It may have further true X(i,v,t): at most one
 /// vertex per timestep is not demanded, and not needed.
@@ -29,6 +30,7 @@ class MddModel {
     auxiliary,  ///< Not of this model.
     vertex,     ///< X(agent, vertex, number).
     delay,      ///< C(agent, number).
+    end,        ///< E(agent, vertex).
   };
   struct Variable {
     VariableKind kind = VariableKind::auxiliary;
@@ -64,6 +66,8 @@ class MddModel {
   [[nodiscard]] sat::Lit at(AgentId agent, VertexId v, Timestep t) const {
     return agents_[agent].paths.at(v, t);
   }
+  /// E(agent, goal), invalid if it has no other goal. Requires one of its goals. O(log goals).
+  [[nodiscard]] sat::Lit end_at(AgentId agent, VertexId goal) const;
   /// C(agent, delay), made if need be. Requires delay >= 1. Not during solve.
   [[nodiscard]] sat::Lit delay_at_least(AgentId agent, Timestep delay);
   /// C(agent, delay), invalid if nobody asked for it so far.
@@ -81,8 +85,12 @@ class MddModel {
   [[nodiscard]] const Instance& instance() const noexcept { return instance_; }
   [[nodiscard]] Objective objective() const noexcept { return objective_; }
   [[nodiscard]] const Mdd& mdd(AgentId agent) const { return agents_[agent].paths.mdd(); }
-  /// The agent that stays at `v`, its goal.
-  [[nodiscard]] std::optional<AgentId> resident(VertexId v) const;
+  /// The agents that may stay at `v`, a goal of theirs, in order.
+  [[nodiscard]] std::span<const AgentId> residents(VertexId v) const { return residents_[v]; }
+  [[nodiscard]] bool may_stay(AgentId agent, VertexId v) const {
+    const auto& task = instance_.agents()[agent];
+    return !task.leaves && task.goals.contains(v);
+  }
   /// Nobody is in a vertex for so many timesteps before and after somebody else.
   [[nodiscard]] Timestep robust() const noexcept { return instance_.rules().robust; }
   /// X literals of an agent that leaves stay true at its goal when it is gone: a literal that says
@@ -100,7 +108,12 @@ class MddModel {
   template <class IsTrue>
   [[nodiscard]] Path extract_path(AgentId agent, const IsTrue& is_true) const {
     const Mdd& mdd = agents_[agent].paths.mdd();
-    const VertexId goal = mdd.task().goal();
+    // Where several goals are called its end, it ends at the one that it comes to.
+    const auto is_end = [&](VertexId v) {
+      if (!mdd.is_goal(v)) return false;
+      const sat::Lit end = end_at(agent, v);
+      return !end.valid() || is_true(end);
+    };
     const Timestep end = mdd.distance() + cap(agent);
     Path path{mdd.task().start};
     for (Timestep t = 1; t <= end; ++t) {
@@ -110,14 +123,14 @@ class MddModel {
         return lit.valid() && is_true(lit);
       };
       std::optional<VertexId> next;
-      if (from == goal && can_be(goal)) next = goal;
+      if (can_be(from) && is_end(from)) next = from;
       for (const VertexId w : instance_.graph().neighbours(from))
         if (!next && can_be(w)) next = w;
       if (!next && can_be(from)) next = from;
       QUADRILLE_REQUIRE(next.has_value(), "a true vertex has a true successor");
       path.push_back(*next);
     }
-    QUADRILLE_REQUIRE(path.back() == goal, "the guard forces the goal");
+    QUADRILLE_REQUIRE(is_end(path.back()), "the guard forces a goal");
     path.resize(static_cast<std::size_t>(arrival(path)) + 1);
     return path;
   }
@@ -126,6 +139,7 @@ class MddModel {
   struct Agent {
     MddPaths paths;
     std::map<Timestep, sat::Lit> delays;
+    std::vector<sat::Lit> ends;  // by goal; empty if there is one only
   };
   class AgentFormula;
   [[nodiscard]] sat::Lit new_lit(const Variable& variable);
@@ -140,7 +154,7 @@ class MddModel {
   IdVector<AgentId, Agent> agents_;
   IdVector<AgentId, Timestep> lone_;
   BlockedTimes blocked_;
-  IdVector<VertexId, std::uint32_t> resident_;  // agent + 1; 0: none
+  IdVector<VertexId, std::vector<AgentId>> residents_;
   std::vector<Variable> variables_;
 };
 

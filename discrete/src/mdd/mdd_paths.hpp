@@ -22,6 +22,8 @@ class MddPaths {
     [[nodiscard]] virtual sat::Lit new_vertex(VertexId v, Timestep t) = 0;
     /// "The agent has a delay of at least `delay`", delay >= 1; made if need be.
     [[nodiscard]] virtual sat::Lit delay_at_least(Timestep delay) = 0;
+    /// "The agent ends at `goal`", one of several; asked of no other agents.
+    [[nodiscard]] virtual sat::Lit end_at(VertexId /*goal*/) { return {}; }
     virtual void add(std::span<const sat::Lit> clause) = 0;
     /// Whether being elsewhere late has to imply a delay literal.
     [[nodiscard]] virtual bool charges_delays() const = 0;
@@ -48,6 +50,7 @@ class MddPaths {
   void add_predecessor_clauses(const Graph& graph, Timestep slack, Formula& formula);
   void add_successor_clauses(const Graph& graph, Timestep slack, Timestep old_cap,
                              Formula& formula);
+  void add_end_clauses(Timestep slack, Formula& formula);
 
   Mdd mdd_;
   std::vector<std::vector<sat::Lit>> layers_;  // [slack][rank]

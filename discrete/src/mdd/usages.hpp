@@ -11,8 +11,9 @@ namespace quadrille::discrete {
 /// What the resource numbers of the discrete domain mean. Two usages of different agents collide
 /// when both are the same vertex at the same timestep, when both are moves over one edge in
 /// opposite directions at the same timestep, or when one is a vertex at t and the other a rest
-/// there from t or earlier on.
+/// there from t or earlier on, or when both end at the same vertex.
 enum class UsageKind : std::uint8_t {
+  end = 0,     ///< Resting in `vertex` in the end.
   vertex = 1,  ///< Being in `vertex` at `timestep`.
   move = 2,    ///< Leaving `vertex` for `to` at `timestep`.
   rest = 3,    ///< Being in `vertex` from `timestep` on, for ever.
@@ -51,6 +52,9 @@ inline constexpr Timestep kMaxTimestep = (1 << 20) - 1;
 [[nodiscard]] constexpr sat::Usage move_usage(AgentId agent, VertexId from, VertexId to,
                                               Timestep t) {
   return {agent, encode_usage({UsageKind::move, from, to, t})};
+}
+[[nodiscard]] constexpr sat::Usage end_usage(AgentId agent, VertexId v) {
+  return {agent, encode_usage({UsageKind::end, v, VertexId(), 0})};
 }
 [[nodiscard]] constexpr sat::Usage rest_usage(AgentId agent, VertexId v, Timestep t) {
   return {agent, encode_usage({UsageKind::rest, v, VertexId(), t})};

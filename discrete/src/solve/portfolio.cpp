@@ -21,8 +21,8 @@ namespace {
 constexpr std::int64_t kLag = 1;
 
 /// What another worker does: plans, the lazy model with the other way to backtrack, the MDD model.
-/// The MDD model knows no goal sets, waypoints and turns: there the lazy model takes its place, set
-/// otherwise.
+/// The MDD model knows no waypoints, no turns, and no prices of goals: with any of these or goal
+/// sets the lazy model takes its place, set otherwise.
 SolveOptions options_of(const Instance& instance, const SolveOptions& options, const Tuner& tuner,
                         std::size_t worker) {
   if (worker == 0 || (worker == 1 && options.first_plan)) return options;

@@ -216,9 +216,18 @@ class Search final : private sat::YieldPoint {
   }
 
   /// Raises of the bound are told in costs.
-  [[nodiscard]] bool has_prices() const {
+  [[nodiscard]] bool may_price() const {
     return instance_.has_goal_sets() && options_.objective == Objective::sum_of_costs &&
            !options_.explain && instance_.is_plain();
+  }
+
+  /// Decision diagrams know no prices, but what they prove holds there, too.
+  void keep_bound_of_prices() {
+    Cost bound = -priced_->paid;
+    for (const AgentId i : instance_.agent_ids())
+      bound += (*priced_->distances)(i, instance_.agents()[i].start);
+    incumbent_.raise(bound);
+    priced_.reset();
   }
 
   /// What is known of the bound is known to all.
@@ -238,7 +247,8 @@ class Search final : private sat::YieldPoint {
   void search_costs(const std::shared_ptr<const GoalDistances>& distances) {
     enter(Phase::search);
     const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
-    if (has_prices()) priced_ = price_goals(instance_, limits_);
+    if (may_price()) priced_ = price_goals(instance_, limits_);
+    if (priced_ && options_.system != System::dpll) keep_bound_of_prices();
     const bool is_ready = priced_ ? run->prepare(priced_->distances, &*priced_, limits_)
                                   : run->prepare(distances, nullptr, limits_);
     if (!is_ready) return;

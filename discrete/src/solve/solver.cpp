@@ -50,10 +50,6 @@ std::optional<Error> check_options(const Instance& instance, const SolveOptions&
   }
   if (options.explain && options.system != System::dpll)
     return refuse(ErrorCode::out_of_range, "an explanation needs the system dpll");
-  if (instance.has_goal_sets() && options.system != System::dpll)
-    return refuse(ErrorCode::out_of_range,
-                  "the system " + std::string(to_string(options.system)) +
-                      " knows one goal for each agent; sets of several need the system dpll");
   if (options.proof && instance.has_goal_sets())
     return refuse(ErrorCode::out_of_range,
                   "a certificate knows one goal for each agent, not sets of several");

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -36,7 +38,16 @@ struct Fixture {
       std::swap(goals[i - 1], goals[draw(i)]);
     }
     std::vector<Agent> tasks;
-    for (std::size_t i = 0; i < 2 + draw(2); ++i) tasks.push_back({starts[i], goals[i]});
+    const bool has_sets = draw(2) == 0;
+    for (std::size_t i = 0; i < 2 + draw(2); ++i) {
+      std::vector<VertexId> own{goals[i]};
+      for (std::uint64_t more = has_sets ? draw(3) : 0; more > 0; --more)
+        own.push_back(goals[draw(4)]);
+      tasks.push_back({starts[i], Goals(std::move(own))});
+    }
+    // Two may have the same only goal, which instances refuse.
+    if (!Instance::make(graph, tasks))
+      for (std::size_t i = 0; i < tasks.size(); ++i) tasks[i].goals = goals[i];
     const auto objective = draw(2) == 0 ? Objective::sum_of_costs : Objective::makespan;
     model = std::make_unique<MddModel>(Instance::make(std::move(graph), tasks).value(), objective);
     engine = std::make_unique<sat::Engine>(nullptr);
@@ -52,21 +63,49 @@ struct Fixture {
       EXPECT_TRUE(model->extend(i, cap, limits));
     }
     for (int v = 1; v < model->variable_end(); ++v)
-      if (model->variable(Lit::from_dimacs(v)).kind == VariableKind::vertex)
-        vertex_lits.push_back(Lit::from_dimacs(v));
+      if (const auto kind = model->variable(Lit::from_dimacs(v)).kind;
+          kind == VariableKind::vertex || kind == VariableKind::end)
+        place_lits.push_back(Lit::from_dimacs(v));
   }
 
   std::mt19937_64 random;
   std::unique_ptr<MddModel> model;
   std::unique_ptr<sat::Engine> engine;
-  std::vector<Lit> vertex_lits;
+  std::vector<Lit> place_lits;  // Of being in a vertex, and of ending there.
 };
+
+/// Of clauses with "ends there": two agents do not both, where one that has no other goal does for
+/// certain; and who ends there comes later than somebody else passes.
+bool is_clause_of_ends(const MddModel& model, const std::vector<Lit>& clause) {
+  std::optional<MddModel::Variable> end, other, late;
+  for (const Lit lit : clause) {
+    const auto use = model.variable(lit);
+    if (lit.positive() != (use.kind == VariableKind::delay)) return false;
+    if (use.kind == VariableKind::delay)
+      late = use;
+    else if (use.kind == VariableKind::end && !end)
+      end = use;
+    else
+      other = use;
+  }
+  if (!end || clause.size() > 3) return false;
+  if (clause.size() == 1)
+    for (const AgentId i : model.instance().agent_ids())
+      if (i != end->agent && model.mdd(i).task().goals == Goals(end->vertex)) return true;
+  if (!other || other->agent == end->agent || other->vertex != end->vertex) return false;
+  if (clause.size() == 2) return other->kind == VariableKind::end;
+  return other->kind == VariableKind::vertex && late && late->agent == end->agent &&
+         model.mdd(late->agent).distance() + late->number == other->number + 1;
+}
 
 /// True if `clause` forbids something that two agents may not do together: derived from the meaning
 /// of its literals alone.
 bool is_collision_clause(const MddModel& model, const std::vector<Lit>& clause) {
   std::vector<MddModel::Variable> uses;
   for (const Lit lit : clause) uses.push_back(model.variable(lit));
+  if (std::any_of(uses.begin(), uses.end(),
+                  [](const auto& use) { return use.kind == VariableKind::end; }))
+    return is_clause_of_ends(model, clause);
   if (clause.size() == 2 && clause[0].positive() == clause[1].positive())  // vertex
     return !clause[0].positive() && uses[0].kind == VariableKind::vertex &&
            uses[1].kind == VariableKind::vertex && uses[0].agent != uses[1].agent &&
@@ -75,7 +114,7 @@ bool is_collision_clause(const MddModel& model, const std::vector<Lit>& clause) 
     const auto& use = clause[0].positive() ? uses[1] : uses[0];
     const auto& late = clause[0].positive() ? uses[0] : uses[1];
     return use.kind == VariableKind::vertex && late.kind == VariableKind::delay &&
-           use.agent != late.agent && model.mdd(late.agent).task().goal() == use.vertex &&
+           use.agent != late.agent && model.mdd(late.agent).task().goals == Goals(use.vertex) &&
            model.mdd(late.agent).distance() + late.number == use.number + 1;
   }
   if (clause.size() != 4) return false;  // swap: u@t, v@t+1 of one, v@t, u@t+1 of the other
@@ -103,9 +142,20 @@ bool has_collision(const MddModel& model, const std::set<Lit>& lits) {
     const Lit lit = model.at(agent, v, t);
     return lit.valid() && lits.contains(lit);
   };
+  const auto ends_at = [&](AgentId agent, VertexId v) {
+    if (!model.mdd(agent).is_goal(v)) return false;
+    const Lit lit = model.end_at(agent, v);
+    return !lit.valid() || lits.contains(lit);
+  };
+  for (const VertexId v : IdRange<VertexId>(model.instance().graph().num_vertices())) {
+    int there = 0;
+    for (const AgentId i : model.instance().agent_ids()) there += ends_at(i, v) ? 1 : 0;
+    if (there > 1) return true;
+  }
   for (const auto& a : uses) {
-    if (const auto resident = model.resident(a.vertex); resident && *resident != a.agent) {
-      const Lit late = model.arrival_after(*resident, a.number);
+    for (const AgentId resident : model.instance().agent_ids()) {
+      if (resident == a.agent || !ends_at(resident, a.vertex)) continue;
+      const Lit late = model.arrival_after(resident, a.number);
       if (late.valid() && lits.contains(~late)) return true;
     }
     for (const auto& b : uses) {
@@ -170,7 +220,7 @@ TEST(CollisionTheory, FindsWhatARecomputationFindsUnderAnyCallbacks) {
             break;
           default: {
             // Few cells, so that agents meet.
-            const Lit x = fixture.vertex_lits[solver.draw(fixture.vertex_lits.size())];
+            const Lit x = fixture.place_lits[solver.draw(fixture.place_lits.size())];
             solver.assign(x);
             bool forgettable = false;
             if (!solver.propagate() || solver.dead() || host.has_clause(forgettable)) break;
@@ -236,6 +286,8 @@ TEST(CollisionTheory, AcceptsAModelExactlyIfItsPathsDoNotCollide) {
           is_true = position(plan.paths[use.agent], use.number) == use.vertex;
         else if (use.kind == VariableKind::delay)
           is_true = arrival(plan.paths[use.agent]) >= model.mdd(use.agent).distance() + use.number;
+        else if (use.kind == VariableKind::end)
+          is_true = plan.paths[use.agent].back() == use.vertex;
         if (solver.draw(8) == 0) solver.open_level();
         solver.assign(is_true ? x : ~x);
         if (solver.draw(16) == 0) solver.backtrack_unannounced_levels();

@@ -9,6 +9,7 @@
 
 #include "feasibility/goal_choice.hpp"
 #include "quadrille/discrete/feasibility.hpp"
+#include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/plan_improver.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "quadrille/discrete/verify.hpp"
@@ -22,15 +23,29 @@ using quadrille::support::only_system;
 using quadrille::support::scaled;
 
 struct Count {
-  int solved = 0, infeasible = 0, cheaper = 0;
+  int solved = 0, infeasible = 0, puzzles = 0;
 };
+
+/// Agents that have to get out of each other's way again and again: the lazy system, which has no
+/// explicit paths to several goals, may take minutes for four of them on five vertices.
+bool is_puzzle(const Instance& instance, const JointAnswer& expected) {
+  if (expected.status != Status::optimal) return false;
+  Cost ways = 0;
+  for (const Agent& task : instance.agents())
+    ways += distances_to_nearest(instance.graph(), task.goals)[task.start];
+  return expected.plan.cost(Objective::sum_of_costs) > ways + 16;
+}
 
 void compare(const Instance& instance, Random& random, const std::string& origin, Count& count) {
   const Objective objective = random.percent(60) ? Objective::sum_of_costs : Objective::makespan;
   const JointAnswer expected = joint_search(instance, objective);
   ASSERT_NE(expected.status, Status::unknown) << origin;
   count.infeasible += expected.status == Status::infeasible ? 1 : 0;
-  for (const TunedOptions& options : random_lazy_systems(random, objective)) {
+  const bool puzzle = is_puzzle(instance, expected);
+  count.puzzles += puzzle ? 1 : 0;
+  for (const TunedOptions& options : random_systems(random, objective)) {
+    if (puzzle && (options.system == System::dpll || options.threads > 1)) continue;
+    if (!only_system().empty() && to_string(options.system) != only_system()) continue;
     const std::string fault = solve_and_compare(instance, options, expected, origin);
     ASSERT_EQ(fault, "") << fault;
     ++count.solved;
@@ -39,17 +54,19 @@ void compare(const Instance& instance, Random& random, const std::string& origin
 
 template <class Draw>
 void run_shard(const char* name, int shard, std::size_t cases, const Draw& draw) {
-  if (!only_system().empty() && only_system() != "dpll") GTEST_SKIP() << "only dpll knows sets";
   Count count;
   for (std::size_t number = 0; number < scaled(cases); ++number) {
     const std::uint64_t seed = static_cast<std::uint64_t>(shard) * 1'000'000 + number;
     Random random(seed);
-    const Instance instance = with_more_goals(random, draw(random));
+    const Instance plain = draw(random);
+    const Instance instance =
+        random.percent(50) ? with_more_goals(random, plain) : with_group_goals(random, plain);
     compare(instance, random, name + (" with goal sets, seed " + std::to_string(seed)), count);
     if (testing::Test::HasFailure()) return;
   }
   testing::Test::RecordProperty("solved", count.solved);
   testing::Test::RecordProperty("infeasible", count.infeasible);
+  testing::Test::RecordProperty("puzzles", count.puzzles);
 }
 
 class GoalSets : public testing::TestWithParam<int> {};
@@ -84,16 +101,15 @@ TEST(GoalSet, EachAgentTakesTheGoalThatIsCheapestForAll) {
   const auto v = [](std::size_t x) { return VertexId(x); };
   // Both are nearest to 2, and cannot pass each other.
   const Instance instance = corridor({{v(0), Goals({v(1), v(2)})}, {v(4), Goals({v(2), v(1)})}});
-  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan}) {
-    SolveOptions options;
-    options.objective = objective;
-    options.debug.audit = true;
-    const SolveOutcome outcome = solve(instance, options).value();
-    ASSERT_EQ(outcome.status, Status::optimal);
-    EXPECT_EQ(*outcome.cost, objective == Objective::sum_of_costs ? 3 : 2);
-    EXPECT_EQ(outcome.plan->paths[AgentId(0)].back(), v(1));
-    EXPECT_EQ(outcome.plan->paths[AgentId(1)].back(), v(2));
-  }
+  for (const Objective objective : {Objective::sum_of_costs, Objective::makespan})
+    for (TunedOptions& options : all_systems(objective)) {
+      options.debug.audit = true;
+      const SolveOutcome outcome = solve(instance, options).value();
+      ASSERT_EQ(outcome.status, Status::optimal);
+      EXPECT_EQ(*outcome.cost, objective == Objective::sum_of_costs ? 3 : 2);
+      EXPECT_EQ(outcome.plan->paths[AgentId(0)].back(), v(1));
+      EXPECT_EQ(outcome.plan->paths[AgentId(1)].back(), v(2));
+    }
 }
 
 TEST(GoalSet, TheOnlyGoalOfAnotherIsTaken) {
@@ -114,16 +130,6 @@ TEST(GoalSet, MoreAgentsThanGoalsAreInfeasible) {
   EXPECT_TRUE(verdict.is_decided);
   EXPECT_EQ(verdict.reason, "agents 0, 1 and 2 can only end at 2 different goals");
   EXPECT_EQ(solve(instance, SolveOptions()).value().status, Status::infeasible);
-}
-
-TEST(GoalSet, MddSystemsRefuseThem) {
-  const auto v = [](std::size_t x) { return VertexId(x); };
-  const Instance instance = corridor({{v(0), Goals({v(1), v(2)})}});
-  for (const System system : {System::dpll_mdd, System::smt_cbs, System::mdd_sat}) {
-    SolveOptions options;
-    options.system = system;
-    EXPECT_EQ(solve(instance, options).error().code, ErrorCode::out_of_range);
-  }
 }
 
 TEST(GoalSet, InstancesRefuseWhatCannotBe) {

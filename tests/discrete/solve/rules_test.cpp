@@ -86,13 +86,14 @@ struct Kind {
   const char* name;
   std::uint64_t seed;
   RuleKinds kinds;
-  bool is_mixed = false;
+  bool is_mixed = false, has_goal_sets = false;
 };
 
 Instance draw(Random& random, const Kind& kind) {
-  const Instance plain = kind.kinds.turning || random.percent(50)
-                             ? random_grid(random, {1, 3, 30, 2, 3})
-                             : random_graph(random, 7, 3);
+  Instance plain = kind.kinds.turning || random.percent(50)
+                       ? random_grid(random, {1, 3, 30, 2, 3})
+                       : random_graph(random, 7, 3);
+  if (kind.has_goal_sets) plain = with_group_goals(random, plain);
   RuleKinds kinds = kind.kinds;
   if (kind.is_mixed)
     kinds = {random.percent(50), random.percent(50), random.percent(50), random.percent(50),
@@ -214,7 +215,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, RulesRandom,
                                          Kind{"robust", 5'000'000, {.robust = true}},
                                          Kind{"waypoints", 6'000'000, {.waypoints = true}},
                                          Kind{"turning", 8'000'000, {.turning = true}},
-                                         Kind{"mixed", 7'000'000, {}, true}),
+                                         Kind{"mixed", 7'000'000, {}, true},
+                                         Kind{"goal_sets", 9'000'000, {}, true, true}),
                          [](const auto& drawn) { return std::string(drawn.param.name); });
 
 Instance read(const std::string& text) {

@@ -81,13 +81,17 @@ struct Count {
   int plans = 0, dear = 0;
 };
 
-/// All systems, each with a plan of its own.
-void expect_that_all_allow_detours(const Instance& instance, Random& random, Count& count) {
+/// All systems, each with a plan of its own, which ends at the goals of `choice`.
+void expect_that_all_allow_detours(const Instance& instance, const Instance& choice, Random& random,
+                                   Count& count) {
   const Objective objective = random.percent(70) ? Objective::sum_of_costs : Objective::makespan;
-  const JointAnswer expected = joint_search(instance, objective);
-  if (expected.status != Status::optimal) return;
+  const JointAnswer chosen = joint_search(choice, objective);
+  if (chosen.status != Status::optimal) return;
+  const JointAnswer expected =
+      instance.has_goal_sets() ? joint_search(instance, objective) : chosen;
+  ASSERT_EQ(expected.status, Status::optimal);
   for (TunedOptions& options : random_systems(random, objective)) {
-    const Plan plan = detour(random, instance, expected.plan);
+    const Plan plan = detour(random, choice, chosen.plan);
     ASSERT_EQ(replay(instance, plan), "");
     ++count.plans;
     count.dear += plan.cost(objective) > expected.cost ? 1 : 0;
@@ -103,6 +107,17 @@ void expect_that_all_allow_detours(const Instance& instance, Random& random, Cou
   }
 }
 
+/// Goals for all out of their sets, whatever they cost. Itself where they take the same ones.
+Instance any_choice(Random& random, const Instance& instance) {
+  std::vector<Agent> tasks;
+  for (const Agent& task : instance.agents()) {
+    const auto own = task.goals.vertices();
+    tasks.push_back({task.start, own[random.below(own.size())]});
+  }
+  auto made = instance.with_agents(std::move(tasks));
+  return made ? std::move(made).value() : instance;
+}
+
 class SolverAudit : public testing::TestWithParam<int> {};
 
 TEST_P(SolverAudit, NoClauseExcludesAPlanThatCostsMore) {
@@ -113,11 +128,30 @@ TEST_P(SolverAudit, NoClauseExcludesAPlanThatCostsMore) {
     Random random(seed);
     const Instance instance =
         random.percent(50) ? random_grid(random, {2, 4, 30, 2, 4}) : random_graph(random, 8, 4);
-    expect_that_all_allow_detours(instance, random, count);
+    expect_that_all_allow_detours(instance, instance, random, count);
     if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(count.dear, count.plans / 2);
   EXPECT_GT(count.plans, static_cast<int>(scaled(100)));
+}
+
+TEST_P(SolverAudit, NoClauseExcludesAPlanWithOtherGoals) {
+  Count count;
+  for (std::size_t number = 0; number < scaled(100); ++number) {
+    const std::uint64_t seed = static_cast<std::uint64_t>(50 + GetParam()) * 1'000'000 + number;
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Instance plain =
+        random.percent(50) ? random_grid(random, {2, 4, 30, 2, 4}) : random_graph(random, 8, 4);
+    const Instance instance =
+        random.percent(50) ? with_more_goals(random, plain) : with_group_goals(random, plain);
+    const Instance choice = any_choice(random, instance);
+    if (choice.has_goal_sets()) continue;
+    expect_that_all_allow_detours(instance, choice, random, count);
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(count.dear, count.plans / 2);
+  EXPECT_GT(count.plans, static_cast<int>(scaled(50)));
 }
 
 /// Turns from above begin with the first conflict.
