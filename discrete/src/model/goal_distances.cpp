@@ -76,6 +76,7 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
     find_priced(instance.graph(), instance.agents()[agent].goals, prices, distances);
     table->keep(agent, distances);
   }
+  table->prices_ = prices;
   return table;
 }
 

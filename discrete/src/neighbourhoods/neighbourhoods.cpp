@@ -38,7 +38,7 @@ std::vector<AgentId> Neighbourhoods::choose(Rule rule, std::size_t size, AgentId
 /// earlier than now. Those who are met on it are taken.
 void Neighbourhoods::walk(AgentId agent, std::size_t size) {
   const Path& path = paths_[agent];
-  const auto arrival = static_cast<Timestep>(path.size()) - 1;
+  const Timestep arrival = static_cast<Timestep>(path.size()) - 1 + distances_.price(path.back());
   auto t = static_cast<Timestep>(random_.below(path.size()));
   VertexId at = position(path, t);
   std::vector<VertexId> ways;

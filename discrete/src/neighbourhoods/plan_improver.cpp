@@ -29,7 +29,11 @@ PlanImprover::Impl::Impl(const Instance& instance, std::shared_ptr<const GoalDis
       planner_(instance_, *distances_, random_),
       neighbourhoods_(instance_, *distances_, plan_.paths, reservations_, random_),
       was_seed_(instance_.num_agents(), 0) {
-  for (const AgentId agent : instance_.agent_ids()) ideal_sum_ += distance(agent);
+  for (const AgentId agent : instance_.agent_ids()) {
+    ideal_sum_ += distance(agent);
+    for (const VertexId goal : instance_.agents()[agent].goals.vertices())
+      has_prices_ = has_prices_ || distances_->price(goal) > 0;
+  }
   for (const Rule rule : {Rule::delayed, Rule::place, Rule::any})
     for (const std::size_t size : kSizes)
       if (size == kSizes.front() || size <= instance_.num_agents())
@@ -130,7 +134,8 @@ PlanImprover::Impl::Choice& PlanImprover::Impl::draw_choice() {
 }
 
 /// The most delayed agent that was not drawn lately; for the makespan, one of those who arrive
-/// last, in one of two cases.
+/// last, in one of two cases. Where goals have prices, any agent if none is delayed: dear goals may
+/// be left over.
 AgentId PlanImprover::Impl::draw_seed() {
   if (objective_ == Objective::makespan && random_.below(2) == 0) {
     std::vector<AgentId> last;
@@ -142,7 +147,7 @@ AgentId PlanImprover::Impl::draw_seed() {
     std::optional<AgentId> seed;
     Cost largest = 0;
     for (const AgentId agent : instance_.agent_ids()) {
-      const Cost delay = cost_of(agent) - distance(agent);
+      const Cost delay = priced_cost_of(agent) - distance(agent);
       if (was_seed_[agent.index()] != 0 || delay <= largest) continue;
       seed = agent;
       largest = delay;
@@ -151,7 +156,9 @@ AgentId PlanImprover::Impl::draw_seed() {
       was_seed_[seed->index()] = 1;
       return *seed;
     }
-    // Some agent is delayed, since the plan is not ideal.
+    // Some agent is delayed, since the plan is not ideal, or goals have prices.
+    const bool was_any = std::any_of(was_seed_.begin(), was_seed_.end(), [](char c) { return c; });
+    if (!was_any) return AgentId(static_cast<std::size_t>(random_.below(was_seed_.size())));
     std::fill(was_seed_.begin(), was_seed_.end(), char{0});
   }
 }
@@ -161,7 +168,7 @@ PlanImprover::Impl::Budget PlanImprover::Impl::budget_of(const std::vector<Agent
   Budget budget;
   Cost free_makespan = 0;
   for (const AgentId agent : agents) {
-    budget.sum += cost_of(agent);
+    budget.sum += priced_cost_of(agent);
     free_makespan = std::max(free_makespan, distance(agent));
   }
   budget.latest = kForever - 1;
@@ -183,7 +190,9 @@ bool PlanImprover::Impl::replan(const std::vector<AgentId>& agents, LimitMonitor
   old_paths_.clear();
   const std::int64_t planner_before = planner_.effort();
   std::int64_t handled = 0;
+  Cost before = 0, after = 0;  // Without prices.
   for (const AgentId agent : agents) {
+    before += cost_of(agent);
     handled += static_cast<std::int64_t>(plan_.paths[agent].size());
     reservations_.remove(plan_.paths[agent]);
     old_paths_.push_back(plan_.paths[agent]);
@@ -198,11 +207,14 @@ bool PlanImprover::Impl::replan(const std::vector<AgentId>& agents, LimitMonitor
     if (!path) break;
     reservations_.add(agent, *path);
     plan_.paths[agent] = std::move(*path);
-    budget.sum -= cost_of(agent) - distance(agent);
+    budget.sum -= priced_cost_of(agent) - distance(agent);
+    after += cost_of(agent);
     ++num_new;
   }
   effort_ += planner_.effort() - planner_before + handled / 4 + 1;
-  if (num_new == agents.size()) return true;
+  // Whoever leaves a dear goal to nobody saves its price, and nothing else.
+  const bool is_dearer = has_prices_ && after > before;
+  if (num_new == agents.size() && !is_dearer) return true;
   put_back(agents, num_new);
   return false;
 }

@@ -28,7 +28,7 @@ class PlanImprover::Impl {
     return objective_ == Objective::sum_of_costs ? sum_ : makespan_;
   }
   [[nodiscard]] std::int64_t effort() const noexcept { return effort_; }
-  [[nodiscard]] bool is_ideal() const noexcept { return sum_ == ideal_sum_; }
+  [[nodiscard]] bool is_ideal() const noexcept { return !has_prices_ && sum_ == ideal_sum_; }
 
  private:
   using Rule = Neighbourhoods::Rule;
@@ -62,6 +62,10 @@ class PlanImprover::Impl {
   [[nodiscard]] Cost cost_of(AgentId agent) const {
     return static_cast<Cost>(plan_.paths[agent].size()) - 1;
   }
+  /// With the price of its goal, if there are prices.
+  [[nodiscard]] Cost priced_cost_of(AgentId agent) const {
+    return cost_of(agent) + distances_->price(plan_.paths[agent].back());
+  }
 
   Instance instance_;
   std::shared_ptr<const GoalDistances> distances_;
@@ -76,6 +80,7 @@ class PlanImprover::Impl {
   std::vector<char> was_seed_;   // By agent: since all delayed agents had been seeds.
   std::vector<Path> old_paths_;  // Of the neighbourhood.
   std::int64_t effort_ = 0, explored_ = 0;
+  bool has_prices_ = false;
   bool was_rebuilt_ = false;  // Was the neighbourhood of all agents tried?
 };
 

@@ -26,7 +26,7 @@ std::optional<Path> PathPlanner::find(AgentId agent, const Reservations& reserva
     const LabelIndex label = bucket.back();
     bucket.pop_back();
     if (labels_[label].outdated) continue;
-    if (is_goal(labels_[label])) return path_to(labels_, label);
+    if (labels_[label].is_end) return path_to(labels_, label);
     if (effort_ >= enough || ((++effort_ & 63) == 0 && limits.exhausted())) return std::nullopt;
     expand(label);
   }
@@ -48,10 +48,11 @@ bool PathPlanner::begin(AgentId agent, const Reservations& reservations, Timeste
   Timestep earliest_rest = kForever;
   for (const VertexId goal : goals_->vertices()) {
     const auto passing = reservations.stays(goal);
+    const Timestep price = distances_.price(goal);
     if (passing.empty())
-      earliest_rest = 0;
+      earliest_rest = std::min(earliest_rest, price);
     else if (passing.back().end != kForever)
-      earliest_rest = std::min(earliest_rest, passing.back().end + 1);
+      earliest_rest = std::min(earliest_rest, passing.back().end + 1 + price);
   }
   if (earliest_rest == kForever) return false;
   earliest_ = std::max(row_[start], earliest_rest);
@@ -120,10 +121,21 @@ void PathPlanner::add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap
     label.outdated = true;
     break;
   }
+  const bool may_end = gap_end == kForever && goals_->contains(v);
+  const Timestep price = may_end ? distances_.price(v) : 0;
+  // Where a cheaper goal is near it may go on; else it ends here.
+  const bool must_end = may_end && price == distance;
+  const LabelIndex next_here = head.first;
+  head.first = static_cast<LabelIndex>(labels_.size());
+  put({v, gap, time, gap_end, parent, next_here, false, must_end}, time + distance);
+  if (may_end && !must_end && time + price <= latest_)
+    put({v, gap, time, gap_end, parent, kNoLabel, false, true}, time + price);
+}
+
+void PathPlanner::put(const Label& label, Timestep estimate) {
   const auto index = static_cast<LabelIndex>(labels_.size());
-  labels_.push_back({v, gap, time, gap_end, parent, head.first, false});
-  head.first = index;
-  const Timestep estimate = std::max(time + distance, earliest_);
+  labels_.push_back(label);
+  estimate = std::max(estimate, earliest_);
   const auto at = static_cast<std::size_t>(estimate - earliest_);
   if (at >= num_buckets_) {
     num_buckets_ = at + 1;

@@ -17,7 +17,8 @@ namespace quadrille::discrete {
 
 /// Earliest paths of single agents among moving obstacles: safe interval path planning (Phillips
 /// and Likhachev, ICRA 2011) with exact distances. A state is a vertex and one of the gaps between
-/// the stays there, so neither time nor memory depends on the horizon.
+/// the stays there, so neither time nor memory depends on the horizon. With prices of goals in the
+/// distances, arrivals are those at the goal and its price.
 class PathPlanner {
  public:
   /// All outlive this object.
@@ -41,6 +42,7 @@ class PathPlanner {
     LabelIndex parent;
     LabelIndex next_here;  // Labels of the same vertex.
     bool outdated;         // An earlier arrival in the same gap is known.
+    bool is_end;           // It stays there, and has paid.
   };
   /// What an expansion knows of its label.
   struct Origin {
@@ -62,9 +64,7 @@ class PathPlanner {
   void reach(const Origin& origin, VertexId to);
   void add(VertexId v, std::uint32_t gap, Timestep time, Timestep gap_end, LabelIndex parent,
            Timestep distance);
-  [[nodiscard]] bool is_goal(const Label& label) const {
-    return label.gap_end == kForever && goals_->contains(label.vertex);
-  }
+  void put(const Label& label, Timestep estimate);
 
   const Instance& instance_;
   const GoalDistances& distances_;

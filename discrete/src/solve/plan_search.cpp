@@ -72,10 +72,10 @@ sat::Outcome PlanImprovement::advance(sat::Slice slice) {
   Incumbent& incumbent = context_.incumbent;
   effort_ = {};
   if (!improver_) {
-    second_chance_.emplace(context_.instance, context_.distances, context_.objective,
+    second_chance_.emplace(context_.instance, context_.priced_distances, context_.objective,
                            incumbent.shared_plan(), context_.seed, context_.settings);
-    improver_.emplace(context_.instance, context_.distances, context_.objective, incumbent.plan(),
-                      context_.seed);
+    improver_.emplace(context_.instance, context_.priced_distances, context_.objective,
+                      incumbent.plan(), context_.seed);
   } else if (*incumbent.upper() < improver_->cost()) {
     improver_->restart_from(incumbent.plan());
   }
@@ -121,7 +121,7 @@ void PlanImprovement::improve_draft(Effort effort) {
   if (rival_)
     rival_->restart_from(repair_.plan());
   else
-    rival_.emplace(context_.instance, context_.distances, context_.objective, repair_.plan(),
+    rival_.emplace(context_.instance, context_.priced_distances, context_.objective, repair_.plan(),
                    context_.seed);
   static_cast<void>(improve(*rival_, effort));
   const bool is_cheaper = rival_->cost() < *context_.incumbent.upper();

@@ -31,6 +31,7 @@ namespace quadrille::discrete {
 struct PlanSearchContext {
   const Instance& instance;
   std::shared_ptr<const GoalDistances> distances;
+  std::shared_ptr<const GoalDistances> priced_distances;  ///< The same, or with prices of goals.
   /// In which a first plan is looked for: the same where each agent has one goal, else with goals
   /// that were chosen. Null distances: there are none, and no first plan is looked for.
   const Instance& first_instance;

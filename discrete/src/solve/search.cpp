@@ -51,6 +51,7 @@ class Search final : private sat::YieldPoint {
     const auto agents = instance_.agent_ids();
     known_.prove(free_bound(agents, options_.objective, free_cost));
     incumbent_.raise(known_.floor);
+    if (may_price()) priced_ = price_goals(instance_, limits_);
     if (options_.explain)
       known_.attribution = solve::free_charges(agents, options_.objective, free_cost);
     if (options_.first_plan && instance_.is_plain()) begin_plans(distances);
@@ -73,9 +74,10 @@ class Search final : private sat::YieldPoint {
       chosen_ = choose_goals(instance_, &limits_).chosen;
       first_distances = chosen_ ? GoalDistances::make(*chosen_, limits_) : nullptr;
     }
-    plans_.emplace(PlanSearchContext{instance_, distances, chosen_ ? *chosen_ : instance_,
-                                     std::move(first_distances), options_.objective, options_.seed,
-                                     part, incumbent_, limits_, tuning_.settings});
+    plans_.emplace(PlanSearchContext{instance_, distances, distances_of_improvement(distances),
+                                     chosen_ ? *chosen_ : instance_, std::move(first_distances),
+                                     options_.objective, options_.seed, part, incumbent_, limits_,
+                                     tuning_.settings});
     if (!known_.plan) {
       enter(Phase::first_plan);
       if (role_ == Role::all)
@@ -88,6 +90,17 @@ class Search final : private sat::YieldPoint {
       consider_stop();
     else
       yield();
+  }
+
+  /// With prices agents that are taken out of a plan do not take each other's goals. Where all
+  /// share all goals, plans are as good without, and some better.
+  [[nodiscard]] std::shared_ptr<const GoalDistances> distances_of_improvement(
+      const std::shared_ptr<const GoalDistances>& distances) const {
+    const auto& agents = instance_.agents().items();
+    const bool share_all = std::all_of(agents.begin(), agents.end(), [&](const Agent& agent) {
+      return agent.goals == agents.front().goals;
+    });
+    return priced_ && !share_all ? priced_->distances : distances;
   }
 
   /// The same of an instance with rules.
@@ -247,7 +260,6 @@ class Search final : private sat::YieldPoint {
   void search_costs(const std::shared_ptr<const GoalDistances>& distances) {
     enter(Phase::search);
     const std::unique_ptr<Run> run = make_run(instance_, options_, tuning_);
-    if (may_price()) priced_ = price_goals(instance_, limits_);
     if (priced_ && options_.system != System::dpll) keep_bound_of_prices();
     const bool is_ready = priced_ ? run->prepare(priced_->distances, &*priced_, limits_)
                                   : run->prepare(distances, nullptr, limits_);

@@ -44,11 +44,11 @@ bool collide(const Path& a, const Path& b) {
   return false;
 }
 
-/// The earliest arrival for good, timestep by timestep.
-std::optional<Timestep> earliest(const Instance& instance, AgentId agent,
+/// The earliest arrival for good at a goal, timestep by timestep.
+std::optional<Timestep> earliest(const Instance& instance, AgentId agent, VertexId goal,
                                  const std::vector<Path>& others, Timestep latest) {
   const Graph& graph = instance.graph();
-  const VertexId start = instance.agents()[agent].start, goal = instance.agents()[agent].goal();
+  const VertexId start = instance.agents()[agent].start;
   const auto is_free = [&](VertexId v, Timestep t) {
     return std::none_of(others.begin(), others.end(),
                         [&](const Path& path) { return position(path, t) == v; });
@@ -98,7 +98,8 @@ TEST(PathPlanner, FindsTheEarliestPathAmongOthers) {
       reservations.add(other, path);
     }
     const auto latest = static_cast<Timestep>(random.below(30));
-    const auto expected = earliest(instance, agent, others, latest);
+    const VertexId goal = instance.agents()[agent].goal();
+    const auto expected = earliest(instance, agent, goal, others, latest);
     PathPlanner planner(instance, *distances, draws);
     const auto path = planner.find(agent, reservations, latest, 1'000'000, limits);
     ASSERT_EQ(path.has_value(), expected.has_value()) << support::instance_text(instance);
@@ -117,6 +118,60 @@ TEST(PathPlanner, FindsTheEarliestPathAmongOthers) {
   EXPECT_GT(num_found, 1000);
   EXPECT_GT(num_none, 500);
   EXPECT_GT(num_late, 300);
+}
+
+// Of several goals that one where the arrival and the price come to least.
+TEST(PathPlanner, FindsTheCheapestOfGoalsWithPrices) {
+  support::Random random(2);
+  Random draws(2);
+  LimitMonitor limits{Limits{}};
+  int num_found = 0, num_none = 0, num_farther = 0;
+  for (int round = 0; round < 6000; ++round) {
+    const Instance instance = support::with_more_goals(
+        random, random.below(3) == 0 ? support::random_graph(random, 8, 5)
+                                     : support::random_grid(random, {1, 5, 40, 2, 5}));
+    GoalPrices prices(instance.graph().num_vertices(), 0);
+    if (random.percent(80))
+      for (Timestep& price : prices) price = static_cast<Timestep>(random.below(7));
+    const auto distances = GoalDistances::make(instance, prices, limits);
+    const AgentId agent(0);
+    std::vector<Path> others;
+    Reservations reservations(instance.graph().num_vertices());
+    for (const AgentId other : instance.agent_ids()) {
+      const Path path = random_walk(random, instance.graph(), instance.agents()[other].start);
+      if (other == agent || std::any_of(others.begin(), others.end(), [&](const Path& earlier) {
+            return collide(path, earlier);
+          }))
+        continue;
+      others.push_back(path);
+      reservations.add(other, path);
+    }
+    const auto latest = static_cast<Timestep>(random.below(30));
+    std::optional<Timestep> expected, nearest;
+    for (const VertexId goal : instance.agents()[agent].goals.vertices()) {
+      const auto there = earliest(instance, agent, goal, others, latest);
+      if (!there) continue;
+      nearest = std::min(*there, nearest.value_or(*there));
+      const Timestep cost = *there + prices[goal];
+      if (cost <= latest) expected = std::min(cost, expected.value_or(cost));
+    }
+    const VertexId start = instance.agents()[agent].start;
+    if ((*distances)(agent, start) == kUnreachable) continue;
+    PathPlanner planner(instance, *distances, draws);
+    const auto path = planner.find(agent, reservations, latest, 1'000'000, limits);
+    ASSERT_EQ(path.has_value(), expected.has_value()) << support::instance_text(instance);
+    ++(path ? num_found : num_none);
+    if (!path) continue;
+    ASSERT_TRUE(instance.agents()[agent].goals.contains(path->back()));
+    ASSERT_EQ(arrival(*path) + prices[path->back()], *expected) << support::instance_text(instance);
+    ASSERT_EQ(path->size(), static_cast<std::size_t>(arrival(*path)) + 1);
+    ASSERT_EQ(path->front(), start);
+    for (const Path& other : others) ASSERT_FALSE(collide(*path, other));
+    if (arrival(*path) > *nearest) ++num_farther;
+  }
+  EXPECT_GT(num_found, 1000);
+  EXPECT_GT(num_none, 300);
+  EXPECT_GT(num_farther, 100);
 }
 
 TEST(PathPlanner, GivesUpWhenToldTo) {

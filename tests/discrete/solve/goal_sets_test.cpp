@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "feasibility/goal_choice.hpp"
+#include "feasibility/goal_reach.hpp"
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/plan_improver.hpp"
@@ -157,7 +158,7 @@ TEST(GoalSet, WhoCanGoWhereIsWithinTheMemoryLimit) {
 }
 
 TEST(GoalSet, FirstPlansAndTheirImprovementEndAtGoals) {
-  int found = 0;
+  int found = 0, num_priced = 0;
   for (std::uint64_t seed = 0; seed < scaled(100); ++seed) {
     Random random(seed);
     const Instance instance = with_more_goals(random, random_grid(random, {4, 6, 20, 3, 9}));
@@ -173,8 +174,21 @@ TEST(GoalSet, FirstPlansAndTheirImprovementEndAtGoals) {
     static_cast<void>(improver.improve(100'000, limits));
     ASSERT_TRUE(verify(instance, improver.plan()).valid()) << seed;
     ASSERT_LE(improver.cost(), plan->cost(Objective::sum_of_costs)) << seed;
+    const auto priced = price_goals(instance, limits);
+    if (!priced) continue;
+    ++num_priced;
+    PlanImprover fair(instance, priced->distances, Objective::sum_of_costs, *plan, 0);
+    Cost cost = plan->cost(Objective::sum_of_costs);
+    for (int step = 0; step < 200; ++step) {
+      static_cast<void>(fair.step(limits));
+      ASSERT_TRUE(verify(instance, fair.plan()).valid()) << seed;
+      ASSERT_EQ(fair.cost(), fair.plan().cost(Objective::sum_of_costs)) << seed;
+      ASSERT_LE(fair.cost(), cost) << seed;
+      cost = fair.cost();
+    }
   }
   EXPECT_GT(found, static_cast<int>(scaled(50)) - 1);
+  EXPECT_GT(num_priced, 0);
 }
 
 }  // namespace

@@ -108,6 +108,9 @@ class GoalDistances {
     return row(agent)[vertex];
   }
 
+  /// What a goal costs besides: 0 in a table without prices.
+  [[nodiscard]] Timestep price(VertexId goal) const { return prices_.empty() ? 0 : prices_[goal]; }
+
  private:
   friend class GoalDistancesInTheMaking;
   static constexpr std::uint16_t kNoWay = UINT16_MAX;
@@ -127,6 +130,7 @@ class GoalDistances {
   void pack(const std::vector<Timestep>& distances, std::uint8_t* bits, Timestep* centres) const;
 
   bool is_wide_ = false;
+  GoalPrices prices_;                        // Empty: none.
   std::vector<std::uint32_t> groups_;        // By vertex; without meaning in a wide table.
   std::vector<std::uint32_t> group_centre_;  // By group: a vertex.
   // By agent, then vertex or group.

@@ -25,7 +25,9 @@ namespace quadrille::discrete {
 /// The objective decides first. For the makespan the sum of costs breaks ties.
 class PlanImprover {
  public:
-  /// Requires that `plan` is a valid plan of `instance`, and `distances` its distances.
+  /// Requires that `plan` is a valid plan of `instance`, and `distances` its distances. With prices
+  /// of goals in them, for the sum of costs only, each agent takes the goal that is cheapest for
+  /// all rather than the nearest one that is free; costs are those without prices all the same.
   PlanImprover(const Instance& instance, std::shared_ptr<const GoalDistances> distances,
                Objective objective, const Plan& plan, std::uint32_t seed);
   ~PlanImprover();
