@@ -161,7 +161,9 @@ TEST(GoalSet, FirstPlansAndTheirImprovementEndAtGoals) {
   int found = 0, num_priced = 0;
   for (std::uint64_t seed = 0; seed < scaled(100); ++seed) {
     Random random(seed);
-    const Instance instance = with_more_goals(random, random_grid(random, {4, 6, 20, 3, 9}));
+    const Instance plain = random_grid(random, {4, 6, 20, 3, 9});
+    const Instance instance =
+        seed % 2 == 0 ? with_more_goals(random, plain) : with_group_goals(random, plain);
     LimitMonitor limits{Limits{}};
     const auto plan = find_plan(instance, limits, 0);
     const Feasibility verdict = check_feasibility(instance);
@@ -187,8 +189,9 @@ TEST(GoalSet, FirstPlansAndTheirImprovementEndAtGoals) {
       cost = fair.cost();
     }
   }
-  EXPECT_GT(found, static_cast<int>(scaled(50)) - 1);
-  EXPECT_GT(num_priced, 0);
+  if (scaled(100) < 100) return;  // too few to count on chance
+  EXPECT_GT(found, 50);
+  EXPECT_GT(num_priced, 10);
 }
 
 }  // namespace
