@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/breadth_first.hpp"
+#include "quadrille/core/contract.hpp"
 
 namespace quadrille::discrete {
 namespace {
@@ -57,7 +58,7 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
                                                          LimitMonitor& limits,
                                                          std::size_t most_plain) {
   std::shared_ptr<GoalDistances> table(new GoalDistances());
-  if (!table->prepare(instance, limits, most_plain)) return nullptr;
+  if (!table->prepare(instance.graph(), instance.num_agents(), limits, most_plain)) return nullptr;
   BreadthFirst search(instance.graph());
   for (const AgentId agent : instance.agent_ids())
     if (!table->fill(agent, instance.agents()[agent].goals, search, limits)) return nullptr;
@@ -69,7 +70,7 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
                                                          LimitMonitor& limits) {
   std::shared_ptr<GoalDistances> table(new GoalDistances());
   // Packed, as a price may be larger than what fits otherwise.
-  if (!table->prepare(instance, limits, 0)) return nullptr;
+  if (!table->prepare(instance.graph(), instance.num_agents(), limits, 0)) return nullptr;
   std::vector<Timestep> distances;
   for (const AgentId agent : instance.agent_ids()) {
     if (limits.exhausted_now()) return nullptr;
@@ -80,19 +81,18 @@ std::shared_ptr<const GoalDistances> GoalDistances::make(const Instance& instanc
   return table;
 }
 
-bool GoalDistances::prepare(const Instance& instance, LimitMonitor& limits,
+bool GoalDistances::prepare(const Graph& graph, std::size_t num_agents, LimitMonitor& limits,
                             std::size_t most_plain) {
-  const Graph& graph = instance.graph();
   is_wide_ = graph.is_directed();
   if (is_wide_) {
-    const std::size_t entries = instance.num_agents() * graph.num_vertices();
+    const std::size_t entries = num_agents * graph.num_vertices();
     if (!limits.has_room_for(entries * sizeof(Timestep))) return false;
     groups_.assign(graph.num_vertices(), 0);
     wide_.resize(entries);
     return true;
   }
   group(graph);
-  const std::size_t agents = instance.num_agents(), size = graph.num_vertices();
+  const std::size_t agents = num_agents, size = graph.num_vertices();
   const std::size_t bytes = num_bytes(), groups = group_centre_.size();
   const bool is_plain = agents * size * sizeof(std::uint16_t) <= most_plain &&
                         (size <= kNoWay || most_moves(graph) < kNoWay);
@@ -134,7 +134,8 @@ std::shared_ptr<const GoalDistances> GoalDistancesInTheMaking::join(LimitMonitor
   std::unique_lock lock(mutex_);
   if (table_ == nullptr) {
     std::shared_ptr<GoalDistances> table(new GoalDistances());
-    if (!table->prepare(instance_, limits, GoalDistances::kMostPlain)) return nullptr;
+    if (!table->prepare(instance_.graph(), agents, limits, GoalDistances::kMostPlain))
+      return nullptr;
     std::vector<AgentId> left;
     for (std::size_t k = agents; k > 0; --k) left.emplace_back(k - 1);
     // Memory may run out before, not between these.
@@ -168,6 +169,25 @@ std::shared_ptr<const GoalDistances> GoalDistancesInTheMaking::join(LimitMonitor
   }
   return table_;
 }
+
+ChangingGoalDistances::ChangingGoalDistances(const Graph& graph, std::size_t num_agents)
+    : table_(new GoalDistances()),
+      search_(std::make_unique<BreadthFirst>(graph)),
+      nothing_(graph.num_vertices(), 0) {
+  LimitMonitor no_limits{Limits{}};
+  const bool has_room = table_->prepare(graph, num_agents, no_limits, GoalDistances::kMostPlain);
+  QUADRILLE_REQUIRE(has_room, "without limits there is room");
+  for (std::size_t i = 0; i < num_agents; ++i) set_everywhere(AgentId(i));
+}
+
+ChangingGoalDistances::~ChangingGoalDistances() = default;
+
+void ChangingGoalDistances::set(AgentId agent, const Goals& goals) {
+  search_->run(goals.vertices());
+  table_->keep(agent, search_->distances());
+}
+
+void ChangingGoalDistances::set_everywhere(AgentId agent) { table_->keep(agent, nothing_); }
 
 /// Puts every vertex into a group with one at most kRadius away.
 void GoalDistances::group(const Graph& graph) {

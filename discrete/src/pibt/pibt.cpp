@@ -8,13 +8,16 @@ namespace quadrille::discrete {
 
 Pibt::Pibt(const Instance& instance, const GoalDistances& distances, Random& random,
            const Guidance* guide, Ties ties)
-    : instance_(instance),
-      graph_(instance.graph()),
+    : Pibt(instance.graph(), instance.num_agents(), distances, random, guide, ties) {}
+
+Pibt::Pibt(const Graph& graph, std::size_t num_agents, const GoalDistances& distances,
+           Random& random, const Guidance* guide, Ties ties)
+    : graph_(graph),
       distances_(distances),
       random_(random),
       guide_(guide),
       ties_(ties),
-      decided_(instance.num_agents(), 0),
+      decided_(num_agents, 0),
       occupant_(graph_.num_vertices(), kNobody),
       claimer_(graph_.num_vertices(), kNobody) {}
 
@@ -149,8 +152,7 @@ Pibt::Continuation Pibt::continuation(VertexId at, VertexId behind) const {
   for (const VertexId v : graph_.neighbours(at)) {
     if (v == behind) continue;
     const std::uint32_t other = occupant_[v];
-    if (other != kNobody && graph_.neighbours(v).size() == 1 &&
-        instance_.agents()[AgentId(other)].goal() == v)
+    if (other != kNobody && graph_.neighbours(v).size() == 1 && distances_(AgentId(other), v) == 0)
       continue;
     ++result.ways;
     result.vertex = v;

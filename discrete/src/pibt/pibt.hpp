@@ -36,6 +36,9 @@ class Pibt {
   /// follow it most of all; one off it is drawn to the goal by the distances.
   Pibt(const Instance& instance, const GoalDistances& distances, Random& random,
        const Guidance* guide = nullptr, Ties ties = Ties::random);
+  /// Of so many agents, whose goals may change between two calls: only the distances count.
+  Pibt(const Graph& graph, std::size_t num_agents, const GoalDistances& distances, Random& random,
+       const Guidance* guide = nullptr, Ties ties = Ties::random);
 
   /// Makes `to` a configuration that can follow `from` and obeys the orders; earlier agents in
   /// `priority` choose first. False if it found none, which with orders for all agents means that
@@ -78,7 +81,6 @@ class Pibt {
   [[nodiscard]] Continuation continuation(VertexId at, VertexId behind) const;
   void reset();
 
-  const Instance& instance_;
   const Graph& graph_;
   const GoalDistances& distances_;
   Random& random_;

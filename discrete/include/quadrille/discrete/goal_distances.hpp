@@ -113,11 +113,12 @@ class GoalDistances {
 
  private:
   friend class GoalDistancesInTheMaking;
+  friend class ChangingGoalDistances;
   static constexpr std::uint16_t kNoWay = UINT16_MAX;
   static constexpr Timestep kRadius = 7;
   GoalDistances() = default;
   /// Makes room. False: a limit was met.
-  [[nodiscard]] bool prepare(const Instance& instance, LimitMonitor& limits,
+  [[nodiscard]] bool prepare(const Graph& graph, std::size_t num_agents, LimitMonitor& limits,
                              std::size_t most_plain);
   /// Fills in the distances of one agent. False: a limit was met.
   [[nodiscard]] bool fill(AgentId agent, const Goals& goals, BreadthFirst& search,
@@ -157,6 +158,25 @@ class GoalDistancesInTheMaking {
   std::shared_ptr<GoalDistances> table_;
   std::vector<AgentId> left_;  // that nobody is at
   std::size_t num_done_ = 0;   // agents
+};
+
+/// The table of agents whose goals change. One thread at a time.
+class ChangingGoalDistances {
+ public:
+  /// To begin with all agents are everywhere at a goal. `graph` outlives the object.
+  ChangingGoalDistances(const Graph& graph, std::size_t num_agents);
+  ~ChangingGoalDistances();
+
+  /// O(V + E).
+  void set(AgentId agent, const Goals& goals);
+  /// Wherever it is is a goal. O(V).
+  void set_everywhere(AgentId agent);
+  [[nodiscard]] const GoalDistances& table() const noexcept { return *table_; }
+
+ private:
+  std::unique_ptr<GoalDistances> table_;
+  std::unique_ptr<BreadthFirst> search_;
+  std::vector<Timestep> nothing_;
 };
 
 }  // namespace quadrille::discrete
