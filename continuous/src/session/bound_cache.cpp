@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 
 namespace quadrille::continuous {
@@ -57,6 +58,41 @@ void BoundCache::add(const Situation& situation, Objective objective, const Solv
   if (answers_.size() > kMaxAnswers) answers_.pop_back();
 }
 
+void BoundCache::advance(const History& history) {
+  const Situation& before = history.before;
+  // What was done on a road that was closed then is no beginning of a plan of then.
+  std::erase_if(answers_, [&](const Answer& answer) {
+    const auto& closed = answer.situation.closed;
+    return !std::includes(before.closed.begin(), before.closed.end(), closed.begin(), closed.end());
+  });
+  const Ticks time = history.after.begin - before.begin;
+  for (Answer& answer : answers_) {
+    answer.elapsed += time;
+    for (std::size_t index = 0; index < answer.members.size(); ++index) {
+      const MemberId member = answer.members[index];
+      Path* const path = answer.plan ? &answer.plan->paths[AgentId(index)] : nullptr;
+      const auto now = before.tasks.find(member), then = history.after.tasks.find(member);
+      if (now == before.tasks.end() || then == history.after.tasks.end() ||
+          !is_same(answer, member, now->second)) {
+        answer.lost.insert(member);
+        continue;
+      }
+      answer.situation.tasks.at(member) = then->second;
+      const Later& done = history.members.at(member);
+      if (done.ends) answer.arrived.insert(member);
+      if (path == nullptr || path->empty()) continue;
+      Later planned = later(*path, time);
+      *path = planned.is_where(done) ? std::move(planned.rest) : Path();
+    }
+  }
+}
+
+bool BoundCache::is_same(const Answer& answer, MemberId member, const Task& now) {
+  const auto then = answer.situation.tasks.find(member);
+  return then != answer.situation.tasks.end() && then->second == now &&
+         !answer.lost.contains(member);
+}
+
 std::vector<GroupBound> BoundCache::bounds(const Situation& now, Objective objective) const {
   std::vector<GroupBound> bounds;
   for (const Answer& answer : answers_)
@@ -75,7 +111,7 @@ std::optional<GroupBound> BoundCache::bound_of(const Answer& answer, const Situa
   std::size_t index = 0;
   for (const auto& [member, task] : now.tasks) {
     const auto then = answer.situation.tasks.find(member);
-    if (then != answer.situation.tasks.end() && then->second == task)
+    if (is_same(answer, member, task) && !answer.arrived.contains(member))
       same[static_cast<std::size_t>(std::distance(answer.situation.tasks.begin(), then))] =
           AgentId(index);
     ++index;
@@ -105,6 +141,11 @@ std::optional<GroupBound> BoundCache::bound_of(const Answer& answer, const Situa
     if (proved.objective == Objective::sum_of_costs) bound.cost += proved.agents[then].free_cost;
     bound.agents.push_back(*same[then.index()]);
   }
+  // Everybody has spent so much of it, at most.
+  const auto times = proved.objective == Objective::makespan
+                         ? std::int64_t{1}
+                         : static_cast<std::int64_t>(bound.agents.size());
+  bound.cost -= times * as_cost(answer.elapsed);
   std::sort(bound.agents.begin(), bound.agents.end());
   return bound;
 }
@@ -128,10 +169,11 @@ IdVector<AgentId, Path> BoundCache::paths_of(const Answer& answer, const Situati
   for (const auto& [member, task] : now.tasks) {
     const AgentId i(index++);
     const auto then = answer.situation.tasks.find(member);
-    if (then == answer.situation.tasks.end() || !(then->second == task)) continue;
+    if (!is_same(answer, member, task)) continue;
     const AgentId then_i(
         static_cast<std::size_t>(std::distance(answer.situation.tasks.begin(), then)));
     Path path = answer.plan->paths[then_i];
+    if (path.empty()) continue;
     // The place of one that is under way may have another number now.
     path.front().vertex = instance.agent(i).start;
     if (is_open(instance, i, path)) paths[i] = std::move(path);

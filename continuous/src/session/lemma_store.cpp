@@ -22,6 +22,7 @@ class Passage {
  public:
   Passage(const Situation& then, const Situation& now, const Roadmap& base)
       : base_(base),
+        elapsed_(now.begin - then.begin),
         is_opened_(!std::includes(now.closed.begin(), now.closed.end(), then.closed.begin(),
                                   then.closed.end())) {
     for (const auto& [member, task] : then.tasks) {
@@ -33,7 +34,7 @@ class Passage {
       const Agent &before = task.agent, &after = at->second.agent;
       Fate fate;
       fate.now = AgentId(static_cast<std::size_t>(std::distance(now.tasks.begin(), at)));
-      fate.is_same = at->second == task;
+      fate.is_same = elapsed_ == 0 && at->second == task;
       fate.is_alike = before.body == after.body && before.shapes == after.shapes &&
                       before.speed == after.speed && before.group == after.group;
       fate.rests_alike =
@@ -65,8 +66,10 @@ class Passage {
 
   [[nodiscard]] std::optional<LevelCore> core(LevelCore core) const {
     for (Level& level : core) {
-      if (!fates_[level.agent].is_same) return std::nullopt;
-      level.agent = fates_[level.agent].now;
+      const Fate& fate = fates_[level.agent];
+      if (!fate.is_same && (elapsed_ == 0 || !fate.rests_alike)) return std::nullopt;
+      level.agent = fate.now;
+      level.cost -= as_cost(elapsed_);
     }
     return core;
   }
@@ -90,12 +93,28 @@ class Passage {
     if (obstacle.goal) {
       if (!fates_[obstacle.goal->resident].rests_alike) return std::nullopt;
       obstacle.goal->resident = fates_[obstacle.goal->resident].now;
+      obstacle.goal->from -= elapsed_;
+      if (obstacle.goal->from < 0) return std::nullopt;
       return obstacle;
     }
+    if (elapsed_ > 0 && !put_earlier(obstacle.bans)) return std::nullopt;
     std::erase_if(obstacle.partners, [&](AgentId then) { return !fates_[then].is_alike; });
     for (AgentId& partner : obstacle.partners) partner = fates_[partner].now;
     if (obstacle.partners.empty()) return std::nullopt;
     return obstacle;
+  }
+
+  /// Without what is over. False: the cause is.
+  [[nodiscard]] bool put_earlier(std::vector<Ban>& bans) const {
+    for (Ban& ban : bans) {
+      if (ban.is_end()) continue;
+      ban.when.begin -= elapsed_;
+      if (ban.when.end < kForever) ban.when.end -= elapsed_;
+    }
+    const auto is_over = [](const Ban& ban) { return ban.when.end <= 0; };
+    if (is_over(bans.front())) return false;
+    std::erase_if(bans, is_over);
+    return true;
   }
 
   /// Of lemmas that speak of costs, all of whose obstacles are there.
@@ -112,6 +131,7 @@ class Passage {
   }
 
   const Roadmap& base_;
+  const Ticks elapsed_;
   const bool is_opened_;  // some edge
   IdVector<AgentId, Fate> fates_;
 };

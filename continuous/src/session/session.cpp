@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/continuous/session.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/under_way.hpp"
+#include "quadrille/continuous/verify.hpp"
 #include "session/bound_cache.hpp"
+#include "session/history.hpp"
 #include "session/lemma_store.hpp"
 #include "solve/warm_start.hpp"
 #include "traffic/scene_store.hpp"
@@ -22,6 +25,33 @@ std::string name(EdgeId edge) { return "edge " + std::to_string(edge.index()); }
 
 Error no_member(MemberId member) { return invalid("there is no " + name(member)); }
 
+/// What the agent still has to do.
+Task rest_of(const Task& task, const Later& done, const Instance& instance, AgentId i) {
+  Task rest = task;
+  if (!done.moves) {
+    rest.under_way.reset();
+    rest.agent.under_way = false;
+    rest.agent.start = done.at;
+    return rest;
+  }
+  rest.agent.under_way = true;
+  rest.agent.release = 0;
+  if (done.is_first && task.under_way) {
+    rest.under_way->behind += done.begun;
+    return rest;
+  }
+  const ClassId c = instance.class_of(i);
+  const Ticks whole = done.begun + done.rest[1].arrive;
+  const auto out = instance.out_edges(c, done.at);
+  const auto edge = std::find_if(out.begin(), out.end(), [&](EdgeId e) {
+    return instance.roadmap().edge(e).to == done.to && instance.duration(c, e) == whole;
+  });
+  QUADRILLE_REQUIRE(edge != out.end(), "a valid plan moves along edges");
+  rest.agent.start = done.at;
+  rest.under_way = {*edge, done.begun};
+  return rest;
+}
+
 }  // namespace
 
 struct Session::Parts {
@@ -30,9 +60,10 @@ struct Session::Parts {
       : roadmap(std::move(the_roadmap)),
         resolution(the_resolution),
         obstacles(std::move(the_obstacles)),
-        begin(the_begin),
         store(roadmap),
-        lemmas(roadmap) {}
+        lemmas(roadmap) {
+    now.begin = the_begin;
+  }
 
   /// Of an instance that begins at 0.
   [[nodiscard]] Result<SolveOutcome> solve(const Instance& instance, const SolveOptions& options);
@@ -44,10 +75,9 @@ struct Session::Parts {
   std::shared_ptr<const Roadmap> roadmap;
   Resolution resolution;
   std::vector<MovingObstacle> obstacles;
-  Ticks begin;  // Instance::now
   std::size_t num_added = 0;
   Situation now;
-  // What is learned is in the times of searches, which count from `begin`.
+  // What is learned is in the times of searches, which count from `now.begin`.
   SceneStore store;
   BoundCache bounds;
   LemmaStore lemmas;
@@ -140,6 +170,45 @@ std::optional<Error> Session::put_under_way(MemberId member, EdgeId edge, Ticks 
   return std::nullopt;
 }
 
+std::optional<Error> Session::assign(MemberId member, const Goals& goals) {
+  const auto at = parts_->now.tasks.find(member);
+  if (at == parts_->now.tasks.end()) return no_member(member);
+  Agent agent = at->second.agent;
+  agent.goals = goals;
+  agent.under_way = false;
+  if (auto error = parts_->refuse(agent)) return error;
+  at->second.agent.goals = goals;
+  return std::nullopt;
+}
+
+std::optional<Error> Session::advance_to(Ticks now, const Plan& plan) {
+  const Ticks begin = parts_->now.begin;
+  if (now < begin)
+    return Error{ErrorCode::out_of_range,
+                 "time goes back from " + std::to_string(begin.value()) + " to " +
+                     std::to_string(now.value()),
+                 {}};
+  const auto instance = this->instance();
+  if (!instance) return instance.error();
+  const VerifyReport found = verify(*instance, plan);
+  if (!found.valid()) return Error{ErrorCode::invalid_plan, found.violations.front().message, {}};
+  if (now == begin) return std::nullopt;
+  History history{parts_->now, parts_->now, {}};
+  history.after.begin = now;
+  std::size_t index = 0;
+  for (const auto& [member, task] : history.before.tasks) {
+    const AgentId i(index++);
+    const Later& done = history.members.emplace(member, later(plan.paths[i], now)).first->second;
+    if (done.ends && task.agent.leaves)
+      history.after.tasks.erase(member);
+    else
+      history.after.tasks.at(member) = rest_of(task, done, *instance, i);
+  }
+  parts_->bounds.advance(history);
+  parts_->now = std::move(history.after);
+  return std::nullopt;
+}
+
 std::optional<Error> Session::close(EdgeId edge) {
   if (edge.index() >= parts_->roadmap->num_edges()) return invalid("there is no " + name(edge));
   if (!parts_->now.closed.insert(edge).second) return invalid(name(edge) + " is closed already");
@@ -165,11 +234,13 @@ const Agent& Session::agent(MemberId member) const {
 
 bool Session::is_closed(EdgeId edge) const { return parts_->now.closed.contains(edge); }
 
+Ticks Session::now() const noexcept { return parts_->now.begin; }
+
 Result<Instance> Session::instance() const {
   std::vector<Agent> agents;
   auto roads = parts_->roads(agents);
   return Instance::make(std::move(roads), std::move(agents), parts_->resolution, {},
-                        parts_->obstacles, parts_->begin);
+                        parts_->obstacles, parts_->now.begin);
 }
 
 Result<SolveOutcome> Session::solve(const SolveOptions& options) {

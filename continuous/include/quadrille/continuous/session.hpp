@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "quadrille/continuous/instance.hpp"
+#include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
@@ -29,7 +30,7 @@ using MemberId = StrongId<struct MemberTag>;
 /// searches have come to, the last 16 answers, and up to 3,000 lemmas and as many cores.
 class Session {
  public:
-  /// Requires a roadmap. The rest is as in Instance::make; `now` stays what it is.
+  /// Requires a roadmap. The rest is as in Instance::make.
   explicit Session(std::shared_ptr<const Roadmap> roadmap, Resolution resolution = {},
                    std::vector<MovingObstacle> obstacles = {}, Ticks now = 0);
   ~Session();
@@ -53,6 +54,15 @@ class Session {
   /// for an edge that does not exist or is not for the member's group; out_of_range for `behind`
   /// outside [0, duration).
   [[nodiscard]] std::optional<Error> put_under_way(MemberId member, EdgeId edge, Ticks behind);
+  /// Other goals, from where it is. Errors as for add.
+  [[nodiscard]] std::optional<Error> assign(MemberId member, const Goals& goals);
+  /// Time has gone on until the tick `now`, and everybody has followed the plan, one of
+  /// `instance()` (that of the last answer, or what has become of it where somebody was late). From
+  /// now on members begin where they are then: at a vertex, or under way on an edge; members that
+  /// leave and have arrived are removed. What was learned is learned of what is left of their ways.
+  /// Errors: out_of_range for a `now` that is over; those of instance(); invalid_plan, with the
+  /// first violation, if `verify` finds any.
+  [[nodiscard]] std::optional<Error> advance_to(Ticks now, const Plan& plan);
   /// For everybody, until it is opened. Errors: invalid_instance if there is no such edge, or it is
   /// closed (open) already.
   [[nodiscard]] std::optional<Error> close(EdgeId edge);
@@ -64,6 +74,8 @@ class Session {
   [[nodiscard]] const Agent& agent(MemberId member) const;
   [[nodiscard]] bool is_closed(EdgeId edge) const;
 
+  /// Until when time has gone on.
+  [[nodiscard]] Ticks now() const noexcept;
   /// As things are now. Edges that are closed are open to no group; ids are those of the roadmap.
   /// Errors: those of Instance::make.
   [[nodiscard]] Result<Instance> instance() const;
