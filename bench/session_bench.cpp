@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // How much faster a session answers after a change than a solve that knows nothing: CPU time of
-// both, by kind of change, on random roadmaps.
+// both, by kind of change, on random roadmaps. "time": a tenth of the plan has been followed;
+// "goals": likewise, and whoever has arrived has got another goal.
 //
-// usage: quadrille_session_bench [vertices agents changes gap]   default 200 20 40 0
+// usage: quadrille_session_bench [vertices agents changes gap [time]]   default 200 20 40 0; with a
+// fifth argument time goes on, and nothing else changes
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +22,8 @@ using namespace quadrille::continuous;
 
 namespace {
 
-constexpr std::array kKinds{"close", "open", "move", "remove", "add", "again"};
+constexpr std::array kKinds{"close", "open", "move", "remove", "add", "again", "time", "goals"};
+constexpr std::size_t kChanges = 6, kTime = 6, kGoals = 7;
 
 struct Row {
   int count = 0, open = 0;
@@ -57,6 +61,23 @@ class Bench {
     return true;
   }
 
+  /// Time goes on. Whether somebody has got another goal.
+  bool follow(const Plan& plan) {
+    const Cost length = std::max<Cost>(10, cost(plan, Objective::makespan));
+    static_cast<void>(session_.advance_to(session_.now() + as_ticks(length / 10), plan));
+    bool has_goals = false;
+    for (const MemberId member : session_.members()) {
+      const Agent& agent = session_.agent(member);
+      if (agent.under_way || !agent.goals.contains(agent.start)) continue;
+      has_goals = true;
+      do
+        static_cast<void>(
+            session_.assign(member, VertexId(draw(instance_.roadmap().num_vertices()))));
+      while (!session_.instance());
+    }
+    return has_goals;
+  }
+
  private:
   std::size_t draw(std::size_t count) { return static_cast<std::size_t>(random_.below(count)); }
 
@@ -86,6 +107,7 @@ int main(int argc, char** argv) {
   const double side = 3.2e6 * std::sqrt(static_cast<double>(shape.num_vertices));
   shape.width = shape.height = Length(static_cast<std::int64_t>(side));
   const std::size_t num_changes = number(argc, argv, 3, 40);
+  const bool goes_on = argc > 5;
   SolveOptions options;
   options.limits.cpu_s = 3;
   options.gap_percent = static_cast<double>(number(argc, argv, 4, 0));
@@ -94,16 +116,21 @@ int main(int argc, char** argv) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Instance instance = random_instance(shape, seed).value();
     Bench bench(instance, seed);
-    static_cast<void>(bench.session().solve(options));
+    std::optional<Plan> plan = bench.session().solve(options).value().plan;
     for (std::size_t k = 0; k < num_changes; ++k) {
-      const std::size_t kind = k % kKinds.size();
-      const auto now = bench.change(kind) ? bench.session().instance() : Error{};
+      std::size_t kind = k % kChanges;
+      if (goes_on && plan)
+        kind = bench.follow(*plan) ? kGoals : kTime;
+      else if (goes_on || !bench.change(kind))
+        continue;
+      const auto now = bench.session().instance();
       if (!now) continue;
       const double begin_s = thread_cpu_seconds();
       const SolveOutcome warm = bench.session().solve(options).value();
       const double middle_s = thread_cpu_seconds();
       const SolveOutcome cold = solve(*now, options).value();
       const double end_s = thread_cpu_seconds();
+      if (warm.plan) plan = warm.plan;
       const bool are_open = warm.stop == StopReason::cpu_time || cold.stop == StopReason::cpu_time;
       for (Row* row : {&rows[kind], &all}) {
         ++row->count;
@@ -113,6 +140,7 @@ int main(int argc, char** argv) {
       }
     }
   }
-  for (std::size_t kind = 0; kind < kKinds.size(); ++kind) print(kKinds[kind], rows[kind]);
+  for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
+    if (rows[kind].count > 0) print(kKinds[kind], rows[kind]);
   print("all", all);
 }

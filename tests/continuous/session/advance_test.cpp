@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -118,6 +120,7 @@ class Work {
 
   void change() {
     for (const MemberId member : session_.members()) {
+      if (draw(100) < 10) take_back(member);
       const Agent& agent = session_.agent(member);
       const bool is_there = !agent.under_way && agent.goals.contains(agent.start);
       if (draw(100) < (is_there ? 50U : 8U)) send(member);
@@ -130,6 +133,17 @@ class Work {
     if (draw(100) < 5 && session_.members().size() > 2) {
       const std::vector<MemberId> members = session_.members();
       ASSERT_FALSE(session_.remove(members[draw(members.size())]));
+    }
+  }
+  /// Something else, and the next time what it was before, as if it had not moved meanwhile.
+  void take_back(MemberId member) {
+    const Agent& agent = session_.agent(member);
+    if (const auto at = earlier_.find(member); at != earlier_.end()) {
+      ASSERT_FALSE(session_.change(member, at->second));
+      earlier_.erase(at);
+    } else if (!agent.under_way) {
+      earlier_.emplace(member, agent);
+      send(member);
     }
   }
   void send_all() {
@@ -157,6 +171,7 @@ class Work {
   const SolveOptions options_;
   Random random_;
   Session session_;
+  std::map<MemberId, Agent> earlier_;
 };
 
 RandomOptions roads(std::uint32_t seed) {
@@ -195,6 +210,60 @@ TEST(Session, LivesWhileTimeGoesOn) {
   RecordProperty("moments", history.moments);
   RecordProperty("without_search", tally.without_search);
   RecordProperty("from_lemmas", tally.from_lemmas);
+}
+
+/// From 0 to 2 straight by way of 1, or by way of 5, which is a little longer, or of 3, which is
+/// much longer. 4 is beside 1.
+class Ways : public ::testing::Test {
+ protected:
+  Ways()
+      : roads_(roadmap({{0, 0}, {1000, 0}, {2000, 0}, {1000, 3000}, {1000, -1000}, {1000, 500}},
+                       {{0, 1}, {1, 2}, {0, 3}, {3, 2}, {1, 4}, {0, 5}, {5, 2}})),
+        session_(roads_),
+        passer_(session_.add(agent(0, 2, 100)).value()),
+        resident_(session_.add(agent(1, 1, 100)).value()) {
+    for (std::size_t e = 0; e < roads_->num_edges(); ++e)
+      if (roads_->edge(EdgeId(e)).from == VertexId(0) && roads_->edge(EdgeId(e)).to == VertexId(5))
+        by_five_ = EdgeId(e);
+  }
+  /// As a solve that knows nothing says, too.
+  SolveOutcome solved() {
+    const auto warm = session_.solve({}), cold = solve(session_.instance().value(), {});
+    EXPECT_EQ(warm->status, Status::optimal);
+    EXPECT_EQ(warm->cost, cold->cost);
+    return warm.value();
+  }
+  const std::shared_ptr<const Roadmap> roads_;
+  Session session_;
+  const MemberId passer_, resident_;
+  EdgeId by_five_;
+};
+
+// A bound of two members, one of whom has had something else to do meanwhile.
+TEST_F(Ways, TasksOfEarlierTimesAreOthers) {
+  EXPECT_FALSE(session_.close(by_five_));
+  EXPECT_EQ(*solved().cost, 4000);  // it steps aside, and comes back
+  EXPECT_FALSE(session_.assign(resident_, VertexId(4)));
+  const SolveOutcome outcome = solved();
+  EXPECT_EQ(*outcome.cost, 3000);
+  EXPECT_FALSE(session_.advance_to(1500, *outcome.plan));
+  EXPECT_FALSE(session_.change(resident_, agent(1, 1, 100)));
+  EXPECT_EQ(*solved().cost, 500);
+}
+
+// A bound that was proved while an edge was closed, which is closed again after it was used.
+TEST_F(Ways, WhatWasDoneOnARoadThatWasClosedIsNoBeginning) {
+  Agent late = agent(1, 4, 100);
+  late.release = 5000;
+  EXPECT_FALSE(session_.change(resident_, late));
+  EXPECT_FALSE(session_.close(by_five_));
+  EXPECT_GT(*solved().cost, 12'000);
+  EXPECT_FALSE(session_.open(by_five_));
+  const SolveOutcome outcome = solved();
+  EXPECT_LT(*outcome.cost, 8300);
+  EXPECT_FALSE(session_.advance_to(1500, *outcome.plan));
+  EXPECT_FALSE(session_.close(by_five_));
+  EXPECT_LT(*solved().cost, 5300);
 }
 
 TEST(Session, WhoHasArrivedAndLeavesIsGone) {
