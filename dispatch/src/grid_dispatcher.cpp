@@ -76,7 +76,9 @@ class GridDispatcher::Parts {
                      vertex_name(*graph_, planner_.place(i)) + " to where it is sent");
     Task reachable = task;
     reachable.goals = Goals(std::move(goals));
-    robots_[i.index()].tasks.push_back({std::move(reachable), num_assigned_++});
+    Robot& robot = robots_[i.index()];
+    robot.tasks.push_back({std::move(reachable), num_assigned_++});
+    if (!robot.is_sent) send(i);
     return std::nullopt;
   }
 
@@ -90,6 +92,7 @@ class GridDispatcher::Parts {
     for (std::size_t k = 0; k < robots_.size(); ++k) finish(AgentId(k), news);
     news.effort = planner_.plan(options_.effort, limits);
     news.has_new_plan = true;
+    news.num_sent = std::exchange(num_sent_, 0);
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       const AgentId i(k);
       if (robots_[k].tasks.empty()) continue;
@@ -122,21 +125,23 @@ class GridDispatcher::Parts {
 
   void finish(AgentId i, News& news) {
     Robot& robot = robots_[i.index()];
-    for (;;) {
-      if (robot.is_sent && planner_.is_done(i)) {
-        news.served.push_back(i);
-        robot.tasks.pop_front();
-        robot.is_sent = false;
-        if (robot.tasks.empty()) planner_.release(i);
-      }
-      if (robot.is_sent || robot.tasks.empty()) return;
-      // It may be there already.
-      const Open& open = robot.tasks.front();
-      planner_.send(i, open.task.goals, static_cast<Timestep>(open.task.service.value()),
-                    rank(open));
-      robot.is_sent = true;
-      ++news.num_sent;
+    // It may be where its next task is already.
+    while (robot.is_sent && planner_.is_done(i)) {
+      news.served.push_back(i);
+      robot.tasks.pop_front();
+      robot.is_sent = false;
+      if (robot.tasks.empty())
+        planner_.release(i);
+      else
+        send(i);
     }
+  }
+  void send(AgentId i) {
+    Robot& robot = robots_[i.index()];
+    const Open& open = robot.tasks.front();
+    planner_.send(i, open.task.goals, static_cast<Timestep>(open.task.service.value()), rank(open));
+    robot.is_sent = true;
+    ++num_sent_;
   }
 
   const GridOptions options_;
@@ -145,6 +150,7 @@ class GridDispatcher::Parts {
   discrete::RollingPlanner planner_;
   std::vector<Robot> robots_;
   std::int64_t num_assigned_ = 0;
+  std::size_t num_sent_ = 0;  // since the last call
 };
 
 Result<GridDispatcher> GridDispatcher::make(std::shared_ptr<const Graph> graph,

@@ -49,7 +49,7 @@ class GridDispatcher {
 
   /// What the robot is to do after all that it has been told before. Errors: invalid_instance for a
   /// robot or a vertex that does not exist, or goals none of which it can reach; out_of_range for
-  /// times that are negative or too long.
+  /// times that are negative or too long. O(graph) if it has nothing else to do.
   [[nodiscard]] std::optional<Error> assign(AgentId robot, const Task& task);
   /// All that it has not been served with is forgotten.
   [[nodiscard]] std::optional<Error> cancel(AgentId robot);
