@@ -98,10 +98,13 @@ class Reader {
     Road::Edge edge;
     const Json* duration = nullptr;
     if (json.kind == '{') {
-      json.only({"from", "to", "duration", "groups"});
+      json.only({"from", "to", "duration", "groups", "speed_limit"});
       edge.from = vertex(json.at("from"));
       edge.to = vertex(json.at("to"));
       duration = json.find("duration");
+      if (const Json* limit = json.find("speed_limit")) edge.most_speed = speed(*limit);
+      if (duration != nullptr && edge.most_speed)
+        throw BadInput("an edge has a duration and a speed limit");
       if (const Json* groups = json.find("groups")) {
         edge.groups = 0;
         for (const Json* group : groups->list())
@@ -174,6 +177,12 @@ class Reader {
     if (!leaves) motions.back().end = kNever;
   }
 
+  [[nodiscard]] Int speed(const Json& json) const {
+    const double value = json.any_number();
+    const double units = length_ == time_ ? value : multiplied(divided(value, length_), time_);
+    return whole(std::round(units * 1e6), 1, "speed");
+  }
+
   void read_agent(const Json& json) {
     json.only({"start", "goal", "goals", "radius", "polygon", "speed", "group", "release",
                "deadline", "at_start", "at_goal", "name"});
@@ -184,10 +193,8 @@ class Reader {
     agent.start = vertex(json.at("start"));
     agent.goal = vertex(json.at("goal"));
     agent.body = body(json);
-    if (const Json* speed = json.find("speed")) {
-      const double value = speed->any_number();
-      const double units = length_ == time_ ? value : multiplied(divided(value, length_), time_);
-      agent.speed = whole(std::round(units * 1e6), 1, "speed");
+    if (const Json* given = json.find("speed")) {
+      agent.speed = speed(*given);
     } else if (length_ != time_) {
       agent.speed = whole(std::round(multiplied(divided(1, length_), time_) * 1e6), 1, "speed");
     }
@@ -209,8 +216,9 @@ class Reader {
                         &b = road_.points[static_cast<std::size_t>(edge.to)];
       Wide squared = 0;
       for (std::size_t k = 0; k < 3; ++k) squared += static_cast<Wide>(b[k] - a[k]) * (b[k] - a[k]);
-      const long double ticks = std::round(std::sqrt(static_cast<long double>(squared)) * 1000000 /
-                                           static_cast<long double>(speed));
+      const long double ticks =
+          std::round(std::sqrt(static_cast<long double>(squared)) * 1000000 /
+                     static_cast<long double>(std::min(speed, edge.most_speed.value_or(speed))));
       const bool is_possible = ticks >= 1 && ticks <= static_cast<long double>(kMost);
       durations.push_back(edge.duration ? *edge.duration
                                         : (is_possible ? static_cast<Int>(ticks) : 0));

@@ -305,6 +305,8 @@ Result<Dispatcher> Dispatcher::make(std::shared_ptr<const Roadmap> roadmap,
   if (instance->has_shapes())
     return invalid(
         "bodies that change on the way are not supported here: take the discs around them");
+  if (!instance->roadmap().no_waiting().empty())
+    return invalid("places where nobody may wait are not supported here: who is late waits");
   if (!instance->roadmap().lane_places().empty())
     return invalid("robots begin at vertices, and not in the middle of moves");
   return Dispatcher(std::make_unique<Parts>(*instance, options));

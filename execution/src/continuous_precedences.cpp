@@ -161,6 +161,11 @@ Result<Precedences> precedences(const Instance& instance, const continuous::Plan
     return Error{ErrorCode::invalid_instance,
                  "agents overlap at their starts: no order of moves keeps them apart there",
                  {}};
+  if (!instance.roadmap().no_waiting().empty())
+    return Error{ErrorCode::invalid_instance,
+                 "there are places where nobody may wait: no order of moves keeps robots that are "
+                 "late from it",
+                 {}};
   const auto report = continuous::verify(instance, plan);
   if (!report.valid()) return Error{ErrorCode::invalid_plan, report.violations.front().message, {}};
   return Finder(instance, plan).run();

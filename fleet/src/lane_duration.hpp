@@ -15,7 +15,8 @@ namespace quadrille::fleet {
     const continuous::Roadmap& roads, const continuous::Agent& agent, VertexId from, VertexId to) {
   for (const continuous::EdgeId e : roads.out_edges(from)) {
     const continuous::Edge& edge = roads.edge(e);
-    if (edge.to == to && edge.duration && edge.open_to.contains(agent.group)) return edge.duration;
+    if (edge.to == to && edge.open_to.contains(agent.group))
+      return continuous::travel_time(roads, edge, agent.speed);
   }
   if (roads.position(from) == roads.position(to)) return std::nullopt;
   return continuous::travel_time(roads.position(from), roads.position(to), agent.speed);

@@ -167,7 +167,8 @@ class PoseBuilder::Poses {
         if (angle_between(headings[a], direction) <= members.kind.steer.value() + kSameHeading)
           add(groups, intersection(members.groups, lane.open_to));
       if (!groups.is_empty())
-        edges.push_back({pose(lane.from, a), to, lane.duration, groups, shape(headings[a], faced)});
+        edges.push_back({pose(lane.from, a), to, lane.duration, groups, shape(headings[a], faced),
+                         lane.speed_limit});
     }
   }
 
@@ -250,6 +251,7 @@ Result<PoseRoadmap> PoseBuilder::build() const {
   std::vector<continuous::Point> points;
   std::vector<continuous::Edge> edges;
   std::vector<continuous::ShapeId> shapes;
+  std::vector<VertexId> no_waiting;
   std::vector<std::string> names;
   std::map<std::string, VertexId, std::less<>> by_name;
   for (const VertexId place : places_.vertex_ids()) {
@@ -261,6 +263,7 @@ Result<PoseRoadmap> PoseBuilder::build() const {
       result.places_.push_back(place);
       result.headings_.push_back(Radians(heading));
       points.push_back(roads.position(place));
+      if (!roads.may_wait(place)) no_waiting.push_back(pose);
       shapes.push_back(poses.shape(heading, heading));
       names.push_back(places_.name(place) + " facing " + to_string(Radians(heading)));
       if (is_named) by_name.emplace(names.back(), pose);
@@ -269,7 +272,8 @@ Result<PoseRoadmap> PoseBuilder::build() const {
   }
   for (const continuous::Edge& lane : roads.edges())
     poses.add_lane(lane, direction(roads, lane).value(), edges);
-  auto made = continuous::Roadmap::make(std::move(points), std::move(edges), {}, std::move(shapes));
+  auto made = continuous::Roadmap::make(std::move(points), std::move(edges), {}, std::move(shapes),
+                                        std::move(no_waiting));
   if (!made) return made.error();
   Roadmap& roadmap = result.roadmap_;
   roadmap.roads_ = std::make_shared<const continuous::Roadmap>(std::move(made).value());

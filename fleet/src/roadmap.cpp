@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/fleet/roadmap.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "conversions.hpp"
+#include "quadrille/continuous/quantise.hpp"
 
 namespace quadrille::fleet {
 namespace {
@@ -16,6 +18,16 @@ std::string text(const Point& place) {
 }
 
 Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+
+/// The same, alike for all who say the same.
+LaneSpec in_order(LaneSpec spec) {
+  std::sort(spec.only.begin(), spec.only.end());
+  spec.only.erase(std::unique(spec.only.begin(), spec.only.end()), spec.only.end());
+  std::stable_sort(
+      spec.kinds.begin(), spec.kinds.end(),
+      [](const LaneSpec::Kind& a, const LaneSpec::Kind& b) { return a.group < b.group; });
+  return spec;
+}
 
 }  // namespace
 
@@ -66,6 +78,11 @@ RoadmapBuilder& RoadmapBuilder::lane(VertexId from, VertexId to, LaneSpec spec) 
   return *this;
 }
 
+RoadmapBuilder& RoadmapBuilder::no_waiting(VertexId v) {
+  no_waiting_.push_back(v);
+  return *this;
+}
+
 RoadmapBuilder& RoadmapBuilder::close(VertexId a, VertexId b) {
   std::erase_if(lanes_, [&](const Lane& lane) {
     return (lane.from == a && lane.to == b) || (lane.from == b && lane.to == a);
@@ -100,10 +117,70 @@ Result<std::vector<continuous::Point>> RoadmapBuilder::rounded_places() const {
   return points;
 }
 
+Result<continuous::Groups> RoadmapBuilder::groups(const LaneSpec& spec,
+                                                  const std::string& what) const {
+  continuous::Groups open_to = spec.only.empty() ? continuous::Groups::all() : continuous::Groups{};
+  for (const Group group : spec.only) {
+    if (!is_made(group))
+      return invalid(what + ": it is for a group that this builder has not made");
+    open_to.insert(group);
+  }
+  return open_to;
+}
+
+std::optional<Error> RoadmapBuilder::set_pace(continuous::Edge& edge,
+                                              std::optional<MetresPerSecond> speed_limit,
+                                              std::optional<Seconds> duration,
+                                              const std::string& what) const {
+  const continuous::Resolution sizes(resolution_.length.value(), resolution_.time.value());
+  const auto unsupported = [&](const std::string& given) {
+    return Error{ErrorCode::out_of_range,
+                 what + ": " + given + " is not supported at a resolution of " +
+                     to_string(resolution_.length) + " and " + to_string(resolution_.time),
+                 {}};
+  };
+  if (speed_limit && duration) return invalid(what + ": it has a duration and a speed limit");
+  if (speed_limit) {
+    edge.speed_limit = continuous::quantise_speed(speed_limit->value(), sizes);
+    if (!edge.speed_limit) return unsupported("a speed limit of " + to_string(*speed_limit));
+  }
+  if (duration) {
+    edge.duration = *duration > Seconds(0) ? time_to_units(*duration, true, sizes) : std::nullopt;
+    if (!edge.duration) return unsupported("a duration of " + to_string(*duration));
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> RoadmapBuilder::add_edges(const Lane& lane, const std::string& what,
+                                               std::vector<continuous::Edge>& edges) const {
+  const auto open_to = groups(lane.spec, what);
+  if (!open_to) return open_to.error();
+  continuous::Groups others, told;
+  for (const LaneSpec::Kind& kind : lane.spec.kinds) {
+    if (!is_made(kind.group) || !open_to->contains(kind.group) || told.contains(kind.group))
+      return invalid(what + ": it has a limit or a duration for a group that may not use it, or " +
+                     "two for one group");
+    told.insert(kind.group);
+  }
+  for (std::size_t g = 0; g < continuous::kMaxGroups; ++g)
+    if (open_to->contains(Group(g)) && !told.contains(Group(g))) others.insert(Group(g));
+  if (!others.is_empty()) {
+    continuous::Edge edge{lane.from, lane.to, std::nullopt, others};
+    if (auto error = set_pace(edge, lane.spec.speed_limit, lane.spec.duration, what)) return error;
+    edges.push_back(edge);
+  }
+  for (const LaneSpec::Kind& kind : lane.spec.kinds) {
+    continuous::Edge edge{lane.from, lane.to, std::nullopt, {kind.group}};
+    if (auto error = set_pace(edge, kind.speed_limit, kind.duration, what)) return error;
+    edges.push_back(edge);
+  }
+  return std::nullopt;
+}
+
 Result<std::vector<continuous::Edge>> RoadmapBuilder::edges(
     const std::vector<continuous::Point>& points) const {
   std::vector<continuous::Edge> edges;
-  std::map<std::pair<VertexId, VertexId>, continuous::Groups> known;
+  std::map<std::pair<VertexId, VertexId>, LaneSpec> known;
   for (const Lane& lane : lanes_) {
     const VertexId from = lane.from, to = lane.to;
     const std::string what = "a lane from " + name_of(from) + " to " + name_of(to);
@@ -113,18 +190,13 @@ Result<std::vector<continuous::Edge>> RoadmapBuilder::edges(
     if (points[from.index()] == points[to.index()])
       return invalid(what + ": both are in the same place" +
                      (from == to ? "" : " at a resolution of " + to_string(resolution_.length)));
-    continuous::Groups open_to =
-        lane.spec.only.empty() ? continuous::Groups::all() : continuous::Groups{};
-    for (const Group group : lane.spec.only) {
-      if (group.index() < 1 || group.index() > num_groups_)
-        return invalid(what + ": it is for a group that this builder has not made");
-      open_to.insert(group);
+    const auto [at, is_new] = known.try_emplace({from, to}, in_order(lane.spec));
+    if (is_new) {
+      if (auto error = add_edges(lane, what, edges)) return *error;
+    } else if (const LaneSpec again = in_order(lane.spec); at->second != again) {
+      return invalid(what + ": it is given twice, " +
+                     (at->second.only != again.only ? "to different groups" : "in different ways"));
     }
-    const auto [at, is_new] = known.try_emplace({from, to}, open_to);
-    if (is_new)
-      edges.push_back({from, to, std::nullopt, open_to});
-    else if (at->second != open_to)
-      return invalid(what + ": it is given twice, to different groups");
   }
   return edges;
 }
@@ -144,7 +216,16 @@ Result<Roadmap> RoadmapBuilder::build() const {
 
   auto edges = this->edges(*points);
   if (!edges) return edges.error();
-  auto roads = continuous::Roadmap::make(std::move(points).value(), std::move(edges).value());
+  std::vector<VertexId> passed = no_waiting_;
+  std::sort(passed.begin(), passed.end());
+  for (std::size_t k = 0; k < passed.size(); ++k) {
+    const std::string who = "nobody may wait at " + name_of(passed[k]);
+    if (passed[k].index() >= places_.size())
+      return invalid(who + ": there are only " + std::to_string(places_.size()) + " vertices");
+    if (k > 0 && passed[k - 1] == passed[k]) return invalid(who + ": that is told twice");
+  }
+  auto roads = continuous::Roadmap::make(std::move(points).value(), std::move(edges).value(), {},
+                                         {}, std::move(passed));
   if (!roads) return roads.error();
   Roadmap roadmap;
   roadmap.resolution_ = resolution_;

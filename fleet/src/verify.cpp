@@ -6,9 +6,10 @@
 namespace quadrille::fleet {
 namespace {
 
-/// What robot `i` does wrong; `when` is the time, if it has one.
+/// What a robot does wrong; `when` is the time, if it has one, `is_at_begin` whether that is when
+/// all begin.
 std::string message(const Fleet& fleet, const continuous::Violation& violation,
-                    const std::string& when) {
+                    const std::string& when, bool is_at_begin) {
   using Kind = continuous::Violation::Kind;
   // A plan may have more paths than the fleet has robots.
   const bool is_known = violation.agent.index() < fleet.num_robots();
@@ -37,6 +38,7 @@ std::string message(const Fleet& fleet, const continuous::Violation& violation,
     case Kind::not_adjacent:
       return robot + "moves along no lane at " + when;
     case Kind::waits:
+      if (!is_at_begin) return robot + "waits where nobody may, from " + when + " on";
       return robot + "stops at its start, where it is in the middle of a move";
     case Kind::duration:
       return robot + "takes longer or shorter for a lane than it does at its speed, at " + when;
@@ -69,8 +71,9 @@ Result<VerifyReport> verify(const Fleet& fleet, const continuous::Plan& plan,
   VerifyReport report;
   for (const continuous::Violation& violation : found.violations) {
     const Seconds time = in_seconds(violation.tick, resolution);
-    report.violations.push_back({violation.kind, violation.agent, violation.other, time,
-                                 message(fleet, violation, to_string(time))});
+    report.violations.push_back(
+        {violation.kind, violation.agent, violation.other, time,
+         message(fleet, violation, to_string(time), violation.tick == instance->now())});
   }
   for (const continuous::Clearance& clearance : found.clearances)
     report.clearances.push_back({clearance.agent, clearance.other,

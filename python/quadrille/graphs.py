@@ -114,6 +114,9 @@ class Roadmap:
         edges: int[m, 2], from and to. An edge leads one way.
         durations: float[m], how long the move along an edge takes whoever makes it, in your unit of
             time; NaN, or no array: its length divided by the speed of the agent.
+        speed_limits: float[m], nobody goes faster along the edge; NaN, or no array: as fast as the agent
+            is. Not on an edge with a duration. For one kind of agents: an edge of its own, ``only`` for
+            them, beside one for the others.
         both_ways: Whether each edge may also be used backwards, with the same duration.
         resolution: Size of a length unit and of a tick in your units, or both: (length, time).
             Lengths and times are whole numbers of these, and exact from there on. Places are
@@ -122,10 +125,12 @@ class Roadmap:
         only: m entries, who may use an edge: None for all agents, or the name of a group, or several
             names, for the agents of these groups only (None among them: agents without a group). At most
             63 groups, named by strings.
+        no_waiting: Vertices at which nobody may wait: who comes there goes on at once. Nobody starts or
+            stays there.
 
     Raises:
         InputError: for loops, vertices that do not exist, numbers that are too large for the
-            resolution, edges of length zero without a duration.
+            resolution, edges of length zero without a duration, edges with a duration and a speed limit.
     """
 
     _graph: _core.TimedGraph
@@ -140,21 +145,38 @@ class Roadmap:
         resolution: Resolution = DEFAULT_RESOLUTION,
         nodes: Optional[Sequence[Hashable]] = None,
         only: Optional[Sequence[Only]] = None,
+        speed_limits: Optional[npt.ArrayLike] = None,
+        no_waiting: Sequence[Any] = (),
     ) -> None:
         places = with_places(xy, "xy")
         ends = ints(edges, "edges", (None, 2))
         times: npt.NDArray[np.float64] = np.full(len(ends), np.nan)
         if durations is not None:
             times = doubles(durations, "durations", (len(ends),))
+        limits: npt.NDArray[np.float64] = np.full(len(ends), np.nan)
+        if speed_limits is not None:
+            limits = doubles(speed_limits, "speed_limits", (len(ends),))
         masks, groups = open_to(only, len(ends))
         sizes = listed(doubles(np.broadcast_to(resolution, 2), "resolution", (2,)))
         if not all(0 < size < float("inf") for size in sizes):
             raise ValueError("resolution: a resolution is positive")
         pair = (sizes[0], sizes[1])
-        graph = _core.TimedGraph(places, ends, times, masks, pair, both_ways)
+        passed = self._passed(no_waiting, nodes)
+        graph = _core.TimedGraph(places, ends, times, limits, masks, passed, pair, both_ways)
         self._setup(graph, pair, groups)
         if nodes is not None:
             self._name_nodes(nodes)
+
+    @staticmethod
+    def _passed(places: Sequence[Any], nodes: Optional[Sequence[Hashable]]) -> npt.NDArray[np.int64]:
+        """Numbers of the vertices at which nobody may wait, of a roadmap with these names."""
+        if nodes is None or len(places) == 0:
+            return ints(places if len(places) else np.zeros(0, np.int64), "no_waiting", (None,))
+        number = {node: at for at, node in enumerate(nodes)}
+        for at, place in enumerate(places):
+            if place not in number:
+                raise InputError(f"no_waiting[{at}]: the roadmap has no vertex called {place!r}")
+        return ints([number[place] for place in places], "no_waiting", (None,))
 
     def _setup(
         self, graph: _core.TimedGraph, resolution: tuple[float, float], groups: list[str]
@@ -254,6 +276,16 @@ class Roadmap:
     def durations(self) -> npt.NDArray[np.float64]:
         """float64[m], in your unit of time, NaN where the agent's speed decides; read-only."""
         return self._graph.durations(self._resolution)
+
+    @property
+    def speed_limits(self) -> npt.NDArray[np.float64]:
+        """float64[m], in your units, NaN where there is none; read-only."""
+        return self._graph.speed_limits(self._resolution)
+
+    @property
+    def no_waiting(self) -> npt.NDArray[np.int64]:
+        """int64[k], the vertices at which nobody may wait, ascending; read-only."""
+        return self._graph.no_waiting()
 
     @property
     def groups(self) -> list[str]:

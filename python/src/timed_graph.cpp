@@ -2,6 +2,7 @@
 // Roadmaps: vertices in the plane or in space and directed edges.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -44,10 +45,12 @@ std::uint64_t bits_of(const continuous::Groups& groups) {
   return bits;
 }
 
-/// `xy`: [n, 2], or [n, 3] with heights, `edges`: [m, 2], `durations`: [m], NaN for none,
-/// `open_to`: [m], groups. `both_ways`: each edge is followed by its reverse.
+/// `xy`: [n, 2], or [n, 3] with heights, `edges`: [m, 2], `durations` and `limits` (of speeds):
+/// [m], NaN for none, `open_to`: [m], groups, `no_waiting`: vertices. `both_ways`: each edge is
+/// followed by its reverse.
 std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const Doubles& durations,
-                                    const Bits& open_to, const Sizes& sizes, bool both_ways) {
+                                    const Doubles& limits, const Bits& open_to,
+                                    const Ints& no_waiting, const Sizes& sizes, bool both_ways) {
   const Resolution resolution = resolution_of(sizes);
   const auto coordinates = xy.unchecked<2>();
   std::vector<Point> points;
@@ -62,6 +65,7 @@ std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const 
   }
   const auto ends = edges.unchecked<2>();
   const auto times = durations.unchecked<1>();
+  const auto speeds = limits.unchecked<1>();
   std::vector<continuous::Edge> list;
   for (py::ssize_t e = 0; e < ends.shape(0); ++e) {
     const std::string name = entry("edges", e);
@@ -74,6 +78,11 @@ std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const 
       if (!edge.duration)
         refuse(entry("durations", e) + ": the duration is less than one tick, or too long");
     }
+    if (!std::isnan(speeds(e))) {
+      if (edge.duration) refuse(name + " has a duration and a speed limit");
+      edge.speed_limit = continuous::quantise_speed(speeds(e), resolution);
+      if (!edge.speed_limit) refuse(entry("speed_limits", e) + ": the speed is not supported");
+    }
     if (edge.from == edge.to)
       refuse(name + " leads from vertex " + number(edge.from) + " to itself");
     if (!edge.duration && points[edge.from.index()] == points[edge.to.index()])
@@ -84,7 +93,15 @@ std::shared_ptr<Roadmap> roadmap_of(const Doubles& xy, const Ints& edges, const 
     std::swap(edge.from, edge.to);
     list.push_back(edge);
   }
-  return std::make_shared<Roadmap>(take(Roadmap::make(std::move(points), std::move(list))));
+  std::vector<VertexId> passed;
+  for (py::ssize_t k = 0; k < no_waiting.shape(0); ++k) {
+    const VertexId v = vertex_of(no_waiting.at(k), points.size(), entry("no_waiting", k));
+    if (std::find(passed.begin(), passed.end(), v) != passed.end())
+      refuse(entry("no_waiting", k) + ": vertex " + number(v) + " is there twice");
+    passed.push_back(v);
+  }
+  return std::make_shared<Roadmap>(
+      take(Roadmap::make(std::move(points), std::move(list), {}, {}, std::move(passed))));
 }
 
 /// `free`: [h, w], the cells of a grid on which robots turn. The vertices are the poses, by cell,
@@ -150,6 +167,23 @@ py::array durations_of(const Roadmap& roadmap, const Sizes& sizes) {
   return frozen(array);
 }
 
+py::array limits_of(const Roadmap& roadmap, const Sizes& sizes) {
+  const Resolution resolution = resolution_of(sizes);
+  auto array = new_array<double>({roadmap.num_edges()});
+  double* to = array.mutable_data();
+  for (const continuous::Edge& edge : roadmap.edges())
+    *to++ = edge.speed_limit ? continuous::speed_in_input_units(*edge.speed_limit, resolution)
+                             : std::nan("");
+  return frozen(array);
+}
+
+py::array no_waiting_of(const Roadmap& roadmap) {
+  auto array = new_array<std::int64_t>({roadmap.no_waiting().size()});
+  std::int64_t* to = array.mutable_data();
+  for (const VertexId v : roadmap.no_waiting()) *to++ = static_cast<std::int64_t>(v.index());
+  return frozen(array);
+}
+
 py::array open_to_of(const Roadmap& roadmap) {
   auto array = new_array<std::uint64_t>({roadmap.num_edges()});
   std::uint64_t* to = array.mutable_data();
@@ -169,6 +203,8 @@ void bind_timed_graph(py::module_& module) {
       .def("xy", &coordinates_of)
       .def("edges", &edges_of)
       .def("durations", &durations_of)
+      .def("speed_limits", &limits_of)
+      .def("no_waiting", &no_waiting_of)
       .def("open_to", &open_to_of);
   module.def("heading_names", &heading_names);
   module.attr("pose_resolution") =

@@ -111,14 +111,19 @@ void set_rules(const py::dict& rules, const Resolution& resolution, const Words&
   }
 }
 
-/// How long the move takes the agent: as the roadmap says, or by its speed, of edges that are not
-/// there as well.
+/// How long the move takes the agent: as the roadmap says of an edge for it, or of another one, or
+/// by its speed, where there is none.
 Ticks move_of(const Roadmap& roadmap, VertexId from, VertexId to, const continuous::Agent& made,
               const std::string& who) {
-  for (const continuous::EdgeId e : roadmap.out_edges(from))
-    if (roadmap.edge(e).to == to && roadmap.edge(e).duration) return *roadmap.edge(e).duration;
   const Point &begin = roadmap.position(from), &end = roadmap.position(to);
-  const auto duration = continuous::travel_time(begin, end, made.speed);
+  continuous::Edge edge{from, to, {}, {}};
+  for (const continuous::EdgeId e : roadmap.out_edges(from)) {
+    const bool is_better = edge.open_to.is_empty() || roadmap.edge(e).open_to.contains(made.group);
+    if (roadmap.edge(e).to == to && is_better && !edge.open_to.contains(made.group))
+      edge = roadmap.edge(e);
+  }
+  if (edge.duration) return *edge.duration;
+  const auto duration = continuous::travel_time(roadmap, edge, made.speed);
   if (begin == end || !duration)
     refuse(who + " is in the middle of a move that takes less than half a tick, or too long");
   return *duration;

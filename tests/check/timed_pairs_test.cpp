@@ -136,7 +136,7 @@ struct Case {
 Case draw(std::uint32_t seed) {
   Random random(seed);
   RandomOptions asked;
-  asked.shapes_percent = 0;  // refused
+  asked.shapes_percent = asked.no_waiting_percent = 0;  // refused
   asked.num_agents = 2;
   asked.num_vertices = 4 + seed % 4;
   asked.edge_percent = 40 + static_cast<int>(seed / 4 % 2) * 20;

@@ -42,7 +42,7 @@ struct Case {
 Case draw(std::uint32_t seed) {
   Random random(seed);
   RandomOptions asked;
-  asked.shapes_percent = 0;  // refused
+  asked.shapes_percent = asked.no_waiting_percent = 0;  // refused
   asked.num_agents = 2 + seed % 4;
   asked.num_vertices = 4 + seed / 4 % 8;
   asked.edge_percent = 30 + static_cast<int>(seed / 8 % 3) * 15;
@@ -332,7 +332,7 @@ TEST(TimedCertificate, DoesNotProveWhatTheUserClaims) {
 
 TEST(TimedCertificate, RefusesWhatThereIsNoRuleFor) {
   RandomOptions asked;
-  asked.shapes_percent = 0;  // refused
+  asked.shapes_percent = asked.no_waiting_percent = 0;  // refused
   SolveOptions options;
   options.proof = true;
   const auto refusal = [&](std::uint32_t seed) {
@@ -346,6 +346,9 @@ TEST(TimedCertificate, RefusesWhatThereIsNoRuleFor) {
   asked.shapes_percent = 100;
   asked.space_percent = 0;
   EXPECT_NE(refusal(2).find("bodies change"), std::string::npos);
+  asked.shapes_percent = 0;
+  asked.no_waiting_percent = 100;
+  EXPECT_NE(refusal(3).find("nobody may wait"), std::string::npos);
   // In the middle of a move of five ticks, two of which lie behind.
   auto roadmap =
       Roadmap::make({{0, 0}, {10, 0}, {4, 0}},

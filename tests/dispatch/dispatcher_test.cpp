@@ -10,6 +10,7 @@
 
 #include "dispatch/simulated_fleet.hpp"
 #include "dispatch/towns.hpp"
+#include "quadrille/continuous/under_way.hpp"
 #include "support/environment.hpp"
 
 namespace quadrille::dispatch::test {
@@ -173,6 +174,11 @@ TEST(Dispatcher, RefusesWhatMakesNoSense) {
   robots[1].start = robots[0].start;
   EXPECT_EQ(Dispatcher::make(roadmap, robots).error().message,
             "the starts of agents 0 and 1 overlap");
+  continuous::RoadmapParts parts(*roadmap);
+  parts.no_waiting = {VertexId(5)};
+  const auto passed = std::make_shared<const continuous::Roadmap>(std::move(parts).make().value());
+  EXPECT_EQ(Dispatcher::make(passed, robots_on(*roadmap, 2, 1)).error().message,
+            "places where nobody may wait are not supported here: who is late waits");
   Dispatcher dispatcher = Dispatcher::make(roadmap, robots_on(*roadmap, 2, 1)).value();
   EXPECT_EQ(dispatcher.assign(AgentId(2), {VertexId(0)})->message, "there is no robot 2");
   EXPECT_EQ(dispatcher.assign(AgentId(1), {VertexId(6)})->message,

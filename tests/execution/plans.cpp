@@ -18,7 +18,8 @@ std::optional<ContinuousCase> continuous_case(std::uint32_t seed, std::size_t ag
   shape.num_vertices = agents * 5;
   shape.size = geometry::Length(static_cast<std::int64_t>(15 + 20 * agents));
   shape.max_radius = 6;
-  shape.obstacles_percent = 0;  // they wait for nobody
+  shape.obstacles_percent = 0;   // they wait for nobody
+  shape.no_waiting_percent = 0;  // who is late waits
   shape.edge_percent = agents > 4 ? 12 : 30;
   const continuous::Instance instance = continuous::test::random_instance(seed, shape);
   continuous::SolveOptions options;

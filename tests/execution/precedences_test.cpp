@@ -64,6 +64,18 @@ TEST(Precedences, APlanWithACollisionIsRefused) {
   EXPECT_NE(refused.error().message.find("agent"), std::string::npos) << refused.error().message;
 }
 
+TEST(Precedences, PlacesWhereNobodyMayWaitAreRefused) {
+  auto roadmap = continuous::Roadmap::make({{0, 0}, {10, 0}, {20, 0}},
+                                           {{v(0), v(1), {}}, {v(1), v(2), {}}}, {}, {}, {v(1)});
+  const auto instance =
+      continuous::Instance::make(std::move(roadmap).value(), {{v(0), v(2), Disc{1}}});
+  continuous::Plan plan;
+  plan.paths.push_back({{v(0), 0, 0}, {v(1), 10, 10}, {v(2), 20, 20}});
+  const auto order = precedences(*instance, plan);
+  ASSERT_FALSE(order.has_value());
+  EXPECT_NE(order.error().message.find("nobody may wait"), std::string::npos);
+}
+
 TEST(Precedences, AWindowBetweenTwoTicksCounts) {
   // Fast and small: agent 0 passes the crossing 2 ticks after it has begun, agent 1 after 1.2; they
   // collide at offsets near 0.8 and at no whole one. Delays need not be whole.

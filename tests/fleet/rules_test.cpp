@@ -11,6 +11,7 @@
 #include "fleet/support.hpp"
 #include "quadrille/continuous/verify.hpp"
 #include "quadrille/fleet/solver.hpp"
+#include "quadrille/fleet/verify.hpp"
 #include "support/environment.hpp"
 #include "support/random.hpp"
 
@@ -74,6 +75,79 @@ TEST(FleetRules, GroupsHaveToExistAndLanesToBeClear) {
   EXPECT_TRUE(twice.build().has_value());
   static_cast<void>(twice.group());
   EXPECT_EQ(twice.build().error().code, ErrorCode::out_of_range);
+}
+
+TEST(FleetRules, KindsGoAsFastAsTheyMay) {
+  RoadmapBuilder roads({.length = 1_mm, .time = 100_ms});
+  const VertexId a = roads.vertex(0_m, 0_m, "a"), b = roads.vertex(2_m, 0_m, "b");
+  const Group slow = roads.group(), fast = roads.group();
+  const RoadmapBuilder empty = roads;
+  const auto cost = [&](const LaneSpec& spec, std::optional<Group> group) {
+    RoadmapBuilder builder = empty;
+    Fleet fleet(builder.lane(a, b, spec).build().value());
+    RobotSpec robot = disc("p");
+    robot.group = group;
+    fleet.robot(robot).from(a).to(b);
+    return solve(fleet).value().cost.value();
+  };
+  EXPECT_EQ(cost({.speed_limit = 0.5_mps}, std::nullopt), 4_s);
+  EXPECT_EQ(cost({.speed_limit = 3_mps}, std::nullopt), 2_s);
+  EXPECT_EQ(cost({.duration = 3.14_s}, slow), 3.2_s);
+  const LaneSpec own{.speed_limit = 0.5_mps,
+                     .kinds = {{.group = slow, .speed_limit = 0.25_mps}, {.group = fast}}};
+  EXPECT_EQ(cost(own, std::nullopt), 4_s);
+  EXPECT_EQ(cost(own, slow), 8_s);
+  EXPECT_EQ(cost(own, fast), 2_s);
+  const auto refuses = [&](const LaneSpec& spec, const std::string& why) {
+    RoadmapBuilder builder = empty;
+    EXPECT_EQ(builder.lane(a, b, spec).build().error().message, "a lane from 'a' to 'b': " + why);
+  };
+  refuses({.speed_limit = 1_mps, .duration = 1_s}, "it has a duration and a speed limit");
+  refuses({.speed_limit = 0_mps},
+          "a speed limit of 0 m/s is not supported at a resolution of 0.001 m and 0.1 s");
+  refuses({.duration = -1_s},
+          "a duration of -1 s is not supported at a resolution of 0.001 m and "
+          "0.1 s");
+  const std::string twice =
+      "it has a limit or a duration for a group that may not use it, or two for one group";
+  refuses({.only = {fast}, .kinds = {{.group = slow}}}, twice);
+  refuses({.kinds = {{.group = slow}, {.group = slow}}}, twice);
+  RoadmapBuilder builder = empty;
+  builder.lane(a, b, own).lane(a, b, own);
+  EXPECT_EQ(builder.build().value().num_lanes(), 3U);
+  EXPECT_EQ(builder.lane(a, b, {.speed_limit = 0.5_mps}).build().error().message,
+            "a lane from 'a' to 'b': it is given twice, in different ways");
+}
+
+TEST(FleetRules, NobodyWaitsWhereNobodyMay) {
+  // 'p' comes to a crossing, and 'q' does, from another side, when it may set out at all.
+  RoadmapBuilder roads;
+  const VertexId a = roads.vertex(0_m, 0_m, "a"), x = roads.vertex(1_m, 0_m, "x");
+  const VertexId b = roads.vertex(2_m, 0_m, "b"), c = roads.vertex(1_m, -1_m, "c");
+  roads.road(a, x).road(x, b).road(c, x);
+  const RoadmapBuilder empty = roads;
+  Fleet fleet(roads.no_waiting(x).build().value());
+  const Robot p = fleet.robot(disc("p")).from(a).to(b);
+  const SolveOutcome outcome = solve(fleet).value();
+  EXPECT_EQ(outcome.cost, 2_s);
+  continuous::Plan plan = outcome.plan->in_units();
+  continuous::Path& path = plan.paths[p];
+  ASSERT_EQ(path.size(), 3U);
+  path[1].depart += 5;
+  path[2].arrive += 5;
+  path[2].depart += 5;
+  const VerifyReport report = verify(fleet, plan).value();
+  ASSERT_EQ(report.violations.size(), 1U);
+  EXPECT_EQ(report.violations[0].message, "'p' waits where nobody may, from 1 s on");
+  p.to(x);
+  EXPECT_EQ(fleet.instance().error().message, "'p' would stay at x, where nobody may wait");
+  p.from(x).to(b);
+  EXPECT_EQ(fleet.instance().error().message, "'p' starts at x, where nobody may wait");
+  RoadmapBuilder twice = empty, unknown = empty;
+  EXPECT_EQ(twice.no_waiting(x).no_waiting(x).build().error().message,
+            "nobody may wait at 'x': that is told twice");
+  EXPECT_EQ(unknown.no_waiting(VertexId(4)).build().error().message,
+            "nobody may wait at vertex 4: there are only 4 vertices");
 }
 
 TEST(FleetRules, ReleasesAreRoundedUpAndDeadlinesDown) {

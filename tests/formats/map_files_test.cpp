@@ -36,6 +36,7 @@ std::string edges_of(const MapFile& map) {
     text += (text.empty() ? "" : " ") + std::to_string(edge.from.index()) + "-" +
             std::to_string(edge.to.index());
     if (edge.duration) text += ":" + std::to_string(edge.duration->value());
+    if (edge.speed_limit) text += "@" + std::to_string(edge.speed_limit->value() / 1000);
   }
   return text;
 }
@@ -58,8 +59,8 @@ TEST(MapFiles, LayoutsOfLif) {
   ASSERT_TRUE(map.has_value()) << map.error().to_string();
   EXPECT_EQ(roadmap_of(*map).positions(),
             (std::vector<Point>{{0, 0}, {2'000, 0}, {2'000, -1'500}}));
-  // Two metres at half a metre per second; faster limits mean nothing.
-  EXPECT_EQ(edges_of(*map), "0-1:4000 1-0 1-2 2-1");
+  // Thousandths of a metre per second.
+  EXPECT_EQ(edges_of(*map), "0-1@500 1-0@3000 1-2 2-1");
   EXPECT_TRUE(map->names.are_ids);
   EXPECT_EQ(map->names.find("B", 3).value(), VertexId(1));
   EXPECT_EQ(map->names.find("dock", 3).value(), VertexId(2));
@@ -78,7 +79,7 @@ TEST(MapFiles, OfSeveralLayoutsAndTypesOneIsAskedFor) {
           "f:2: /layouts: there are several layouts, --level says which is meant: 'hall', 'up'");
   MapFileOptions with = options();
   with.level = "hall";
-  EXPECT_EQ(edges_of(read(two, with).value()), "0-1:4000 1-0 1-2 2-1");
+  EXPECT_EQ(edges_of(read(two, with).value()), "0-1@500 1-0@3000 1-2 2-1");
   with.level = "2";
   EXPECT_EQ(roadmap_of(read(two, with).value()).num_vertices(), 0u);
   with.level = "cellar";
@@ -90,7 +91,7 @@ TEST(MapFiles, OfSeveralLayoutsAndTypesOneIsAskedFor) {
   refuses(types, "f:2: /layouts/0: there are several types of vehicles, --vehicle-type says which");
   with.level = "";
   with.vehicle_type = "cart";
-  EXPECT_EQ(edges_of(read(types, with).value()), "0-1:4000 1-0 1-2 2-1");
+  EXPECT_EQ(edges_of(read(types, with).value()), "0-1@500 1-0@3000 1-2 2-1");
   // It may go nowhere: nodes have to name it, too.
   with.vehicle_type = "lift";
   EXPECT_EQ(edges_of(read(types, with).value()), "");
@@ -120,7 +121,7 @@ TEST(MapFiles, GraphsOfNav2) {
   const auto map = read(kRouteGraph);
   ASSERT_TRUE(map.has_value()) << map.error().to_string();
   EXPECT_EQ(roadmap_of(*map).positions(), (std::vector<Point>{{0, 0}, {1'000, 0}, {1'000, 2'500}}));
-  EXPECT_EQ(edges_of(*map), "0-1:2000 1-0 1-2");
+  EXPECT_EQ(edges_of(*map), "0-1@500 1-0 1-2");
   // Ids from 1 on are no numbers of vertices.
   EXPECT_TRUE(map->names.are_ids);
   EXPECT_EQ(map->names.find("3", 3).value(), VertexId(2));

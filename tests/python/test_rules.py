@@ -169,6 +169,29 @@ def test_moves_in_progress_are_finished():
         q.Fleet(named, [q.Underway("a", "b", 0.3)], ["a"], radius=0.2, release=1)
 
 
+def test_lanes_have_limits_and_nobody_waits_where_nobody_may():
+    roads = dict(xy=[(0, 0), (1, 0), (2, 0)], edges=[(0, 1), (1, 2), (1, 2)], nodes=["a", "b", "c"],
+                 only=[None, None, "slow"], resolution=(0.001, 0.01))
+    with pytest.raises(q.InputError, match="no_waiting"):
+        q.Roadmap(**roads, no_waiting=["d"])
+    roads["only"] = [None, [None, "fast"], "slow"]
+    roadmap = q.Roadmap(**roads, speed_limits=[0.5, np.nan, 0.25], no_waiting=["b"])
+    assert roadmap.no_waiting.tolist() == [1]
+    assert roadmap.speed_limits[[0, 2]].tolist() == [0.5, 0.25] and np.isnan(roadmap.speed_limits[1])
+    assert q.solve(q.Fleet(roadmap, ["a"], ["c"], radius=0.2)).cost == 3
+    assert q.solve(q.Fleet(roadmap, ["a"], ["c"], radius=0.2, group=["slow"])).cost == 6
+    halfway = q.Fleet(roadmap, [q.Underway("b", "c", 0.5)], ["c"], radius=0.2, group=["slow"])
+    assert q.solve(halfway).cost == 2
+    with pytest.raises(q.InputError, match="'0' would stay at 'b', where nobody may wait|stay at"):
+        q.solve(q.Fleet(roadmap, ["a"], ["b"], radius=0.2))
+    with pytest.raises(q.InputError, match="a duration and a speed limit"):
+        q.Roadmap(LINE, [(0, 1)], durations=[4], speed_limits=[1])
+    with pytest.raises(q.InputError, match=r"speed_limits\[0\]: the speed is not supported"):
+        q.Roadmap(LINE, [(0, 1)], speed_limits=[0])
+    with pytest.raises(q.InputError, match=r"no_waiting\[1\]: vertex 1 is there twice"):
+        q.Roadmap(LINE, [(0, 1)], no_waiting=[1, 1])
+
+
 def test_an_initial_plan_has_to_keep_the_rules():
     plan = q.solve(alone()).plan
     assert q.solve(alone(deadline=2), initial=plan).cost == 2

@@ -95,7 +95,7 @@ struct Roadmaps {
 
   static Instance small(std::uint32_t seed) {
     continuous::test::RandomOptions options;
-    options.shapes_percent = 0;  // roadmaps are put side by side
+    options.shapes_percent = options.no_waiting_percent = 0;  // roadmaps are put side by side
     options.num_vertices = 3 + seed % 4;
     options.num_agents = 1 + seed / 4 % 3;
     options.edge_percent = 50 + static_cast<int>(seed % 3) * 20;

@@ -177,6 +177,7 @@ Certificate certify(const Instance& instance, Objective objective, const ProofDr
 std::string why_no_certificate(const Instance& instance) {
   if (instance.has_goal_sets()) return "agents with several goals";
   if (instance.has_shapes()) return "agents whose bodies change on their way";
+  if (!instance.roadmap().no_waiting().empty()) return "places where nobody may wait";
   if (!instance.parked_pairs().empty()) return "agents that overlap at their starts";
   // The checker would have to know exact places between whole coordinates.
   if (!instance.roadmap().lane_places().empty()) return "vertices in the middle of moves";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/continuous/instance_json.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <istream>
 #include <memory>
@@ -51,7 +52,7 @@ class InstanceReader {
         (obstacles && !read_obstacles(*obstacles)) || (groups && !read_group_names(*groups)))
       return check_.error();
     auto made = Roadmap::make(std::move(positions_), std::move(edges_), std::move(lane_places_),
-                              std::move(shapes_));
+                              std::move(shapes_), std::move(no_waiting_));
     if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
     auto instance = Instance::make(std::move(made).value(), std::move(agents_), resolution_,
                                    places_, std::move(obstacles_), now_);
@@ -73,11 +74,12 @@ class InstanceReader {
   }
 
   bool read_roadmap(Node node) {
-    std::optional<Node> vertices, edges, names, lane_places, shapes;
+    std::optional<Node> vertices, edges, names, lane_places, shapes, no_waiting;
     if (!check_.members(node, {{"vertices", &vertices},
                                {"edges", &edges},
                                {"names", &names, false},
                                {"shapes", &shapes, false},
+                               {"no_waiting", &no_waiting, false},
                                {"lane_places", &lane_places, false}}) ||
         !check_.array(*vertices, "vertices") || !check_.array(*edges, "edges"))
       return false;
@@ -87,6 +89,7 @@ class InstanceReader {
       if (!read_edge(e)) return false;
     if (lane_places && !read_lane_places(*lane_places)) return false;
     if (shapes && !read_shapes(*shapes)) return false;
+    if (no_waiting && !read_no_waiting(*no_waiting)) return false;
     return !names ||
            read_vertex_names(check_, document_, *names, positions_.size(), names_.vertices);
   }
@@ -114,6 +117,18 @@ class InstanceReader {
     if (!check_.array(list, "shapes", positions_.size())) return false;
     for (Node s = document_.first(list); s < document_.next(list); s = document_.next(s))
       if (!read_shape(s, shapes_.emplace_back())) return false;
+    return true;
+  }
+
+  bool read_no_waiting(Node list) {
+    if (!check_.array(list, "vertices")) return false;
+    for (Node v = document_.first(list); v < document_.next(list); v = document_.next(v)) {
+      VertexId vertex;
+      if (!read_vertex_number(v, vertex)) return false;
+      if (std::find(no_waiting_.begin(), no_waiting_.end(), vertex) != no_waiting_.end())
+        return check_.fail(v, "this vertex is named twice");
+      no_waiting_.push_back(vertex);
+    }
     return true;
   }
 
@@ -162,14 +177,16 @@ class InstanceReader {
   /// A list of two or three, or an object.
   bool read_edge(Node node) {
     if (document_.kind(node) == Document::Kind::object) {
-      std::optional<Node> from, to, duration, groups, shape;
+      std::optional<Node> from, to, duration, groups, shape, limit;
       return check_.members(node, {{"from", &from},
                                    {"to", &to},
                                    {"duration", &duration, false},
                                    {"groups", &groups, false},
-                                   {"shape", &shape, false}}) &&
+                                   {"shape", &shape, false},
+                                   {"speed_limit", &limit, false}}) &&
              read_edge(node, *from, *to, duration, groups) &&
-             (!shape || read_shape(*shape, edges_.back().shape));
+             (!shape || read_shape(*shape, edges_.back().shape)) &&
+             (!limit || read_limit(*limit, edges_.back()));
     }
     if (!check_.array(node, "vertices")) return false;
     const Node from = document_.first(node), end = document_.next(node);
@@ -200,6 +217,13 @@ class InstanceReader {
     }
     edges_.push_back(edge);
     return true;
+  }
+
+  bool read_limit(Node node, Edge& edge) {
+    if (edge.duration)
+      return check_.fail(node, ErrorCode::invalid_instance,
+                         "the edge has a duration and a speed limit");
+    return read_speed(node, node, edge.speed_limit.emplace());
   }
 
   bool read_groups(Node node, Groups& groups) {
@@ -376,6 +400,7 @@ class InstanceReader {
   std::vector<Edge> edges_;
   std::vector<LanePlace> lane_places_;
   std::vector<ShapeId> shapes_;
+  std::vector<VertexId> no_waiting_;
   std::vector<Agent> agents_;
   text::GoalSets goal_sets_;
   std::vector<SourcePlace> places_;

@@ -16,10 +16,13 @@ std::string edge_json(const Edge& edge, const Resolution& resolution) {
   const std::string from = std::to_string(edge.from.index()), to = std::to_string(edge.to.index());
   const std::string duration =
       edge.duration ? json_number(in_input_units(*edge.duration, resolution)) : "";
-  if (edge.open_to == Groups::all() && edge.shape == ShapeId())
+  if (edge.open_to == Groups::all() && edge.shape == ShapeId() && !edge.speed_limit)
     return "[" + from + ", " + to + (edge.duration ? ", " + duration : "") + "]";
   std::string text = "{\"from\": " + from + ", \"to\": " + to;
   if (edge.duration) text += ", \"duration\": " + duration;
+  if (edge.speed_limit)
+    text +=
+        ", \"speed_limit\": " + json_number(speed_in_input_units(*edge.speed_limit, resolution));
   if (edge.shape != ShapeId()) text += ", \"shape\": " + std::to_string(edge.shape.index());
   if (edge.open_to == Groups::all()) return text + "}";
   const char* separator = ", \"groups\": [";
@@ -85,6 +88,17 @@ std::string shapes_json(const Roadmap& roadmap) {
   return text + (text.empty() ? "" : "]");
 }
 
+/// The member of a roadmap, if there are any.
+std::string no_waiting_json(const Roadmap& roadmap) {
+  std::string text;
+  const char* separator = ",\n    \"no_waiting\": [";
+  for (const VertexId v : roadmap.no_waiting()) {
+    text += separator + std::to_string(v.index());
+    separator = ", ";
+  }
+  return text + (text.empty() ? "" : "]");
+}
+
 /// The members about names, if there are any.
 std::string vertex_names_json(const text::Names& names) {
   std::string text;
@@ -129,8 +143,8 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
     separator = ",\n";
   }
   out << (*separator == ',' ? "\n    ]" : "]") << shapes_json(instance.roadmap())
-      << lane_places_json(instance) << vertex_names_json(names) << "\n  }" << bodies.json()
-      << ",\n  \"agents\": [";
+      << no_waiting_json(instance.roadmap()) << lane_places_json(instance)
+      << vertex_names_json(names) << "\n  }" << bodies.json() << ",\n  \"agents\": [";
   separator = "\n";
   for (const AgentId i : instance.agent_ids()) {
     const Agent& agent = instance.agent(i);

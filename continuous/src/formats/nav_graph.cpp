@@ -137,11 +137,14 @@ class NavGraphReader : DocumentRoadmapReader {
   bool read_vertex(Node node) {
     Item item;
     double x = 0, y = 0;
-    std::optional<Node> name;
+    std::optional<Node> name, passes;
+    bool is_passed = false;
     if (!read_item(node, "[x, y, {properties}]", item) || !read_number(item.first, x) ||
         !read_number(item.second, y) ||
         (item.properties &&
-         !objects_.find_all(*item.properties, "properties", {{"name", &name, false}})))
+         !objects_.find_all(*item.properties, "properties",
+                            {{"name", &name, false}, {"is_passthrough_point", &passes, false}})) ||
+        (passes && !read_flag(*passes, is_passed)))
       return false;
     std::optional<std::string> text;
     if (name && document_.kind(*name) != Document::Kind::null &&
@@ -149,6 +152,7 @@ class NavGraphReader : DocumentRoadmapReader {
       return false;
     const VertexId vertex(builder_.num_vertices());
     if (text && !text->empty()) builder_.add_place(*text, vertex);
+    if (is_passed) builder_.forbid_waiting(vertex);
     return accept(node, builder_.add_vertex(std::to_string(vertex.index()), {x, y, 0}));
   }
 

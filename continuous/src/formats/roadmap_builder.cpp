@@ -100,11 +100,10 @@ std::optional<RoadmapBuilder::Fault> RoadmapBuilder::add_edge(VertexId from, Ver
   } else if (speed_limit && *speed_limit != 0) {
     const auto most = quantise_speed(*speed_limit, options_.resolution);
     if (!most) return Fault{ErrorCode::out_of_range, "the speed is not supported"};
-    if (*most < options_.speed) {
-      edge.duration = travel_time(positions_[from.index()], positions_[to.index()], *most);
-      if (!edge.duration)
-        return Fault{ErrorCode::out_of_range, "the edge takes too long at this speed"};
-    }
+    if (!travel_time(positions_[from.index()], positions_[to.index()],
+                     std::min(*most, options_.speed)))
+      return Fault{ErrorCode::out_of_range, "the edge takes too long at this speed"};
+    edge.speed_limit = most;
   }
   edges_.push_back(edge);
   return std::nullopt;
@@ -139,13 +138,15 @@ void RoadmapBuilder::renumber(const std::vector<std::size_t>& number_of) {
   ids_ = std::move(ids);
   for (Edge& edge : edges_)
     for (VertexId* const end : {&edge.from, &edge.to}) *end = VertexId(number_of[end->index()]);
+  for (VertexId& vertex : no_waiting_) vertex = VertexId(number_of[vertex.index()]);
   for (auto& [name, vertex] : places_) vertex = VertexId(number_of[vertex.index()]);
 }
 
 Result<MapFile> RoadmapBuilder::finish(const std::string& file) && {
   const auto number_of = numbers();
   if (number_of) renumber(*number_of);
-  auto roadmap = Roadmap::make(std::move(positions_), std::move(edges_));
+  auto roadmap =
+      Roadmap::make(std::move(positions_), std::move(edges_), {}, {}, std::move(no_waiting_));
   if (!roadmap) return Error{roadmap.error().code, roadmap.error().message, {file, 0}};
   for (const auto& [what, count] : not_used_)
     notes_.push_back(what + " is not used (" + std::to_string(count) +

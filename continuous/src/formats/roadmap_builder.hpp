@@ -37,6 +37,8 @@ class RoadmapBuilder {
                                 std::optional<double> speed_limit = std::nullopt);
   std::optional<Fault> add_edge(VertexId from, VertexId to,
                                 std::optional<double> speed_limit = std::nullopt);
+  /// Nobody may wait there. Once per vertex.
+  void forbid_waiting(VertexId vertex) { no_waiting_.push_back(vertex); }
   /// Something more that a vertex is called.
   void add_place(std::string name, VertexId vertex);
   /// Something that the file says and that plans do not honour; it is counted.
@@ -56,6 +58,7 @@ class RoadmapBuilder {
   const MapFileOptions& options_;
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
+  std::vector<VertexId> no_waiting_;
   std::vector<std::string> ids_;
   std::unordered_map<std::string, VertexId> by_id_;  // Looked up only.
   std::vector<std::pair<std::string, VertexId>> places_;

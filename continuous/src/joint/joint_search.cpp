@@ -276,10 +276,10 @@ JointScope joint_scope(const Instance& instance) {
   const auto& agents = instance.agents();
   if (std::any_of(agents.begin(), agents.end(), [](const Agent& a) { return a.leaves; }))
     return JointScope::none;
-  const bool is_relaxed = !instance.obstacles().empty() ||
-                          std::any_of(agents.begin(), agents.end(), [](const Agent& a) {
-                            return a.release > 0 || a.deadline || a.under_way;
-                          });
+  const bool is_relaxed =
+      !instance.obstacles().empty() || !instance.roadmap().no_waiting().empty() ||
+      std::any_of(agents.begin(), agents.end(),
+                  [](const Agent& a) { return a.release > 0 || a.deadline || a.under_way; });
   return is_relaxed ? JointScope::relaxed : JointScope::exact;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/continuous/duration_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -16,11 +17,13 @@ std::optional<DurationError> largest_duration_error(const Instance& instance) {
     const ClassId c = instance.class_of(i);
     if (seen[c.index()]) continue;
     seen[c.index()] = true;
-    const double speed = static_cast<double>(instance.agent(i).speed.value()) /
-                         static_cast<double>(kUnitSpeed.value());
     for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
       const Edge& edge = roadmap.edge(EdgeId(e));
       if (edge.duration || !instance.may_use(c, EdgeId(e))) continue;
+      const Speed own = instance.agent(i).speed;
+      const double speed =
+          static_cast<double>(std::min(own, edge.speed_limit.value_or(own)).value()) /
+          static_cast<double>(kUnitSpeed.value());
       const auto squared = squared_distance(roadmap.position(edge.from), roadmap.position(edge.to));
       const double exact =
           static_cast<double>(std::sqrt(static_cast<long double>(squared))) / speed;

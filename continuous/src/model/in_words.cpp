@@ -35,6 +35,7 @@ class Finder {
   [[nodiscard]] std::optional<Error> find() const {
     if (auto found = find_polygon_in_space()) return found;
     if (auto found = find_unsupported()) return found;
+    if (auto found = find_waiting()) return found;
     const auto start = [](const Agent& agent) { return &agent.start; };
     const auto parks = [](const Agent& agent) { return agent.overlaps_at_start; };
     const auto never = [](const Agent&) { return false; };
@@ -50,6 +51,7 @@ class Finder {
   [[nodiscard]] std::string name(std::size_t i) const { return words_.agent(AgentId(i)); }
   [[nodiscard]] std::optional<Error> find_polygon_in_space() const;
   [[nodiscard]] std::optional<Error> find_unsupported() const;
+  [[nodiscard]] std::optional<Error> find_waiting() const;
   /// `place_of(agent)`: null if it need not be anywhere. `may_overlap(agent)`: with others that
   /// may.
   template <class PlaceOf, class MayOverlap>
@@ -90,11 +92,24 @@ std::optional<Error> Finder::find_unsupported() const {
   for (std::size_t i = 0; i < agents_.size(); ++i) {
     if (reach_of(agents_[i]) > geometry::kMaxLength) return out_of_range(name(i) + " is too large");
     for (const Edge& lane : roads_->edges())
-      if (!lane.duration &&
-          !travel_time(roads_->position(lane.from), roads_->position(lane.to), agents_[i].speed))
+      if (!travel_time(*roads_, lane, agents_[i].speed))
         return out_of_range("the lane from " + words_.vertex(lane.from) + " to " +
                             words_.vertex(lane.to) + " takes " + name(i) +
                             " less than half a step of " + words_.time(1) + ", or too long");
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> Finder::find_waiting() const {
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    const Agent& agent = agents_[i];
+    if (!roads_->may_wait(agent.start))
+      return invalid(name(i) + " starts at " + words_.vertex(agent.start) +
+                     ", where nobody may wait");
+    for (const VertexId goal : agent.goals.vertices())
+      if (!agent.leaves && !roads_->may_wait(goal))
+        return invalid(name(i) + " would stay at " + words_.vertex(goal) +
+                       ", where nobody may wait");
   }
   return std::nullopt;
 }

@@ -57,6 +57,13 @@ std::optional<Error> check(const Roadmap& roadmap, const std::vector<Agent>& age
   if (agent.goals.size() == 0) return invalid(name(index) + " has no goal");
   for (const VertexId v : agent.goals.vertices())
     if (auto error = check_vertex(v)) return error;
+  if (!roadmap.may_wait(agent.start))
+    return invalid(name(index) + " starts at vertex " + std::to_string(agent.start.index()) +
+                   ", where nobody may wait");
+  for (const VertexId v : agent.goals.vertices())
+    if (!agent.leaves && !roadmap.may_wait(v))
+      return invalid(name(index) + " would stay at vertex " + std::to_string(v.index()) +
+                     ", where nobody may wait");
   const Length reach = reach_of(agent);
   if (reach < 1 || reach > geometry::kMaxLength)
     return Error{ErrorCode::out_of_range,
@@ -271,11 +278,7 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std
   durations.reserve(roadmap.num_edges());
   for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
     const Edge& edge = roadmap.edge(EdgeId(e));
-    if (edge.duration) {
-      durations.push_back(*edge.duration);
-      continue;
-    }
-    const auto ticks = travel_time(roadmap.position(edge.from), roadmap.position(edge.to), speed);
+    const auto ticks = travel_time(roadmap, edge, speed);
     if (!ticks)
       return Error{ErrorCode::out_of_range,
                    "edge " + std::to_string(e) + " takes less than one tick, or more than " +

@@ -77,7 +77,7 @@ PrivateStarts::PrivateStarts(const Instance& instance)
   }
   if (copied_.empty()) return;
   auto made = Roadmap::make(std::move(positions), std::move(edges), std::move(lane_places),
-                            std::move(shapes));
+                            std::move(shapes), roadmap.no_waiting());
   QUADRILLE_REQUIRE(made, "copies of vertices and edges are as good as these");
   auto inner = Instance::make(std::move(made).value(), std::move(agents), instance.resolution(), {},
                               instance.obstacles(), instance.now());

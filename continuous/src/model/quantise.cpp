@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/continuous/quantise.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -149,6 +150,12 @@ double corner_in_input_units(Length coordinate, const Resolution& resolution) {
   const Length size = coordinate < 0 ? -coordinate : coordinate;
   const double value = radius_in_input_units(size, resolution);
   return coordinate < 0 ? -value : value;
+}
+
+std::optional<Ticks> travel_time(const Roadmap& roadmap, const Edge& edge, Speed speed) {
+  if (edge.duration) return edge.duration;
+  return travel_time(roadmap.position(edge.from), roadmap.position(edge.to),
+                     std::min(speed, edge.speed_limit.value_or(speed)));
 }
 
 double speed_in_input_units(Speed speed, const Resolution& resolution) {

@@ -33,6 +33,10 @@ std::optional<Error> check(const std::vector<Point>& positions, const Edge& edge
                  name + " takes " + std::to_string(edge.duration->value()) + " ticks, not 1 .. " +
                      std::to_string(geometry::kMaxDuration.value()),
                  {}};
+  if (edge.speed_limit && edge.duration)
+    return Error{ErrorCode::invalid_instance, name + " has a duration and a speed limit", {}};
+  if (edge.speed_limit && (*edge.speed_limit < 1 || *edge.speed_limit > kMaxSpeed))
+    return Error{ErrorCode::out_of_range, name + " has a speed limit that is not supported", {}};
   return std::nullopt;
 }
 
@@ -104,10 +108,32 @@ std::optional<Error> check_shapes(std::size_t num_vertices, const std::vector<Ed
   return std::nullopt;
 }
 
+/// With all vertices and places in order, and sorted.
+std::optional<Error> check_no_waiting(std::size_t num_vertices,
+                                      const std::vector<LanePlace>& lane_places,
+                                      const std::vector<VertexId>& no_waiting) {
+  const auto refuse = [](VertexId v, const std::string& why) {
+    return Error{ErrorCode::invalid_instance,
+                 "nobody may wait at vertex " + std::to_string(v.index()) + ", but " + why,
+                 {}};
+  };
+  for (std::size_t k = 0; k < no_waiting.size(); ++k) {
+    const VertexId v = no_waiting[k];
+    if (v.index() >= num_vertices)
+      return refuse(v, "there are " + std::to_string(num_vertices) + " vertices");
+    if (k > 0 && no_waiting[k - 1] == v) return refuse(v, "that is told twice");
+    const auto is_there = [&](const LanePlace& place) { return place.vertex == v; };
+    if (std::any_of(lane_places.begin(), lane_places.end(), is_there))
+      return refuse(v, "it is in the middle of a move");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<Roadmap> Roadmap::make(std::vector<Point> vertices, std::vector<Edge> edges,
-                              std::vector<LanePlace> lane_places, std::vector<ShapeId> shapes) {
+                              std::vector<LanePlace> lane_places, std::vector<ShapeId> shapes,
+                              std::vector<VertexId> no_waiting) {
   for (std::size_t v = 0; v < vertices.size(); ++v)
     if (!geometry::in_range(vertices[v]))
       return Error{ErrorCode::out_of_range,
@@ -131,7 +157,10 @@ Result<Roadmap> Roadmap::make(std::vector<Point> vertices, std::vector<Edge> edg
                    {}};
   }
   if (auto error = check_shapes(vertices.size(), edges, lane_places, shapes)) return *error;
-  return Roadmap(std::move(vertices), std::move(edges), std::move(lane_places), std::move(shapes));
+  std::sort(no_waiting.begin(), no_waiting.end());
+  if (auto error = check_no_waiting(vertices.size(), lane_places, no_waiting)) return *error;
+  return Roadmap(std::move(vertices), std::move(edges), std::move(lane_places), std::move(shapes),
+                 std::move(no_waiting));
 }
 
 ShapeId Roadmap::shape(VertexId from, VertexId to) const {
@@ -148,7 +177,7 @@ Roadmap Roadmap::with_closed(std::span<const EdgeId> closed) const {
     QUADRILLE_REQUIRE(e.index() < edges.size(), "an edge of the roadmap");
     edges[e.index()].open_to = Groups();
   }
-  return Roadmap(positions_, std::move(edges), lane_places_, shapes_);
+  return Roadmap(positions_, std::move(edges), lane_places_, shapes_, no_waiting_);
 }
 
 geometry::Motion Roadmap::motion(VertexId from, VertexId to, Ticks duration) const {
@@ -167,15 +196,19 @@ const LanePlace* Roadmap::lane_place(VertexId v) const {
 }
 
 Roadmap::Roadmap(std::vector<Point> positions, std::vector<Edge> edges,
-                 std::vector<LanePlace> lane_places, std::vector<ShapeId> shapes)
+                 std::vector<LanePlace> lane_places, std::vector<ShapeId> shapes,
+                 std::vector<VertexId> no_waiting)
     : positions_(std::move(positions)),
       edges_(std::move(edges)),
       lane_places_(std::move(lane_places)),
       shapes_(std::move(shapes)),
+      no_waiting_(std::move(no_waiting)),
       is_flat_(std::all_of(positions_.begin(), positions_.end(),
                            [](const Point& point) { return point.z == 0; })),
       out_(positions_.size(), edges_, &Edge::from, std::nullopt),
       in_(positions_.size(), edges_, &Edge::to, std::nullopt) {
+  if (!no_waiting_.empty()) is_no_waiting_.assign(positions_.size(), 0);
+  for (const VertexId v : no_waiting_) is_no_waiting_[v.index()] = 1;
   for (const ShapeId shape : shapes_) num_shapes_ = std::max(num_shapes_, shape.index() + 1);
   for (const Edge& edge : edges_) num_shapes_ = std::max(num_shapes_, edge.shape.index() + 1);
 }

@@ -58,6 +58,7 @@ void BanTable::clear(std::span<const Ban> standing) {
   }
   num_used_ = 0;
   enabled_.clear();
+  horizon_ = 0;
   ++version_;
   source_ = nullptr;
   for (const Ban& ban : standing) put(ban, kStanding);
@@ -116,6 +117,7 @@ void BanTable::add(std::span<const Ban> bans) {
 void BanTable::put(const Ban& ban, std::uint32_t slot) {
   const std::size_t resource = ban.kind == Ban::Kind::start ? ban.place : num_edges_ + ban.place;
   place_of(resource).entries.push_back({ban.when, slot});
+  horizon_ = std::max(horizon_, ban.last_change());
 }
 
 void BanTable::enable(std::size_t slot, bool on) {

@@ -36,6 +36,11 @@ struct Ban {
     return {Kind::stay, vertex.value(), {kForever - 1, kForever}};
   }
   [[nodiscard]] bool is_end() const { return *this == end(VertexId(place)); }
+  /// The last tick at which it begins or ends, but not for ever.
+  [[nodiscard]] Ticks last_change() const {
+    if (when.end < kForever) return when.end;
+    return is_end() ? Ticks{0} : when.begin;
+  }
   friend auto operator<=>(const Ban&, const Ban&) = default;
 };
 
@@ -73,6 +78,8 @@ class BanSource {
   virtual void list_starts(EdgeId e, Ticks from, std::vector<TickInterval>& bans) = 0;
   /// Appends all stretches during which the agent may not be at the vertex.
   virtual void list_stays(VertexId v, std::vector<TickInterval>& bans) = 0;
+  /// No ban begins or ends after this tick.
+  [[nodiscard]] virtual Ticks horizon() const = 0;
 };
 
 /// The bans of one agent at work, by place. Each ban belongs to a *slot*, and slots can be switched
@@ -116,6 +123,10 @@ class BanTable {
   /// last may be until kForever.
   [[nodiscard]] const std::vector<SafeStay>& safe_stays(std::uint32_t place);
 
+  /// From this tick on nothing changes any more: no ban begins or ends later, but for those of
+  /// kind Ban::end.
+  [[nodiscard]] Ticks horizon() const { return source_ != nullptr ? source_->horizon() : horizon_; }
+
   /// The slot of bans that stand.
   static constexpr std::uint32_t kStanding = 0xffffffffu;
   struct Entry {
@@ -149,6 +160,7 @@ class BanTable {
   std::vector<Place> places_;
   std::size_t num_used_ = 0;
   std::vector<char> enabled_;
+  Ticks horizon_ = 0;  // of the bans that were added
   std::uint64_t version_ = 1;
 
   BanSource* source_ = nullptr;

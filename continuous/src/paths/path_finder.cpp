@@ -39,6 +39,9 @@ void PathFinder::begin(Order order) {
     best_.resize(num_states_);
     stamp_.resize(num_states_, 0);
   }
+  for (const std::size_t v : passed_) arrivals_[v].clear();
+  passed_.clear();
+  if (!instance_.roadmap().no_waiting().empty()) arrivals_.resize(num_states_);
 }
 
 std::size_t PathFinder::state(BanTable& bans, VertexId v, std::uint32_t stay) {
@@ -84,6 +87,7 @@ bool PathFinder::find_any(const PathTask& task, BanTable& bans, Ticks bound, Tim
 std::optional<Ticks> PathFinder::search(Order order, const PathTask& task, BanTable& bans,
                                         Ticks bound, TimedPath* path) {
   begin(order);
+  if (!instance_.roadmap().no_waiting().empty()) horizon_ = bans.horizon();
   const Agent& agent = instance_.agent(task.agent);
   bound = std::min(bound, arrival_bound(instance_, task.agent));
   const bool is_goal = agent.goals.contains(agent.start);
@@ -108,7 +112,8 @@ std::optional<Ticks> PathFinder::search(Order order, const PathTask& task, BanTa
     const auto [key, arrive, index] = heap_.back();
     heap_.pop_back();
     const Node node = nodes_[index];
-    if (best_[state(bans, node.vertex, node.stay)] < node.arrive) continue;
+    if (is_stale(node, bans)) continue;
+    // No goal where nobody may wait is one of an agent that stays.
     if ((node.leave_by == kForever || agent.leaves) && agent.goals.contains(node.vertex)) {
       if (path != nullptr) trace(index, *path);
       return node.arrive;
@@ -128,6 +133,10 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
     const auto& [e, w, duration, extra] = detours[at];
     if (least + extra >= bound) return;
     ++num_edges_;
+    if (!instance_.roadmap().may_wait(w)) {
+      pass(task, bans, index, e, bound);
+      continue;
+    }
     const Ticks rest = task.distances[w];
     const std::uint32_t start_place = bans.starts_of(e, node.arrive), stay_place = bans.stays_of(w);
     const auto& forbidden =
@@ -155,11 +164,71 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
   push(least + detours[at].extra, index);
 }
 
+// Each run of starts that are allowed, at which the agent can be there and come to a safe arrival.
+void PathFinder::pass(const PathTask& task, BanTable& bans, std::uint32_t index, EdgeId e,
+                      Ticks bound) {
+  const Node node = nodes_[index];
+  const VertexId w = instance_.roadmap().edge(e).to;
+  const Ticks duration = instance_.duration(instance_.class_of(task.agent), e);
+  const Ticks rest = task.distances[w];
+  const std::uint32_t start_place = bans.starts_of(e, node.arrive), stay_place = bans.stays_of(w);
+  const auto& forbidden =
+      start_place == BanTable::kFree ? kNothingForbidden : bans.forbidden_starts(start_place);
+  const auto& stays = stay_place == BanTable::kFree ? kAlwaysSafe : bans.safe_stays(stay_place);
+  for (const BanTable::SafeStay& stay : stays) {
+    const Ticks last = std::min(node.leave_by, stay.until - duration);
+    Ticks start = std::max(node.arrive, stay.from - duration);
+    while (start <= last) {
+      if (++num_edges_ % 64 == 0 && limits_ != nullptr) limits_->check();
+      start = allowed_start(forbidden, start);
+      if (start > last || start + duration + rest >= bound) break;
+      const auto next =
+          std::partition_point(forbidden.begin(), forbidden.end(),
+                               [&](const TickInterval& starts) { return starts.begin <= start; });
+      const Ticks until = next == forbidden.end() ? last : std::min(last, next->begin - 1);
+      const Ticks first = start + duration;
+      const Arrivals arrivals{first, std::max(first, std::min(until + duration, horizon_))};
+      if (!is_known(w, arrivals))
+        visit({w, kPasses, arrivals.first, arrivals.last, index, {e, start}}, rest);
+      start = until + 1;
+    }
+  }
+}
+
+// From the horizon on nothing changes, so that whatever can be done after an arrival can be done
+// after an earlier one, earlier.
+bool PathFinder::is_known(VertexId v, const Arrivals& arrivals) {
+  std::vector<Arrivals>& known = arrivals_[v.index()];
+  const auto is_as_good = [&](const Arrivals& other) {
+    return other.contain(arrivals) || (horizon_ <= other.last && other.last <= arrivals.first);
+  };
+  if (std::any_of(known.begin(), known.end(), is_as_good)) return true;
+  if (known.empty()) passed_.push_back(v.index());
+  std::erase_if(known, [&](const Arrivals& other) { return arrivals.contain(other); });
+  known.push_back(arrivals);
+  return false;
+}
+
+bool PathFinder::is_stale(const Node& node, BanTable& bans) {
+  if (node.stay != kPasses) return best_[state(bans, node.vertex, node.stay)] < node.arrive;
+  const std::vector<Arrivals>& known = arrivals_[node.vertex.index()];
+  return std::none_of(known.begin(), known.end(), [&](const Arrivals& arrivals) {
+    return arrivals.first == node.arrive && arrivals.last == node.leave_by;
+  });
+}
+
+// Who passed left at the tick of the next move, and came then.
 void PathFinder::trace(std::uint32_t node, TimedPath& path) const {
-  path.arrival = nodes_[node].arrive;
+  Ticks arrive = nodes_[node].arrive;
+  path.arrival = arrive;
   path.moves.clear();
-  for (; nodes_[node].parent != kNoParent; node = nodes_[node].parent)
-    path.moves.push_back(nodes_[node].move);
+  for (; nodes_[node].parent != kNoParent; node = nodes_[node].parent) {
+    const auto& [edge, first] = nodes_[node].move;
+    const Ticks start = first + (arrive - nodes_[node].arrive);
+    path.moves.push_back({edge, start});
+    const Node& before = nodes_[nodes_[node].parent];
+    arrive = before.stay == kPasses ? start : before.arrive;
+  }
   std::reverse(path.moves.begin(), path.moves.end());
 }
 

@@ -20,7 +20,9 @@ struct PathTask {
 
 /// Safe-interval path planning (Phillips and Likhachev 2011, ICRA) with forbidden starts: cheapest
 /// paths that obey a table of bans. Among all visits to a vertex within one safe stay only the
-/// earliest matters, because an agent may wait until the stay ends. A node that is expanded takes
+/// earliest matters, because an agent may wait until the stay ends. Where nobody may wait, all
+/// ticks of arrival matter, as intervals that do not contain each other (soundness 11.26). A node
+/// that is expanded takes
 /// the moves whose detours its estimate allows, and waits for its turn with the next one (partial
 /// expansion, Yoshizumi et al. 2000, AAAI): on roadmaps of high degree few are ever taken.
 class PathFinder {
@@ -48,12 +50,20 @@ class PathFinder {
  private:
   struct Node {
     VertexId vertex;
-    std::uint32_t stay;  // which of the safe stays
+    std::uint32_t stay;  // which of the safe stays; kPasses: nobody may wait there
     Ticks arrive;
-    Ticks leave_by;
+    Ticks leave_by;  // who passes arrives and leaves at any one tick from `arrive` to this one
     std::uint32_t parent;
     Move move;                       // that led here
     std::uint32_t num_expanded = 0;  // of the detours from here
+  };
+  static constexpr std::uint32_t kPasses = 0xffffffffu;
+  /// From the first one to the last one.
+  struct Arrivals {
+    Ticks first, last;
+    [[nodiscard]] bool contain(const Arrivals& other) const {
+      return first <= other.first && other.last <= last;
+    }
   };
   enum class Order { cheapest_first, nearest_first };
   struct Entry {
@@ -69,6 +79,11 @@ class PathFinder {
   /// Takes the moves with which the way is no longer than `estimate`.
   void expand(const PathTask& task, BanTable& bans, std::uint32_t node, Ticks estimate,
               Ticks bound);
+  /// What `expand` does with a move to a vertex where nobody may wait.
+  void pass(const PathTask& task, BanTable& bans, std::uint32_t node, EdgeId edge, Ticks bound);
+  /// Whether other arrivals at the vertex are as good as all these. If not, they are kept.
+  [[nodiscard]] bool is_known(VertexId v, const Arrivals& arrivals);
+  [[nodiscard]] bool is_stale(const Node& node, BanTable& bans);
   void push(Ticks key, std::uint32_t node);
   void visit(const Node& node, Ticks rest);
   [[nodiscard]] std::size_t state(BanTable& bans, VertexId v, std::uint32_t stay);
@@ -85,6 +100,9 @@ class PathFinder {
   std::vector<std::size_t> first_state_;  // by place of the ban table
   std::vector<std::uint32_t> first_stamp_;
   std::size_t num_states_ = 0;
+  std::vector<std::vector<Arrivals>> arrivals_;  // by vertex; of use where nobody may wait
+  std::vector<std::size_t> passed_;              // the vertices that have any
+  Ticks horizon_ = 0;                            // of the bans, likewise
   std::uint32_t run_ = 0;
   std::int64_t num_runs_ = 0, num_visits_ = 0, num_edges_ = 0;
 };

@@ -25,7 +25,8 @@ constexpr int kOrders = 4;
 /// As PlanImprover::effort.
 constexpr Effort kStep = Effort::nanoseconds(25);
 
-/// The vertices that the agent reaches with the fewest moves, its start among them.
+/// The vertices that the agent reaches with the fewest moves, its start among them, and where it
+/// may stay.
 Goals places_near(const Instance& instance, AgentId i) {
   const ClassId c = instance.class_of(i);
   std::vector<VertexId> places{instance.agent(i).start};
@@ -37,6 +38,9 @@ Goals places_near(const Instance& instance, AgentId i) {
   // A place in the middle of a move is left, and no goal.
   if (instance.roadmap().lane_place(places.front()) != nullptr && places.size() > 1)
     places.erase(places.begin());
+  if (!instance.agent(i).leaves)
+    std::erase_if(places, [&](VertexId v) { return !instance.roadmap().may_wait(v); });
+  if (places.empty()) places.push_back(instance.agent(i).start);
   return Goals(std::move(places));
 }
 

@@ -96,8 +96,7 @@ std::optional<Error> Session::Parts::refuse(const Agent& agent) const {
 }
 
 std::optional<Ticks> Session::Parts::duration(const Edge& edge, const Agent& agent) const {
-  if (edge.duration) return edge.duration;
-  return travel_time(roadmap->position(edge.from), roadmap->position(edge.to), agent.speed);
+  return travel_time(*roadmap, edge, agent.speed);
 }
 
 std::shared_ptr<const Roadmap> Session::Parts::roads(std::vector<Agent>& agents) const {

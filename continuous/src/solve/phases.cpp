@@ -100,8 +100,9 @@ void Phases::run() {
   const auto groups = options_.joint_work > 0 ? small_groups(scene) : std::vector<JointGroup>();
   const bool is_joint_first = !groups.empty();
   if (is_joint_first && search_jointly(scene, groups)) return;
-  // Routes lead to one goal.
-  const bool has_routes = options_.system == System::dpll && !instance_.has_goal_sets();
+  // Routes lead to one goal, and who follows them waits anywhere.
+  const bool has_routes = options_.system == System::dpll && !instance_.has_goal_sets() &&
+                          instance_.roadmap().no_waiting().empty();
   if (has_routes && options_.route_work > 0 && instance_.num_agents() <= kMaxRouteAgents &&
       look_at_routes(scene))
     return;
@@ -156,13 +157,15 @@ bool Phases::find_some_plan(Scene& scene, bool was_joint) {
     desk_.pulse.enter(Phase::first_plan);
     keep_cheaper(scene, find_first_plan(scene), "prioritised");
   }
-  if (!known_.plan) with_one_goal_each(scene, &Phases::move_one_by_one);
+  // Moves one after the other have pauses between.
+  const bool may_pause = instance_.roadmap().no_waiting().empty();
+  if (!known_.plan && may_pause) with_one_goal_each(scene, &Phases::move_one_by_one);
   if (!known_.plan && !was_joint) {
     desk_.pulse.enter(Phase::feasibility);
     Feasibility feasibility = check_feasibility(scene);
     if (is_blocked(feasibility.blocked)) return true;
     keep_cheaper(scene, std::move(feasibility.plan), "joint");
-    if (!known_.plan) with_one_goal_each(scene, &Phases::search_longer);
+    if (!known_.plan && may_pause) with_one_goal_each(scene, &Phases::search_longer);
   }
   return false;
 }

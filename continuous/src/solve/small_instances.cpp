@@ -23,7 +23,9 @@ constexpr std::int64_t kFeasibilityWork = 300'000'000;
 bool may_be_small(const Instance& instance) {
   std::size_t num_stops = 0;
   for (const MovingObstacle& obstacle : instance.obstacles()) num_stops += obstacle.path.size();
-  return num_stops <= kMaxStops && instance.num_agents() <= kMaxAllAgents &&
+  // The joint search lets agents wait anywhere.
+  return instance.roadmap().no_waiting().empty() && num_stops <= kMaxStops &&
+         instance.num_agents() <= kMaxAllAgents &&
          instance.roadmap().num_vertices() <= kMaxAllVertices &&
          instance.roadmap().num_edges() <= kMaxAllEdges;
 }

@@ -2,11 +2,11 @@
 #include "theory/lemma_auditor.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <utility>
 
 #include "model/parked.hpp"
 #include "theory/pair_replay.hpp"
+#include "theory/path_replay.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -18,45 +18,6 @@ constexpr std::size_t kMaxStates = 200'000;
 
 bool contains(std::span<const sat::Lit> clause, sat::Lit lit) {
   return std::find(clause.begin(), clause.end(), lit) != clause.end();
-}
-
-struct SafeStay {
-  Ticks from, until;  // both included
-  Ticks arrival = kForever;
-};
-
-/// Stays at `v` that break no ban, as long as possible: one from each moment at which a ban ends,
-/// and from the start.
-std::vector<SafeStay> safe_stays(const std::vector<Ban>& bans, VertexId v) {
-  std::vector<TickInterval> stretches;
-  std::vector<Ticks> moments{0};
-  for (const Ban& ban : bans)
-    if (ban.kind == Ban::Kind::stay && ban.place == v.value()) {
-      stretches.push_back(ban.when);
-      if (ban.when.end > 0) moments.push_back(ban.when.end);
-    }
-  std::vector<SafeStay> stays;
-  for (const Ticks from : moments) {
-    if (from >= kForever) continue;
-    Ticks until = kForever;
-    for (const TickInterval& s : stretches)
-      if (s.end > from) until = std::min(until, s.begin);
-    if (until >= from) stays.push_back({from, until});
-  }
-  return stays;
-}
-
-/// The first start at `tick` or later that no ban forbids.
-Ticks next_start(const std::vector<Ban>& bans, EdgeId e, Ticks tick) {
-  for (bool is_moved = true; is_moved;) {
-    is_moved = false;
-    for (const Ban& ban : bans)
-      if (ban.kind == Ban::Kind::start && ban.place == e.value() && ban.when.contains(tick)) {
-        tick = ban.when.end;
-        is_moved = true;
-      }
-  }
-  return tick;
 }
 
 }  // namespace
@@ -181,46 +142,8 @@ std::string LemmaAuditor::audit_path(const sat::Lemma& lemma, AgentId i) const {
   }
   const std::vector<Ban>& standing = model_.standing_bans(i);
   bans.insert(bans.end(), standing.begin(), standing.end());
-  return has_path(i, bans, bound) ? "some path breaks a path lemma" : "";
-}
-
-bool LemmaAuditor::has_path(AgentId i, const std::vector<Ban>& bans, Ticks bound) const {
-  const Instance& instance = model_.instance();
-  const Roadmap& roadmap = instance.roadmap();
-  const ClassId c = instance.class_of(i);
-  IdVector<VertexId, std::vector<SafeStay>> stays;
-  for (std::size_t v = 0; v < roadmap.num_vertices(); ++v)
-    stays.push_back(safe_stays(bans, VertexId(v)));
-  std::deque<std::pair<VertexId, std::size_t>> queue;
-  const auto reach = [&](VertexId v, std::size_t k, Ticks arrival) {
-    if (arrival >= bound || arrival >= stays[v][k].arrival) return;
-    stays[v][k].arrival = arrival;
-    queue.emplace_back(v, k);
-  };
-  if (const auto& deadline = instance.agent(i).deadline) bound = std::min(bound, *deadline + 1);
-  const VertexId start = instance.agent(i).start;
-  for (std::size_t k = 0; k < stays[start].size(); ++k)
-    if (stays[start][k].from == 0) reach(start, k, 0);
-  while (!queue.empty()) {
-    const auto [v, k] = queue.front();
-    queue.pop_front();
-    const SafeStay stay = stays[v][k];
-    if (instance.agent(i).goals.contains(v) && (instance.agent(i).leaves || stay.until >= kForever))
-      return true;
-    for (const EdgeId e : roadmap.out_edges(v)) {
-      if (!roadmap.edge(e).open_to.contains(instance.agent(i).group)) continue;
-      const Ticks duration = instance.duration(c, e);
-      const VertexId w = roadmap.edge(e).to;
-      for (std::size_t l = 0; l < stays[w].size(); ++l) {
-        const Ticks s = next_start(
-            bans, e,
-            std::max({stay.arrival, stays[w][l].from - duration, instance.agent(i).release}));
-        if (s <= stay.until && s < kForever && s + duration <= stays[w][l].until)
-          reach(w, l, s + duration);
-      }
-    }
-  }
-  return false;
+  return PathReplay(model_.instance(), i, bans).has_path(bound) ? "some path breaks a path lemma"
+                                                                : "";
 }
 
 std::string LemmaAuditor::audit_collision(const sat::Lemma& lemma) const {

@@ -45,8 +45,6 @@ class LemmaAuditor final : public sat::ClauseAuditor {
   [[nodiscard]] const Obstacle& obstacle(const sat::Usage& usage) const {
     return model_.obstacles()[ObstacleId(static_cast<std::size_t>(usage.resource))];
   }
-  /// Whether agent i has a path that arrives before `bound` and breaks none of the bans.
-  [[nodiscard]] bool has_path(AgentId i, const std::vector<Ban>& bans, Ticks bound) const;
   /// Whether all that breaks `a`, by agent i, collides with all that breaks `b`, by j.
   [[nodiscard]] bool all_collide(AgentId i, const Ban& a, AgentId j, const Ban& b) const;
   /// Whether i's move from `start` on collides with a stay of j at `place`.

@@ -124,6 +124,19 @@ void SpatialTraffic::list_starts(EdgeId e, Ticks from, std::vector<TickInterval>
   });
 }
 
+// Nobody is in the way of what begins after the end of a step, nor, if that has none, changes
+// anything after its begin.
+Ticks SpatialTraffic::horizon() const {
+  Ticks last = 0;
+  for (const Ban& ban : scene_.standing_bans(asking_)) last = std::max(last, ban.last_change());
+  for (const Entry& entry : entries_)
+    for (const std::uint32_t index : entry.passages) {
+      const Step& step = passages_[index].step;
+      last = std::max(last, step.end < kForever ? step.end : step.begin);
+    }
+  return last;
+}
+
 void SpatialTraffic::list_stays(VertexId v, std::vector<TickInterval>& bans) {
   const Instance& instance = scene_.instance();
   list_standing(Ban::stay(v, kFirst), bans);

@@ -40,6 +40,7 @@ class SpatialTraffic final : public Traffic, private BanSource {
   void list_standing(const Ban& least, std::vector<TickInterval>& bans) const;
   void list_starts(EdgeId e, Ticks from, std::vector<TickInterval>& bans) override;
   void list_stays(VertexId v, std::vector<TickInterval>& bans) override;
+  [[nodiscard]] Ticks horizon() const override;
 
   /// All passages of shown paths whose boxes meet this one.
   template <class Visit>

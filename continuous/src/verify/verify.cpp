@@ -45,6 +45,12 @@ class PathCheck {
       good = fail(Kind::waits, path.front().arrive,
                   "stops at vertex " + std::to_string(path.front().vertex.index()) +
                       ", where it is in the middle of a move");
+    for (const Stop& stop : path)
+      if (stop.depart > stop.arrive && forbids_waiting(stop.vertex))
+        good = fail(Kind::waits, stop.arrive,
+                    "waits at vertex " + std::to_string(stop.vertex.index()) +
+                        ", where nobody may, from time " + time(stop.arrive) + " to time " +
+                        time(stop.depart));
     for (std::size_t k = 0; k + 1 < path.size(); ++k) good &= check_move(path[k], path[k + 1]);
     return good;
   }
@@ -59,6 +65,11 @@ class PathCheck {
   [[nodiscard]] std::string move(const Stop& a, const Stop& b) const {
     return "moves from vertex " + std::to_string(a.vertex.index()) + " to vertex " +
            std::to_string(b.vertex.index()) + " at time " + time(a.depart);
+  }
+
+  [[nodiscard]] bool forbids_waiting(VertexId v) const {
+    const std::vector<VertexId>& all = instance_.roadmap().no_waiting();
+    return std::find(all.begin(), all.end(), v) != all.end();
   }
 
   bool check_stops(const Path& path) {

@@ -87,6 +87,27 @@ TEST(Contacts, AreThoseOfTheMotions) {
   EXPECT_GT(count.apart, 0);
 }
 
+// On a line so long that rounding leaves in doubt whether it comes near: there and back bodies are
+// not the same, and the one that is larger just reaches who stands beside it.
+TEST(Contacts, EachEdgeOfASegmentSpeaksForItself) {
+  std::vector<Edge> edges{{VertexId(0), VertexId(1), {}}, {VertexId(1), VertexId(0), {}}};
+  edges[1].shape = ShapeId(1);
+  for (const Length distance : {Length(1499), Length(1500)}) {
+    auto map = Roadmap::make({{0, 0}, {8'000'000, 0}, {4'000'000, distance}}, edges);
+    Agent robot{VertexId(0), VertexId(0), Disc{500}};
+    robot.shapes = {Disc{1000}};
+    const Instance instance = Instance::make(std::move(map).value(), {robot}).value();
+    LimitMonitor limits{Limits{}};
+    Contacts contacts(instance, limits);
+    const ClassId c(0);
+    const bool meets = distance < 1500;
+    EXPECT_EQ(contacts.near_vertex(c, VertexId(2), c).edges,
+              meets ? std::vector{EdgeId(1)} : std::vector<EdgeId>{});
+    EXPECT_EQ(contacts.window(c, EdgeId(1), c, VertexId(2)).has_value(), meets);
+    EXPECT_FALSE(contacts.window(c, EdgeId(0), c, VertexId(2)));
+  }
+}
+
 TEST(IntervalTable, ComputesEachKeyOnce) {
   for (const std::size_t columns : {std::size_t{50}, std::size_t{1'000'000}}) {  // plain, hashed
     IntervalTable table(200, columns);

@@ -15,7 +15,9 @@ namespace {
 
 bool equal(const Instance& a, const Instance& b) {
   return a.roadmap().positions() == b.roadmap().positions() &&
-         a.roadmap().edges() == b.roadmap().edges() && a.agents() == b.agents() &&
+         a.roadmap().edges() == b.roadmap().edges() &&
+         a.roadmap().shapes() == b.roadmap().shapes() &&
+         a.roadmap().no_waiting() == b.roadmap().no_waiting() && a.agents() == b.agents() &&
          a.obstacles() == b.obstacles() && a.resolution() == b.resolution();
 }
 
@@ -52,6 +54,40 @@ TEST(RoadmapJson, ReadsWhatFleetsNeed) {
   ASSERT_EQ(instance.obstacles().size(), 1u);
   EXPECT_EQ(instance.obstacles()[0],
             (MovingObstacle{Disc{20}, {{{100, 100}, 0, 200}, {{100, 300}, 450, 450}}, true}));
+}
+
+TEST(RoadmapJson, ReadsWhereNobodyMayWaitAndHowFastLanesAre) {
+  const auto read = [](const std::string& edge, const std::string& no_waiting) {
+    std::istringstream file(
+        "{\"quadrille\": \"instance\", \"version\": 1, \"resolution\": 0.1, \"roadmap\": "
+        "{\"vertices\": [[0, 0], [3, 4], [6, 4]],\n\"edges\": [[0, 1], {\"from\": 1, \"to\": 2" +
+        edge + "}],\n\"no_waiting\": " + no_waiting +
+        "}, \"agents\": [{\"start\": 0, \"goal\": 2, \"radius\": 0.5}]}");
+    return read_instance_json(file, "f");
+  };
+  const auto instance = read(", \"speed_limit\": 0.5", "[1]");
+  ASSERT_TRUE(instance) << instance.error().message;
+  EXPECT_EQ(instance->roadmap().edge(EdgeId(1)).speed_limit, kUnitSpeed / 2);
+  EXPECT_EQ(instance->duration(ClassId(0), EdgeId(1)), Ticks(60));
+  EXPECT_EQ(instance->duration(ClassId(0), EdgeId(0)), Ticks(50));
+  EXPECT_FALSE(instance->roadmap().may_wait(VertexId(1)));
+  const auto refuses = [&](const std::string& edge, const std::string& no_waiting,
+                           const std::string& why) {
+    const auto made = read(edge, no_waiting);
+    ASSERT_FALSE(made) << why;
+    EXPECT_EQ(made.error().to_string(), why);
+  };
+  refuses(
+      ", \"speed_limit\": 0", "[]",
+      "f:2: /roadmap/edges/1/speed_limit: the speed is not 0.000001 .. 1000000 length units per "
+      "tick: 0");
+  refuses(", \"duration\": 3, \"speed_limit\": 1", "[]",
+          "f:2: /roadmap/edges/1/speed_limit: the edge has a duration and a speed limit");
+  refuses("", "[3]", "f:3: /roadmap/no_waiting/0: there is no vertex 3 among 3");
+  refuses("", "[1, 1]", "f:3: /roadmap/no_waiting/1: this vertex is named twice");
+  refuses("", "1", "f:3: /roadmap/no_waiting: expected a list of vertices, found an integer");
+  refuses("", "[2]", "f:3: agent 0 would stay at vertex 2, where nobody may wait");
+  refuses("", "[0]", "f:3: agent 0 starts at vertex 0, where nobody may wait");
 }
 
 TEST(RoadmapJson, ReadsAndWritesGoalsToChooseFrom) {

@@ -23,7 +23,7 @@ TEST(NavGraph, HasVerticesNamesAndLanes) {
       "    vertices:\n"
       "    - [10.5, -5.5, {name: c1, is_charger: true, is_parking_spot: true}]\n"
       "    - [12.0, -5.5, {name: \"\"}]\n"
-      "    - [12, -2.5]\n"
+      "    - [12, -2.5, {is_passthrough_point: true}]\n"
       "    lanes:\n"
       "    - [0, 1, {speed_limit: 0.5, mutex: \"\", orientation_constraint: forward}]\n"
       "    - [1, 0, {}]\n"
@@ -36,11 +36,11 @@ TEST(NavGraph, HasVerticesNamesAndLanes) {
   EXPECT_EQ(graph->names.places,
             (std::vector<std::pair<std::string, VertexId>>{{"c1", VertexId(0)}}));
   const VertexId a(0), b(1), c(2);
-  // 1.5 m at half a metre per second; faster limits than the agents' speed mean nothing.
-  EXPECT_EQ(
-      std::get<Roadmap>(graph->map).edges(),
-      (std::vector<Edge>{
-          {a, b, Ticks(3'000)}, {b, a, std::nullopt}, {b, c, std::nullopt}, {c, b, std::nullopt}}));
+  std::vector<Edge> lanes{{a, b, {}}, {b, a, {}}, {b, c, {}}, {c, b, {}}};
+  lanes[0].speed_limit = kUnitSpeed / 2;
+  lanes[2].speed_limit = 2 * kUnitSpeed;
+  EXPECT_EQ(std::get<Roadmap>(graph->map).edges(), lanes);
+  EXPECT_EQ(std::get<Roadmap>(graph->map).no_waiting(), std::vector{c});
   EXPECT_EQ(graph->num_zero_length_edges, 0u);
 }
 
@@ -84,6 +84,8 @@ TEST(NavGraph, SaysWhatIsWrongAndWhere) {
           "nav.yaml:5: /levels/L1/lanes/0/2/mutex: mutex groups are not supported");
   refuses(two + "[0, 1, {speed_limit: fast}]\n",
           "nav.yaml:5: /levels/L1/lanes/0/2/speed_limit: expected a number, found 'fast'");
+  refuses("levels: {L1: {vertices: [[0, 0, {is_passthrough_point: 1}]], lanes: []}}\n",
+          "nav.yaml:1: /levels/L1/vertices/0/2/is_passthrough_point: expected true or false");
   refuses(two + "[0, 1, {speed_limit: -1}]\n",
           "nav.yaml:5: /levels/L1/lanes/0/2/speed_limit: the speed is not supported");
   refuses(two + "[0, 1, {speed_limit: nan}]\n",

@@ -117,7 +117,8 @@ class Search {
       decide(next, k + 1);
     }
     if (is_at_goal && agent.leaves) return;
-    const bool has_to_go = agent.under_way && p.place == agent.start.index();
+    const bool has_to_go = (agent.under_way && p.place == agent.start.index()) ||
+                           !instance_.roadmap().may_wait(VertexId(p.place));
     if (!has_to_go && !hits(i, stay(p.place, state.now, state.now + 1), here)) decide(state, k + 1);
     if (state.now < agent.release) return;
     for (const EdgeId e : instance_.roadmap().out_edges(VertexId(p.place))) {

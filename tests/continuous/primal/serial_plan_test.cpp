@@ -251,6 +251,7 @@ RandomOptions small(std::uint32_t seed) {
   options.num_agents = 2 + seed % 3;
   options.one_way_percent = seed % 2 == 0 ? 10 : 50;
   options.deadline_percent = options.leaves_percent = options.obstacles_percent = 0;
+  options.no_waiting_percent = 0;  // between moves there are pauses
   return options;
 }
 
@@ -367,6 +368,7 @@ TEST(SerialPlan, KeepsAllRulesOfFleets) {
     options.num_agents = 2 + seed % 3;
     options.release_percent = options.leaves_percent = 40;
     options.obstacles_percent = options.under_way_percent = 30;
+    options.no_waiting_percent = 0;
     const Instance instance = random_instance(seed, options);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
     LimitMonitor limits{Limits{}};

@@ -131,6 +131,9 @@ class Oracle {
     for (std::size_t k = 0; k < walk.edges.size(); ++k)
       starts.push_back(k == 0 ? times.append(0, release)
                               : times.append(starts.back(), walk.durations[k - 1]));
+    for (std::size_t k = 1; k < walk.edges.size(); ++k)
+      if (!instance_.roadmap().may_wait(walk.places[k]))
+        static_cast<void>(times.ask(starts[k], starts[k - 1], -walk.durations[k - 1]));
     // At once, or not at all.
     if (instance_.agent(AgentId(agent)).under_way && !starts.empty())
       static_cast<void>(times.ask(starts.front(), 0, 0));

@@ -88,11 +88,12 @@ class RandomSession {
   }
   static VertexId start_of(const Agent& agent) { return agent.start; }
   static VertexId goal_of(const Agent& agent) { return agent.goals.vertices().front(); }
-  /// Nobody's start (goal), if one is soon found.
+  /// Nobody's start (goal), if one is soon found, and where agents may wait.
   VertexId free_vertex(VertexId (*place_of)(const Agent&)) {
     VertexId v;
     for (int k = 0; k < 10; ++k) {
-      v = VertexId(draw(roadmap_->num_vertices()));
+      do v = VertexId(draw(roadmap_->num_vertices()));
+      while (!roadmap_->may_wait(v));
       const std::vector<MemberId> members = session_.members();
       if (std::none_of(members.begin(), members.end(),
                        [&](MemberId m) { return place_of(session_.agent(m)) == v; }))

@@ -53,7 +53,9 @@ namespace quadrille::continuous::test {
     if (is_at[goal.index()][static_cast<std::size_t>(t.value())] && may_rest(t))
       return t <= instance.agent(agent).deadline.value_or(t) ? std::optional(t) : std::nullopt;
     for (const VertexId v : IdRange<VertexId>(roadmap.num_vertices()))
-      if (is_at[v.index()][static_cast<std::size_t>(t.value())] && may_wait(v, t)) arrive(v, t + 1);
+      if (is_at[v.index()][static_cast<std::size_t>(t.value())] && roadmap.may_wait(v) &&
+          may_wait(v, t))
+        arrive(v, t + 1);
     if (t < instance.agent(agent).release) continue;  // no moves yet
     for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
       const Edge& edge = roadmap.edge(EdgeId(e));

@@ -49,6 +49,7 @@ template <class Choice>
   options.num_agents = num_agents;
   options.size = 25;
   options.obstacles_percent = 0;  // there are bans enough
+  options.no_waiting_percent = 40;
   return random_instance(seed, options);
 }
 

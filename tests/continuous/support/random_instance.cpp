@@ -136,13 +136,52 @@ std::shared_ptr<const Roadmap> put_under_way(Draw& draw, const Roadmap& roadmap,
     if (roadmap.num_edges() == 0 || !draw.chance(60)) continue;
     const Edge edge = parts.edges[static_cast<std::size_t>(
         draw.number(0, static_cast<std::int64_t>(roadmap.num_edges()) - 1))];
-    const Point from = roadmap.position(edge.from), to = roadmap.position(edge.to);
-    const auto whole = edge.duration ? edge.duration : travel_time(from, to, agent.speed);
+    const auto whole = travel_time(roadmap, edge, agent.speed);
     if (!whole) continue;
     const Ticks left = draw.ticks(1, whole->value());
     agent.start = add_lane_place(parts, edge.from, edge.to, *whole, *whole - left);
     agent.release = 0;
     agent.under_way = left.value() % 4 != 0;  // the others may wait there
+  }
+  return std::make_shared<const Roadmap>(std::move(parts).make().value());
+}
+
+/// Lets some edges be slow, and, if there are groups, some take one of these another time.
+std::shared_ptr<const Roadmap> give_paces(Draw& draw, const Roadmap& roadmap, bool has_groups) {
+  RoadmapParts parts(roadmap);
+  const auto give = [&](Edge& edge) { edge.speed_limit = kUnitSpeed * draw.number(1, 5) / 4; };
+  for (std::size_t e = 0; e < roadmap.num_edges(); ++e) {
+    if (!parts.edges[e].duration && draw.chance(40)) give(parts.edges[e]);
+    const GroupId group = draw_group(draw);
+    Groups others;
+    for (std::size_t g = 0; g < kMaxGroups; ++g)
+      if (parts.edges[e].open_to.contains(GroupId(g)) && GroupId(g) != group)
+        others.insert(GroupId(g));
+    if (!has_groups || others.is_empty() || others == parts.edges[e].open_to || !draw.chance(40))
+      continue;
+    Edge own = parts.edges[e];
+    parts.edges[e].open_to = others;
+    own.open_to = {group};
+    if (own.duration || draw.chance(50)) {
+      own.speed_limit = std::nullopt;
+      own.duration = draw.ticks(1, 60);
+    } else {
+      give(own);
+    }
+    parts.edges.push_back(own);
+  }
+  return std::make_shared<const Roadmap>(std::move(parts).make().value());
+}
+
+/// Of vertices where nobody begins or stays.
+std::shared_ptr<const Roadmap> forbid_waiting(Draw& draw, const Roadmap& roadmap,
+                                              const std::vector<Agent>& agents) {
+  RoadmapParts parts(roadmap);
+  for (const VertexId v : IdRange<VertexId>(roadmap.num_vertices())) {
+    const bool is_needed = std::any_of(agents.begin(), agents.end(), [&](const Agent& agent) {
+      return agent.start == v || (!agent.leaves && agent.goals.contains(v));
+    });
+    if (!is_needed && draw.chance(60)) parts.no_waiting.push_back(v);
   }
   return std::make_shared<const Roadmap>(std::move(parts).make().value());
 }
@@ -253,7 +292,7 @@ std::string describe(const std::vector<Body>& shapes) {
 
 Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
   Draw draw(seed), more(seed ^ 0x9e3779b9u), last(seed ^ 0x7f4a7c15u), heights(seed ^ 0x5bd1e995u);
-  Draw sets(seed ^ 0x27d4eb2fu), turns(seed ^ 0x165667b1u);
+  Draw sets(seed ^ 0x27d4eb2fu), turns(seed ^ 0x165667b1u), lanes(seed ^ 0x2545f491u);
   const bool is_in_space = heights.chance(options.space_percent);
   while (true) {
     const bool has_groups = more.chance(options.groups_percent);
@@ -295,6 +334,8 @@ Instance random_instance(std::uint32_t seed, const RandomOptions& options) {
     add_goals(sets, shared->num_vertices(), options.goal_sets_percent, agents);
     if (turns.chance(options.shapes_percent) && !is_in_space)
       shared = give_shapes(turns, *shared, options, agents);
+    if (lanes.chance(options.paces_percent)) shared = give_paces(lanes, *shared, has_groups);
+    if (lanes.chance(options.no_waiting_percent)) shared = forbid_waiting(lanes, *shared, agents);
     if (last.chance(options.under_way_percent)) shared = put_under_way(last, *shared, agents);
     auto instance =
         Instance::make(shared, std::move(agents), kDefaultResolution, {}, std::move(obstacles));
@@ -317,6 +358,7 @@ std::string describe(const Instance& instance) {
   for (const Edge& e : instance.roadmap().edges()) {
     text += " " + std::to_string(e.from.index()) + ">" + std::to_string(e.to.index());
     if (e.duration) text += ":" + std::to_string(e.duration->value());
+    if (e.speed_limit) text += ":v" + std::to_string(e.speed_limit->value());
     if (e.shape != ShapeId()) text += "#" + std::to_string(e.shape.index());
     if (e.open_to == Groups::all()) continue;
     text += "{";
@@ -327,6 +369,8 @@ std::string describe(const Instance& instance) {
   if (!instance.roadmap().shapes().empty()) text += "; shapes";
   for (const ShapeId shape : instance.roadmap().shapes())
     text += " " + std::to_string(shape.index());
+  if (!instance.roadmap().no_waiting().empty()) text += "; no waiting at";
+  for (const VertexId v : instance.roadmap().no_waiting()) text += " " + std::to_string(v.index());
   text += "; agents";
   for (const Agent& a : instance.agents())
     text += " " + std::to_string(a.start.index()) + "->" + describe(a.goals) + " " +

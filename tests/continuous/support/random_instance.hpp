@@ -54,6 +54,10 @@ struct RandomOptions {
   int goal_sets_percent = 0;
   /// Of the instances in the plane: vertices and edges have shapes, and so have most agents.
   int shapes_percent = 15;
+  /// Of the instances: edges with speed limits, and some that take one group another time.
+  int paces_percent = 15;
+  /// Of the instances: vertices where nobody may wait, among those where nobody begins or stays.
+  int no_waiting_percent = 15;
 };
 
 /// The same for the same seed. Tries until the instance is valid.

@@ -38,6 +38,9 @@ namespace quadrille::continuous::test {
       corners.push_back(scaled(corner));
     return ConvexPolygon::make(std::move(corners)).value();
   };
+  std::vector<Edge> edges = roadmap.edges();
+  for (Edge& edge : edges)
+    if (edge.speed_limit) edge.speed_limit = scale * *edge.speed_limit;
   std::vector<Agent> agents(instance.agents().begin(), instance.agents().end());
   for (Agent& agent : agents) {
     agent.body = larger(agent.body);
@@ -49,9 +52,11 @@ namespace quadrille::continuous::test {
     obstacle.body = larger(obstacle.body);
     for (MovingObstacle::Stop& stop : obstacle.path) stop.at = scaled(stop.at);
   }
-  return Instance::make(
-             Roadmap::make(std::move(points), roadmap.edges(), {}, roadmap.shapes()).value(),
-             std::move(agents), instance.resolution(), {}, std::move(obstacles), instance.now())
+  return Instance::make(Roadmap::make(std::move(points), std::move(edges), {}, roadmap.shapes(),
+                                      roadmap.no_waiting())
+                            .value(),
+                        std::move(agents), instance.resolution(), {}, std::move(obstacles),
+                        instance.now())
       .value();
 }
 

@@ -19,11 +19,6 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
-/// Millionths of a length unit per tick.
-using Speed = Quantity<struct SpeedUnit>;
-inline constexpr Speed kUnitSpeed = 1'000'000;
-inline constexpr Speed kMaxSpeed{1'000'000'000'000};
-
 using geometry::Body;
 using geometry::ConvexPolygon;
 using geometry::Disc;
@@ -97,27 +92,29 @@ using ClassId = StrongId<struct ClassTag>;
 /// A MAPF_R instance: a roadmap and one body with a task per agent, all in whole ticks and length
 /// units. All times are absolute. The agents are at their starts at the tick `now`, 0 if nothing
 /// else is said, where their plans begin and from where costs count. Agents wait at vertices only,
-/// a whole number of ticks, move along edges at constant speed, and stay at a goal for ever. Two
-/// agents collide when the interiors of their bodies meet; touching is allowed. An agent with
-/// shapes has that of the edge from the begin of its move to the end, and at the moments between
-/// two moves that of the vertex only. Immutable; cheap to copy (the roadmap is shared).
+/// unless the roadmap forbids it there, a whole number of ticks, move along edges at constant
+/// speed, and stay at a goal for ever. Two agents collide when the interiors of their bodies meet;
+/// touching is allowed. An agent with shapes has that of the edge from the begin of its move to the
+/// end, and at the moments between two moves that of the vertex only. Immutable; cheap to copy (the
+/// roadmap is shared).
 class Instance {
  public:
-  /// Durations that the roadmap does not give are length / speed, rounded to the nearest tick.
-  /// Errors: out_of_range for a radius outside [1, geometry::kMaxLength], a polygon with a corner
-  /// further than that from the agent's position, a speed outside [1, kMaxSpeed], a group outside
-  /// [0, kMaxGroups), `now`, a release or a deadline outside [0, geometry::kMaxDuration], a
-  /// duration outside [1, geometry::kMaxDuration], a resolution that is not positive and finite,
-  /// likewise for bodies, places and times of obstacles; invalid_instance for vertices that do not
-  /// exist, agents without a goal, agents that are under way but not at a place of their own, or
-  /// released after `now` or that overlap at their starts, obstacles without stops, whose times go
-  /// back, or that vanish when they appear, polygons in an instance that is not flat, agents with
-  /// shapes that lack one of the roadmap, or one of whose shapes at a vertex is not inside of that
-  /// of an edge there that they may use; no_plan for overlapping starts, unless both agents say so,
-  /// and with an obstacle at `now`, overlapping goals (interiors) of agents that stay there and
-  /// have no other one, and agents that can reach no goal, or none by the deadline. Agents are
-  /// named by index. `places`: where each agent comes from, for errors about it; none, or one per
-  /// agent.
+  /// Durations that the roadmap does not give are length / speed, rounded to the nearest tick,
+  /// where the speed is that of the agent or the limit of the edge, whichever is less. Errors:
+  /// out_of_range for a radius outside [1, geometry::kMaxLength], a polygon with a corner further
+  /// than that from the agent's position, a speed outside [1, kMaxSpeed], a group outside [0,
+  /// kMaxGroups), `now`, a release or a deadline outside [0, geometry::kMaxDuration], a duration
+  /// outside [1, geometry::kMaxDuration], a resolution that is not positive and finite, likewise
+  /// for bodies, places and times of obstacles; invalid_instance for vertices that do not exist,
+  /// agents without a goal, agents that start, or would stay at a goal, where nobody may wait,
+  /// agents that are under way but not at a place of their own, or released after `now` or that
+  /// overlap at their starts, obstacles without stops, whose times go back, or that vanish when
+  /// they appear, polygons in an instance that is not flat, agents with shapes that lack one of the
+  /// roadmap, or one of whose shapes at a vertex is not inside of that of an edge there that they
+  /// may use; no_plan for overlapping starts, unless both agents say so, and with an obstacle at
+  /// `now`, overlapping goals (interiors) of agents that stay there and have no other one, and
+  /// agents that can reach no goal, or none by the deadline. Agents are named by index. `places`:
+  /// where each agent comes from, for errors about it; none, or one per agent.
   [[nodiscard]] static Result<Instance> make(std::shared_ptr<const Roadmap> roadmap,
                                              std::vector<Agent> agents, Resolution resolution = {},
                                              std::span<const SourcePlace> places = {},

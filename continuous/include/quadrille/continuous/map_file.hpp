@@ -49,7 +49,7 @@ struct MapFile {
 
 struct MapFileOptions {
   Resolution resolution;
-  /// Of the agents: edges with a limit below it take as long as the limit makes them.
+  /// Of the agents: to say at once that an edge takes too long at its limit.
   Speed speed;
   std::string level = {};         ///< Of a file with several; empty: there has to be one.
   std::string vehicle_type = {};  ///< Of a LIF with several; likewise.

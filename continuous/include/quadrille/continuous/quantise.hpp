@@ -44,6 +44,11 @@ namespace quadrille::continuous {
 /// points in range and a speed in [1, kMaxSpeed].
 [[nodiscard]] std::optional<Ticks> travel_time(const Point& from, const Point& to, Speed speed);
 
+/// How long a move along the edge takes an agent of this speed: what the edge says, or its length
+/// at the speed or at the edge's limit. nullopt and requirements as those of travel_time.
+[[nodiscard]] std::optional<Ticks> travel_time(const Roadmap& roadmap, const Edge& edge,
+                                               Speed speed);
+
 // And back, for output: decimal numbers as short as the resolution allows, where that is the
 // reciprocal of an integer. Quantised with the same resolution they give the same integers again.
 

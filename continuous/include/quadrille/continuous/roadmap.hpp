@@ -24,6 +24,11 @@ using geometry::Point;
 using geometry::Ticks;  ///< Whole ticks.
 using EdgeId = StrongId<struct EdgeTag>;
 
+/// Millionths of a length unit per tick.
+using Speed = Quantity<struct SpeedUnit>;
+inline constexpr Speed kUnitSpeed = 1'000'000;
+inline constexpr Speed kMaxSpeed{1'000'000'000'000};
+
 /// A kind of agents, to which edges can be open or closed. Numbers are below kMaxGroups.
 using GroupId = StrongId<struct GroupTag>;
 inline constexpr std::size_t kMaxGroups = 64;
@@ -69,6 +74,9 @@ struct Edge {
   Groups open_to = Groups::all();
   /// The shape of who makes the move, all the way.
   ShapeId shape = {};
+  /// Nobody goes faster than that. Not with a duration. One for a kind of agents is that of an edge
+  /// for their group, beside one for the others.
+  std::optional<Speed> speed_limit = {};
   friend bool operator==(const Edge&, const Edge&) = default;
 };
 
@@ -103,9 +111,10 @@ class EdgeLists {
 /// Vertices in the plane or in space, and directed edges. Immutable.
 class Roadmap {
  public:
-  /// Errors: out_of_range for coordinates beyond geometry::kMaxLength or durations outside
-  /// [1, geometry::kMaxDuration]; invalid_instance for an edge with an end that does not exist,
-  /// from a vertex to itself, of length zero without a duration, or open to nobody. Vertices and
+  /// Errors: out_of_range for coordinates beyond geometry::kMaxLength, durations outside
+  /// [1, geometry::kMaxDuration] or speed limits outside [1, kMaxSpeed]; invalid_instance for an
+  /// edge with an end that does not exist, from a vertex to itself, of length zero without a
+  /// duration, with a duration and a speed limit, or open to nobody. Vertices and
   /// edges are named by their index. Parallel edges are allowed, and several vertices in the same
   /// place.
   /// `lane_places`: vertices in the middle of moves, whose coordinates are the exact ones rounded
@@ -114,9 +123,13 @@ class Roadmap {
   /// above kMaxShapes; invalid_instance for another number of them, edges between the same two
   /// vertices in the same direction that have different ones, and a vertex in the middle of a move
   /// that has not the one of the move.
+  /// `no_waiting`: vertices at which nobody may wait: who comes there goes on at once, or leaves.
+  /// Errors: invalid_instance for one that does not exist, is told twice, or is in the middle of a
+  /// move.
   [[nodiscard]] static Result<Roadmap> make(std::vector<Point> vertices, std::vector<Edge> edges,
                                             std::vector<LanePlace> lane_places = {},
-                                            std::vector<ShapeId> shapes = {});
+                                            std::vector<ShapeId> shapes = {},
+                                            std::vector<VertexId> no_waiting = {});
 
   /// The same one, but these edges are open to nobody; all ids stay the same. No file can hold it.
   /// Requires edges that exist. Linear.
@@ -142,6 +155,11 @@ class Roadmap {
   [[nodiscard]] const std::vector<ShapeId>& shapes() const noexcept { return shapes_; }
   /// The largest one that a vertex or an edge has, and one more.
   [[nodiscard]] std::size_t num_shapes() const noexcept { return num_shapes_; }
+  [[nodiscard]] bool may_wait(VertexId v) const {
+    return is_no_waiting_.empty() || is_no_waiting_[v.index()] == 0;
+  }
+  /// Vertices at which nobody may wait, ascending.
+  [[nodiscard]] const std::vector<VertexId>& no_waiting() const noexcept { return no_waiting_; }
   /// The move in so many ticks from one vertex to another one.
   [[nodiscard]] geometry::Motion motion(VertexId from, VertexId to, Ticks duration) const;
   /// Null unless the vertex is in the middle of a move. Logarithmic.
@@ -160,12 +178,14 @@ class Roadmap {
 
  private:
   Roadmap(std::vector<Point> positions, std::vector<Edge> edges, std::vector<LanePlace> lane_places,
-          std::vector<ShapeId> shapes);
+          std::vector<ShapeId> shapes, std::vector<VertexId> no_waiting);
 
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
   std::vector<LanePlace> lane_places_;
   std::vector<ShapeId> shapes_;
+  std::vector<VertexId> no_waiting_;
+  std::vector<char> is_no_waiting_;  // by vertex, or none
   std::size_t num_shapes_ = 1;
   bool is_flat_ = true;
   EdgeLists out_, in_;

@@ -16,17 +16,19 @@ struct RoadmapParts {
   std::vector<Edge> edges;
   std::vector<LanePlace> lane_places;
   std::vector<ShapeId> shapes;  ///< Of the vertices, or none.
+  std::vector<VertexId> no_waiting;
 
   RoadmapParts() = default;
   explicit RoadmapParts(const Roadmap& roadmap)
       : vertices(roadmap.positions()),
         edges(roadmap.edges()),
         lane_places(roadmap.lane_places()),
-        shapes(roadmap.shapes()) {}
+        shapes(roadmap.shapes()),
+        no_waiting(roadmap.no_waiting()) {}
   /// Roadmap::make.
   [[nodiscard]] Result<Roadmap> make() && {
     return Roadmap::make(std::move(vertices), std::move(edges), std::move(lane_places),
-                         std::move(shapes));
+                         std::move(shapes), std::move(no_waiting));
   }
 };
 

@@ -50,9 +50,21 @@ struct Resolution {
 /// A kind of robots, for which lanes can be reserved. Made by RoadmapBuilder::group.
 using Group = continuous::GroupId;
 
-/// Who may use a lane.
+/// Who may use a lane, and how fast.
 struct LaneSpec {
   std::vector<Group> only = {};  ///< Robots of these groups; none: all robots.
+  /// Nobody goes faster than that.
+  std::optional<MetresPerSecond> speed_limit = {};
+  /// What it takes whoever goes along it, rounded up to whole steps of time. Not with a limit.
+  std::optional<Seconds> duration = {};
+  /// One group of robots, for whom the limit or the duration is another one, or none.
+  struct Kind {
+    Group group;
+    std::optional<MetresPerSecond> speed_limit = {};
+    std::optional<Seconds> duration = {};
+    friend bool operator==(const Kind&, const Kind&) = default;
+  };
+  std::vector<Kind> kinds = {};  ///< Each group once, and only groups that may use the lane.
   friend bool operator==(const LaneSpec&, const LaneSpec&) = default;
 };
 
@@ -121,9 +133,11 @@ class RoadmapBuilder {
   /// A new group of robots: RobotSpec::group. At most continuous::kMaxGroups - 1.
   Group group() { return Group(++num_groups_); }
   /// A road for both directions, or a lane for one. The roads of a roadmap are a set: one that is
-  /// there already may be given again, to the same groups.
+  /// there already may be given again, as it is.
   RoadmapBuilder& road(VertexId a, VertexId b, LaneSpec spec = {});
   RoadmapBuilder& lane(VertexId from, VertexId to, LaneSpec spec = {});
+  /// Nobody may wait at the vertex, and so nobody begins or stays there: who comes goes on at once.
+  RoadmapBuilder& no_waiting(VertexId v);
   /// Takes out what joins the two vertices, in both directions. Vertices keep their ids.
   RoadmapBuilder& close(VertexId a, VertexId b);
 
@@ -133,9 +147,12 @@ class RoadmapBuilder {
   [[nodiscard]] const Point& position(VertexId v) const { return places_[v.index()]; }
 
   /// Errors: out_of_range for a resolution that is not positive and for coordinates beyond 2^40
-  /// times the resolution; invalid_instance for a name given twice, a lane from a vertex to itself,
-  /// between vertices in the same place once they are rounded, with an end that does not exist, for
-  /// a group that this builder has not made, or given twice to different groups.
+  /// times the resolution, speed limits and durations that are not supported at it;
+  /// invalid_instance for a name given twice, a lane from a vertex to itself, between vertices in
+  /// the same place once they are rounded, with an end that does not exist, for a group that this
+  /// builder has not made, with a limit and a duration, told twice of a group or of one that may
+  /// not use it, or given twice in different ways, and for a vertex where nobody may wait that does
+  /// not exist or is told twice.
   [[nodiscard]] Result<Roadmap> build() const;
 
  private:
@@ -144,6 +161,19 @@ class RoadmapBuilder {
     LaneSpec spec;
   };
   [[nodiscard]] std::string name_of(VertexId v) const;
+  [[nodiscard]] bool is_made(Group group) const {
+    return group.index() >= 1 && group.index() <= num_groups_;
+  }
+  [[nodiscard]] Result<continuous::Groups> groups(const LaneSpec& spec,
+                                                  const std::string& what) const;
+  /// Sets the limit or the duration of an edge.
+  [[nodiscard]] std::optional<Error> set_pace(continuous::Edge& edge,
+                                              std::optional<MetresPerSecond> speed_limit,
+                                              std::optional<Seconds> duration,
+                                              const std::string& what) const;
+  /// One edge for all who are alike.
+  [[nodiscard]] std::optional<Error> add_edges(const Lane& lane, const std::string& what,
+                                               std::vector<continuous::Edge>& edges) const;
   [[nodiscard]] Result<std::vector<continuous::Point>> rounded_places() const;
   [[nodiscard]] Result<std::vector<continuous::Edge>> edges(
       const std::vector<continuous::Point>& points) const;
@@ -152,6 +182,7 @@ class RoadmapBuilder {
   std::vector<Point> places_;
   std::vector<std::string> names_;
   std::vector<Lane> lanes_;
+  std::vector<VertexId> no_waiting_;
   std::size_t num_groups_ = 0;
 };
 
