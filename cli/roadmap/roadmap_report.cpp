@@ -102,6 +102,15 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
   return json;
 }
 
+/// One body, or those by shape.
+Json bodies_json(const continuous::Agent& agent, const continuous::Resolution& resolution) {
+  Json first = body_json(agent.body, resolution);
+  if (agent.shapes.empty()) return first;
+  Json all = Json::array({std::move(first)});
+  for (const continuous::Body& body : agent.shapes) all.push_back(body_json(body, resolution));
+  return all;
+}
+
 }  // namespace
 
 std::string result_json(const Instance* instance, const SolveArguments& arguments,
@@ -127,7 +136,7 @@ std::string result_json(const Instance* instance, const SolveArguments& argument
   if (instance != nullptr) {
     bodies = Json::array();
     for (const continuous::Agent& agent : instance->agents())
-      bodies.push_back(body_json(agent.body, resolution));
+      bodies.push_back(bodies_json(agent, resolution));
   }
   json.add("bodies", bodies);
   const auto error =

@@ -34,6 +34,8 @@ std::string find_fault(const Instance& instance, AgentId i, const Path& path) {
     return "stops in the middle of a move";
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (path[k].depart < path[k].arrive) return "departs before it arrives";
+    if (path[k].depart > path[k].arrive && !roadmap.may_wait(path[k].vertex))
+      return "waits at vertex " + std::to_string(path[k].vertex.index()) + ", where nobody may";
     if (k + 1 == path.size()) break;
     const Ticks takes = path[k + 1].arrive - path[k].depart;
     const auto& edges = roadmap.edges();
@@ -64,26 +66,23 @@ std::vector<Leg> legs_of(const Stops& stops, const Place& place, bool leaves, Ti
   std::vector<Leg> legs;
   for (std::size_t k = 0; k < stops.size(); ++k) {
     const geometry::Place here = place(stops[k]);
-    const bool is_on_lane = here.from != here.to;
     if (k > 0) legs.push_back(way(place(stops[k - 1]), here, stops[k - 1].depart, stops[k].arrive));
     const bool stays = k + 1 == stops.size() && !leaves;
     const Ticks until = stays ? horizon : stops[k].depart;
     // Passing through a place belongs to the moves before and after it; what is somewhere for one
     // moment of its life is in nobody's way, docs/continuous.md.
-    if (until > stops[k].arrive && is_on_lane)
-      legs.push_back(
-          {here.from, here.to, stops[k].arrive, until, here.behind, here.whole, /*stands=*/true});
-    else if (until > stops[k].arrive)
-      legs.push_back({here.from, here.from, stops[k].arrive, until});
+    if (until <= stops[k].arrive) continue;
+    legs.push_back({here.from, here.to, stops[k].arrive, until, 0, 0, /*stands=*/true});
+    if (here.from == here.to) continue;
+    legs.back().behind = here.behind;
+    legs.back().whole = here.whole;
   }
   return legs;
 }
 
-bool stands(const Leg& leg) { return leg.stands || leg.from == leg.to; }
-
 /// Whether the leg is a stay where the agent begins, or its first move.
 bool is_first(const std::vector<Leg>& legs, std::size_t k) {
-  return k == 0 || (k == 1 && stands(legs[0]));
+  return k == 0 || (k == 1 && legs[0].stands);
 }
 
 class Opinion {
@@ -186,9 +185,9 @@ class Opinion {
   /// Of two who overlap at their starts, where one of them stands: both do, or they are apart when
   /// the other one's move ends.
   static bool part(const EncounterCheck& check, const Leg& a, const Leg& b) {
-    if (stands(a) == stands(b)) return stands(a);
+    if (a.stands == b.stands) return a.stands;
     const auto at_end = [](const Leg& leg) {
-      Leg rest = stands(leg) ? leg : Leg{leg.to, leg.to, 0, 1};
+      Leg rest = leg.stands ? leg : Leg{leg.to, leg.to, 0, 1};
       rest.begin = 0;
       rest.end = 1;
       return rest;

@@ -124,6 +124,21 @@ TEST_P(Parked, ComingBackIsACollision) {
   EXPECT_EQ(solve(instance, options())->cost, 1000);
 }
 
+TEST_P(Parked, ATurnOnTheSpotIsAMove) {
+  // After it nobody is elsewhere: the two overlap still.
+  std::vector<Edge> edges{{VertexId(0), VertexId(2), Ticks{10}}, {VertexId(2), VertexId(3), {}}};
+  const auto map = std::make_shared<const Roadmap>(
+      Roadmap::make({{0, 0}, {150, 0}, {0, 0}, {0, 1000}}, std::move(edges)).value());
+  const Instance instance = Instance::make(map, {parked(0, 3, 100), parked(1, 1, 100)}).value();
+  const Plan plan{IdVector<AgentId, Path>(
+      std::vector<Path>{{{VertexId(0), 0, 5}, {VertexId(2), 15, 15}, {VertexId(3), 1015, 1015}},
+                        {{VertexId(1), 0, 0}}})};
+  const VerifyReport report = verify(instance, plan);
+  ASSERT_FALSE(report.valid());
+  EXPECT_EQ(report.violations[0].kind, Violation::Kind::collision);
+  EXPECT_EQ(ask_fcl(instance, plan).verdict, SecondOpinion::Verdict::collision);
+}
+
 TEST(ParkedFiles, AreReadAndWritten) {
   const Instance instance =
       Instance::make(two_bays(), {parked(0, 2, 100), parked(1, 3, 100)}).value();
