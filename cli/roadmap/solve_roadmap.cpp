@@ -17,8 +17,7 @@
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/poses/steps.hpp"
-#include "quadrille/view/page.hpp"
-#include "quadrille/view/picture.hpp"
+#include "roadmap/drawing.hpp"
 #include "roadmap/opinion_report.hpp"
 #include "roadmap/roadmap_report.hpp"
 #include "roadmap/roadmap_text.hpp"
@@ -121,11 +120,11 @@ class RoadmapSolve {
     return result_json(&instance(), arguments_, options_, outcome, replay, notes_);
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
-    return view::page(instance(), outcome.plan.value_or(continuous::Plan{}),
-                      page_options(input_.source, objective(), outcome), input_.cells_or_null());
+    return page_of(input_, outcome.plan.value_or(continuous::Plan{}),
+                   page_options(input_.source, objective(), outcome));
   }
   [[nodiscard]] Result<std::string> drawing(const continuous::Plan& plan) const {
-    return view::picture(instance(), plan, arguments_.picture.options, input_.cells_or_null());
+    return picture_of(input_, plan, arguments_.picture.options);
   }
   [[nodiscard]] std::optional<Result<std::string>> proof(const SolveOutcome& outcome) const {
     if (!outcome.certificate) return std::nullopt;

@@ -6,8 +6,7 @@
 
 #include "frame/arguments.hpp"
 #include "quadrille/input/attribution.hpp"
-#include "quadrille/view/page.hpp"
-#include "quadrille/view/picture.hpp"
+#include "roadmap/drawing.hpp"
 #include "roadmap/roadmap_plan.hpp"
 
 namespace quadrille::cli {
@@ -52,10 +51,10 @@ ExitCode view_roadmap(const CLI::App& app, const ViewArguments& arguments) {
     options.title = std::filesystem::path(input.source).filename().string();
     options.objective = objective;
     options.attribution = attribution;
-    return view::page(input.instance, plan, options, input.cells_or_null());
+    return page_of(input, plan, options);
   };
   const auto draw = [&](const input::RoadmapInput& input, const continuous::Plan& plan) {
-    return view::picture(input.instance, plan, arguments.picture.options, input.cells_or_null());
+    return picture_of(input, plan, arguments.picture.options);
   };
   return view_and_write(
       arguments, [&] { return given.load(); }, read, page, draw);

@@ -5,7 +5,7 @@
 /** @import {State} from "./state.js" */
 import { convexHull } from "./clearance.js";
 import { tracePath } from "./map_layer.js";
-import { bodyAt, frameAt, isPresent, obstacleAt, positionAt } from "./motion.js";
+import { bodyAt, frameAt, headingAt, isPresent, obstacleAt, positionAt } from "./motion.js";
 import { agentColour, AGENT_COLOURS, labelColour } from "./palette.js";
 import { drawPrecedences } from "./precedences.js";
 
@@ -31,6 +31,7 @@ export function drawAgents(context, state) {
       {if (isPresent(scene.agents[i], player.time))
         fillBody(context, state.camera, scene.bodies[bodyAt(scene.agents[i], player.time)], positions[i]);}
   });
+  drawHeadings(context, state, positions);
   outline(context, state, positions);
   if (state.showOrder) drawPrecedences(context, state);
   drawLabels(context, state, positions);
@@ -110,6 +111,32 @@ function traceBody(context, camera, body, at, grow = 0) {
     else context.lineTo(cx, cy);
   });
   context.closePath();
+}
+
+/**
+ * An arrow head at the front of each robot that has a heading.
+ * @param {CanvasRenderingContext2D} context
+ * @param {State} state
+ * @param {Point[]} positions
+ */
+function drawHeadings(context, { scene, camera, player }, positions) {
+  for (const agent of scene.agents) {
+    const heading = headingAt(agent, player.time);
+    const radius = scene.bodies[agent.body].radius * camera.scale;
+    if (heading === null || radius < 4 || !isPresent(agent, player.time)) continue;
+    const [x, y] = [camera.toPixelX(positions[agent.index].x), camera.toPixelY(positions[agent.index].y)];
+    const angle = (heading * Math.PI) / 180;
+    const [ahead, aside] = [Math.cos(angle), camera.flip * Math.sin(angle)];
+    const point = (/** @type {number} */ far, /** @type {number} */ left) => /** @type {const} */ (
+      [x + radius * (far * ahead - left * aside), y + radius * (far * aside + left * ahead)]);
+    context.fillStyle = labelColour(agent.index);
+    context.beginPath();
+    context.moveTo(...point(0.95, 0));
+    context.lineTo(...point(0.6, 0.35));
+    context.lineTo(...point(0.6, -0.35));
+    context.closePath();
+    context.fill();
+  }
 }
 
 /**

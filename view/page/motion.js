@@ -44,6 +44,22 @@ export function bodyAt(agent, time) {
 }
 
 /**
+ * Where it faces then, in degrees; null if it has no headings. It turns the shorter way round.
+ * @param {Agent} agent
+ * @param {number} time
+ * @returns {number | null}
+ */
+export function headingAt(agent, time) {
+  const { times, headings } = agent;
+  if (headings.length === 0) return null;
+  const k = Math.max(0, frameAt(agent, time));
+  if (k + 1 === times.length || time <= times[k]) return headings[k];
+  const share = (time - times[k]) / (times[k + 1] - times[k]);
+  const turn = headings[k + 1] - headings[k];
+  return headings[k] + (turn - 360 * Math.round(turn / 360)) * share;
+}
+
+/**
  * Whether it is anywhere: one that leaves is at its goal for a moment only.
  * @param {Agent} agent
  * @param {number} time

@@ -13,6 +13,8 @@
  * @property {Place} goal
  * @property {number} body       into Scene.bodies; of one whose body changes that at its start
  * @property {number[]} looks    of one whose body changes: that from each of the times on
+ * @property {number[]} headings where it faces at each of the times, in degrees from the axis of x towards
+ *   that of y; none if it has no headings
  * @property {number | null} free   what it costs alone
  * @property {number | null} cost   null without a path
  * @property {Float64Array} times  of the ends of all moves and waits, in order
@@ -187,6 +189,7 @@ function readAgent(data, index) {
   return {
     index, start: readPlace(data.start), goal: readPlace(data.goal),
     body: data.body ?? 0, looks: data.looks ? looksOf(data.looks, data.stops) : [],
+    headings: data.headings ? headingsOf(data.headings, data.stops) : [],
     free: data.free ?? null, cost: data.cost ?? null,
     leaves: Boolean(data.leaves), otherGoals: (data.other_goals ?? []).map(readPlace),
     ...columnsOf(frames),
@@ -275,6 +278,16 @@ function looksOf(looks, stops) {
     else bodies.push(away);
   }
   return bodies;
+}
+
+/**
+ * The headings at each frame of the stops.
+ * @param {number[]} headings  one per stop
+ * @param {number[]} stops
+ * @returns {number[]}
+ */
+function headingsOf(headings, stops) {
+  return headings.flatMap((heading, k) => (stops[4 * k + 3] > stops[4 * k + 2] ? [heading, heading] : [heading]));
 }
 
 /**

@@ -187,4 +187,10 @@ Scene make_scene(const continuous::Instance& instance, const continuous::Plan& p
   return scene;
 }
 
+// A quarter turn to the right on the map is one from the axis of x to that of y, as y goes down.
+void add_headings(const continuous::PoseGrid& poses, Scene& scene) {
+  for (std::size_t v = 0; v < scene.places.size(); ++v)
+    scene.headings.push_back(90.0 * static_cast<double>(poses.pose(VertexId(v)).heading));
+}
+
 }  // namespace quadrille::view

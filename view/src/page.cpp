@@ -2,6 +2,7 @@
 #include "quadrille/view/page.hpp"
 
 #include <string_view>
+#include <utility>
 
 #include "page_parts.hpp"
 #include "scene.hpp"
@@ -47,13 +48,28 @@ std::string page(const discrete::Instance& instance, const discrete::Plan& plan,
   return fill(scene, options);
 }
 
-std::string page(const continuous::Instance& instance, const continuous::Plan& plan,
-                 const PageOptions& options, const continuous::GridRoadmap* grid) {
-  Scene scene = make_scene(instance, plan, grid);
+namespace {
+
+std::string page_of(Scene scene, const continuous::Instance& instance, const continuous::Plan& plan,
+                    const PageOptions& options) {
   if (options.attribution) add_attribution(*options.attribution, scene);
   add_precedences(instance, plan, scene);
   if (options.obstruction) scene.violations.clear();
   return fill(scene, options);
+}
+
+}  // namespace
+
+std::string page(const continuous::Instance& instance, const continuous::Plan& plan,
+                 const PageOptions& options, const continuous::GridRoadmap* grid) {
+  return page_of(make_scene(instance, plan, grid), instance, plan, options);
+}
+
+std::string page(const continuous::Instance& instance, const continuous::Plan& plan,
+                 const PageOptions& options, const continuous::PoseGrid& poses) {
+  Scene scene = make_scene(instance, plan, &poses.cells());
+  add_headings(poses, scene);
+  return page_of(std::move(scene), instance, plan, options);
 }
 
 }  // namespace quadrille::view

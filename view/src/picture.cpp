@@ -67,4 +67,12 @@ Result<std::string> picture(const continuous::Instance& instance, const continuo
   return draw(make_scene(instance, plan, grid), options);
 }
 
+Result<std::string> picture(const continuous::Instance& instance, const continuous::Plan& plan,
+                            const PictureOptions& options, const continuous::PoseGrid& poses) {
+  if (auto error = check(options, instance.num_agents())) return *error;
+  Scene scene = make_scene(instance, plan, &poses.cells());
+  add_headings(poses, scene);
+  return draw(scene, options);
+}
+
 }  // namespace quadrille::view

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "svg.hpp"
@@ -177,13 +179,29 @@ class MapPicture {
     draw_body(svg, i, scene_.agents[i].goal, scene_.agents[i].goal_body, 1,
               "fill=\"#ffffff\" fill-opacity=\"0.75\" stroke-dasharray=\"4 2\" " +
                   stroke(agent_colour(i), 2));
+    draw_heading(svg, i, scene_.agents[i].goal, agent_colour(i));
     label(svg, i, scene_.agents[i].goal, kInk);
+  }
+
+  /// An arrow head at the front.
+  void draw_heading(Svg& svg, std::size_t i, std::size_t place, std::string_view colour) const {
+    if (scene_.headings.empty()) return;
+    const double angle = scene_.headings[place] * std::numbers::pi / 180;
+    const double ahead = std::cos(angle), aside = std::sin(angle);
+    const double radius = reach(scene_.agents[i]);
+    const Position at = scene_.places[place];
+    std::vector<Position> corners;
+    for (const auto& [far, left] : {std::pair(0.95, 0.0), {0.6, 0.35}, {0.6, -0.35}})
+      corners.push_back(on_page({at.x + radius * (far * ahead - left * aside),
+                                 at.y + radius * (far * aside + left * ahead)}));
+    svg.polygon(corners, fill(colour));
   }
 
   void draw_start(Svg& svg, std::size_t i) const {
     draw_body(svg, i, scene_.agents[i].start, scene_.agents[i].body, 1, fill(agent_colour(i)));
     const std::string_view colour = agent_colour(i);
     const bool is_dark = colour == "#0072b2" || colour == "#009e73" || colour == "#d55e00";
+    draw_heading(svg, i, scene_.agents[i].start, is_dark ? "#ffffff" : kInk);
     label(svg, i, scene_.agents[i].start, is_dark ? "#ffffff" : kInk);
   }
 

@@ -10,6 +10,7 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/core/goals.hpp"
 #include "quadrille/core/ids.hpp"
@@ -122,6 +123,9 @@ struct Scene {
   double time_unit = 1, length_unit = 1;  ///< One tick and one length unit, as the input counts.
   std::optional<Cells> cells;
   std::vector<Position> places;
+  /// By place: where who is there faces, in degrees from the axis of x towards that of y. None: no
+  /// agent has headings.
+  std::vector<double> headings;
   std::vector<Link> links;
   std::size_t hidden_links = 0;  ///< Links that are left out because there are too many.
   std::vector<continuous::Body> bodies;
@@ -141,6 +145,9 @@ struct Scene {
 [[nodiscard]] Scene make_scene(const discrete::Instance& instance, const discrete::Plan& plan);
 [[nodiscard]] Scene make_scene(const continuous::Instance& instance, const continuous::Plan& plan,
                                const continuous::GridRoadmap* grid);
+
+/// `poses`: those that the instance is made of.
+void add_headings(const continuous::PoseGrid& poses, Scene& scene);
 
 /// Of the instance that the scene was made of.
 void add_attribution(const discrete::Instance& instance, const Attribution& attribution,

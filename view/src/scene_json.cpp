@@ -85,6 +85,9 @@ Json agent_json(const Scene& scene, const SceneAgent& agent) {
     json["other_goals"].push_back(point(scene, scene.places[place]));
   if (agent.stops.empty()) return json;
   if (!agent.looks.empty()) json["looks"] = agent.looks;
+  if (!scene.headings.empty())
+    for (const SceneStop& stop : agent.stops)
+      json["headings"].push_back(number(scene.headings[stop.place]));
   const Json moves = agent.looks.empty() ? moves_of(scene, agent) : Json();
   if (!moves.is_null()) {
     json["from"] = point(scene, scene.places[agent.stops.front().place]);

@@ -8,6 +8,7 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/core/attribution.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
@@ -53,6 +54,10 @@ struct PageOptions {
 [[nodiscard]] std::string page(const continuous::Instance& instance, const continuous::Plan& plan,
                                const PageOptions& options = {},
                                const continuous::GridRoadmap* grid = nullptr);
+/// Robots that turn on a grid: `poses` are what the instance is made of. Arrows show where they
+/// face.
+[[nodiscard]] std::string page(const continuous::Instance& instance, const continuous::Plan& plan,
+                               const PageOptions& options, const continuous::PoseGrid& poses);
 
 }  // namespace quadrille::view
 

@@ -9,6 +9,7 @@
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/instance.hpp"
@@ -44,6 +45,11 @@ struct PictureOptions {
                                           const continuous::Plan& plan,
                                           const PictureOptions& options = {},
                                           const continuous::GridRoadmap* grid = nullptr);
+/// As `page`: arrows show where robots face that turn on a grid.
+[[nodiscard]] Result<std::string> picture(const continuous::Instance& instance,
+                                          const continuous::Plan& plan,
+                                          const PictureOptions& options,
+                                          const continuous::PoseGrid& poses);
 
 }  // namespace quadrille::view
 
