@@ -37,7 +37,7 @@ struct Road {
   struct Edge {
     int from = 0, to = 0;
     std::uint64_t groups = ~std::uint64_t{0};
-    std::optional<Int> duration, most_speed;
+    std::optional<Int> duration = {}, most_speed = {};
   };
   struct Agent {
     int start = 0, goal = 0;

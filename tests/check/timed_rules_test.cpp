@@ -241,7 +241,7 @@ TEST(TimedRules, PathsAreThoseOfEnumeration) {
       if (from == to) continue;
       road.out[static_cast<std::size_t>(from)].push_back(static_cast<int>(road.edges.size()));
       road.in[static_cast<std::size_t>(to)].push_back(static_cast<int>(road.edges.size()));
-      road.edges.push_back({from, to, ~std::uint64_t{0}, std::nullopt});
+      road.edges.push_back({from, to});
       road.durations[0].push_back(static_cast<Int>(random.between(1, 3)));
     }
     if (road.edges.empty()) continue;

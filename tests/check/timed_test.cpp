@@ -335,6 +335,8 @@ TEST(TimedCertificate, RefusesWhatThereIsNoRuleFor) {
   asked.shapes_percent = asked.no_waiting_percent = 0;  // refused
   SolveOptions options;
   options.proof = true;
+  options.limits.conflicts = 100;
+  options.limits.looks = 1'000;
   const auto refusal = [&](std::uint32_t seed) {
     const auto outcome = solve(random_instance(seed, asked), options);
     return outcome ? std::string() : outcome.error().message;
@@ -348,6 +350,7 @@ TEST(TimedCertificate, RefusesWhatThereIsNoRuleFor) {
   EXPECT_NE(refusal(2).find("bodies change"), std::string::npos);
   asked.shapes_percent = 0;
   asked.no_waiting_percent = 100;
+  asked.num_vertices = 12;
   EXPECT_NE(refusal(3).find("nobody may wait"), std::string::npos);
   // In the middle of a move of five ticks, two of which lie behind.
   auto roadmap =

@@ -30,7 +30,7 @@ struct Input {
   bool in_time = false;   ///< With a roadmap.
   bool has_cells = true;  ///< On a grid, in timesteps.
   bool has_heights = false;
-  bool has_obstacles = false;  ///< Which move.
+  bool is_no_order = false;  ///< No order of moves makes up for delays: obstacles that move, ...
   bool has_goal_sets = false;
   std::size_t num_agents = 0;  ///< As many as the options say.
 };

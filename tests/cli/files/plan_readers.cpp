@@ -63,7 +63,7 @@ void FilesCase::view(const std::string& file) {
 }
 
 void FilesCase::execute(const std::string& file) {
-  if (input_.has_obstacles) {  // which wait for nobody
+  if (input_.is_no_order) {
     on_input("execute-check", {file}, {65});
     on_input("simulate", {file}, {65});
     return;
@@ -85,7 +85,7 @@ void FilesCase::export_it(const std::string& file) {
     const std::string made = names_.next("." + to);
     const bool is_order = to == "vda5050";
     Words words = {"--to", to, "--output", made, file};
-    if (is_order && (input_.has_heights || input_.has_obstacles)) {
+    if (is_order && (input_.has_heights || input_.is_no_order)) {
       on_input("export", words, {65});
       continue;
     }

@@ -39,7 +39,7 @@ Input one_file(Random& random, FileNames& names) {
   write_file(file, text.str());
   input.options = {"--instance", file};
   input.has_heights = !instance.roadmap().is_flat();
-  input.has_obstacles = !instance.obstacles().empty();
+  input.is_no_order = !instance.obstacles().empty() || !instance.roadmap().no_waiting().empty();
   input.num_agents = instance.num_agents();
   if (random.percent(20)) {
     input.num_agents = random.below(input.num_agents + 1);

@@ -102,6 +102,7 @@ TEST(GoalSetsByChoice, CostAsMuchAsTheCheapestChoice) {
     random.num_agents = 2 + seed % 3;
     random.size = 60;
     random.under_way_percent = 30;
+    random.no_waiting_percent = 0;  // choices without a plan would take long
     const Instance instance = random_instance(seed, random);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(instance));
     SolveOptions options;

@@ -4,6 +4,7 @@
 // answers derived by hand, and random instances against two oracles.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -154,15 +155,17 @@ std::optional<Instance> draw(Draw& draw) {
     if (!is_needed) no_waiting.push_back(v);
   }
   if (no_waiting.empty()) return std::nullopt;
+  // Who has to leave its start early, and cannot be at its goal before long, has to spend the time
+  // somewhere. Nobody vanishes at the moment at which an obstacle appears.
   std::vector<MovingObstacle> obstacles;
-  if (draw.chance(30)) {
-    // Nobody vanishes at the moment at which it appears.
-    bool leave = false;
-    for (const Agent& a : agents) leave |= a.leaves;
-    const Ticks arrive = leave ? Ticks(0) : draw.ticks(0, 9);
-    obstacles.push_back({Disc{draw.length(1, 3)},
-                         {{points[vertex()], arrive, arrive + draw.ticks(1, 12)}},
-                         draw.chance(80)});
+  const auto leaves = [](const Agent& a) { return a.leaves; };
+  const bool may_appear = std::none_of(agents.begin(), agents.end(), leaves);
+  for (const Agent& a : agents) {
+    const Point &start = points[a.start.index()], &goal = points[a.goal().index()];
+    if (draw.chance(60)) obstacles.push_back({Disc{1}, {{goal, 0, draw.ticks(5, 25)}}, true});
+    const Ticks comes = draw.ticks(1, 6);
+    if (may_appear && draw.chance(60))
+      obstacles.push_back({Disc{1}, {{start, comes, comes + draw.ticks(5, 25)}}, true});
   }
   auto map = Roadmap::make(std::move(points), std::move(edges), {}, {}, std::move(no_waiting));
   if (!map) return std::nullopt;
@@ -175,7 +178,7 @@ std::optional<Instance> draw(Draw& draw) {
 TEST_P(NoWaiting, AgreesWithTheOracleOfTicks) {
   int plans = 0, none = 0, open = 0, dearer = 0;
   std::uint32_t seed = 130'000'000 + 10'000'000 * part();
-  for (std::size_t number = 0; number < support::scaled(600);) {
+  for (std::size_t number = 0; number < support::scaled(1500);) {
     Draw random(++seed);
     const auto instance = draw(random);
     if (!instance) continue;
@@ -199,7 +202,6 @@ TEST_P(NoWaiting, AgreesWithTheOracleOfTicks) {
       ASSERT_TRUE(oracle.best);
       ASSERT_EQ(outcome->cost, oracle.best);
       ++plans;
-      if (number % 4 != 0) continue;
       RoadmapParts parts(instance->roadmap());
       parts.no_waiting.clear();
       const auto easier = Instance::make(std::move(parts).make().value(),
@@ -218,10 +220,10 @@ TEST_P(NoWaiting, AgreesWithTheOracleOfTicks) {
   RecordProperty("none", none);
   RecordProperty("open", open);
   RecordProperty("dearer", dearer);
-  if (support::scaled(600) < 600) return;
-  EXPECT_GE(plans, 300);
-  EXPECT_GE(dearer, 10);
-  EXPECT_LE(open, 150);
+  if (support::scaled(1500) < 1500) return;
+  EXPECT_GE(plans, 600);
+  EXPECT_GE(dearer, 8);
+  EXPECT_LE(open, 300);
 }
 
 TEST_P(NoWaiting, AgreesWithTheOracleOfOrders) {
@@ -249,8 +251,8 @@ TEST_P(NoWaiting, AgreesWithTheOracleOfOrders) {
       ASSERT_TRUE(verify(instance, plan).valid());
       ASSERT_EQ(find_contradiction(true, ask_fcl(instance, plan)), "");
     }
-    asked.limits.conflicts = 1000;
-    asked.limits.looks = oracle.best ? 5000 : 500;
+    asked.limits.conflicts = 3000;
+    asked.limits.looks = oracle.best ? 30'000 : 500;
     asked.limits.cpu_s.reset();
     if (!oracle.some_plans.empty() && seed % 2 == 0)
       asked.debug.known_plan = oracle.some_plans[seed % oracle.some_plans.size()];
@@ -265,7 +267,7 @@ TEST_P(NoWaiting, AgreesWithTheOracleOfOrders) {
   if (count < 300) return;  // scaled down, for slow builds: too few to count on chance
   EXPECT_GE(10 * num_passed, 5 * static_cast<int>(count));
   EXPECT_GE(3 * tally.solvable, static_cast<int>(count));
-  EXPECT_GE(10 * tally.optimal, 8 * tally.solvable);
+  EXPECT_GE(10 * tally.optimal, 6 * tally.solvable);
 }
 
 TEST_P(NoWaiting, AStopIsSeenByBothVerifiers) {
