@@ -287,7 +287,8 @@ function looksOf(looks, stops) {
  * @returns {number[]}
  */
 function headingsOf(headings, stops) {
-  return headings.flatMap((heading, k) => (stops[4 * k + 3] > stops[4 * k + 2] ? [heading, heading] : [heading]));
+  const waits = (/** @type {number} */ k) => stops[4 * k + 3] > stops[4 * k + 2];
+  return headings.flatMap((heading, k) => (waits(k) ? [heading, heading] : [heading]));
 }
 
 /**
