@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "exports/export_roadmap.hpp"
-#include "exports/naming.hpp"
 #include "frame/arguments.hpp"
 #include "frame/subcommands.hpp"
+#include "quadrille/exports/naming.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -31,23 +31,23 @@ Subcommand add_export(CLI::App& program) {
   add_roadmap_options(*app, arguments->roadmap);
   add_input_file(*app, "PLAN", arguments->plan, "Plan file")->required();
   add_choice(
-      *app, "--to", arguments->to, "csv, multidof, path, vda5050 or planviz",
-      +[](std::string_view text) -> std::optional<std::optional<ExportFormat>> {
-        const auto format = parse_export_format(text);
+      *app, "--to", arguments->to, "csv, multidof, path, vda5050, open-rmf-plan or planviz",
+      +[](std::string_view text) -> std::optional<std::optional<exports::ExportFormat>> {
+        const auto format = exports::parse_export_format(text);
         if (!format) return std::nullopt;
         return format;
       },
-      "csv (samples), multidof (trajectory_msgs), path (nav_msgs), vda5050 (orders) or\n"
-      "planviz (actions of robots that turn)")
+      "csv (samples), multidof (trajectory_msgs), path (nav_msgs), vda5050 (orders),\n"
+      "open-rmf-plan (of a plan server) or planviz (actions of robots that turn)")
       ->required();
   add_positive(*app, "--rate", arguments->rate, "Samples per unit of time; default 10");
-  add_integer(*app, "--ros", arguments->ros, static_cast<std::int64_t>(RosVersion::one),
-              static_cast<std::int64_t>(RosVersion::two),
+  add_integer(*app, "--ros", arguments->ros, static_cast<std::int64_t>(exports::RosVersion::one),
+              static_cast<std::int64_t>(exports::RosVersion::two),
               "With multidof and path: whose field names, of ROS 1 or 2; default 2");
-  add_choice<std::optional<VdaVersion>>(
+  add_choice<std::optional<exports::VdaVersion>>(
       *app, "--vda-version", arguments->vda_version, "2.0, 2.1 or 3.0",
-      +[](std::string_view text) -> std::optional<std::optional<VdaVersion>> {
-        const auto version = parse_vda_version(text);
+      +[](std::string_view text) -> std::optional<std::optional<exports::VdaVersion>> {
+        const auto version = exports::parse_vda_version(text);
         if (!version) return std::nullopt;
         return version;
       },
@@ -64,7 +64,7 @@ Subcommand add_export(CLI::App& program) {
            "With vda5050: what the ids of orders begin with, before the serial number of each\n"
            "robot; default: they are the serial numbers");
   const auto read_time_stamp = [arguments](const std::string& text) {
-    if (!is_time_stamp(text))
+    if (!exports::is_time_stamp(text))
       refuse_value("--time-stamp", text, "a time in UTC such as 2026-01-31T12:00:00.000Z");
     arguments->time_stamp = text;
   };

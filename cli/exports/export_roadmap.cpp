@@ -6,37 +6,38 @@
 #include <fstream>
 
 #include "asked/conversion.hpp"
-#include "exports/planviz.hpp"
-#include "exports/releasing.hpp"
 #include "frame/arguments.hpp"
 #include "quadrille/continuous/plan_files.hpp"
-#include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "quadrille/exports/planviz.hpp"
+#include "quadrille/exports/releasing.hpp"
+#include "quadrille/exports/rmf.hpp"
+#include "quadrille/input/source.hpp"
 #include "roadmap/roadmap_text.hpp"
 
 namespace quadrille::cli {
 namespace {
 
-constexpr double kMaxSamples = 1e7;
-
 /// The options that belong to some formats only.
 std::string check_formats(const ExportArguments& arguments) {
-  const ExportFormat to = *arguments.to;
-  const bool is_ros = to == ExportFormat::multidof || to == ExportFormat::path;
-  const bool is_vda = to == ExportFormat::vda5050;
-  if (arguments.rate && is_vda) return "--rate belongs to samples; orders have none";
-  if (arguments.rate && to == ExportFormat::planviz)
+  const exports::ExportFormat to = *arguments.to;
+  const bool is_ros = to == exports::ExportFormat::multidof || to == exports::ExportFormat::path;
+  const bool is_vda = to == exports::ExportFormat::vda5050;
+  const bool is_rmf = to == exports::ExportFormat::rmf_plan;
+  if (arguments.rate && (is_vda || is_rmf)) return "--rate belongs to samples; orders have none";
+  if (arguments.rate && to == exports::ExportFormat::planviz)
     return "--rate belongs to samples; planviz has one action per timestep";
   if (arguments.ros && !is_ros) return "--ros belongs to multidof and path";
-  if (!arguments.names.empty() && !is_vda && to != ExportFormat::multidof)
-    return "--names belongs to vda5050 and multidof; the others have no names";
+  if (!arguments.names.empty() && !is_vda && !is_rmf && to != exports::ExportFormat::multidof)
+    return "--names belongs to vda5050, open-rmf-plan and multidof; the others have no names";
   if (is_vda) return "";
   if (arguments.vda_version) return "--vda-version belongs to --to vda5050";
   if (!arguments.order_id.empty()) return "--order-id belongs to --to vda5050";
   if (!arguments.time_stamp.empty()) return "--time-stamp belongs to --to vda5050";
   if (!arguments.states.empty()) return "--states belongs to --to vda5050";
-  if (arguments.allow_cycles)
-    return "--allow-cycles belongs to --to vda5050; samples have times, and nobody waits";
+  if (arguments.allow_cycles && !is_rmf)
+    return "--allow-cycles belongs to --to vda5050 and open-rmf-plan; samples have times, and "
+           "nobody waits";
   return "";
 }
 
@@ -59,13 +60,15 @@ const continuous::PoseGrid* poses_or_null(const input::RoadmapInput& input) {
 }
 
 /// What agents and vertices are called: as the file of --names says, else as the instance does.
-Result<Naming> naming(const ExportArguments& arguments, const input::RoadmapInput& input) {
-  Naming own;
+Result<exports::Naming> naming(const ExportArguments& arguments, const input::RoadmapInput& input) {
+  exports::Naming own;
   own.names = input.names;
   own.source = input.task_source;
   if (arguments.names.empty()) return own;
-  return read_naming(arguments.names, std::move(own), input.instance.num_agents(),
-                     input.instance.roadmap().num_vertices());
+  const auto text = input::read_text(arguments.names);
+  if (!text) return text.error();
+  return exports::parse_naming(*text, arguments.names, std::move(own), input.instance.num_agents(),
+                               input.instance.roadmap().num_vertices());
 }
 
 struct Checked {
@@ -74,14 +77,17 @@ struct Checked {
 };
 
 Result<Checked> read_checked(const ExportArguments& arguments, const input::RoadmapInput& input) {
-  if (arguments.to == ExportFormat::vda5050 && !input.instance.roadmap().is_flat())
+  const bool is_vda = arguments.to == exports::ExportFormat::vda5050;
+  const bool is_rmf = arguments.to == exports::ExportFormat::rmf_plan;
+  if ((is_vda || is_rmf) && !input.instance.roadmap().is_flat())
     return Error{ErrorCode::invalid_instance,
-                 "orders of VDA 5050 have no heights, and the roadmap has",
+                 std::string(is_vda ? "orders of VDA 5050" : "plans of Open-RMF") +
+                     " have no heights, and the roadmap has",
                  {input.source, 0}};
   auto file = continuous::read_plan(std::filesystem::path(arguments.plan), input.instance,
                                     input.grid_or_null(), arguments.from.continuous);
   if (!file) return file.error();
-  if (arguments.to != ExportFormat::vda5050) {
+  if (!is_vda && !is_rmf) {
     // Samples have times: nobody waits for anybody, nor for obstacles.
     const auto report = verify(input.instance, file->plan);
     if (!report.valid())
@@ -101,8 +107,8 @@ Result<Checked> read_checked(const ExportArguments& arguments, const input::Road
 /// Says it on stderr if robots that have to wait for each other's moves to end would do so for
 /// ever. Whether the orders may be given all the same.
 bool may_lock_up(const ExportArguments& arguments, const execution::Precedences& order,
-                 const OrderNames& names) {
-  const auto lines = describe_lock_up(order, names);
+                 const exports::OrderNames& names) {
+  const auto lines = exports::describe_lock_up(order, names);
   if (lines.empty()) return true;
   const Error what{ErrorCode::invalid_plan, "with these orders robots wait for ever", {}};
   Error located = what;
@@ -129,48 +135,56 @@ Result<std::string> convert_to_actions(const ExportArguments& arguments,
         {input.source, 0}};
   const auto checked = read_checked(arguments, input);
   if (!checked) return checked.error();
-  return export_planviz(*input.poses, checked->plan, verify(input.instance, checked->plan));
+  return exports::export_planviz(*input.poses, checked->plan,
+                                 verify(input.instance, checked->plan));
 }
 
-/// Why the plan cannot be written as samples.
-std::optional<Error> why_no_samples(const continuous::Instance& instance,
-                                    const continuous::Plan& plan, const SampleOptions& options) {
-  const auto units = [&](continuous::Ticks ticks) {
-    return continuous::in_input_units(ticks, instance.resolution());
-  };
-  double time = 0, last = 0;
-  for (const AgentId agent : instance.agent_ids()) {
-    time += continuous::in_input_units(cost(plan.paths[agent]), instance.resolution());
-    last = std::max(last, units(plan.paths[agent].back().arrive));
-  }
-  if (time * options.rate > kMaxSamples)
-    return Error{
-        ErrorCode::out_of_range, "more than 10 million samples; take a smaller --rate", {}};
-  if (options.format != ExportFormat::csv && last > kLastRosSecond)
-    return Error{ErrorCode::out_of_range,
-                 "the times of ROS end at 2147483647 seconds, and the plan later",
-                 {}};
-  return std::nullopt;
-}
-
-/// The text of the plan as samples, or as actions.
-Result<std::string> convert(const ExportArguments& arguments, const input::RoadmapInput& input) {
-  if (arguments.to == ExportFormat::planviz) return convert_to_actions(arguments, input);
+/// The text of the plan as messages of Open-RMF.
+Result<std::string> convert_to_rmf(const ExportArguments& arguments,
+                                   const input::RoadmapInput& input) {
   const auto checked = read_checked(arguments, input);
   if (!checked) return checked.error();
   warn_of_durations(input);
-  SampleOptions options{*arguments.to};
-  if (arguments.rate) options.rate = *arguments.rate;
-  if (arguments.ros) options.ros = static_cast<RosVersion>(*arguments.ros);
-  if (auto error = why_no_samples(input.instance, checked->plan, options)) return *std::move(error);
   const auto named = naming(arguments, input);
   if (!named) return named.error();
-  const auto robots = robot_names(named->names, input.instance.num_agents());
+  auto robots = exports::robot_names(named->names, input.instance.num_agents());
   if (!robots) return Error{robots.error().code, robots.error().message, {named->source, 0}};
-  return export_samples(input.instance, poses_or_null(input), checked->plan, *robots, options);
+  exports::RmfHeads heads;
+  heads.robots = std::move(robots).value();
+  heads.names = named->names;
+  heads.map = named->map;
+  const auto cycle = exports::blocked_for_ever(checked->order);
+  if (!cycle.empty() && !arguments.allow_cycles)
+    return Error{ErrorCode::invalid_plan,
+                 "with these blockers robots wait for each other for ever, among them " +
+                     heads.robots[cycle.front().agent] +
+                     "; nothing is written; plan with larger bodies or shorter edges, or use "
+                     "--allow-cycles",
+                 {arguments.plan, 0}};
+  return exports::export_rmf_plan(input.instance, checked->plan, checked->order, heads);
 }
 
-ExitCode release(const ExportArguments& arguments, const OrderWriter& writer,
+/// The text of the plan as samples, as actions, or for Open-RMF.
+Result<std::string> convert(const ExportArguments& arguments, const input::RoadmapInput& input) {
+  if (arguments.to == exports::ExportFormat::planviz) return convert_to_actions(arguments, input);
+  if (arguments.to == exports::ExportFormat::rmf_plan) return convert_to_rmf(arguments, input);
+  const auto checked = read_checked(arguments, input);
+  if (!checked) return checked.error();
+  warn_of_durations(input);
+  exports::SampleOptions options{*arguments.to};
+  if (arguments.rate) options.rate = *arguments.rate;
+  if (arguments.ros) options.ros = static_cast<exports::RosVersion>(*arguments.ros);
+  if (auto error = exports::why_no_samples(input.instance, checked->plan, options))
+    return *std::move(error);
+  const auto named = naming(arguments, input);
+  if (!named) return named.error();
+  const auto robots = exports::robot_names(named->names, input.instance.num_agents());
+  if (!robots) return Error{robots.error().code, robots.error().message, {named->source, 0}};
+  return exports::export_samples(input.instance, poses_or_null(input), checked->plan, *robots,
+                                 options);
+}
+
+ExitCode release(const ExportArguments& arguments, const exports::OrderWriter& writer,
                  const execution::Precedences& order) {
   std::ifstream states(arguments.states);
   if (!states) {
@@ -183,7 +197,8 @@ ExitCode release(const ExportArguments& arguments, const OrderWriter& writer,
     failure = write_stdout(text);
     return failure == 0;
   };
-  const auto error = release_orders(writer, order, states, arguments.states, take, report_warning);
+  const auto error =
+      exports::release_orders(writer, order, states, arguments.states, take, report_warning);
   if (failure != 0) {
     report_write_failure("-", failure);
     return ExitCode::output;
@@ -193,12 +208,13 @@ ExitCode release(const ExportArguments& arguments, const OrderWriter& writer,
   return ExitCode::bad_input;
 }
 
-Result<OrderNames> names_in_orders(const ExportArguments& arguments,
-                                   const input::RoadmapInput& input, const continuous::Plan& plan) {
+Result<exports::OrderNames> names_in_orders(const ExportArguments& arguments,
+                                            const input::RoadmapInput& input,
+                                            const continuous::Plan& plan) {
   const auto named = naming(arguments, input);
   if (!named) return named.error();
-  auto names =
-      order_names(*named, plan, input.instance.roadmap().num_vertices(), arguments.order_id);
+  auto names = exports::order_names(*named, plan, input.instance.roadmap().num_vertices(),
+                                    arguments.order_id);
   if (names && !arguments.time_stamp.empty()) names->time_stamp = arguments.time_stamp;
   return names;
 }
@@ -212,9 +228,9 @@ ExitCode write_orders(const ExportArguments& arguments, const OutputFile& output
   }
   warn_of_durations(input);
   if (!may_lock_up(arguments, checked.order, *names)) return ExitCode::violations;
-  const OrderWriter writer(input.instance, poses_or_null(input), checked.plan,
-                           std::move(names).value(),
-                           arguments.vda_version.value_or(VdaVersion::v3_0));
+  const exports::OrderWriter writer(input.instance, poses_or_null(input), checked.plan,
+                                    std::move(names).value(),
+                                    arguments.vda_version.value_or(exports::VdaVersion::v3_0));
   if (!arguments.states.empty()) return release(arguments, writer, checked.order);
   return write_or_report(output, writer.orders(checked.order)) ? ExitCode::success
                                                                : ExitCode::output;
@@ -240,7 +256,7 @@ ExitCode give_orders(const ExportArguments& arguments) {
 
 ExitCode export_roadmap(const CLI::App& app, const ExportArguments& arguments) {
   if (const std::string wrong = check(arguments); !wrong.empty()) return usage_error(app, wrong);
-  if (arguments.to == ExportFormat::vda5050) return give_orders(arguments);
+  if (arguments.to == exports::ExportFormat::vda5050) return give_orders(arguments);
   return convert_and_write(
       arguments.output, [&] { return load_roadmap_input(arguments.roadmap, arguments.input); },
       [&](const auto& input) { return convert(arguments, input); });

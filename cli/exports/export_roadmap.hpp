@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "exports/exports.hpp"
-#include "exports/orders.hpp"
 #include "frame/exit_codes.hpp"
 #include "frame/input_options.hpp"
 #include "frame/option_parser.hpp"
+#include "quadrille/exports/exports.hpp"
+#include "quadrille/exports/orders.hpp"
 #include "quadrille/input/roadmap.hpp"
 
 namespace quadrille::cli {
@@ -20,11 +20,11 @@ struct ExportArguments {
   RoadmapOptions roadmap;
   std::string plan;
   PlanFormats from;
-  std::optional<ExportFormat> to;
+  std::optional<exports::ExportFormat> to;
   std::optional<double> rate;
-  std::optional<std::int64_t> ros;  ///< Of RosVersion.
-  std::optional<VdaVersion> vda_version;
-  std::string names;       ///< A file for read_naming.
+  std::optional<std::int64_t> ros;  ///< Of exports::RosVersion.
+  std::optional<exports::VdaVersion> vda_version;
+  std::string names;       ///< A file for exports::parse_naming.
   std::string order_id;    ///< Empty: as robots are called.
   std::string time_stamp;  ///< Empty: the epoch.
   std::string states;      ///< Messages of robots that go; empty: the orders at the start.

@@ -8,13 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "exports/naming.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/pose_grid.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/execution/precedences.hpp"
+#include "quadrille/exports/naming.hpp"
 
-namespace quadrille::cli {
+QUADRILLE_API_BEGIN
+
+namespace quadrille::exports {
 
 /// A published version of VDA 5050. Of what is written here, 2.0 and 2.1 have `startNodeId` and
 /// `endNodeId` of edges, and 3.0 calls `maxSpeed` `maximumSpeed`.
@@ -60,4 +63,6 @@ class OrderWriter {
 [[nodiscard]] std::vector<std::string> describe_lock_up(const execution::Precedences& order,
                                                         const OrderNames& names);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports
+
+QUADRILLE_API_END

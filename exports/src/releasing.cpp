@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "exports/releasing.hpp"
-
-#include <fmt/format.h>
+#include "quadrille/exports/releasing.hpp"
 
 #include <array>
 #include <cstddef>
@@ -11,7 +9,7 @@
 
 #include "quadrille/execution/releaser.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::exports {
 namespace {
 
 using Json = nlohmann::json;
@@ -46,11 +44,11 @@ class Leftovers {
       const Kind& kind = kinds_[k];
       if (kind.count == 0) continue;
       count += kind.count;
-      text += fmt::format("{}{} {} (first in line {})", text.empty() ? "" : ", ", kind.count,
-                          kWhat[k], kind.first);
+      text += (text.empty() ? "" : ", ") + std::to_string(kind.count) + " " + kWhat[k] +
+              " (first in line " + std::to_string(kind.first) + ")";
     }
     if (count > 0)
-      say(fmt::format("{} line{} passed over: {}", count, count == 1 ? "" : "s", text), 0);
+      say(std::to_string(count) + (count == 1 ? " line" : " lines") + " passed over: " + text, 0);
   }
 
  private:
@@ -190,4 +188,4 @@ std::optional<Error> release_orders(const OrderWriter& writer, const execution::
   return std::nullopt;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports

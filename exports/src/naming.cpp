@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "exports/naming.hpp"
-
-#include <fmt/format.h>
+#include "quadrille/exports/naming.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -11,16 +9,21 @@
 #include <string_view>
 #include <utility>
 
-#include "quadrille/input/source.hpp"
 #include "quadrille/text/document.hpp"
 #include "quadrille/text/text_input.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::exports {
 namespace {
 
 using text::Document;
 
 Error wrong_names(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+
+Error called_alike(const std::string& things, std::size_t one, std::size_t other,
+                   const std::string& name) {
+  return wrong_names(things + " " + std::to_string(one) + " and " + std::to_string(other) +
+                     " are both called " + text::in_quotes(name));
+}
 
 class NamingReader {
  public:
@@ -54,7 +57,8 @@ class NamingReader {
     if (!text::read_names(check_, document_, *node, agents)) return false;
     return agents.size() <= num_agents ||
            check_.fail(*node, ErrorCode::invalid_instance,
-                       fmt::format("{} names, but {} agents", agents.size(), num_agents));
+                       std::to_string(agents.size()) + " names, but " + std::to_string(num_agents) +
+                           " agents");
   }
   bool read_vertices(const std::optional<Document::Node>& node, std::size_t num_vertices) {
     if (!node) return true;
@@ -69,7 +73,7 @@ class NamingReader {
 
 /// A text without its quotes; what else is a name as it stands.
 std::string node_name(const text::Names& names, VertexId v) {
-  if (v.index() >= names.vertices.size()) return fmt::format("v{}", v.value());
+  if (v.index() >= names.vertices.size()) return "v" + std::to_string(v.value());
   const std::string& name = names.vertices[v.index()];
   return name.starts_with('"') ? nlohmann::json::parse(name).get<std::string>() : name;
 }
@@ -95,12 +99,9 @@ Result<IdVector<VertexId, std::string>> node_names(const text::Names& names,
       if (!nodes[v].empty()) continue;
       nodes[v] = node_name(names, v);
       if (nodes[v].empty())
-        return wrong_names(fmt::format("the name of vertex {} is empty", v.value()));
+        return wrong_names("the name of vertex " + std::to_string(v.value()) + " is empty");
       const auto [other, is_new] = known.emplace(nodes[v], v);
-      if (!is_new)
-        return wrong_names(fmt::format("vertices {} and {} are both called {}",
-                                       other->second.value(), v.value(),
-                                       text::in_quotes(nodes[v])));
+      if (!is_new) return called_alike("vertices", other->second.value(), v.value(), nodes[v]);
     }
   return nodes;
 }
@@ -112,22 +113,18 @@ Result<RobotNames> robot_names(const text::Names& names, std::size_t num_agents)
   std::map<std::string, AgentId> known;
   for (const AgentId agent : IdRange<AgentId>(num_agents)) {
     const std::string* const given = names.agent(agent.index());
-    robots.push_back(given != nullptr ? *given : fmt::format("agent{}", agent.value()));
+    robots.push_back(given != nullptr ? *given : "agent" + std::to_string(agent.value()));
     const auto [other, is_new] = known.emplace(robots[agent], agent);
-    if (!is_new)
-      return wrong_names(fmt::format("agents {} and {} are both called {}", other->second.value(),
-                                     agent.value(), text::in_quotes(robots[agent])));
+    if (!is_new) return called_alike("agents", other->second.value(), agent.value(), robots[agent]);
   }
   return robots;
 }
 
-Result<Naming> read_naming(const std::string& file, Naming own, std::size_t num_agents,
-                           std::size_t num_vertices) {
-  const auto text = input::read_text(file);
-  if (!text) return text.error();
-  const std::size_t begin = text->find_first_not_of(" \t\r\n");
-  const bool is_json = begin != std::string::npos && (*text)[begin] == '{';
-  const auto document = is_json ? text::parse_json(*text, file) : text::parse_yaml(*text, file);
+Result<Naming> parse_naming(std::string_view text, const std::string& file, Naming own,
+                            std::size_t num_agents, std::size_t num_vertices) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  const bool is_json = begin != std::string_view::npos && text[begin] == '{';
+  const auto document = is_json ? text::parse_json(text, file) : text::parse_yaml(text, file);
   if (!document) return document.error();
   own.source = file;
   return NamingReader(*document, std::move(own)).run(num_agents, num_vertices);
@@ -174,4 +171,4 @@ bool is_time_stamp(std::string_view text) {
   return two(11) < 24 && two(14) < 60 && two(17) < 60;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports

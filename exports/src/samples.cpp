@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "exports/samples.hpp"
+#include "quadrille/exports/samples.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "quadrille/continuous/quantise.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::exports {
 
 using continuous::Path;
 using continuous::Stop;
@@ -108,4 +108,4 @@ void Sampler::add(const Leg& leg) {
   }
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "exports/ros.hpp"
+#include "quadrille/exports/ros.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-namespace quadrille::cli {
+namespace quadrille::exports {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -26,8 +27,8 @@ Json header(double time, RosVersion version) {
 
 }  // namespace
 
-Json multidof_message(const std::string& robot, const std::vector<Sample>& samples,
-                      RosVersion version) {
+std::string multidof_message(const std::string& robot, const std::vector<Sample>& samples,
+                             RosVersion version) {
   const double begin = samples.front().time;
   Json points = Json::array();
   for (const Sample& s : samples)
@@ -37,16 +38,17 @@ Json multidof_message(const std::string& robot, const std::vector<Sample>& sampl
           {{{"linear", point(s.vx, s.vy, s.vz)}, {"angular", point(0, 0, s.turning)}}}},
          {"accelerations", Json::array()},
          {"time_from_start", stamp(s.time - begin, version)}});
-  return {{"header", header(begin, version)}, {"joint_names", {robot}}, {"points", points}};
+  return Json({{"header", header(begin, version)}, {"joint_names", {robot}}, {"points", points}})
+      .dump();
 }
 
-Json path_message(const std::vector<Sample>& samples, RosVersion version) {
+std::string path_message(const std::vector<Sample>& samples, RosVersion version) {
   Json poses = Json::array();
   for (const Sample& s : samples)
     poses.push_back(
         {{"header", header(s.time, version)},
          {"pose", {{"position", point(s.x, s.y, s.z)}, {"orientation", rotation(s.yaw)}}}});
-  return {{"header", header(samples.front().time, version)}, {"poses", poses}};
+  return Json({{"header", header(samples.front().time, version)}, {"poses", poses}}).dump();
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports

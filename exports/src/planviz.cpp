@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "exports/planviz.hpp"
-
-#include <fmt/format.h>
+#include "quadrille/exports/planviz.hpp"
 
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace quadrille::cli {
+namespace quadrille::exports {
 namespace {
 
 using continuous::Path;
@@ -53,7 +51,7 @@ std::string export_planviz(const PoseGrid& poses, const continuous::Plan& plan,
     paths.push_back(actions(poses, path, report.makespan));
     const Pose end = poses.pose(path.back().vertex);
     tasks.push_back({task, 0, {end.cell.y, end.cell.x}});
-    schedule.push_back(fmt::format("0:{}", task));
+    schedule.push_back("0:" + std::to_string(task));
     events.push_back({cost(path), task, task, 1});
     ++task;
   }
@@ -80,4 +78,4 @@ std::string export_planviz(const PoseGrid& poses, const continuous::Plan& plan,
   return text + "\n}\n";
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports

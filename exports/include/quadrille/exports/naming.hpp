@@ -6,11 +6,14 @@
 #include <string_view>
 
 #include "quadrille/continuous/plan.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/text/names.hpp"
 
-namespace quadrille::cli {
+QUADRILLE_API_BEGIN
+
+namespace quadrille::exports {
 
 /// What a robot is called by others, per agent.
 using RobotNames = IdVector<AgentId, std::string>;
@@ -25,12 +28,13 @@ struct Naming {
   std::string manufacturer = "quadrille", map = "map";
   std::string source;  ///< The file that says so, for errors.
 };
-/// Those of a file of `--names`, JSON or YAML (docs/formats-of-others.md), in place of `own`. A
+/// Those of a text in JSON or YAML (docs/formats-of-others.md), in place of `own`. A
 /// list of agents or vertices that is there replaces the other one as a whole. Errors with file and
-/// line: those of text::parse_json and text::read_all; syntax and invalid_instance for another
+/// line: those of text::parse_json; syntax and invalid_instance for another
 /// form, for more names than there are agents or vertices, and vertices that are called alike.
-[[nodiscard]] Result<Naming> read_naming(const std::string& file, Naming own,
-                                         std::size_t num_agents, std::size_t num_vertices);
+[[nodiscard]] Result<Naming> parse_naming(std::string_view text, const std::string& file,
+                                          Naming own, std::size_t num_agents,
+                                          std::size_t num_vertices);
 
 /// The names in the orders of a plan.
 struct OrderNames {
@@ -48,4 +52,6 @@ struct OrderNames {
 [[nodiscard]] Result<OrderNames> order_names(const Naming& naming, const continuous::Plan& plan,
                                              std::size_t num_vertices, const std::string& order);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports
+
+QUADRILLE_API_END

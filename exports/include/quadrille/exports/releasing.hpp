@@ -7,11 +7,14 @@
 #include <string>
 #include <string_view>
 
-#include "exports/orders.hpp"
+#include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/execution/precedences.hpp"
+#include "quadrille/exports/orders.hpp"
 
-namespace quadrille::cli {
+QUADRILLE_API_BEGIN
+
+namespace quadrille::exports {
 
 /// Called with one order per line, "\n" at its end. False: nobody reads them any more.
 using TakeOrder = std::function<bool(const std::string&)>;
@@ -33,4 +36,6 @@ using TakeWarning = std::function<void(const Error&)>;
                                                   std::istream& states, const std::string& file,
                                                   const TakeOrder& take, const TakeWarning& warn);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports
+
+QUADRILLE_API_END

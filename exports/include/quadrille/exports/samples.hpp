@@ -7,8 +7,11 @@
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/pose_grid.hpp"
+#include "quadrille/core/export.hpp"
 
-namespace quadrille::cli {
+QUADRILLE_API_BEGIN
+
+namespace quadrille::exports {
 
 /// Where robots that face this way do, in radians in (-pi, pi], from the axis of x towards that of
 /// y. The rows of a grid go down, and so does y: south is pi / 2.
@@ -57,4 +60,6 @@ class Sampler {
   std::vector<Sample> samples_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports
+
+QUADRILLE_API_END

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "exports/orders.hpp"
-
-#include <fmt/format.h>
+#include "quadrille/exports/orders.hpp"
 
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "exports/exports.hpp"
-#include "exports/samples.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/execution/node_order.hpp"
 #include "quadrille/execution/releaser.hpp"
+#include "quadrille/exports/exports.hpp"
+#include "quadrille/exports/samples.hpp"
 
-namespace quadrille::cli {
+namespace quadrille::exports {
 namespace {
 
 using continuous::Instance;
@@ -108,15 +106,15 @@ std::vector<std::string> describe_lock_up(const execution::Precedences& order,
     const execution::MoveId& follower = nodes.cycle[k];
     if (leader.agent == follower.agent) continue;  // Its own next move.
     const execution::TimedMove &led = order.at(follower), &leads = order.at(leader);
-    lines.push_back(fmt::format("{} waits at {}, on its way to {}, for {} to come from {} to {}",
-                                names.robots[follower.agent], names.nodes[led.from],
-                                names.nodes[led.to], names.robots[leader.agent],
-                                names.nodes[leads.from], names.nodes[leads.to]));
+    lines.push_back(names.robots[follower.agent] + " waits at " + names.nodes[led.from] +
+                    ", on its way to " + names.nodes[led.to] + ", for " +
+                    names.robots[leader.agent] + " to come from " + names.nodes[leads.from] +
+                    " to " + names.nodes[leads.to]);
   }
   if (nodes.num_knots > 1)
-    lines.push_back(fmt::format("and so on: {} moves wait in {} separate circles",
-                                nodes.num_knotted_moves, nodes.num_knots));
+    lines.push_back("and so on: " + std::to_string(nodes.num_knotted_moves) + " moves wait in " +
+                    std::to_string(nodes.num_knots) + " separate circles");
   return lines;
 }
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports

@@ -5,8 +5,11 @@
 
 #include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "quadrille/core/export.hpp"
 
-namespace quadrille::cli {
+QUADRILLE_API_BEGIN
+
+namespace quadrille::exports {
 
 /// A plan of robots that turn as PlanViz shows it, the viewer of the League of Robot Runners: the
 /// result of a simulation, in which robot k does task k, to get to its goal. Requires a valid plan
@@ -15,4 +18,6 @@ namespace quadrille::cli {
                                          const continuous::Plan& plan,
                                          const continuous::VerifyReport& report);
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports
+
+QUADRILLE_API_END

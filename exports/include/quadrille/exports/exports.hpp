@@ -5,13 +5,17 @@
 #include <string>
 #include <string_view>
 
-#include "exports/naming.hpp"
-#include "exports/ros.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/pose_grid.hpp"
+#include "quadrille/core/export.hpp"
+#include "quadrille/core/result.hpp"
+#include "quadrille/exports/naming.hpp"
+#include "quadrille/exports/ros.hpp"
 
-namespace quadrille::cli {
+QUADRILLE_API_BEGIN
+
+namespace quadrille::exports {
 
 /// What plans on roadmaps are exported to for other systems; docs/formats-of-others.md has the
 /// fields.
@@ -20,6 +24,7 @@ enum class ExportFormat {
   multidof,  ///< trajectory_msgs/MultiDOFJointTrajectory, one message per agent, as JSON.
   path,      ///< nav_msgs/Path, one message per agent, as JSON.
   vda5050,   ///< VDA 5050 orders, one per agent, as JSON.
+  rmf_plan,  ///< rmf_prototype_msgs/Plan of Open-RMF, one per agent, as JSON.
   planviz,   ///< What PlanViz shows: an action per timestep of robots on a grid that turn.
 };
 [[nodiscard]] std::optional<ExportFormat> parse_export_format(std::string_view text) noexcept;
@@ -30,6 +35,11 @@ struct SampleOptions {
   double rate = 10;                         ///< As in Sampler.
   RosVersion ros = RosVersion::two;
 };
+/// Why the plan cannot be written as samples: more than 10 million of them, or times that messages
+/// cannot hold. Errors: out_of_range.
+[[nodiscard]] std::optional<Error> why_no_samples(const continuous::Instance& instance,
+                                                  const continuous::Plan& plan,
+                                                  const SampleOptions& options);
 /// The plan at moments, see Sampler. `poses`: those that the instance is made of, or null;
 /// `robots`: their names. Requires a valid plan, and for messages one that ends by kLastRosSecond.
 [[nodiscard]] std::string export_samples(const continuous::Instance& instance,
@@ -47,4 +57,6 @@ class JsonLines {
   std::string text_;
 };
 
-}  // namespace quadrille::cli
+}  // namespace quadrille::exports
+
+QUADRILLE_API_END
