@@ -10,6 +10,7 @@
 #include "answers/outcome_check.hpp"
 #include "answers/progress.hpp"
 #include "answers/report.hpp"
+#include "asked/shown_names.hpp"
 #include "asked/solve_arguments.hpp"
 #include "frame/input_watch.hpp"
 #include "quadrille/view/page.hpp"
@@ -44,11 +45,12 @@ std::optional<Error> read_given_plans(const SolveArguments& arguments, const Ins
 
 /// What the page says of a solve; its title is the name of the file of the map.
 template <class Outcome>
-view::PageOptions page_options(const std::string& source, Objective objective,
-                               const Outcome& outcome) {
+view::PageOptions page_options(const std::string& source, const text::Names& names,
+                               Objective objective, const Outcome& outcome) {
   view::PageOptions options;
   options.title = std::filesystem::path(source).filename().string();
   options.objective = objective;
+  options.agent_names = shown_names(names);
   options.status = outcome.status;
   options.lower_bound = outcome.lower_bound;
   options.attribution = outcome.attribution;

@@ -120,7 +120,7 @@ class GridSolve {
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
     return view::page(instance(), outcome.plan.value_or(no_paths(instance())),
-                      page_options(input_.source, objective(), outcome));
+                      page_options(input_.source, input_.names, objective(), outcome));
   }
   [[nodiscard]] Result<std::string> drawing(const discrete::Plan& plan) const {
     return view::picture(instance(), plan, arguments_.picture.options);

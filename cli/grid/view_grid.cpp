@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "asked/given_plan.hpp"
+#include "asked/shown_names.hpp"
 #include "frame/arguments.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
 #include "quadrille/input/attribution.hpp"
@@ -74,6 +75,7 @@ ExitCode view_grid(const CLI::App& app, const ViewArguments& arguments) {
     view::PageOptions options;
     options.title = std::filesystem::path(input.source).filename().string();
     options.objective = objective;
+    options.agent_names = shown_names(input.names);
     options.attribution = attribution;
     return view::page(input.instance, paths, options);
   };

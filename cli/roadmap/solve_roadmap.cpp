@@ -121,7 +121,7 @@ class RoadmapSolve {
   }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
     return page_of(input_, outcome.plan.value_or(continuous::Plan{}),
-                   page_options(input_.source, objective(), outcome));
+                   page_options(input_.source, input_.names, objective(), outcome));
   }
   [[nodiscard]] Result<std::string> drawing(const continuous::Plan& plan) const {
     return picture_of(input_, plan, arguments_.picture.options);

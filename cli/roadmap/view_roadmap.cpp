@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "asked/shown_names.hpp"
 #include "frame/arguments.hpp"
 #include "quadrille/input/attribution.hpp"
 #include "roadmap/drawing.hpp"
@@ -50,6 +51,7 @@ ExitCode view_roadmap(const CLI::App& app, const ViewArguments& arguments) {
     view::PageOptions options;
     options.title = std::filesystem::path(input.source).filename().string();
     options.objective = objective;
+    options.agent_names = shown_names(input.names);
     options.attribution = attribution;
     return page_of(input, plan, options);
   };

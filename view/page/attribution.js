@@ -141,7 +141,7 @@ export class Reasons {
     };
     if (freeBound > 0) append("free", freeBound, `${this.state.show(freeBound)} free`);
     for (const { amount, agents } of raises)
-      append("raised", amount, `+${this.state.show(amount)} ${agentsName(agents)}`);
+      append("raised", amount, `+${this.state.show(amount)} ${agentsName(this.state.scene, agents)}`);
   }
 
   /** @param {Attribution} attribution */
@@ -150,7 +150,7 @@ export class Reasons {
     const sorted = [...raises].sort((a, b) => b.amount - a.amount);
     for (const { amount, agents } of sorted.slice(0, MOST_RAISES)) {
       const button = document.createElement("button");
-      button.textContent = `+${this.state.show(amount)}  ${agentsName(agents)}`;
+      button.textContent = `+${this.state.show(amount)}  ${agentsName(this.state.scene, agents)}`;
       button.addEventListener("click", () => this.jump(this.timeOf(agents, sites), agents));
       const item = document.createElement("li");
       item.append(button);
@@ -213,10 +213,14 @@ export class Reasons {
 }
 
 /**
+ * @param {import("./scene.js").Scene} scene
  * @param {number[]} agents
  * @returns {string}
  */
-export function agentsName(agents) {
-  if (agents.length === 1) return `agent ${agents[0]}`;
-  return agents.length > 8 ? `${agents.length} agents` : `agents ${agents.join(", ")}`;
+export function agentsName(scene, agents) {
+  if (agents.length > 8) return `${agents.length} agents`;
+  const names = agents.map((index) => scene.agents[index]?.name ?? `agent ${index}`);
+  if (agents.length === 1) return names[0];
+  const areNumbered = names.every((name, k) => name === `agent ${agents[k]}`);
+  return areNumbered ? `agents ${agents.join(agents.length === 2 ? " and " : ", ")}` : names.join(", ");
 }

@@ -133,7 +133,7 @@ function listenToSearch(state) {
 }
 
 /**
- * Looks for an agent by its number, or for those that begin or end at a place.
+ * Looks for an agent by its number or name, or for those that begin or end at a place.
  * @param {State} state
  * @param {string} text
  * @returns {string} what was found
@@ -151,14 +151,15 @@ export function find(state, text) {
     state.select(here[0]?.index ?? state.selected);
     if (here.length === 0) return "no agent starts or ends there";
     const what = (/** @type {typeof here[0]} */ agent) => (near(agent.start) ? "starts" : "ends");
-    return here.map((agent) => `agent ${agent.index} ${what(agent)} there`).join(", ");
+    return here.map((agent) => `${agent.name} ${what(agent)} there`).join(", ");
   }
-  const index = /^\d+$/.test(text) ? Number(text) : NaN;
+  const called = scene.agents.findIndex((agent) => agent.name === text);
+  const index = called >= 0 ? called : /^\d+$/.test(text) ? Number(text) : NaN;
   if (!(index < scene.agents.length))
     {return scene.agents.length === 0 ? "there are no agents"
       : `'${text}' is none of the agents 0 to ${scene.agents.length - 1}`;}
   state.select(index);
-  return `agent ${index}`;
+  return scene.agents[index].name;
 }
 
 /**

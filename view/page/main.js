@@ -80,7 +80,7 @@ class Page {
     if (state.player.playing) return;
     const agent = state.agent();
     const time = state.showMoment(state.player.time);
-    const text = `Time ${time}` + (agent === null ? "" : `, agent ${agent.index}`);
+    const text = `Time ${time}` + (agent === null ? "" : `, ${agent.name}`);
     if (text === this.said) return;
     this.said = text;
     this.live.textContent = text;

@@ -109,8 +109,8 @@ export class Panel {
     if (obstruction === null) return;
     element("obstruction-text", HTMLElement).textContent = `${obstruction.reason}.`;
     this.fill("obstruction", "obstruction-list", obstruction.agents.map((index) => {
-      const { start, goal } = agents[index];
-      const text = `agent ${index}: ${placeName(state, start)} to ${placeName(state, goal)}`;
+      const { name, start, goal } = agents[index];
+      const text = `${name}: ${placeName(state, start)} to ${placeName(state, goal)}`;
       return { text, time: 0, agents: [index] };
     }));
     element("obstruction", HTMLElement).hidden = false;
@@ -132,7 +132,7 @@ export class Panel {
     if (!state.scene.continuous) return;
     const { lengthUnit } = state.scene;
     this.fill("nearest", "nearest-list", state.scene.nearest.map(({ agents, gap, time }) => ({
-      text: `${showGap(gap * lengthUnit)}  agents ${agents[0]} and ${agents[1]} at ${state.showMoment(time)}`,
+      text: `${showGap(gap * lengthUnit)}  ${agentsName(state.scene, agents)} at ${state.showMoment(time)}`,
       time, agents: [...agents],
     })));
   }
@@ -142,7 +142,7 @@ export class Panel {
     const delayed = state.scene.agents.filter((agent) => delayOf(agent) > 0)
       .sort((a, b) => delayOf(b) - delayOf(a) || a.index - b.index);
     this.fill("delays", "delay-list", delayed.map((agent) => ({
-      text: `+${state.show(delayOf(agent))}  agent ${agent.index}`,
+      text: `+${state.show(delayOf(agent))}  ${agent.name}`,
       time: state.player.time, agents: [agent.index],
     })));
   }
@@ -154,12 +154,12 @@ export class Panel {
     if (scene.continuous && scene.nearest.length > 0) {
       const least = state.clearances.leastAt(player.time);
       this.clearance.textContent = least === null ? "none"
-        : `${showGap(least.gap * scene.lengthUnit)}, agents ${least.agents[0]} and ${least.agents[1]}`;
+        : `${showGap(least.gap * scene.lengthUnit)}, ${agentsName(scene, least.agents)}`;
     }
     const agent = state.agent();
     this.agentSection.hidden = agent === null;
     if (agent === null) return;
-    this.agentTitle.textContent = `Agent ${agent.index}`;
+    this.agentTitle.textContent = agent.name[0].toUpperCase() + agent.name.slice(1);
     this.showFacts(agent);
   }
 
@@ -213,7 +213,7 @@ function otherGoals(state, { otherGoals: goals }) {
  */
 function orderFacts(state, agent) {
   const open = openPrecedences(state.scene.precedences, agent.index, state.player.time);
-  const names = (/** @type {number[]} */ agents) => agentsName([...new Set(agents)]);
+  const names = (/** @type {number[]} */ agents) => agentsName(state.scene, [...new Set(agents)]);
   const before = open.filter(({ follower }) => follower === agent.index).map(({ leader }) => leader);
   const after = open.filter(({ leader }) => leader === agent.index).map(({ follower }) => follower);
   /** @type {[string, string][]} */

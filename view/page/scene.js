@@ -9,6 +9,7 @@
  *   radius of the disc around the agent's position that contains it; its centre need not be there.
  * @typedef {object} Agent
  * @property {number} index
+ * @property {string} name     "agent 3", or what it is called
  * @property {Place} start
  * @property {Place} goal
  * @property {number} body       into Scene.bodies; of one whose body changes that at its start
@@ -90,7 +91,9 @@ export function readScene(text) {
     throw new Error(`the data of this page are of version ${data.version}, and it reads version 1`);
   if (!Array.isArray(data.agents)) throw new Error("the data of this page name no agents");
   const bodies = readBodies(data.bodies ?? []);
-  const agents = data.agents.map(readAgent);
+  const names = data.names ?? [];
+  const agents = data.agents.map((/** @type {any} */ agent, /** @type {number} */ index) =>
+    readAgent(agent, index, names[index] ?? null));
   /** @type {Scene} */
   const scene = {
     title: String(data.title), continuous: Boolean(data.continuous),
@@ -180,14 +183,15 @@ function readCells(data) {
 /**
  * @param {any} data
  * @param {number} index
+ * @param {string | null} name
  * @returns {Agent}
  */
-function readAgent(data, index) {
+function readAgent(data, index, name) {
   /** @type {number[][]} */
   const frames = data.moves !== undefined ? framesOfMoves(data.from, data.moves)
     : framesOfStops(data.stops ?? [], data.heights ?? []);
   return {
-    index, start: readPlace(data.start), goal: readPlace(data.goal),
+    index, name: name ?? `agent ${index}`, start: readPlace(data.start), goal: readPlace(data.goal),
     body: data.body ?? 0, looks: data.looks ? looksOf(data.looks, data.stops) : [],
     headings: data.headings ? headingsOf(data.headings, data.stops) : [],
     free: data.free ?? null, cost: data.cost ?? null,

@@ -193,4 +193,28 @@ void add_headings(const continuous::PoseGrid& poses, Scene& scene) {
     scene.headings.push_back(90.0 * static_cast<double>(poses.pose(VertexId(v)).heading));
 }
 
+void add_tracks(const std::vector<Track>& tracks, Scene& scene) {
+  scene.violations.clear();
+  scene.nearest.clear();
+  scene.sum_of_costs = scene.makespan = 0;
+  const std::size_t num_vertices = scene.places.size();
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    SceneAgent& agent = scene.agents[i];
+    for (const Sight& sight : tracks[i]) {
+      agent.stops.push_back(
+          {scene.places.size(), sight.arrive - scene.now, sight.depart - scene.now});
+      scene.places.push_back({sight.x, sight.y, sight.z});
+    }
+    agent.start = agent.stops.front().place;
+    agent.goal = agent.stops.back().place;
+    agent.goal_body = agent.body;
+    agent.cost = agent.stops.back().arrive;
+    agent.free_cost.reset();
+    agent.other_goals.clear();
+    scene.sum_of_costs += *agent.cost;
+    scene.makespan = std::max(scene.makespan, *agent.cost);
+  }
+  scene.num_vertices = num_vertices;
+}
+
 }  // namespace quadrille::view

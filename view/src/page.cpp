@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "page_parts.hpp"
+#include "quadrille/core/contract.hpp"
 #include "scene.hpp"
 #include "scene_json.hpp"
 #include "svg.hpp"
@@ -70,6 +71,15 @@ std::string page(const continuous::Instance& instance, const continuous::Plan& p
   Scene scene = make_scene(instance, plan, &poses.cells());
   add_headings(poses, scene);
   return page_of(std::move(scene), instance, plan, options);
+}
+
+std::string page(const continuous::Instance& instance, const std::vector<Track>& tracks,
+                 const PageOptions& options, const continuous::GridRoadmap* grid) {
+  QUADRILLE_REQUIRE(tracks.size() == instance.num_agents(), "one track per agent");
+  for (const Track& track : tracks) QUADRILLE_REQUIRE(!track.empty(), "at least one sight");
+  Scene scene = make_scene(instance, continuous::Plan{}, grid);
+  add_tracks(tracks, scene);
+  return fill(scene, options);
 }
 
 }  // namespace quadrille::view

@@ -16,6 +16,7 @@
 #include "quadrille/core/ids.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/discrete/plan.hpp"
+#include "quadrille/view/page.hpp"
 
 namespace quadrille::view {
 
@@ -126,6 +127,7 @@ struct Scene {
   /// By place: where who is there faces, in degrees from the axis of x towards that of y. None: no
   /// agent has headings.
   std::vector<double> headings;
+  std::size_t num_vertices = SIZE_MAX;  ///< So many of the places, the first ones, are drawn.
   std::vector<Link> links;
   std::size_t hidden_links = 0;  ///< Links that are left out because there are too many.
   std::vector<continuous::Body> bodies;
@@ -149,6 +151,8 @@ struct Scene {
 /// `poses`: those that the instance is made of.
 void add_headings(const continuous::PoseGrid& poses, Scene& scene);
 
+/// Of an instance whose agents have no paths: what they did instead, by agent.
+void add_tracks(const std::vector<Track>& tracks, Scene& scene);
 /// Of the instance that the scene was made of.
 void add_attribution(const discrete::Instance& instance, const Attribution& attribution,
                      Scene& scene);

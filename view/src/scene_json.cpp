@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <variant>
@@ -141,9 +142,9 @@ Json body_json(const continuous::Body& body) {
 
 void add_roadmap(const Scene& scene, Json& json) {
   Json places = Json::array(), links = Json::array(), one_way = Json::array();
-  for (const Position& position : scene.places) {
-    places.push_back(number(position.x));
-    places.push_back(number(position.y));
+  for (std::size_t v = 0; v < std::min(scene.places.size(), scene.num_vertices); ++v) {
+    places.push_back(number(scene.places[v].x));
+    places.push_back(number(scene.places[v].y));
   }
   for (const Link& link : scene.links) {
     Json& list = link.one_way ? one_way : links;
@@ -253,6 +254,10 @@ std::string scene_json(const Scene& scene, const PageOptions& options) {
   for (const continuous::Body& body : scene.bodies) json["bodies"].push_back(body_json(body));
   json["agents"] = Json::array();
   for (const SceneAgent& agent : scene.agents) json["agents"].push_back(agent_json(scene, agent));
+  Json names = Json::array();
+  for (const std::string& name : options.agent_names)
+    names.push_back(name.empty() ? Json(nullptr) : Json(name));
+  if (!names.empty()) json["names"] = std::move(names);
   json["obstacles"] = Json::array();
   for (const SceneObstacle& obstacle : scene.obstacles)
     json["obstacles"].push_back(obstacle_json(scene, obstacle));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct Obstruction {
 /// What is shown of a plan besides the plan.
 struct PageOptions {
   std::string title;  ///< UTF-8; empty: "Plan of 12 agents".
+  /// What agents are called, by number; an empty text, or none: "agent 3".
+  std::vector<std::string> agent_names = {};
   Objective objective = Objective::sum_of_costs;
   std::optional<Status> status;     ///< What is claimed about the plan.
   std::optional<Cost> lower_bound;  ///< Of the objective, in timesteps or ticks.
@@ -58,6 +61,20 @@ struct PageOptions {
 /// face.
 [[nodiscard]] std::string page(const continuous::Instance& instance, const continuous::Plan& plan,
                                const PageOptions& options, const continuous::PoseGrid& poses);
+
+/// A stay of a robot that is being watched, anywhere, in length units and ticks.
+struct Sight {
+  double x = 0, y = 0, z = 0;
+  std::int64_t arrive = 0, depart = 0;
+};
+/// What it did: it stood at its sights, and went straight and evenly from each to the next.
+using Track = std::vector<Sight>;
+/// The same page of what robots did, in place of a plan. Tells of no costs and violations. Requires
+/// a track, of at least one sight, per agent, whose bodies and roads are shown; those that change
+/// their bodies on the way are shown with that of their start.
+[[nodiscard]] std::string page(const continuous::Instance& instance,
+                               const std::vector<Track>& tracks, const PageOptions& options = {},
+                               const continuous::GridRoadmap* grid = nullptr);
 
 }  // namespace quadrille::view
 
