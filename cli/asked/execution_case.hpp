@@ -8,7 +8,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "asked/track_recorder.hpp"
 #include "frame/input_options.hpp"
 #include "quadrille/execution/precedences.hpp"
 
@@ -45,6 +47,12 @@ struct ExecutionCase {
   bool has_timesteps = false;
   std::function<std::string(VertexId)> place;
   std::function<std::unique_ptr<ContactWatch>()> watch;
+  /// Where a vertex is on the page, and the page of what agents did, in its ticks; null where
+  /// vertices have no places.
+  std::function<TrackRecorder::Place(VertexId)> position = {};
+  std::function<std::string(const std::vector<view::Track>&)> page = {};
+  std::int64_t page_ticks = 1;  ///< Of the page, in one tick.
+  std::vector<VertexId> starts = {};
 
   /// A time in the input's unit, as short as it can be.
   [[nodiscard]] std::string time(Ticks ticks) const {

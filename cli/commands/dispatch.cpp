@@ -12,11 +12,14 @@ namespace {
 
 constexpr const char* kFooter =
     "Robots start where the agents of the instance do. Whoever has no task gets one at any\n"
-    "vertex; robots are held up at random, and never collide (docs/dispatch.md). The gap of a\n"
-    "call is by how much its paths are longer than they could be without the others.\n"
+    "vertex, or the nearest one that is known; robots are held up at random, and never collide\n"
+    "(docs/dispatch.md). The gap of a call is by how much its paths are longer than they could\n"
+    "be without the others. On a grid a move takes one unit of time.\n"
     "\n"
     "Example:\n"
     "  quadrille dispatch --instance discs.json --steps 600 --step 0.5 --delays 0.02\n"
+    "  quadrille dispatch --map x.map --scen x.scen --agents 50 --view work.html\n"
+    "  quadrille dispatch --instance discs.json --serve\n"
     "\n";
 
 constexpr std::int64_t kMaxSteps = 10'000'000;
@@ -24,8 +27,8 @@ constexpr std::int64_t kMaxSteps = 10'000'000;
 }  // namespace
 
 Subcommand add_dispatch(CLI::App& program) {
-  CLI::App* app = program.add_subcommand(
-      "dispatch", "Let a fleet on a roadmap work, with tasks that keep coming");
+  CLI::App* app =
+      program.add_subcommand("dispatch", "Let a fleet work, with tasks that keep coming");
   const auto arguments = std::make_shared<DispatchArguments>();
   add_input_options(*app, arguments->input);
   add_roadmap_options(*app, arguments->roadmap);
@@ -33,8 +36,10 @@ Subcommand add_dispatch(CLI::App& program) {
               "Calls of the dispatcher; default 1000");
   add_positive(*app, "--step", arguments->step,
                "Time from one call to the next, in the instance's unit of time; default 1");
-  app->add_flag("--own-tasks", arguments->has_own_tasks,
-                "The goals of the agents are all there is to do; default: random tasks");
+  app->add_flag(
+      "--own-tasks", arguments->has_own_tasks,
+      "The goals of the agents are all there is to do; default: the tasks of a problem of\n"
+      "the League of Robot Runners, else random ones");
   add_positive(*app, "--service", arguments->service,
                "Time that a task takes at its goal; default 0");
   add_share(*app, "--delays", arguments->pauses,
@@ -56,14 +61,14 @@ Subcommand add_dispatch(CLI::App& program) {
   add_integer(*app, "--seed", arguments->seed, 0, 2'000'000'000,
               "Seed of tasks and pauses; default 0");
   add_file(*app, "--json", arguments->json, "Write the report as JSON; - is standard output");
+  add_file(*app, "--view", arguments->view,
+           "Write a page that plays what the robots did; - is standard output");
+  app->add_flag("--serve", arguments->serves,
+                "No simulation: requests on standard input, one JSON object per line, and an\n"
+                "answer to each on standard output");
   app->add_flag("--quiet", arguments->quiet, "Print nothing but errors and what is asked for");
   app->footer(std::string(kFooter) + kExitCodesHelp);
-  return {app, [app, arguments] {
-            if (!is_roadmap(arguments->input, arguments->roadmap))
-              return usage_error(*app,
-                                 "dispatch needs a roadmap: --roadmap, or an --instance with one");
-            return dispatch_on_roadmap(*app, *arguments);
-          }};
+  return {app, [app, arguments] { return dispatch_on_roadmap(*app, *arguments); }};
 }
 
 }  // namespace quadrille::cli

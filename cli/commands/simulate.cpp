@@ -41,6 +41,7 @@ struct SimulateArguments {
   std::optional<Rule> rule;
   std::optional<double> chance, longest, slowness, period;
   std::optional<std::int64_t> runs, seed;
+  std::string view;
 };
 
 /// What became of all runs under one rule.
@@ -54,6 +55,62 @@ struct Tally {
     const std::size_t ended = runs - endless;
     return ended == 0 ? 0 : sum / static_cast<double>(ended);
   }
+};
+
+/// What the agents of one run do, for the page.
+class RunRecorder {
+ public:
+  explicit RunRecorder(const ExecutionCase& c) : case_(c) {
+    if (!c.page) return;
+    for (std::size_t i = 0; i < c.starts.size(); ++i)
+      recorder_.add(i, c.order.now.value() * c.page_ticks, c.position(c.starts[i]));
+    time_ = c.order.now;
+  }
+
+  /// Clocks have run evenly from one time to the other, in so many ticks.
+  void add(std::span<const Ticks> before, std::span<const Ticks> after, Ticks period) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const auto& moves = case_.order.moves[AgentId(i)];
+      // Where they begin and end moves they may turn.
+      for (const execution::TimedMove& move : moves)
+        for (const Ticks at : {move.begin, move.end})
+          if (before[i] < at && at < after[i]) {
+            const double share = static_cast<double>((at - before[i]).value()) /
+                                 static_cast<double>((after[i] - before[i]).value());
+            add(i, at, share, period);
+          }
+      add(i, after[i], 1, period);
+    }
+    time_ += period;
+  }
+
+  [[nodiscard]] const std::vector<view::Track>& tracks() const { return recorder_.tracks(); }
+
+ private:
+  void add(std::size_t agent, Ticks clock, double share, Ticks period) {
+    const double since = share * static_cast<double>((period * case_.page_ticks).value());
+    recorder_.add(agent, time_.value() * case_.page_ticks + std::llround(since),
+                  place(agent, clock));
+  }
+  [[nodiscard]] TrackRecorder::Place place(std::size_t agent, Ticks clock) const {
+    VertexId at = case_.starts[agent];
+    for (const execution::TimedMove& move : case_.order.moves[AgentId(agent)]) {
+      if (clock <= move.begin) break;
+      if (clock < move.end) {
+        const double share = static_cast<double>((clock - move.begin).value()) /
+                             static_cast<double>((move.end - move.begin).value());
+        const auto from = case_.position(move.from), to = case_.position(move.to);
+        return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+                from.z + share * (to.z - from.z)};
+      }
+      at = move.to;
+    }
+    return case_.position(at);
+  }
+
+  const ExecutionCase& case_;
+  TrackRecorder recorder_;
+  Ticks time_ = 0;
 };
 
 class Simulator {
@@ -102,6 +159,9 @@ class Simulator {
     return text;
   }
 
+  /// Of the run that is shown. Requires a case with a page.
+  [[nodiscard]] std::string page() const { return case_.page(tracks_); }
+
   [[nodiscard]] std::string json() const {
     Json rules = Json::array();
     for (const Tally& tally : tallies_)
@@ -138,10 +198,15 @@ class Simulator {
 
   void add_run(const execution::Delays& delays, Tally& tally) {
     const auto watch = case_.watch();
+    // The first run by the last rule is shown: the coupled one, unless another one is asked for.
+    const bool is_shown = tally.runs == 0 && &tally == &tallies_.back() && case_.page;
+    RunRecorder recorder(case_);
     const auto result = simulate(case_.order, delays, tally.rule, period_,
                                  [&](std::span<const Ticks> before, std::span<const Ticks> after) {
                                    watch->add(before, after);
+                                   if (is_shown) recorder.add(before, after, period_);
                                  });
+    if (is_shown) tracks_ = recorder.tracks();
     ++tally.runs;
     tally.colliding_pairs += watch->contacts();
     if (watch->contacts() > 0) ++tally.colliding_runs;
@@ -174,6 +239,7 @@ class Simulator {
   std::size_t runs_ = 0;
   std::uint64_t seed_ = 0;
   std::vector<Tally> tallies_;
+  std::vector<view::Track> tracks_;
 };
 
 ExitCode simulate_plan(const CLI::App& app, SimulateArguments& arguments) {
@@ -188,11 +254,14 @@ ExitCode simulate_plan(const CLI::App& app, SimulateArguments& arguments) {
        {std::pair("--longest", arguments.longest), std::pair("--period", arguments.period)})
     if (time && *time / c.tick > static_cast<double>(geometry::kMaxDuration.value()))
       return usage_error(app, fmt::format("{} is too long", option));
-  Delivery delivery(arguments.execution.quiet, "", arguments.execution.json);
+  if (!arguments.view.empty() && !c.page)
+    return usage_error(app, "--view needs vertices with places: a grid, or a roadmap");
+  Delivery delivery(arguments.execution.quiet, "", arguments.execution.json, arguments.view);
   if (!delivery.probe()) return ExitCode::output;
   Simulator simulator(arguments, c);
   simulator.run();
   if (delivery.has_json_file()) delivery.write_json(simulator.json());
+  if (delivery.has_view_file()) delivery.write_view(Result<std::string>(simulator.page()));
   delivery.print_summary(c.description + simulator.describe(), "");
   return delivery.finish(ExitCode::success);
 }
@@ -223,6 +292,8 @@ Subcommand add_simulate(CLI::App& program) {
   add_integer(*app, "--runs", arguments->runs, 1, kMaxRuns, "Runs; default 20");
   add_integer(*app, "--seed", arguments->seed, 0, 2'000'000'000,
               "Seed of the first run; default 0");
+  add_file(*app, "--view", arguments->view,
+           "Write a page that plays the first run, under the last rule; - is standard output");
   app->footer(std::string(kFooter) + kExitCodesHelp);
   return {app, [app, arguments] { return simulate_plan(*app, *arguments); }};
 }

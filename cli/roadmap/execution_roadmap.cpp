@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "asked/execution_page.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/execution/clearance.hpp"
 #include "roadmap/roadmap_text.hpp"
@@ -53,12 +54,14 @@ Result<ExecutionCase> load_execution_roadmap(const ExecutionArguments& arguments
   auto order = execution::precedences(input->instance, file->plan);
   if (!order) return order.error();
   const auto scene = std::make_shared<const Scene>(Scene{input->instance, std::move(file->plan)});
-  return ExecutionCase{describe_input(*input),
-                       std::move(order).value(),
-                       input->instance.resolution().time,
-                       false,
-                       [](VertexId vertex) { return std::to_string(vertex.value()); },
-                       [scene] { return std::make_unique<RoadmapWatch>(scene); }};
+  ExecutionCase made{describe_input(*input),
+                     std::move(order).value(),
+                     input->instance.resolution().time,
+                     false,
+                     [](VertexId vertex) { return std::to_string(vertex.value()); },
+                     [scene] { return std::make_unique<RoadmapWatch>(scene); }};
+  add_page(std::make_shared<const input::RoadmapInput>(std::move(input).value()), 1, made);
+  return made;
 }
 
 }  // namespace quadrille::cli

@@ -37,6 +37,17 @@ Simulation::Simulation(Dispatcher& dispatcher, std::shared_ptr<const continuous:
   }
 }
 
+void Simulation::ask_for_tasks() {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (dispatcher_.num_tasks(AgentId(i)) > 0) continue;
+    for (Task& task : options_.next_tasks(AgentId(i))) {
+      const auto error = dispatcher_.assign(AgentId(i), std::move(task));
+      QUADRILLE_REQUIRE(!error, "a task that can be done");
+      since_[i].push_back(time_);
+    }
+  }
+}
+
 void Simulation::draw_tasks() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     // A vertex that it cannot reach is refused, and another one drawn.
@@ -48,11 +59,15 @@ void Simulation::draw_tasks() {
 }
 
 News Simulation::step(const Limits& limits) {
-  if (options_.has_random_tasks) draw_tasks();
+  if (options_.next_tasks)
+    ask_for_tasks();
+  else if (options_.has_random_tasks)
+    draw_tasks();
   for (std::size_t i = 0; i < robots_.size(); ++i)
     QUADRILLE_REQUIRE(!dispatcher_.report(AgentId(i), clocks_[i]), "a robot that obeys");
   News news = dispatcher_.tick(options_.step, limits);
   for (std::size_t i = 0; i < robots_.size(); ++i) clocks_[i] = dispatcher_.clock(AgentId(i));
+  if (before_.empty()) look();
   for (const AgentId robot : news.served) {
     std::vector<Ticks>& since = since_[robot.index()];
     service_times_.push_back(time_ - since.front());
@@ -109,7 +124,7 @@ void Simulation::go_on(Ticks end) {
   time_ = next;
 }
 
-Simulation::Place Simulation::place(std::size_t robot) const {
+Place Simulation::place(std::size_t robot) const {
   const Spot spot = spot_at(dispatcher_.course(AgentId(robot)), clocks_[robot]);
   const continuous::Point &from = roadmap_->position(spot.from), &to = roadmap_->position(spot.to);
   const double share =
@@ -151,6 +166,7 @@ void Simulation::look() {
       if (distance < reach * (1 - kTolerance) - kTolerance) ++num_contacts_;
     }
   before_ = std::move(after);
+  if (options_.watch) options_.watch(time_, before_);
 }
 
 }  // namespace quadrille::dispatch

@@ -195,9 +195,21 @@ Result<RoadmapInput> read_robot_problem(const InputOptions& input) {
   auto problem = read_robot_runners(*input.instance_text, input.instance);
   if (!problem) return problem.error();
   if (auto error = check_agents(input, problem->task.rows.size())) return *std::move(error);
-  return turning_input(
+  const std::int32_t width = problem->cells.width;
+  auto made = turning_input(
       {std::move(problem->cells), std::move(problem->task), 1, input.instance, input.instance},
       input);
+  if (!made) return made;
+  for (const auto& cells : problem->all_tasks) {
+    auto& task = made->tasks.emplace_back();
+    for (const std::int64_t cell : cells)
+      task.push_back(made->poses
+                         ->any_heading({static_cast<std::int32_t>(cell % width),
+                                        static_cast<std::int32_t>(cell / width)})
+                         .value());
+  }
+  made->num_revealed = problem->num_revealed;
+  return made;
 }
 
 }  // namespace

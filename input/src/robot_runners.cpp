@@ -26,11 +26,11 @@ constexpr const char* kPassable = "ES";
 /// A line of a file of robots or tasks.
 struct Location {
   long line = 0;
-  std::int64_t cell = 0;
+  std::vector<std::int64_t> cells = {};
 };
 
-/// The first number of each line, as many lines as the first one says. Lines that are empty or
-/// begin with # mean nothing. A cell has to be passable.
+/// The numbers of each line, with commas between them, as many lines as the first one says. Lines
+/// that are empty or begin with # mean nothing. A cell has to be passable.
 class LocationsReader {
  public:
   LocationsReader(const discrete::GridMap& map, std::string file)
@@ -45,19 +45,20 @@ class LocationsReader {
     while (const auto line = lines.next()) {
       if (line->empty() || line->front() == '#') continue;
       if (count && static_cast<std::int64_t>(locations.size()) == *count) break;
-      const auto number = text::parse_natural(line->substr(0, line->find(',')), INT32_MAX);
-      if (number.fault != text::NumberFault::none)
+      auto numbers = numbers_of(*line);
+      if (!numbers)
         return error(ErrorCode::syntax, lines.number(),
                      text::in_quotes(*line) + (count ? " is no cell" : " is no number of lines"));
       if (!count) {
-        count = number.value;
+        count = numbers->front();
         continue;
       }
-      if (number.value >= static_cast<std::int64_t>(map_.passable.size()) ||
-          !map_.passable[static_cast<std::size_t>(number.value)])
-        return error(ErrorCode::invalid_instance, lines.number(),
-                     "cell " + std::to_string(number.value) + " of the map is not passable");
-      locations.push_back({lines.number(), number.value});
+      for (const std::int64_t cell : *numbers)
+        if (cell >= static_cast<std::int64_t>(map_.passable.size()) ||
+            !map_.passable[static_cast<std::size_t>(cell)])
+          return error(ErrorCode::invalid_instance, lines.number(),
+                       "cell " + std::to_string(cell) + " of the map is not passable");
+      locations.push_back({lines.number(), *std::move(numbers)});
     }
     if (!count || static_cast<std::int64_t>(locations.size()) < *count)
       return error(ErrorCode::syntax, lines.number(), "the file ends too early");
@@ -65,6 +66,18 @@ class LocationsReader {
   }
 
  private:
+  /// At least one; nullopt if something else stands between the commas. One comma may be the end.
+  static std::optional<std::vector<std::int64_t>> numbers_of(std::string_view line) {
+    std::vector<std::int64_t> numbers;
+    while (numbers.empty() || !line.empty()) {
+      const std::size_t end = line.find(',');
+      const auto number = text::parse_natural(line.substr(0, end), INT32_MAX);
+      if (number.fault != text::NumberFault::none) return std::nullopt;
+      numbers.push_back(number.value);
+      line.remove_prefix(end == std::string_view::npos ? line.size() : end + 1);
+    }
+    return numbers;
+  }
   [[nodiscard]] Error error(ErrorCode code, long line, const std::string& message) const {
     return {code, message, {file_, line}};
   }
@@ -76,6 +89,7 @@ class LocationsReader {
 struct Problem {
   std::string map, robots, tasks;  ///< Files.
   std::optional<std::int64_t> team_size;
+  double num_revealed = 1;
 };
 
 Result<Problem> read_problem(const std::string& text, const std::string& file) {
@@ -104,6 +118,8 @@ Result<Problem> read_problem(const std::string& text, const std::string& file) {
                              "be late; only those of one timestep for each action are read");
   if (const auto value = member(*document, "teamSize"))
     if (!check.integer(*value, 0, INT32_MAX, problem.team_size.emplace())) return check.error();
+  if (const auto value = member(*document, "numTasksReveal"))
+    if (!check.number(*value, problem.num_revealed)) return check.error();
   return problem;
 }
 
@@ -136,7 +152,10 @@ Result<RobotRunnersProblem> read_robot_runners(const std::string& text, const st
   RobotRunnersProblem result{{map->height, map->width, std::move(map->passable)},
                              {problem->robots, {}}};
   for (std::size_t i = 0; i < count; ++i)
-    result.task.rows.push_back({(*robots)[i].line, std::pair{(*robots)[i].cell, (*tasks)[i].cell}});
+    result.task.rows.push_back(
+        {(*robots)[i].line, std::pair{(*robots)[i].cells.front(), (*tasks)[i].cells.front()}});
+  for (const Location& location : *tasks) result.all_tasks.push_back(location.cells);
+  result.num_revealed = problem->num_revealed;
   return result;
 }
 

@@ -16,6 +16,11 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::dispatch {
 
+/// Where a robot is, in length units.
+struct Place {
+  double x = 0, y = 0, z = 0;
+};
+
 struct SimulationOptions {
   Ticks step = 1;                ///< Time from one call to the next; at least 1.
   double pause_chance = 0;       ///< That a robot which goes on pauses, per step; 0 .. 1.
@@ -23,6 +28,11 @@ struct SimulationOptions {
   Ticks service = 0;             ///< Of random tasks.
   bool has_random_tasks = true;  ///< Whoever has none gets another one, at any vertex.
   std::uint64_t seed = 0;
+  /// Instead of random tasks: what somebody who has none has to do next, one after the other; an
+  /// empty list: nothing now. Each has to be one that the dispatcher takes.
+  std::function<std::vector<Task>(AgentId)> next_tasks = {};
+  /// Hears, in order of time, where everybody is; between two calls all go straight and evenly.
+  std::function<void(Ticks, const std::vector<Place>&)> watch = {};
 };
 
 /// Robots that obey a dispatcher, are held up at random, and get tasks at random. All that is drawn
@@ -45,12 +55,10 @@ class Simulation {
   [[nodiscard]] Ticks time() const noexcept { return time_; }
 
  private:
-  struct Place {
-    double x = 0, y = 0, z = 0;
-  };
   struct Pause {
     Ticks from = 0, until = 0;
   };
+  void ask_for_tasks();
   void draw_tasks();
   void draw_pauses();
   [[nodiscard]] bool goes(std::size_t robot) const;

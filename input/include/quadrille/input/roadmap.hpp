@@ -10,6 +10,7 @@
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/core/result.hpp"
+#include "quadrille/input/grid.hpp"
 #include "quadrille/input/source.hpp"
 #include "quadrille/text/names.hpp"
 
@@ -55,6 +56,9 @@ struct RoadmapInput {
   std::string kind = {};         ///< "32 x 32 grid, 2^3 neighbours, " or nothing.
   std::size_t num_zero_length_edges = 0;
   text::Names names = {};
+  /// What is to be done besides, where the files say so: the places to go to, one after the other.
+  std::vector<std::vector<Goals>> tasks = {};
+  double num_revealed = 1;  ///< So many of them per agent are known at a time.
   std::vector<std::string> notes =
       {};  ///< What plans do not honour, and what may be meant otherwise.
 
@@ -65,6 +69,10 @@ struct RoadmapInput {
 };
 /// Requires options that name a roadmap and pass check_roadmap_options. All rows of the task
 /// without `--agents`.
+/// A grid in continuous time: agents are discs of radius 0.35 cells, which take one unit of time
+/// for a move, and collide as on the grid when they move at the same time. Errors
+/// (invalid_instance): what is no grid, and agents with rules that there are on graphs only.
+[[nodiscard]] Result<RoadmapInput> as_roadmap(const GridInput& grid);
 [[nodiscard]] Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options,
                                                       const InputOptions& input);
 

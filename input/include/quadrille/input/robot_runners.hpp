@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "quadrille/continuous/grid.hpp"
 #include "quadrille/continuous/roadmap_xml.hpp"
@@ -9,11 +11,15 @@
 
 namespace quadrille::input {
 
-/// A problem of the League of Robot Runners as one for a single plan: robot k goes to the first
-/// place of task k.
+/// A problem of the League of Robot Runners, and as one for a single plan: robot k goes to the
+/// first place of task k.
 struct RobotRunnersProblem {
   continuous::OccupancyGrid cells;
   continuous::TaskXml task;  ///< Cells as row * width + column; lines are those of the robots.
+  /// All tasks: the cells to go to, one after the other.
+  std::vector<std::vector<std::int64_t>> all_tasks = {};
+  /// So many tasks per robot are known at a time.
+  double num_revealed = 1;
 };
 
 /// Whether this is the text of such a problem, see text::sniff.
