@@ -14,26 +14,31 @@ from ._core import __version__
 from ._errors import BodyWarning, FileError, InputError, NoPlanError, RoundingWarning
 from .attribution import Attribution, Charge, Place, Raise, Reason, Site
 from .dispatching import Dispatcher, Orders
+from .execution import Executor, Releaser, Simulation, simulate
 from .fleet import Fleet
 from .graphs import Graph, Grid, PoseGrid, Roadmap
-from .plans import Plan, StepPath, StepPlan, TimedPath, TimedPlan
+from .plans import NodeOrder, Plan, StepPath, StepPlan, TimedPath, TimedPlan, Wait
 from .reading import read
 from .reports import Report, Violation
 from .rules import Obstacle, Underway
-from .solving import Moves, Progress, Result, Statistics, solve
+from .session import Session
+from .solving import Interrupted, Moves, Progress, Result, Statistics, solve
 
 __all__ = [
     "Attribution",
     "BodyWarning",
     "Charge",
     "Dispatcher",
+    "Executor",
     "FileError",
     "Fleet",
     "Graph",
     "Grid",
     "InputError",
+    "Interrupted",
     "Moves",
     "NoPlanError",
+    "NodeOrder",
     "Obstacle",
     "Orders",
     "Place",
@@ -42,10 +47,13 @@ __all__ = [
     "Progress",
     "Raise",
     "Reason",
+    "Releaser",
     "Report",
     "Result",
     "Roadmap",
     "RoundingWarning",
+    "Session",
+    "Simulation",
     "Site",
     "Statistics",
     "StepPath",
@@ -54,7 +62,9 @@ __all__ = [
     "TimedPlan",
     "Underway",
     "Violation",
+    "Wait",
     "__version__",
     "read",
+    "simulate",
     "solve",
 ]

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, cast
+from typing import Any, Optional, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
+
+T = TypeVar("T")
 
 # None: of any length.
 Shape = tuple[Optional[int], ...]
@@ -52,6 +54,31 @@ def doubles(values: Any, name: str, shape: Shape) -> npt.NDArray[np.float64]:
     if array.dtype.kind not in "iuf":
         raise ValueError(f"{name}: expected numbers, not {array.dtype}")
     return np.ascontiguousarray(_shaped(array, name, shape), dtype=np.float64)
+
+
+A = TypeVar("A", bound=npt.NDArray[Any])
+
+
+def frozen(array: A) -> A:
+    """From now on it cannot be written to."""
+    array.flags.writeable = False
+    return array
+
+
+class Immutable:
+    """What nobody can change need not be copied; what comes out of a pickle cannot be changed either."""
+
+    def __copy__(self: T) -> T:
+        return self
+
+    def __deepcopy__(self: T, memo: dict[int, Any]) -> T:
+        return self
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                frozen(value)
+        self.__dict__.update(state)
 
 
 def listed(array: npt.NDArray[Any]) -> list[Any]:

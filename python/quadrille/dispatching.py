@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import ints
+from ._arrays import frozen, ints
 from ._errors import InputError
 from .fleet import Fleet
 from .graphs import Roadmap
@@ -85,6 +85,11 @@ class Dispatcher:
     def __len__(self) -> int:
         """Number of agents."""
         return len(self._core)
+
+    def __deepcopy__(self, memo: Any) -> Dispatcher:
+        raise TypeError("a Dispatcher has a state of its own, and cannot be copied")
+
+    __copy__ = __reduce__ = __deepcopy__  # type: ignore[assignment]
 
     def _agent(self, agent: Union[int, str]) -> int:
         if isinstance(agent, str):
@@ -167,8 +172,7 @@ class Dispatcher:
         stops = np.empty(len(rows), dtype=_STOP)
         for column, name in enumerate(_STOP.names or ()):
             stops[name] = rows[:, column]
-        stops.flags.writeable = False
-        return stops
+        return frozen(stops)
 
     def at(self, agent: Union[int, str], clock: float) -> npt.NDArray[np.float64]:
         """Where the agent is when it has got so far: float64[2], or [3] where there are heights."""
@@ -179,6 +183,6 @@ class Dispatcher:
         )
         at = int(np.searchsorted(stops["arrive"], clock, side="right")) - 1
         if at < 0 or at + 1 == len(stops) or clock <= stops["depart"][at]:
-            return np.array(places[max(at, 0)])
+            return frozen(np.array(places[max(at, 0)]))
         share = (clock - stops["depart"][at]) / (stops["arrive"][at + 1] - stops["depart"][at])
-        return np.array(places[at] + share * (places[at + 1] - places[at]))
+        return frozen(np.array(places[at] + share * (places[at + 1] - places[at])))

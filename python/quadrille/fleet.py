@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copyreg
 import os
 from typing import Any, Generic, Optional, Sequence, TypeVar, Union, cast, overload
 
@@ -10,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import Shape, doubles, ints, listed, per_agent
+from ._arrays import Immutable, Shape, doubles, ints, listed, per_agent
 from ._errors import InputError
 from .graphs import Graph, Grid, Roadmap
 from .naming import file_names
@@ -28,7 +29,7 @@ from .rules import (
 P = TypeVar("P", bound=Plan)
 
 
-class Fleet(Generic[P]):
+class Fleet(Immutable, Generic[P]):
     """Agents on a grid, a graph or a roadmap, each with a start and a goal where it stays at the end, or
     several goals, of which it may choose any one.
 
@@ -77,6 +78,8 @@ class Fleet(Generic[P]):
 
     # Why there is no plan, of a file: nothing else is known of it.
     _unread: Optional[str] = None
+    # Of one of which it is seen that it has no plan: what it was made of.
+    _given: Optional[dict[str, Any]] = None
 
     @overload
     def __init__(
@@ -132,6 +135,7 @@ class Fleet(Generic[P]):
         names: Optional[Sequence[str]] = None,
         now: float = 0,
     ) -> None:
+        parts = {name: value for name, value in locals().items() if name != "self"}
         instance: Union[_core.StepInstance, _core.TimedInstance]
         called = [] if names is None else [repr(str(name)) for name in names]
         if isinstance(graph, Roadmap):
@@ -192,6 +196,13 @@ class Fleet(Generic[P]):
                 ),
             )
         self._setup(graph, instance, names)
+        if self.no_plan is not None:
+            self._given = parts
+
+    def __reduce__(self) -> Any:
+        if self._given is not None:
+            return _remade, (self._given,)
+        return copyreg.__newobj__, (type(self),), self.__dict__  # type: ignore[attr-defined]
 
     def _setup(
         self,
@@ -335,24 +346,60 @@ class Fleet(Generic[P]):
         """On roadmaps: as rounded."""
         return [obstacle_of(given) for given in self._timed("obstacles").rules()["obstacles"]]
 
-    def plan(self, paths: npt.ArrayLike) -> StepPlan:
-        """A plan of your own, in timesteps; ``verify`` says whether it is valid.
+    def plan(self, paths: Any) -> P:
+        """A plan of your own; ``verify`` says whether it is valid.
 
         Args:
             paths: int[n, T, 2], cells (x, y), on grids; int[n, T], vertices, on graphs. An agent
-                stays in its last place.
+                stays in its last place. On roadmaps n paths, each a list of stops: a vertex alone,
+                through which the agent passes at once; (vertex, depart), where it waits until then; or
+                (vertex, arrive, depart). It arrives as soon as it gets there where nothing else is said, and
+                begins at ``now``. Vertices by number or name, times in your unit, to the nearest
+                tick; a structured array such as ``plan[0].stops`` will do. An agent that is under way begins at
+                ``fleet.starts[agent]``.
 
         Raises:
-            InputError: for places that do not exist or are blocked.
+            InputError: for places that do not exist or are blocked, and on roadmaps where a time is
+                missing and no edge leads there.
         """
         if isinstance(self._instance, _core.TimedInstance):
-            raise ValueError("plan: plans on roadmaps come from solve and read_plan")
+            return self._timed_plan(paths)
         array = np.asarray(paths)
         shape = (None, None, 2) if isinstance(self._graph, Grid) else (None, None)
         if array.ndim == len(shape) and array.shape[1] == 0:
             raise ValueError("paths: a path has at least one place")
-        fleet = cast("Fleet[StepPlan]", self)
-        return StepPlan(fleet, self._instance.plan(ints(array, "paths", shape)))
+        return self._make_plan(self._instance.plan(ints(array, "paths", shape)))
+
+    def _timed_plan(self, paths: Any) -> P:
+        if len(paths) != len(self):
+            raise InputError(f"paths: {len(paths)} paths for {len(self)} agents")
+        instance = self._timed("plan")
+        given = [self._stops(path, f"paths[{agent}]") for agent, path in enumerate(paths)]
+        return self._make_plan(instance.plan(given))
+
+    def _stops(self, path: Any, name: str) -> tuple[Any, Any, Any]:
+        """Vertices, arrivals and departures, NaN where nothing is said."""
+        graph = cast(Roadmap, self._graph)
+        if isinstance(path, np.ndarray) and path.dtype.names is not None:
+            times = doubles(np.stack([path["arrive"], path["depart"]]), name, (2, None))
+            return ints(path["vertex"], name, (None,)), times[0].copy(), times[1].copy()
+        vertices: list[int] = []
+        given: list[tuple[float, float]] = []
+        for at, stop in enumerate(path):
+            is_place = not isinstance(stop, (tuple, list)) or (
+                isinstance(stop, tuple) and stop in graph._number
+            )
+            place, *when = (stop,) if is_place else stop
+            if len(when) > 2:
+                raise InputError(f"{name}[{at}]: a stop is a vertex, with its arrival and departure")
+            number = isinstance(place, (int, np.integer)) and place >= graph.num_vertices
+            vertices.append(int(place) if number else graph._vertex(place, f"{name}[{at}]"))
+            arrive = when[0] if len(when) == 2 else np.nan
+            given.append((arrive, when[-1] if when else np.nan))
+        if not vertices:
+            raise InputError(f"{name}: a path has at least one stop")
+        both = doubles(given, name, (None, 2))
+        return ints(vertices, name, (None,)), both[:, 0].copy(), both[:, 1].copy()
 
     def read_plan(self, file: Union[str, os.PathLike[str]], format: Optional[str] = None) -> P:
         """A plan from a file. Whether it is valid, ``verify`` says.
@@ -427,6 +474,11 @@ class Fleet(Generic[P]):
         if self._unread is not None:
             return f"<quadrille.Fleet that has no plan: {self._unread}>"
         return f"<quadrille.Fleet of {len(self)} on {self._graph!r}>"
+
+
+def _remade(given: dict[str, Any]) -> Fleet[Any]:
+    made: Fleet[Any] = cast(Any, Fleet)(**given)
+    return made
 
 
 def _starts(

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import bools, doubles, ints, listed, with_places
+from ._arrays import Immutable, bools, doubles, ints, listed, with_places
 from ._errors import InputError
 from .rules import Only, only_of, open_to
 
@@ -22,7 +22,7 @@ DEFAULT_RESOLUTION = 1e-6
 Resolution = Union[float, tuple[float, float]]
 
 
-class Grid:
+class Grid(Immutable):
     """A grid of cells, 4-connected. In each timestep an agent waits or moves to a neighbouring cell.
 
     A cell is ``(x, y)``: column and row, ``(0, 0)`` in the upper left corner.
@@ -71,7 +71,7 @@ class Grid:
         return f"<quadrille.Grid {width} x {height}, {self.num_vertices} free cells>"
 
 
-class Graph:
+class Graph(Immutable):
     """An undirected graph with vertices 0 .. n-1. In each timestep an agent waits or moves along an
     edge; two agents may not swap over one.
 
@@ -104,7 +104,7 @@ class Graph:
         return f"<quadrille.Graph {self.num_vertices} vertices, {self._graph.num_edges} edges>"
 
 
-class Roadmap:
+class Roadmap(Immutable):
     """Vertices in the plane or in space and directed, straight edges, for agents with bodies in
     continuous time.
 
@@ -349,7 +349,7 @@ class PoseGrid(Roadmap):
         self._setup(graph, _core.pose_resolution, [])
         cells = [(int(x), int(y)) for y, x in zip(*np.nonzero(free))]
         self._name_nodes([(x, y, heading) for x, y in cells for heading in _core.heading_names()])
-        self._turn = int(turn)
+        self._turn, self._free = int(turn), free
 
     @property
     def turn(self) -> int:

@@ -4,16 +4,21 @@
 from __future__ import annotations
 
 import html
+import json
+import operator
 import os
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Iterator, Optional, Sequence, Union, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import listed
-from .graphs import Graph, Grid, Roadmap
+from ._arrays import Immutable, frozen, listed
+from ._errors import InputError
+from .graphs import Graph, Grid, PoseGrid, Roadmap
+from .naming import file_names
 from .reports import Report, Violation
 from .rules import Obstacle, Underway, obstacle_of
 
@@ -24,8 +29,31 @@ if TYPE_CHECKING:
     from .fleet import Fleet
 
 
-class Plan:
-    """One path per agent. ``StepPlan`` on grids and graphs, ``TimedPlan`` on roadmaps."""
+@dataclass(frozen=True)
+class NodeOrder:
+    """What becomes of a plan where moves are released as a whole: a follower begins its move after the
+    leader has *ended* its own, as by orders of VDA 5050, or ``Executor.gate``."""
+
+    cycle: list[tuple[int, int]]
+    """Moves (agent, move) that wait for each other for ever, each for the end of the one before it, the
+    first one for the last one. Empty: all arrive."""
+    num_knots: int
+    """Groups of moves that wait for each other in circles."""
+    num_knotted_moves: int
+    """Moves in them."""
+    num_overlaps: int
+    """Precedences whose moves overlap in time in the plan: what it costs to release whole moves."""
+
+    @property
+    def acyclic(self) -> bool:
+        return not self.cycle
+
+
+class Plan(Immutable):
+    """One path per agent. ``StepPlan`` on grids and graphs, ``TimedPlan`` on roadmaps.
+
+    An agent is given by its number, or by its name: ``plan[3]``, ``plan["amr1"]``.
+    """
 
     _plan: Union[_core.StepPlan, _core.TimedPlan]
 
@@ -36,6 +64,17 @@ class Plan:
     def __len__(self) -> int:
         """Number of agents."""
         return self._plan.num_agents
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_fleet": self._fleet, "_plan": self._plan}
+
+    def __getitem__(self, agent: Union[int, str]) -> Any:
+        raise NotImplementedError
+
+    @property
+    def names(self) -> list[str]:
+        """What the agents are called."""
+        return self._fleet.names
 
     @property
     def now(self) -> float:
@@ -56,6 +95,26 @@ class Plan:
     @property
     def sum_of_costs(self) -> float:
         return cast(float, self.costs.sum().item())
+
+    @cached_property
+    def _free_costs(self) -> list[Optional[float]]:
+        """Per agent, what it would cost without the others; None where it can reach no goal."""
+        costs = listed(self._fleet._instance.free_costs())
+        return [None if cost < 0 else self._fleet._cost(cost) for cost in costs]
+
+    @property
+    def delay(self) -> float:
+        """By how much the agents' costs are more than without each other, in sum: waits and detours."""
+        return float(sum(self[agent].delay for agent in range(len(self))))
+
+    def _times(self, ticks: npt.NDArray[np.int64]) -> npt.NDArray[np.float64]:
+        """In your unit of time."""
+        return np.array([self._fleet._cost(time) for time in listed(ticks)], dtype=np.float64)
+
+    @property
+    def _tick(self) -> float:
+        """Its size in your unit of time."""
+        return 1.0
 
     def _timeline(self, agent: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Moments float64[k] and places float64[k, dimensions]; between two of them the agent moves evenly."""
@@ -80,7 +139,7 @@ class Plan:
             times, xy = self._timeline(agent)
             for axis in range(self._dimensions):
                 places[agent, :, axis] = np.interp(moments, times, xy[:, axis])
-        return places
+        return frozen(places)
 
     @property
     def _dimensions(self) -> int:
@@ -115,22 +174,29 @@ class Plan:
         import networkx
 
         graph: nx.DiGraph[Any] = networkx.DiGraph()
-        moves, list_, cycle = self._precedences()
-        graph.graph["cycle"] = [(agent, move) for agent, move in listed(cycle)]
+        order = self._precedences()
+        graph.graph["cycle"] = _cycle(order.node_order()[0])
         time = self._fleet._cost
-        for agent, move, source, target, begin, end in listed(moves):
+        for agent, move, source, target, begin, end in listed(order.moves()):
             graph.add_node(
                 (agent, move), source=source, target=target, begin=time(begin), end=time(end)
             )
             if move > 0:
                 graph.add_edge((agent, move - 1), (agent, move), kind="next")
-        for leader, first, follower, second, slack in listed(list_):
+        for leader, first, follower, second, slack in listed(order.list()):
             graph.add_edge((leader, first), (follower, second), kind="after", slack=time(slack))
         return graph
 
-    def _precedences(
-        self,
-    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    def node_order(self) -> NodeOrder:
+        """Whether all arrive if robots are released move by move.
+
+        Raises:
+            InputError: as ``precedences``.
+        """
+        cycle, *counts = self._precedences().node_order()
+        return NodeOrder(_cycle(cycle), *counts)
+
+    def _precedences(self) -> _core.Precedences:
         raise NotImplementedError
 
     def verify(self) -> Report:
@@ -161,7 +227,7 @@ class Plan:
         return self._page(title)
 
     def to_svg(
-        self, kind: str = "map", agents: Optional[Sequence[int]] = None, title: str = ""
+        self, kind: str = "map", agents: Optional[Sequence[Union[int, str]]] = None, title: str = ""
     ) -> str:
         """A picture of the plan.
 
@@ -186,13 +252,24 @@ class Plan:
             'style="width: 100%; height: 36em; border: 1px solid #8888"></iframe>'
         )
 
+    def _shown(self) -> list[str]:
+        """Names for pages; agents that are called by their numbers have none."""
+        names = self._fleet._names
+        return [name if name != str(i) else "" for i, name in enumerate(names)]
+
     def _page(self, title: str) -> str:
         raise NotImplementedError
 
     def _picture(self, kind: str, title: str, agents: list[int]) -> str:
         raise NotImplementedError
 
-    def _checked(self, agent: int) -> int:
+    def _checked(self, agent: Union[int, str]) -> int:
+        """The number of an agent that is given by number, from the end if it is negative, or by name."""
+        if isinstance(agent, str):
+            if agent not in self._fleet._names:
+                raise InputError(f"there is no agent called {agent!r}")
+            return self._fleet._names.index(agent)
+        agent = operator.index(agent)
         if not -len(self) <= agent < len(self):
             raise IndexError(f"there is no agent {agent} among {len(self)}")
         return agent % len(self)
@@ -208,8 +285,22 @@ class Plan:
         raise NotImplementedError
 
 
+def _cycle(moves: npt.NDArray[np.int64]) -> list[tuple[int, int]]:
+    return [(agent, move) for agent, move in listed(moves)]
+
+
 @dataclass(frozen=True)
-class StepPath:
+class Wait:
+    """A stay that takes time, before the agent has arrived for good."""
+
+    place: Any
+    """Where: a cell (x, y), or a vertex, by its name if it has one."""
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True)
+class StepPath(Immutable):
     """Path of one agent in timesteps."""
 
     name: str
@@ -218,6 +309,39 @@ class StepPath:
     long as the plan's."""
     cost: int
     """Timesteps until its last arrival, from the plan's ``now``."""
+    now: int = 0
+    """The plan's."""
+    free_cost: Optional[int] = None
+    """What its cost would be without the other agents; None if it can reach no goal."""
+
+    @property
+    def delay(self) -> int:
+        """How much more its cost is: waits and detours. 0 if it can reach no goal."""
+        return 0 if self.free_cost is None else self.cost - self.free_cost
+
+    def at(self, time: float) -> Any:
+        """Where the agent is: at its start before the plan begins, in its last place after the end. On
+        grids float64[2], (x, y), also between two cells; on graphs the vertex that it is at, or leaves."""
+        since = min(max(time - self.now, 0), len(self.places) - 1)
+        before = int(since)
+        if self.places.ndim == 1:
+            return int(self.places[before])
+        after = self.places[min(before + 1, len(self.places) - 1)]
+        return frozen(self.places[before] + (since - before) * (after - self.places[before]))
+
+    def waits(self) -> list[Wait]:
+        """Where it stands still before it has arrived for good."""
+        waits: list[Wait] = []
+        places = listed(self.places[: self.cost + 1])
+        for t in range(self.cost):
+            if places[t] != places[t + 1]:
+                continue
+            place = tuple(places[t]) if self.places.ndim == 2 else places[t]
+            if waits and waits[-1].end == self.now + t:
+                waits[-1] = Wait(place, waits[-1].begin, self.now + t + 1)
+            else:
+                waits.append(Wait(place, self.now + t, self.now + t + 1))
+        return waits
 
 
 class StepPlan(Plan):
@@ -247,9 +371,20 @@ class StepPlan(Plan):
     def costs(self) -> npt.NDArray[np.int64]:
         return self._plan.costs()
 
-    def __getitem__(self, agent: int) -> StepPath:
-        agent = self._checked(agent)
-        return StepPath(self._fleet._names[agent], self.paths[agent], int(self.costs[agent]))
+    @property
+    def _instance(self) -> _core.StepInstance:
+        return cast(_core.StepInstance, self._fleet._instance)
+
+    def __getitem__(self, agent: Union[int, str]) -> StepPath:
+        number = self._checked(agent)
+        free = self._free_costs[number]
+        return StepPath(
+            self._fleet._names[number],
+            self.paths[number],
+            int(self.costs[number]),
+            self.now,
+            None if free is None else int(free),
+        )
 
     def __iter__(self) -> Iterator[StepPath]:
         return (self[agent] for agent in range(len(self)))
@@ -275,21 +410,17 @@ class StepPlan(Plan):
         return columns
 
     def verify(self) -> Report:
-        instance = cast(_core.StepInstance, self._fleet._instance)
-        violations, sum_of_costs, makespan = instance.verify(self._plan)
+        violations, sum_of_costs, makespan = self._instance.verify(self._plan)
         return Report([Violation(*violation) for violation in violations], sum_of_costs, makespan)
 
-    def _precedences(
-        self,
-    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-        return _core.step_precedences(cast(_core.StepInstance, self._fleet._instance), self._plan)
+    def _precedences(self) -> _core.Precedences:
+        return _core.step_precedences(self._instance, self._plan)
 
     def _page(self, title: str) -> str:
-        return _core.step_page(cast(_core.StepInstance, self._fleet._instance), self._plan, title)
+        return _core.step_page(self._instance, self._plan, title, self._shown())
 
     def _picture(self, kind: str, title: str, agents: list[int]) -> str:
-        instance = cast(_core.StepInstance, self._fleet._instance)
-        return _core.step_picture(instance, self._plan, kind, title, agents)
+        return _core.step_picture(self._instance, self._plan, kind, title, agents)
 
     def _content(self) -> list[bytes]:
         return [np.array([self.now, *self.paths.shape]).tobytes(), self.paths.tobytes()]
@@ -307,7 +438,7 @@ STOP_IN_SPACE = np.dtype(
 
 
 @dataclass(frozen=True)
-class TimedPath:
+class TimedPath(Immutable):
     """Path of one agent in continuous time."""
 
     name: str
@@ -320,6 +451,45 @@ class TimedPath:
     Read-only, and not a copy: it keeps the plan alive."""
     cost: float
     """How long after its first arrival, the plan's ``now``, it arrives at its last stop."""
+    free_cost: Optional[float] = None
+    """What that would be without the other agents and obstacles; None if it can reach no goal."""
+    places: tuple[Any, ...] = ()
+    """What the vertices of the stops are called: their names, or numbers."""
+
+    @property
+    def delay(self) -> float:
+        """How much more its cost is: waits and detours. 0 if it can reach no goal."""
+        return 0.0 if self.free_cost is None else self.cost - self.free_cost
+
+    def at(self, time: float) -> npt.NDArray[np.float64]:
+        """Where the agent is, float64[2], with heights [3]: at its start before the plan begins, at its
+        last stop after the end."""
+        return self._look(time)[0]
+
+    def velocity(self, time: float) -> npt.NDArray[np.float64]:
+        """How fast it goes, float64[2], with heights [3]; at the moment in which that changes, what comes
+        after it."""
+        return self._look(time)[1]
+
+    def waits(self) -> list[Wait]:
+        """The stops that take time, before it has arrived for good."""
+        return [
+            Wait(self.places[k], float(stop["arrive"]), float(stop["depart"]))
+            for k, stop in enumerate(self.stops[:-1])
+            if stop["depart"] > stop["arrive"]
+        ]
+
+    def _look(self, time: float) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        stops = self.stops
+        axes = [name for name in ("x", "y", "z") if name in (stops.dtype.names or ())]
+        here = max(int(np.searchsorted(stops["arrive"], time, side="right")) - 1, 0)
+        place = np.array([stops[axis][here] for axis in axes])
+        if here + 1 == len(stops) or time < stops["depart"][here]:
+            return frozen(place), frozen(np.zeros(len(axes)))
+        way = np.array([stops[axis][here + 1] for axis in axes]) - place
+        duration = stops["arrive"][here + 1] - stops["depart"][here]
+        share = (time - stops["depart"][here]) / duration
+        return frozen(place + share * way), frozen(way / duration)
 
 
 class TimedPlan(Plan):
@@ -349,27 +519,42 @@ class TimedPlan(Plan):
 
     @property
     def costs(self) -> npt.NDArray[np.float64]:
-        fleet = self._fleet
-        return np.array([fleet._cost(cost) for cost in listed(self._plan.costs())], dtype=np.float64)
+        return frozen(self._times(self._plan.costs()))
+
+    @property
+    def _instance(self) -> _core.TimedInstance:
+        return cast(_core.TimedInstance, self._fleet._instance)
+
+    @property
+    def _tick(self) -> float:
+        return self._roadmap.resolution[1]
 
     @property
     def sum_of_costs(self) -> float:
         # The sum of whole ticks is exact.
         return self._fleet._cost(int(self._plan.costs().sum()))
 
-    def __getitem__(self, agent: int) -> TimedPath:
-        agent = self._checked(agent)
-        ticks = self._plan.ticks(agent)
+    def __getitem__(self, agent: Union[int, str]) -> TimedPath:
+        number = self._checked(agent)
+        ticks = self._plan.ticks(number)
         stops = np.empty(len(ticks), dtype=self._stop)
         stops["vertex"] = ticks["vertex"]
         xy = self._roadmap.xy[stops["vertex"]]
         for axis, name in enumerate(self._axes):
             stops[name] = xy[:, axis]
-        stops["arrive"], stops["depart"] = self._plan.times(agent, self._roadmap.resolution)
+        stops["arrive"], stops["depart"] = self._plan.times(number, self._roadmap.resolution)
         cost = self._fleet._cost(int(ticks["arrive"][-1] - ticks["arrive"][0]))
-        return TimedPath(self._fleet._names[agent], stops, ticks, cost)
+        free, places = self._free_costs[number], tuple(map(self._place, listed(ticks["vertex"])))
+        return TimedPath(self._fleet._names[number], frozen(stops), ticks, cost, free, places)
 
-    def start_at(self, agent: int, time: float) -> Any:
+    def _place(self, vertex: int) -> Any:
+        """What a vertex is called; None for one in the middle of a move."""
+        graph = cast(Roadmap, self._fleet.graph)
+        if vertex >= graph.num_vertices:
+            return None
+        return vertex if graph._nodes is None else graph._nodes[vertex]
+
+    def start_at(self, agent: Union[int, str], time: float) -> Any:
         """Where the agent is at that time when it does what the plan says, as a start for the fleet that
         plans again on the same roadmap: a vertex, by its name if it has one, or an ``Underway``. As often
         as there is need, also within one move.
@@ -378,11 +563,7 @@ class TimedPlan(Plan):
             IndexError: for an agent that there is not.
         """
         agent = self._checked(agent)
-        nodes = cast(Roadmap, self._fleet.graph)._nodes
-        stops, begin = self[agent].stops, self._fleet._moves.get(agent)
-
-        def place(vertex: int) -> Any:
-            return vertex if nodes is None else nodes[vertex]
+        place, stops, begin = self._place, self[agent].stops, self._fleet._moves.get(agent)
 
         def on_the_way(
             source: int, target: int, fraction: float, may_wait: bool = False
@@ -403,7 +584,7 @@ class TimedPlan(Plan):
             return on_the_way(begin.source, begin.target, begin.fraction + rest * share)
         return on_the_way(int(stops["vertex"][at - 1]), vertex, share)
 
-    def obstacle(self, agent: int) -> Optional[Obstacle]:
+    def obstacle(self, agent: Union[int, str]) -> Optional[Obstacle]:
         """What another fleet has to keep clear of, when the agent does what the plan says; None for one
         that leaves where it begins, and so is never anywhere.
 
@@ -415,7 +596,7 @@ class TimedPlan(Plan):
         if leaves and path.cost == 0:
             return None
         names = [*self._axes, "arrive", "depart"]
-        stops = np.stack([path.stops[name] for name in names], axis=1)
+        stops = frozen(np.stack([path.stops[name] for name in names], axis=1))
         body = self._fleet.bodies[self._checked(agent)]
         return obstacle_of((body, stops, leaves))
 
@@ -445,8 +626,7 @@ class TimedPlan(Plan):
             num_clearances: how many pairs of agents that come nearest are told; None for all pairs.
         """
         fleet = self._fleet
-        instance = cast(_core.TimedInstance, fleet._instance)
-        violations, sum_of_costs, makespan, (pairs, gaps) = instance.verify(
+        violations, sum_of_costs, makespan, (pairs, gaps) = self._instance.verify(
             self._plan, num_clearances
         )
         clearances = np.empty(
@@ -461,20 +641,154 @@ class TimedPlan(Plan):
             ],
             fleet._cost(sum_of_costs),
             fleet._cost(makespan),
-            clearances,
+            frozen(clearances),
         )
 
-    def _precedences(
+    def _poses(self) -> Optional[tuple[npt.NDArray[np.bool_], int]]:
+        """Of robots that turn on a grid: its cells, and how long a quarter turn takes."""
+        graph = self._fleet.graph
+        return (graph._free, graph._turn) if isinstance(graph, PoseGrid) else None
+
+    def _robots(self) -> _core.Names:
+        """For messages to others."""
+        return [*self._fleet.names], file_names(self._fleet.graph, self._fleet._names)[1], []
+
+    def _valid(self) -> None:
+        report = self.verify()
+        if not report:
+            raise InputError(report.violations[0].message)
+
+    def to_csv(self, rate: float = 10) -> str:
+        """Samples as a table, ``quadrille export --to csv``: agent,time,x,y,vx,vy, with heights z and vz.
+
+        Args:
+            rate: Samples per unit of time, besides both ends of each move and wait.
+
+        Raises:
+            InputError: for a plan that is not valid, and more than 10 million samples.
+        """
+        return self._samples("csv", rate, 2)
+
+    def to_ros(self, message: str = "multidof", *, rate: float = 10, version: int = 2) -> list[Any]:
+        """Messages of ROS, one per agent, ``quadrille export --to multidof`` and ``path``.
+
+        Args:
+            message: "multidof" (trajectory_msgs/MultiDOFJointTrajectory), which has the agent's name, or
+                "path" (nav_msgs/Path).
+            rate: As for ``to_csv``.
+            version: Of ROS, 1 or 2: what the fields of times are called.
+
+        Raises:
+            InputError: as for ``to_csv``, and for times that messages cannot hold.
+        """
+        if message not in ("multidof", "path"):
+            raise InputError(f"message: {message!r} is not multidof or path")
+        return cast("list[Any]", json.loads(self._samples(message, rate, version)))
+
+    def _samples(self, format: str, rate: float, version: int) -> str:
+        if not 0 < rate < float("inf"):
+            raise ValueError(f"rate: a rate is positive, not {rate}")
+        self._valid()
+        return _core.samples(
+            self._instance, self._plan, self._poses(), self._robots(), format, rate, version
+        )
+
+    def to_rmf(
         self,
-    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-        return _core.timed_precedences(cast(_core.TimedInstance, self._fleet._instance), self._plan)
+        *,
+        map: str = "map",
+        graph: str = "graph",
+        session: str = "",
+        allow_cycles: bool = False,
+    ) -> list[dict[str, Any]]:
+        """What a plan server of Open-RMF's next generation says, ``quadrille export --to open-rmf-plan``:
+        one {"name": participant, "plan": rmf_prototype_msgs/Plan} per agent.
+
+        Args:
+            map, graph: What they are called.
+            session: Sessions of destinations are made of it and the agents' names.
+            allow_cycles: Also if robots wait for each other for ever so.
+
+        Raises:
+            InputError: for plans that are not valid, or by which robots wait for ever, and roadmaps with
+                heights.
+        """
+        order = self._precedences()
+        text = _core.rmf_plans(
+            self._instance, self._plan, order, self._robots(), [map, graph, session], allow_cycles
+        )
+        return cast("list[dict[str, Any]]", json.loads(text))
+
+    def to_vda5050(
+        self,
+        *,
+        version: str = "3.0",
+        manufacturer: str = "quadrille",
+        map: str = "map",
+        order_id: str = "",
+        time_stamp: str = "1970-01-01T00:00:00.000Z",
+        first: Optional[Sequence[int]] = None,
+        released: Optional[Sequence[int]] = None,
+        update: int = 0,
+        allow_cycles: bool = False,
+    ) -> list[dict[str, Any]]:
+        """Orders of VDA 5050, one per agent, ``quadrille export --to vda5050``. Serial numbers and nodes
+        are called as the agents and vertices are.
+
+        Args:
+            version: "3.0", "2.1" or "2.0".
+            manufacturer, map: What they are called.
+            order_id: Beginning of the ids of orders, which the robot's name follows; else they are the
+                names of the robots.
+            time_stamp: Of all messages, YYYY-MM-DDTHH:mm:ss.fffZ.
+            first, released: Per agent, the node of its path with which the order begins, and the last one
+                of its base, as ``Releaser.released`` counts. Default: as at the start. An update begins
+                with the last node that was released before.
+            update: Number of the update.
+            allow_cycles: Also if robots wait for each other for ever with these orders.
+
+        Raises:
+            InputError: for plans that are not valid, or whose order of moves has a cycle; for names
+                that VDA 5050 does not know, roadmaps with heights, and numbers that do not fit.
+        """
+        order = self._precedences()
+        at_start = _core.Releaser(order)
+        ends = [at_start.released(agent) for agent in range(len(self))] if released is None else released
+        begins = [0] * len(self) if first is None else first
+        for name, numbers in (("first", begins), ("released", ends)):
+            if len(numbers) != len(self):
+                raise ValueError(f"{name}: {len(numbers)} numbers for {len(self)} agents")
+            for agent, number in enumerate(numbers):
+                if not 0 <= number < len(self._plan.ticks(agent)):
+                    raise InputError(f"{name}[{agent}]: the path has no node {number}")
+        heads = [version, manufacturer, map, order_id, time_stamp]
+        texts = _core.orders(
+            self._instance,
+            self._plan,
+            self._poses(),
+            order,
+            self._robots(),
+            heads,
+            list(begins),
+            list(ends),
+            update,
+            allow_cycles,
+        )
+        return [json.loads(text) for text in texts]
+
+    @property
+    def _length_unit(self) -> float:
+        """Its size in your unit of length."""
+        return self._roadmap.resolution[0]
+
+    def _precedences(self) -> _core.Precedences:
+        return _core.timed_precedences(self._instance, self._plan)
 
     def _page(self, title: str) -> str:
-        return _core.timed_page(cast(_core.TimedInstance, self._fleet._instance), self._plan, title)
+        return _core.timed_page(self._instance, self._plan, title, self._shown())
 
     def _picture(self, kind: str, title: str, agents: list[int]) -> str:
-        instance = cast(_core.TimedInstance, self._fleet._instance)
-        return _core.timed_picture(instance, self._plan, kind, title, agents)
+        return _core.timed_picture(self._instance, self._plan, kind, title, agents)
 
     def _content(self) -> list[bytes]:
         ticks = [self._plan.ticks(agent) for agent in range(len(self))]

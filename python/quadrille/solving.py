@@ -118,6 +118,13 @@ class Result(Generic[P]):
         return f"<quadrille.Result {self.status}, cost {self.cost}, lower bound {self.lower_bound}>"
 
 
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C has ended a search."""
+
+    result: Result[Any]
+    """What there is by then; ``stop`` is "interrupt"."""
+
+
 def solve(
     fleet: Fleet[P],
     *,
@@ -146,12 +153,13 @@ def solve(
     chronological: Optional[bool] = None,
     explain: bool = False,
     audit: bool = False,
+    keep_interrupt: bool = False,
 ) -> Result[P]:
     """Finds a plan of least cost, or proves that there is none.
 
     The same fleet, options and seed give the same answer as long as no limit of time or memory is
     met. The GIL is released, so that other Python threads go on and several searches may run at once.
-    Ctrl-C ends the search, which returns what there is (``stop`` is "interrupt").
+    Ctrl-C ends the search and raises ``Interrupted``, a KeyboardInterrupt that has what there is by then as its ``result``.
 
     Args:
         fleet: The agents.
@@ -184,6 +192,8 @@ def solve(
         explain: Say in ``attribution`` what the bound is made of. Of "dpll", on roadmaps of "smt-cbs"
             too, with one thread.
         audit: Derive every lemma again by other means; slow.
+        keep_interrupt: Ctrl-C ends the search and nothing else: its result is returned (``stop`` is
+            "interrupt").
 
     Returns:
         A ``Result``. Limits, and the lack of a plan, are no errors.
@@ -193,10 +203,11 @@ def solve(
             it does, because times are rounded to whole ticks (``fleet.duration_error``).
 
     Raises:
-        InputError: for an option that is out of range or does not apply; nothing else is raised but
-            what callbacks and signal handlers raise, and MemoryError.
+        InputError: for an option that is out of range or does not apply.
+        Interrupted: for Ctrl-C, unless ``keep_interrupt`` is true; nothing else is raised but what
+            callbacks and signal handlers raise, and MemoryError.
     """
-    arguments: dict[str, Any] = dict(
+    given: dict[str, Any] = dict(
         time_limit=time_limit,
         gap=gap,
         threads=threads,
@@ -221,7 +232,21 @@ def solve(
         known_bound=known_bound,
         initial=None if initial is None else initial._plan,
     )
-    arguments = {name: value for name, value in arguments.items() if value is not None}
+    if rounded := fleet._duration_warning():
+        warnings.warn(rounded, RoundingWarning, stacklevel=2)
+    return searched(fleet, fleet._instance.solve, given, progress, on_plan, keep_interrupt)
+
+
+def searched(
+    fleet: Fleet[P],
+    search: Callable[[dict[str, Any]], dict[str, Any]],
+    given: dict[str, Any],
+    progress: Optional[Callable[[Progress], object]] = None,
+    on_plan: Optional[Callable[[P], object]] = None,
+    keep_interrupt: bool = False,
+) -> Result[P]:
+    """What ``search``, of the compiled part, makes of the fleet."""
+    arguments = {name: value for name, value in given.items() if value is not None}
     cost = fleet._cost
     if progress is not None:
         tell = progress
@@ -240,11 +265,9 @@ def solve(
             show(fleet._make_plan(plan))
 
         arguments["on_plan"] = on_better_plan
-    if rounded := fleet._duration_warning():
-        warnings.warn(rounded, RoundingWarning, stacklevel=2)
-    outcome = fleet._instance.solve(arguments)
+    outcome = search(arguments)
     best, bound, plan = outcome["cost"], outcome["lower_bound"], outcome["plan"]
-    return Result(
+    result = Result(
         status=outcome["status"],
         plan=None if plan is None else fleet._make_plan(plan),
         cost=None if best is None else cost(best),
@@ -257,3 +280,8 @@ def solve(
         attribution=_attribution(outcome["attribution"], cost),
         moves=None if outcome["moves"] is None else Moves(*outcome["moves"]),
     )
+    if result.stop == "interrupt" and not keep_interrupt:
+        interrupted = Interrupted("Ctrl-C has ended the search; its result is this one's")
+        interrupted.result = result
+        raise interrupted
+    return result

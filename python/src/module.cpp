@@ -7,6 +7,9 @@ PYBIND11_MODULE(_core, module) {
   quadrille::python::bind_steps(module);
   quadrille::python::bind_timed(module);
   quadrille::python::bind_precedences(module);
+  quadrille::python::bind_executing(module);
+  quadrille::python::bind_exporting(module);
+  quadrille::python::bind_session(module);
   quadrille::python::bind_dispatching(module);
   quadrille::python::bind_viewing(module);
   quadrille::python::bind_reading(module);

@@ -42,9 +42,11 @@ py::dict outcome_of(Outcome outcome) {
 
 /// Solves with `options` but for the callbacks, which the arguments may name: `progress` is called
 /// with (phase, lower bound, cost or None, seconds, conflicts), `on_plan` with the plan.
-/// `interrupt` is where the options' flag has to point.
-template <class Plan, class Instance, class SetOptions>
-py::dict run_solve(const Instance& instance, const py::dict& given, const SetOptions& set_options) {
+/// `interrupt` is where the options' flag has to point. `search`: from the instance and the options
+/// to an outcome.
+template <class Plan, class Instance, class SetOptions, class Search>
+py::dict run_solve(const Instance& instance, const py::dict& given, const SetOptions& set_options,
+                   const Search& search) {
   Arguments arguments(given);
   const auto progress = arguments.take<py::function>("progress");
   const auto on_plan = arguments.take<py::function>("on_plan");
@@ -61,11 +63,18 @@ py::dict run_solve(const Instance& instance, const py::dict& given, const SetOpt
   auto options = set_options(arguments, conversation.interrupt());
   if (progress) options.on_progress = [&](const Progress& at) { conversation.tell(at); };
   if (on_plan) options.on_plan = [&](const Plan& plan) { conversation.tell(plan); };
-  auto outcome = take(conversation.run([&] { return solve(instance, options); }));
+  auto outcome = take(conversation.run([&] { return search(instance, options); }));
   const py::object attribution = attribution_object(instance, outcome.attribution);
   py::dict parts = outcome_of(std::move(outcome));
   parts["attribution"] = attribution;
   return parts;
+}
+
+template <class Plan, class Instance, class SetOptions>
+py::dict run_solve(const Instance& instance, const py::dict& given, const SetOptions& set_options) {
+  return run_solve<Plan>(
+      instance, given, set_options,
+      [](const Instance& what, const auto& options) { return solve(what, options); });
 }
 
 }  // namespace quadrille::python

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -315,6 +316,61 @@ void save_instance(const Instance& instance, const std::filesystem::path& path,
   });
 }
 
+/// int64[n], -1 where the goal is out of reach.
+py::array free_costs_of(const Instance& instance) {
+  auto costs = new_array<std::int64_t>({instance.num_agents()});
+  std::int64_t* to = costs.mutable_data();
+  for (const discrete::Agent& agent : instance.agents()) {
+    const auto cost = distances_to_nearest(instance.graph(), agent.goals)[agent.start];
+    *to++ = cost == discrete::kUnreachable ? -1 : cost;
+  }
+  return frozen(costs);
+}
+
+/// The text of an instance file.
+py::bytes state_of(const Instance& instance) {
+  std::ostringstream text;
+  text::Names names;
+  check(write_instance_json(text, "", instance, names));
+  return text.str();
+}
+Instance instance_of_state(const py::bytes& state) {
+  std::istringstream in{std::string(state)};
+  return take(discrete::read_instance_json(in, "a pickled fleet"));
+}
+
+/// The same without agents.
+py::bytes state_of_graph(const std::shared_ptr<Graph>& graph) {
+  return state_of(take(Instance::make(graph, {})));
+}
+std::shared_ptr<Graph> graph_of_state(const py::bytes& state) {
+  return std::const_pointer_cast<Graph>(instance_of_state(state).shared_graph());
+}
+
+/// (now, int64[k] per agent).
+py::tuple state_of_plan(const Plan& plan) {
+  py::list paths;
+  for (const discrete::Path& path : plan.paths) {
+    auto places = new_array<std::int64_t>({path.size()});
+    std::transform(path.begin(), path.end(), places.mutable_data(),
+                   [](VertexId v) { return static_cast<std::int64_t>(v.index()); });
+    paths.append(places);
+  }
+  return py::make_tuple(plan.now, paths);
+}
+Plan plan_of_state(const py::tuple& state) {
+  Plan plan;
+  plan.now = state[0].cast<Timestep>();
+  for (const py::handle entry : state[1].cast<py::list>()) {
+    const auto places = entry.cast<Ints>();
+    discrete::Path path;
+    for (py::ssize_t t = 0; t < places.size(); ++t)
+      path.emplace_back(static_cast<std::size_t>(places.at(t)));
+    plan.paths.push_back(std::move(path));
+  }
+  return plan;
+}
+
 }  // namespace
 
 void bind_steps(py::module_& module) {
@@ -325,7 +381,8 @@ void bind_steps(py::module_& module) {
       .def_property_readonly("num_vertices", &Graph::num_vertices)
       .def_property_readonly("num_edges", &Graph::num_edges)
       .def("free", &free_cells)
-      .def("edges", &edges_of);
+      .def("edges", &edges_of)
+      .def(py::pickle(&state_of_graph, &graph_of_state));
   py::class_<Plan>(module, "StepPlan")
       .def_property_readonly("num_agents", [](const Plan& plan) { return plan.paths.size(); })
       .def_readonly("now", &Plan::now)
@@ -337,7 +394,8 @@ void bind_steps(py::module_& module) {
              return frozen(costs);
            })
       .def("paths", &paths_of)
-      .def("save", &save_plan);
+      .def("save", &save_plan)
+      .def(py::pickle(&state_of_plan, &plan_of_state));
   py::class_<Instance>(module, "StepInstance")
       .def(py::init(&instance_of))
       .def_property_readonly("num_agents", &Instance::num_agents)
@@ -375,10 +433,12 @@ void bind_steps(py::module_& module) {
              plan.now = instance.now();
              return plan;
            })
+      .def("free_costs", &free_costs_of)
       .def("solve", &solve_steps)
       .def("verify", &verify_steps)
       .def("read_plan", &read_plan)
-      .def("save", &save_instance);
+      .def("save", &save_instance)
+      .def(py::pickle(&state_of, &instance_of_state));
 }
 
 }  // namespace quadrille::python

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <variant>
@@ -18,6 +20,7 @@
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "quadrille/continuous/duration_error.hpp"
+#include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -25,6 +28,7 @@
 #include "quadrille/continuous/verify.hpp"
 #include "saving.hpp"
 #include "solving.hpp"
+#include "timed_solving.hpp"
 
 namespace quadrille::python {
 namespace {
@@ -35,32 +39,6 @@ using continuous::Resolution;
 using continuous::Roadmap;
 using continuous::Stop;
 using continuous::Ticks;
-
-continuous::SolveOptions options_of(const continuous::Resolution& resolution, Arguments& arguments,
-                                    const std::atomic<bool>& interrupt) {
-  continuous::SolveOptions options;
-  set_common(arguments, options, interrupt);
-  arguments.choose("system", continuous::parse_system, options.system, "dpll or smt-cbs");
-  arguments.set("initial", options.initial_plan);
-  if (const auto bound = arguments.take<double>("known_bound"))
-    options.known_lower_bound = continuous::quantise_bound(*bound, resolution).value_or(-1);
-  arguments.finish("roadmaps");
-  return options;
-}
-
-/// An outcome without a search, once the arguments are those that a search takes.
-py::dict solve_refused(const TimedInstance& self, const py::dict& given) {
-  Arguments arguments(given);
-  arguments.take<py::function>("progress");
-  arguments.take<py::function>("on_plan");
-  const std::atomic<bool> interrupt = false;
-  // A bound is in ticks of any size here.
-  options_of({}, arguments, interrupt);
-  continuous::SolveOutcome outcome;
-  outcome.status = Status::infeasible;
-  outcome.explanation = self.no_plan()->to_string();
-  return outcome_of(std::move(outcome));
-}
 
 py::dict solve_timed(const TimedInstance& self, const py::dict& arguments) {
   if (self.no_plan()) return solve_refused(self, arguments);
@@ -172,7 +150,147 @@ Plan read_plan(const TimedInstance& self, const std::filesystem::path& path,
       .plan;
 }
 
+/// How long the move takes the agent; nullopt if there is no such edge, or it is not for the agent.
+std::optional<Ticks> travel_time(const Instance& instance, AgentId agent, VertexId from,
+                                 VertexId to) {
+  const continuous::ClassId kind = instance.class_of(agent);
+  for (const continuous::EdgeId edge : instance.out_edges(kind, from))
+    if (instance.roadmap().edge(edge).to == to) return instance.duration(kind, edge);
+  return std::nullopt;
+}
+
+/// Of a stop the arrival may be NaN: as soon
+/// as the agent gets there; so may be the departure: at once.
+continuous::Path path_of(const Instance& instance, AgentId agent, const Ints& vertices,
+                         const Doubles& arrivals, const Doubles& departures) {
+  const Resolution& resolution = instance.resolution();
+  const Roadmap& roadmap = instance.roadmap();
+  continuous::Path path;
+  for (py::ssize_t k = 0; k < vertices.size(); ++k) {
+    const std::string who =
+        "agent " + std::to_string(agent.index()) + ", stop " + std::to_string(k);
+    Stop stop{vertex_of(vertices.at(k), roadmap.num_vertices(), who)};
+    const Sizes sizes(resolution.length, resolution.time);
+    if (!std::isnan(arrivals.at(k))) {
+      stop.arrive = moment_of(arrivals.at(k), sizes, who + ": it arrives");
+    } else if (path.empty()) {
+      stop.arrive = instance.now();
+    } else {
+      const auto move = travel_time(instance, agent, path.back().vertex, stop.vertex);
+      if (!move) refuse(who + ": no edge leads there from the stop before");
+      stop.arrive = path.back().depart + *move;
+    }
+    stop.depart = std::isnan(departures.at(k))
+                      ? stop.arrive
+                      : moment_of(departures.at(k), sizes, who + ": it departs");
+    path.push_back(stop);
+  }
+  return path;
+}
+
+/// [(vertices int64[k], arrivals float64[k], departures float64[k])], one per agent.
+Plan plan_of(const TimedInstance& self, const py::list& given) {
+  Plan plan;
+  for (const AgentId agent : self.instance().agent_ids()) {
+    const auto stops = given[agent.index()].cast<py::tuple>();
+    plan.paths.push_back(path_of(self.instance(), agent, stops[0].cast<Ints>(),
+                                 stops[1].cast<Doubles>(), stops[2].cast<Doubles>()));
+  }
+  return plan;
+}
+
+/// int64[n] in ticks, -1 where the goal is out of reach.
+py::array free_costs_of(const TimedInstance& self) {
+  const Instance& instance = self.instance();
+  auto costs = new_array<std::int64_t>({instance.num_agents()});
+  std::int64_t* to = costs.mutable_data();
+  for (const AgentId agent : instance.agent_ids())
+    *to++ = continuous::free_cost(instance, agent).value_or(Ticks(-1)).value();
+  return frozen(costs);
+}
+
+/// The text of an instance file, in which everything is a whole number.
+py::bytes text_of(const Instance& instance) {
+  std::ostringstream text;
+  check(write_instance_json(text, "", instance));
+  return text.str();
+}
+Instance instance_of_text(const std::string& text) {
+  std::istringstream in(text);
+  return take(continuous::read_instance_json(in, "a pickled fleet"));
+}
+
+py::tuple state_of(const TimedInstance& self) {
+  if (!self.no_plan()) return py::make_tuple(text_of(self.instance()));
+  if (self.has_parts())
+    refuse("a fleet of which it is seen that it has no plan cannot be pickled: " +
+           self.no_plan()->message);
+  const Error& error = *self.no_plan();
+  return py::make_tuple(static_cast<int>(error.code), error.message, error.where.file,
+                        error.where.line);
+}
+TimedInstance instance_of_state(const py::tuple& state) {
+  if (state.size() == 1) return TimedInstance(instance_of_text(state[0].cast<std::string>()));
+  return {Error{static_cast<ErrorCode>(state[0].cast<int>()),
+                state[1].cast<std::string>(),
+                {state[2].cast<std::string>(), state[3].cast<long>()}},
+          std::nullopt};
+}
+
+/// int64[k, 3] per agent.
+py::tuple state_of_plan(const Plan& plan) {
+  py::list paths;
+  for (const continuous::Path& path : plan.paths) {
+    auto stops = new_array<std::int64_t>({path.size(), 3});
+    std::int64_t* to = stops.mutable_data();
+    for (const Stop& stop : path) {
+      *to++ = static_cast<std::int64_t>(stop.vertex.index());
+      *to++ = stop.arrive.value();
+      *to++ = stop.depart.value();
+    }
+    paths.append(stops);
+  }
+  return py::make_tuple(paths);
+}
+Plan plan_of_state(const py::tuple& state) {
+  Plan plan;
+  for (const py::handle entry : state[0].cast<py::list>()) {
+    const auto stops = entry.cast<Ints>();
+    continuous::Path path;
+    for (py::ssize_t k = 0; k < stops.shape(0); ++k)
+      path.push_back({VertexId(static_cast<std::size_t>(stops.at(k, 0))), Ticks(stops.at(k, 1)),
+                      Ticks(stops.at(k, 2))});
+    plan.paths.push_back(std::move(path));
+  }
+  return plan;
+}
+
 }  // namespace
+
+continuous::SolveOptions options_of(const continuous::Resolution& resolution, Arguments& arguments,
+                                    const std::atomic<bool>& interrupt) {
+  continuous::SolveOptions options;
+  set_common(arguments, options, interrupt);
+  arguments.choose("system", continuous::parse_system, options.system, "dpll or smt-cbs");
+  arguments.set("initial", options.initial_plan);
+  if (const auto bound = arguments.take<double>("known_bound"))
+    options.known_lower_bound = continuous::quantise_bound(*bound, resolution).value_or(-1);
+  arguments.finish("roadmaps");
+  return options;
+}
+
+py::dict solve_refused(const TimedInstance& self, const py::dict& given) {
+  Arguments arguments(given);
+  arguments.take<py::function>("progress");
+  arguments.take<py::function>("on_plan");
+  const std::atomic<bool> interrupt = false;
+  // A bound is in ticks of any size here.
+  options_of({}, arguments, interrupt);
+  continuous::SolveOutcome outcome;
+  outcome.status = Status::infeasible;
+  outcome.explanation = self.no_plan()->to_string();
+  return outcome_of(std::move(outcome));
+}
 
 void bind_timed(py::module_& module) {
   module.attr("NOTABLE_DURATION_ERROR") = continuous::kNotableDurationError;
@@ -188,7 +306,8 @@ void bind_timed(py::module_& module) {
            })
       .def("ticks", &ticks_of)
       .def("times", &times_of)
-      .def("save", &save_plan);
+      .def("save", &save_plan)
+      .def(py::pickle(&state_of_plan, &plan_of_state));
   py::class_<TimedInstance>(module, "TimedInstance")
       .def(py::init(&instance_of))
       .def_property_readonly("no_plan",
@@ -224,10 +343,13 @@ void bind_timed(py::module_& module) {
            [](const TimedInstance& self, Cost ticks) {
              return continuous::in_input_units(ticks, self.resolution());
            })
+      .def("plan", &plan_of)
+      .def("free_costs", &free_costs_of)
       .def("solve", &solve_timed)
       .def("verify", &verify_timed)
       .def("read_plan", &read_plan)
-      .def("save", &save_instance);
+      .def("save", &save_instance)
+      .def(py::pickle(&state_of, &instance_of_state));
 }
 
 }  // namespace quadrille::python

@@ -14,6 +14,7 @@
 #include "arrays.hpp"
 #include "errors.hpp"
 #include "quadrille/continuous/grid.hpp"
+#include "quadrille/continuous/in_words.hpp"
 #include "quadrille/continuous/instance.hpp"
 
 namespace quadrille::python {
@@ -59,6 +60,8 @@ class TimedInstance {
     if (no_plan_) raise(*no_plan_);
     return *instance_;
   }
+  /// Whether, without an instance, its parts are known.
+  [[nodiscard]] bool has_parts() const noexcept { return parts_.has_value(); }
   // Raise `no_plan` where they are not known.
   [[nodiscard]] std::shared_ptr<const continuous::Roadmap> roadmap() const {
     return parts_ ? parts_->roadmap : instance().shared_roadmap();
@@ -94,6 +97,23 @@ TimedInstance instance_of(const std::shared_ptr<continuous::Roadmap>& roadmap, c
                           const Ints& starts, const Ints& goals,
                           const std::vector<std::size_t>& num_goals, const py::list& bodies,
                           const Doubles& speeds, const py::dict& rules, const py::dict& called);
+/// The agents alone, each at a vertex: `rules` has no obstacles, and nobody is under way.
+std::vector<continuous::Agent> agents_of(const continuous::Roadmap& roadmap, const Sizes& sizes,
+                                         const Ints& starts, const Ints& goals,
+                                         const std::vector<std::size_t>& num_goals,
+                                         const py::list& bodies, const Doubles& speeds,
+                                         const py::dict& rules, const py::dict& called);
+/// `called`: as above; times are in the units of `resolution`.
+continuous::Words words_of(const py::dict& called, const continuous::Resolution& resolution);
+/// Obstacles, of the rules.
+std::vector<continuous::MovingObstacle> obstacles_of(const py::list& given, const Sizes& sizes);
+/// A moment, to the nearest tick; raises InputError for one that is out of range, or no number.
+/// `who`: for messages.
+continuous::Ticks moment_of(double value, const Sizes& sizes, const std::string& who);
+/// How many whole ticks of its move lie behind an agent: (fraction, begun or None).
+continuous::Ticks ticks_behind(double fraction, const std::optional<double>& begun,
+                               continuous::Ticks now, continuous::Ticks whole, const Sizes& sizes,
+                               const std::string& who);
 // And back: int32[n], a list as above, float64[n].
 py::array starts_of(const TimedInstance& self);
 py::array goals_of(const TimedInstance& self);  ///< Requires that each agent has one only.

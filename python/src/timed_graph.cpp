@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bindings.hpp"
+#include "quadrille/continuous/instance_json.hpp"
 #include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "timed.hpp"
@@ -191,6 +193,19 @@ py::array open_to_of(const Roadmap& roadmap) {
   return frozen(array);
 }
 
+/// The text of an instance file without agents, in length units and ticks.
+py::bytes state_of(const std::shared_ptr<Roadmap>& roadmap) {
+  const auto instance = take(continuous::Instance::make(roadmap, {}, Resolution{1, 1}));
+  std::ostringstream text;
+  check(write_instance_json(text, "", instance));
+  return text.str();
+}
+std::shared_ptr<Roadmap> roadmap_of_state(const py::bytes& state) {
+  std::istringstream in{std::string(state)};
+  const auto instance = take(continuous::read_instance_json(in, "a pickled roadmap"));
+  return std::const_pointer_cast<Roadmap>(instance.shared_roadmap());
+}
+
 }  // namespace
 
 void bind_timed_graph(py::module_& module) {
@@ -205,7 +220,8 @@ void bind_timed_graph(py::module_& module) {
       .def("durations", &durations_of)
       .def("speed_limits", &limits_of)
       .def("no_waiting", &no_waiting_of)
-      .def("open_to", &open_to_of);
+      .def("open_to", &open_to_of)
+      .def(py::pickle(&state_of, &roadmap_of_state));
   module.def("heading_names", &heading_names);
   module.attr("pose_resolution") =
       Sizes(continuous::PoseGrid::kResolution.length, continuous::PoseGrid::kResolution.time);

@@ -32,8 +32,6 @@ using continuous::Roadmap;
 using continuous::Ticks;
 using continuous::Words;
 
-/// For messages: a number in the user's units.
-
 /// `corners`: float64[k, 2]. `who`: for messages.
 continuous::Body polygon_of(const Doubles& corners, const Resolution& resolution,
                             const std::string& who) {
@@ -142,6 +140,15 @@ Ticks ticks_since(double begun, Ticks now, Ticks whole, const Resolution& resolu
   return Ticks(static_cast<std::int64_t>(ticks));
 }
 
+Ticks behind_of(double fraction, const std::optional<double>& begun, Ticks now, Ticks whole,
+                const Resolution& resolution, const std::string& who) {
+  if (!(fraction >= 0 && fraction <= 1))
+    refuse(who + " has a part of its move behind it of " + decimal(fraction) +
+           ", which is not from 0 to 1");
+  return begun ? ticks_since(*begun, now, whole, resolution, who)
+               : continuous::ticks_behind(fraction, whole);
+}
+
 /// Agents in the middle of a move get a place of their own each, at the end of the vertices.
 std::shared_ptr<const Roadmap> put_under_way(const py::list& under_way,
                                              const std::shared_ptr<Roadmap>& roadmap,
@@ -156,14 +163,10 @@ std::shared_ptr<const Roadmap> put_under_way(const py::list& under_way,
     const std::string who = words.agent(AgentId(number));
     const VertexId from = vertex_of(source, roadmap->num_vertices(), who + ": start");
     const VertexId to = vertex_of(target, roadmap->num_vertices(), who + ": start");
-    if (!(fraction >= 0 && fraction <= 1))
-      refuse(who + " has a part of its move behind it of " + decimal(fraction) +
-             ", which is not from 0 to 1");
     continuous::Agent& made = agents[number];
     made.under_way = !may_wait;
     const Ticks whole = move_of(*roadmap, from, to, made, who);
-    const Ticks behind = begun ? ticks_since(*begun, now, whole, resolution, who)
-                               : continuous::ticks_behind(fraction, whole);
+    const Ticks behind = behind_of(fraction, begun, now, whole, resolution, who);
     made.start = continuous::add_lane_place(parts, from, to, whole, behind);
   }
   return std::make_shared<Roadmap>(take(std::move(parts).make()));
@@ -198,7 +201,17 @@ py::array stops_of(const continuous::MovingObstacle& obstacle, bool is_flat,
   return frozen(array);
 }
 
-/// `called`: "agent" and "vertex", functions from a number to a name.
+template <class VertexOf>
+py::array vertices(const TimedInstance& self, const VertexOf& vertex) {
+  auto array = new_array<std::int32_t>({self.agents().size()});
+  std::int32_t* to = array.mutable_data();
+  for (const continuous::Agent& agent : self.agents())
+    *to++ = static_cast<std::int32_t>(vertex(agent).index());
+  return frozen(array);
+}
+
+}  // namespace
+
 Words words_of(const py::dict& called, const Resolution& resolution) {
   const auto name = [&called](const char* of) {
     return [call = called[of].cast<py::function>()](std::size_t number) {
@@ -212,21 +225,11 @@ Words words_of(const py::dict& called, const Resolution& resolution) {
       [resolution](Ticks time) { return decimal(continuous::in_input_units(time, resolution)); }};
 }
 
-template <class VertexOf>
-py::array vertices(const TimedInstance& self, const VertexOf& vertex) {
-  auto array = new_array<std::int32_t>({self.agents().size()});
-  std::int32_t* to = array.mutable_data();
-  for (const continuous::Agent& agent : self.agents())
-    *to++ = static_cast<std::int32_t>(vertex(agent).index());
-  return frozen(array);
-}
-
-}  // namespace
-
-TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& sizes,
-                          const Ints& starts, const Ints& goals,
-                          const std::vector<std::size_t>& num_goals, const py::list& bodies,
-                          const Doubles& speeds, const py::dict& rules, const py::dict& called) {
+std::vector<continuous::Agent> agents_of(const Roadmap& roadmap, const Sizes& sizes,
+                                         const Ints& starts, const Ints& goals,
+                                         const std::vector<std::size_t>& num_goals,
+                                         const py::list& bodies, const Doubles& speeds,
+                                         const py::dict& rules, const py::dict& called) {
   const Resolution resolution = resolution_of(sizes);
   const Words words = words_of(called, resolution);
   std::vector<continuous::Agent> agents;
@@ -234,10 +237,10 @@ TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& 
   for (py::ssize_t i = 0; i < starts.shape(0); ++i) {
     const std::string who = words.agent(AgentId(static_cast<std::size_t>(i)));
     continuous::Agent made;
-    made.start = vertex_of(starts.at(i), roadmap->num_vertices(), who + ": start");
+    made.start = vertex_of(starts.at(i), roadmap.num_vertices(), who + ": start");
     std::vector<VertexId> set;
     for (std::size_t k = 0; k < num_goals[static_cast<std::size_t>(i)]; ++k)
-      set.push_back(vertex_of(*goal++, roadmap->num_vertices(), who + ": goal"));
+      set.push_back(vertex_of(*goal++, roadmap.num_vertices(), who + ": goal"));
     if (set.empty()) refuse(who + " has no goal");
     made.goals = Goals(std::move(set));
     made.body = body_of(bodies[static_cast<std::size_t>(i)], resolution, who);
@@ -248,9 +251,36 @@ TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& 
     agents.push_back(std::move(made));
   }
   set_rules(rules, resolution, words, agents);
+  return agents;
+}
+
+std::vector<continuous::MovingObstacle> obstacles_of(const py::list& given, const Sizes& sizes) {
   std::vector<continuous::MovingObstacle> obstacles;
-  for (const py::handle obstacle : rules["obstacles"].cast<py::list>())
-    obstacles.push_back(obstacle_of(obstacle.cast<py::tuple>(), resolution, obstacles.size()));
+  for (const py::handle obstacle : given)
+    obstacles.push_back(
+        obstacle_of(obstacle.cast<py::tuple>(), resolution_of(sizes), obstacles.size()));
+  return obstacles;
+}
+
+Ticks moment_of(double value, const Sizes& sizes, const std::string& who) {
+  const auto ticks = moment_of(value, resolution_of(sizes), who);
+  if (!ticks) refuse(who + " at a time that is not a number");
+  return *ticks;
+}
+
+Ticks ticks_behind(double fraction, const std::optional<double>& begun, Ticks now, Ticks whole,
+                   const Sizes& sizes, const std::string& who) {
+  return behind_of(fraction, begun, now, whole, resolution_of(sizes), who);
+}
+
+TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& sizes,
+                          const Ints& starts, const Ints& goals,
+                          const std::vector<std::size_t>& num_goals, const py::list& bodies,
+                          const Doubles& speeds, const py::dict& rules, const py::dict& called) {
+  const Resolution resolution = resolution_of(sizes);
+  const Words words = words_of(called, resolution);
+  auto agents = agents_of(*roadmap, sizes, starts, goals, num_goals, bodies, speeds, rules, called);
+  auto obstacles = obstacles_of(rules["obstacles"].cast<py::list>(), sizes);
   const auto now = moment_of(rules["now"].cast<double>(), resolution, "now: the fleet begins");
   if (!now) refuse("now: the time at which the fleet begins is not a number");
   const auto roads =

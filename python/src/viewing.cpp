@@ -15,9 +15,10 @@
 namespace quadrille::python {
 namespace {
 
-view::PageOptions page_options(std::string title) {
+view::PageOptions page_options(std::string title, std::vector<std::string> names) {
   view::PageOptions options;
   options.title = std::move(title);
+  options.agent_names = std::move(names);
   return options;
 }
 
@@ -33,16 +34,17 @@ view::PictureOptions picture_options(const std::string& kind, std::string title,
 }
 
 std::string step_page(const discrete::Instance& instance, const discrete::Plan& plan,
-                      std::string title) {
+                      std::string title, std::vector<std::string> names) {
   const py::gil_scoped_release release;
-  return view::page(instance, plan, page_options(std::move(title)));
+  return view::page(instance, plan, page_options(std::move(title), std::move(names)));
 }
 
 std::string timed_page(const TimedInstance& instance, const continuous::Plan& plan,
-                       std::string title) {
+                       std::string title, std::vector<std::string> names) {
   const continuous::Instance& made = instance.instance();
   const py::gil_scoped_release release;
-  return view::page(made, plan, page_options(std::move(title)), instance.grid_or_null());
+  return view::page(made, plan, page_options(std::move(title), std::move(names)),
+                    instance.grid_or_null());
 }
 
 std::string step_picture(const discrete::Instance& instance, const discrete::Plan& plan,

@@ -105,13 +105,40 @@ def test_a_callback_may_solve(crowd):
     assert inner == ["optimal"]
 
 
-def test_ctrl_c_returns_what_there_is(crowd):
-    timer = threading.Timer(1, signal.raise_signal, [signal.SIGINT])
+def interrupted_after(seconds, call):
+    timer = threading.Timer(seconds, signal.raise_signal, [signal.SIGINT])
     timer.start()
-    result = q.solve(crowd, time_limit=100)
-    timer.join()
+    try:
+        return call()
+    finally:
+        timer.join()
+
+
+def test_ctrl_c_raises_with_what_there_is(crowd):
+    with pytest.raises(KeyboardInterrupt) as raised:
+        interrupted_after(1, lambda: q.solve(crowd, time_limit=100))
+    assert isinstance(raised.value, q.Interrupted)
+    result = raised.value.result
     assert (result.stop, result.status) == ("interrupt", "feasible")
     assert result.plan.verify()
+
+
+def test_ctrl_c_may_return_what_there_is(crowd):
+    result = interrupted_after(1, lambda: q.solve(crowd, time_limit=100, keep_interrupt=True))
+    assert (result.stop, result.status) == ("interrupt", "feasible")
+    assert result.plan.verify()
+
+
+def test_ctrl_c_ends_a_loop_of_solves(crowd):
+    rounds = []
+
+    def loop():
+        while len(rounds) < 1000:
+            rounds.append(q.solve(crowd, time_limit=0.2).status)
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted_after(1, loop)
+    assert len(rounds) < 1000
 
 
 def test_other_signal_handlers_are_heard(crowd):
@@ -138,7 +165,7 @@ xy = [(x, y) for x in range(12) for y in range(12)]
 edges = [(a, b) for a in range(144) for b in range(144) if abs(a - b) == 12 or (abs(a - b) == 1 and a // 12 == b // 12)]
 fleet = q.Fleet(q.Roadmap(xy, edges), range(0, 120, 2), range(119, 0, -2), radius=0.3)
 print("ready", flush=True)
-result = q.solve(fleet, threads=2)
+result = q.solve(fleet, threads=2, keep_interrupt=True)
 print(result.stop, result.lower_bound > 0, flush=True)
 """
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: MIT
+"""Agents and roads that change, solved again and again."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Optional, Sequence, cast
+
+import numpy as np
+
+from . import _core
+from ._arrays import per_agent
+from ._errors import InputError
+from .fleet import Fleet, _bodies, _goal_vertices, _starts
+from .graphs import Roadmap
+from .plans import TimedPlan
+from .rules import Obstacle, flags, group_numbers, moments
+from .solving import Progress, Result, searched
+
+# What an agent may be given, with the defaults of ``Fleet``.
+_DEFAULTS: dict[str, Any] = dict(
+    radius=None,
+    polygon=None,
+    speed=1.0,
+    group=None,
+    release=None,
+    deadline=None,
+    leaves=False,
+    overlap_at_start=False,
+)
+
+
+class Session:
+    """A roadmap and agents that change, and are solved again after each change. What the answers rest on
+    lives on: distances, bounds of groups of agents of whom nothing has changed, the last plans, which are
+    mended instead of made anew, lemmas and cores. Costs and proofs are those of ``solve`` for
+    ``fleet()``; among plans of the same cost it may be another one.
+
+    Agents are called by names. Whether they are in each other's way, or can reach their goals, is
+    found out when the session is solved.
+
+    Args:
+        roadmap: Where the agents move.
+        obstacles: ``Obstacle`` s, of which agents keep clear.
+        now: When agents are at their starts.
+
+    Raises:
+        InputError: for numbers that are out of range.
+    """
+
+    def __init__(
+        self, roadmap: Roadmap, *, obstacles: Sequence[Obstacle] = (), now: float = 0.0
+    ) -> None:
+        if not isinstance(roadmap, Roadmap):
+            raise InputError("a session needs a roadmap")
+        self._graph = roadmap
+        given = [obstacle._given() for obstacle in obstacles]
+        self._core = _core.Session(roadmap._graph, roadmap.resolution, given, float(now))
+        self._members: dict[str, int] = {}
+        self._agents: dict[str, dict[str, Any]] = {}
+
+    def __len__(self) -> int:
+        """Number of agents."""
+        return len(self._members)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._members
+
+    def __deepcopy__(self, memo: Any) -> Session:
+        raise TypeError("a Session has a state of its own, and cannot be copied; fleet() can")
+
+    __copy__ = __reduce__ = __deepcopy__  # type: ignore[assignment]
+
+    @property
+    def names(self) -> list[str]:
+        """Of the agents, in the order of plans: as they were added."""
+        return list(self._members)
+
+    def add(self, name: str, start: Any, goals: Any, **more: Any) -> None:
+        """A new agent.
+
+        Args:
+            name: No other one is called so.
+            start: A vertex, or an ``Underway``, which may not wait.
+            goals: A vertex, or a list of several.
+            more: ``radius``, ``polygon``, ``speed``, ``group``, ``release``, ``deadline``, ``leaves`` and
+                ``overlap_at_start``, as for one agent of a ``Fleet``.
+
+        Raises:
+            InputError: as ``Fleet``.
+        """
+        if name in self._members:
+            raise InputError(f"there is an agent called {name!r} already")
+        agent = {**_DEFAULTS, "start": start, "goals": goals}
+        self._agents[name] = self._merged(agent, more)
+        try:
+            self._members[name] = self._core.add(*self._parts(name))
+            self._put_under_way(name)
+        except BaseException:
+            if name in self._members:
+                self._core.remove(self._members.pop(name))
+            del self._agents[name]
+            raise
+
+    def change(self, name: str, **what: Any) -> None:
+        """Another ``start``, ``goals``, or whatever else ``add`` takes; the rest stays as it is.
+
+        Raises:
+            InputError: as ``add``, and if no agent is called so; then nothing has changed.
+        """
+        member, before = self._member(name), self._agents[name]
+        self._agents[name] = self._merged(before, what)
+        try:
+            self._core.change(member, *self._parts(name))
+            self._put_under_way(name)
+        except BaseException:
+            self._agents[name] = before
+            self._core.change(member, *self._parts(name))
+            self._put_under_way(name)
+            raise
+
+    def remove(self, name: str) -> None:
+        """The agent is there no more."""
+        self._core.remove(self._member(name))
+        del self._members[name], self._agents[name]
+
+    def close(self, source: Any, target: Any) -> None:
+        """Nobody may use the edge from one vertex to another one, until it is opened.
+
+        Raises:
+            InputError: if there is none, or it is closed already.
+        """
+        self._core.close(*self._edge(source, target))
+
+    def open(self, source: Any, target: Any) -> None:
+        """Closed no more."""
+        self._core.open(*self._edge(source, target))
+
+    def fleet(self) -> Fleet[TimedPlan]:
+        """The agents as things are now, on the roadmap as it is."""
+        fleet: Fleet[TimedPlan] = cast(Any, Fleet.__new__)(Fleet)
+        names = self.names
+        called = dict(agent=lambda i: repr(names[i]), vertex=self._graph._called)
+        fleet._setup(self._graph, self._core.instance(called), names)
+        return fleet
+
+    def solve(
+        self,
+        *,
+        progress: Optional[Callable[[Progress], object]] = None,
+        on_plan: Optional[Callable[[TimedPlan], object]] = None,
+        initial: Optional[TimedPlan] = None,
+        keep_interrupt: bool = False,
+        **options: Any,
+    ) -> Result[TimedPlan]:
+        """As ``quadrille.solve`` for ``fleet()``, with its arguments."""
+        fleet = self.fleet()
+        given = dict(options, initial=None if initial is None else initial._plan)
+
+        def search(arguments: dict[str, Any]) -> dict[str, Any]:
+            return self._core.solve(fleet._timed("solve"), arguments)
+
+        return searched(fleet, search, given, progress, on_plan, keep_interrupt)
+
+    def _member(self, name: str) -> int:
+        if name not in self._members:
+            raise InputError(f"there is no agent called {name!r}")
+        return self._members[name]
+
+    def _edge(self, source: Any, target: Any) -> tuple[int, int]:
+        return self._graph._vertex(source, "source"), self._graph._vertex(target, "target")
+
+    @staticmethod
+    def _merged(agent: dict[str, Any], what: dict[str, Any]) -> dict[str, Any]:
+        for name in what:
+            if name not in agent:
+                raise TypeError(f"an agent has no {name!r}: it has {', '.join(sorted(agent))}")
+        merged = {**agent, **what}
+        # One of them replaces the other one.
+        for one, other in (("radius", "polygon"), ("polygon", "radius")):
+            if what.get(one) is not None and one in what and other not in what:
+                merged[other] = None
+        return merged
+
+    def _parts(self, name: str) -> tuple[Any, ...]:
+        """As the compiled part takes them."""
+        agent, graph = self._agents[name], self._graph
+        start, under_way = _starts(graph, [agent["start"]])
+        if under_way and under_way[0][-1]:
+            raise InputError(f"{name!r} is under way in a session, where it may not wait")
+        goals, num_goals = _goal_vertices(graph, [agent["goals"]])
+        polygon = None if agent["polygon"] is None else [agent["polygon"]]
+        rules = dict(
+            groups=group_numbers(agent["group"], graph._groups, 1),
+            releases=moments(agent["release"], "release", 1, 0.0),
+            deadlines=moments(agent["deadline"], "deadline", 1, np.nan),
+            leaves=flags(agent["leaves"], "leaves", 1),
+            overlaps=flags(agent["overlap_at_start"], "overlap_at_start", 1),
+        )
+        return (
+            start,
+            goals,
+            num_goals[0],
+            _bodies(agent["radius"], polygon, 1, [repr(name)]),
+            per_agent(agent["speed"], "speed", 1),
+            rules,
+            dict(agent=lambda i: repr(name), vertex=graph._called),
+        )
+
+    def _put_under_way(self, name: str) -> None:
+        _, under_way = _starts(self._graph, [self._agents[name]["start"]])
+        for _, source, target, fraction, begun, _ in under_way:
+            member = self._members[name]
+            self._core.put_under_way(member, source, target, fraction, begun, repr(name))
