@@ -13,6 +13,7 @@
 #include "asked/shown_names.hpp"
 #include "asked/solve_arguments.hpp"
 #include "frame/input_watch.hpp"
+#include "quadrille/core/in_names.hpp"
 #include "quadrille/view/page.hpp"
 
 namespace quadrille::cli {
@@ -100,6 +101,7 @@ Outcome ended_before_search(StopReason reason, const Usage& used) {
 ///     json(outcome, replay)              the file of --json
 ///     page(outcome), drawing(plan)       the files of --view and --svg
 ///     proof(outcome)                     the file of --proof, where there are certificates
+///     called()                           what agents and vertices are called in messages
 ///     describe(outcome, replay)          the last lines of the human output
 ///     picture(plan)                      the plan for the eye
 template <class Domain>
@@ -123,6 +125,7 @@ ExitCode solve_and_deliver(const Domain& domain, const SolveArguments& arguments
   }
   auto outcome = *std::move(answer);
   const auto replay = check_outcome(domain.instance(), domain.objective(), outcome);
+  outcome.explanation = in_names(outcome.explanation, domain.called());
   if (outcome.internal_error) {
     report_error({ErrorCode::internal, "internal check failed: " + outcome.internal_error->message,
                   outcome.internal_error->where});

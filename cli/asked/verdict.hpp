@@ -13,6 +13,7 @@
 #include "frame/arguments.hpp"
 #include "frame/exit_codes.hpp"
 #include "frame/input_options.hpp"
+#include "quadrille/core/in_names.hpp"
 #include "quadrille/input/roadmap.hpp"
 
 namespace quadrille::cli {
@@ -40,6 +41,7 @@ struct VerifyArguments {
 ///     violation_json(violation)   "kind", agents, place, time
 ///     cost_json(cost)             a cost as users see it
 ///     add_measures(json)          further keys of the JSON
+///     called()                    what agents and vertices are called in messages
 template <class Domain, class PlanFile, class VerifyReport>
 ExitCode pronounce(const VerifyArguments& arguments, const Domain& domain, const PlanFile& file,
                    const VerifyReport& replay) {
@@ -58,7 +60,7 @@ ExitCode pronounce(const VerifyArguments& arguments, const Domain& domain, const
     json.add("false_statements", wrong);
     json.add_list("violations", replay.violations, [&](const auto& violation) {
       Json item = domain.violation_json(violation);
-      item["message"] = violation.message;
+      item["message"] = in_names(violation.message, domain.called());
       return item;
     });
     delivery.write_json(json.finish());
@@ -67,7 +69,7 @@ ExitCode pronounce(const VerifyArguments& arguments, const Domain& domain, const
   if (!replay.valid()) {
     verdict = fmt::format("invalid    {} violation{}\n", replay.violations.size(),
                           replay.violations.size() == 1 ? "" : "s") +
-              domain.more() + describe_violations(replay);
+              domain.more() + in_names(describe_violations(replay), domain.called());
   } else if (!wrong.empty()) {
     verdict = "invalid    the plan breaks no rule, but its file states what is wrong\n";
     for (const std::string& statement : wrong) verdict += statement + "\n";

@@ -20,6 +20,7 @@
 #include "quadrille/discrete/feasibility.hpp"
 #include "quadrille/discrete/goal_distances.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/input/called.hpp"
 #include "quadrille/input/grid.hpp"
 #include "quadrille/view/page.hpp"
 #include "quadrille/view/picture.hpp"
@@ -118,6 +119,7 @@ class GridSolve {
                         outcome.cost);
     return result_json(&instance(), arguments_, outcome, notes_);
   }
+  [[nodiscard]] Called called() const { return input::called(input_.names); }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
     return view::page(instance(), outcome.plan.value_or(no_paths(instance())),
                       page_options(input_.source, input_.names, objective(), outcome));

@@ -8,6 +8,7 @@
 #include "grid/grid_report.hpp"
 #include "grid/grid_text.hpp"
 #include "quadrille/discrete/verify.hpp"
+#include "quadrille/input/called.hpp"
 #include "quadrille/input/grid.hpp"
 
 namespace quadrille::cli {
@@ -23,6 +24,7 @@ class GridVerdict {
   [[nodiscard]] std::string good() const { return describe_check(plan_, replay_); }
   [[nodiscard]] std::string more() const { return ""; }
   [[nodiscard]] Json cost_json(Cost cost) const { return cost; }
+  [[nodiscard]] Called called() const { return input::called(input_.names); }
   void add_measures(JsonLines&) const {}
   [[nodiscard]] Json violation_json(const discrete::Violation& violation) const {
     const discrete::Graph& graph = input_.instance.graph();

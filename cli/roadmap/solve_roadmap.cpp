@@ -16,6 +16,7 @@
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/solver.hpp"
+#include "quadrille/input/called.hpp"
 #include "quadrille/poses/steps.hpp"
 #include "roadmap/drawing.hpp"
 #include "roadmap/opinion_report.hpp"
@@ -119,6 +120,7 @@ class RoadmapSolve {
                         outcome.cost);
     return result_json(&instance(), arguments_, options_, outcome, replay, notes_);
   }
+  [[nodiscard]] Called called() const { return input::called(input_.names); }
   [[nodiscard]] Result<std::string> page(const SolveOutcome& outcome) const {
     return page_of(input_, outcome.plan.value_or(continuous::Plan{}),
                    page_options(input_.source, input_.names, objective(), outcome));

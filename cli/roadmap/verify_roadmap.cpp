@@ -7,6 +7,7 @@
 #include "frame/arguments.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "quadrille/input/called.hpp"
 #include "roadmap/opinion_report.hpp"
 #include "roadmap/roadmap_plan.hpp"
 #include "roadmap/roadmap_report.hpp"
@@ -32,6 +33,7 @@ class RoadmapVerdict {
   [[nodiscard]] Json cost_json(Cost cost) const {
     return continuous::in_input_units(cost, input_.instance.resolution());
   }
+  [[nodiscard]] Called called() const { return input::called(input_.names); }
   void add_measures(JsonLines& json) const {
     json.add("least_clearance", clearance_json(input_.instance, replay_));
     if (opinion_) json.add("second_opinion", opinion_json(input_.instance, *opinion_));

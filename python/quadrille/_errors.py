@@ -41,6 +41,13 @@ class BodyWarning(UserWarning):
     """A file says nothing of bodies, and no radius was given."""
 
 
+def renamed(error: InputError, text: str) -> InputError:
+    """The same error in other words."""
+    other = type(error)(text)
+    other.code, other.reason, other.file, other.line = error.code, text, error.file, error.line
+    return other
+
+
 def make_error(code: str, text: str, reason: str, file: str, line: int) -> InputError:
     kinds = {"no-plan": NoPlanError, "io": FileError}
     error = kinds.get(code, InputError)(text)

@@ -74,6 +74,7 @@ class Dispatcher:
             raise InputError("a dispatcher needs a roadmap")
         self._fleet = fleet
         self._graph = fleet.graph
+        self._tick = fleet.graph.resolution[1]
         self._core = _core.Dispatcher(
             fleet._timed("Dispatcher"), float(effort), float(reach), float(patience), bool(improves)
         )
@@ -128,7 +129,8 @@ class Dispatcher:
         for vertex in vertices:
             if not 0 <= vertex < self._graph.num_vertices:
                 raise InputError(f"goals: there is no vertex {vertex} among {self._graph.num_vertices}")
-        self._core.assign(self._agent(agent), vertices, float(service), deadline)
+        with self._fleet._named():
+            self._core.assign(self._agent(agent), vertices, float(service), deadline)
 
     def cancel(self, agent: Union[int, str]) -> None:
         """Of what the agent has been told, nothing is left to do."""
@@ -140,7 +142,13 @@ class Dispatcher:
         Raises:
             InputError: if it goes back, or beyond ``limit``.
         """
-        self._core.report(self._agent(agent), float(clock))
+        number, before, limit = self._agent(agent), self.clock(agent), self.limit(agent)
+        if clock < before - self._tick:
+            raise InputError(f"clock: {clock:g} is before {before:g}, and clocks never go back")
+        if clock > limit + self._tick:
+            raise InputError(f"clock: {clock:g} is beyond {limit:g}, as far as the agent was allowed to go")
+        with self._fleet._named():
+            self._core.report(number, float(clock))
 
     def tick(self, duration: float, *, time_limit: Optional[float] = None) -> Orders:
         """So much more time: new courses, and how far everybody may go until then. Ctrl-C ends the

@@ -5,14 +5,15 @@ from __future__ import annotations
 
 import copyreg
 import os
-from typing import Any, Generic, Optional, Sequence, TypeVar, Union, cast, overload
+from contextlib import contextmanager
+from typing import Any, Generic, Iterator, Optional, Sequence, TypeVar, Union, cast, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import Immutable, Shape, doubles, ints, listed, per_agent
-from ._errors import InputError
+from ._errors import InputError, renamed
 from .graphs import Graph, Grid, Roadmap
 from .naming import file_names
 from .plans import Plan, StepPlan, TimedPlan
@@ -375,7 +376,8 @@ class Fleet(Immutable, Generic[P]):
             raise InputError(f"paths: {len(paths)} paths for {len(self)} agents")
         instance = self._timed("plan")
         given = [self._stops(path, f"paths[{agent}]") for agent, path in enumerate(paths)]
-        return self._make_plan(instance.plan(given))
+        with self._named():
+            return self._make_plan(instance.plan(given))
 
     def _stops(self, path: Any, name: str) -> tuple[Any, Any, Any]:
         """Vertices, arrivals and departures, NaN where nothing is said."""
@@ -463,6 +465,23 @@ class Fleet(Immutable, Generic[P]):
             f"agent {self._names[agent]} is planned to take {planned:g} instead of {exact:.4g}; "
             "a smaller resolution of time mends that"
         )
+
+    def _in_names(self, message: str) -> str:
+        """A message of the library, with names instead of numbers where there are any."""
+        agents: list[Optional[str]] = [
+            None if name == str(i) else repr(name) for i, name in enumerate(self._names)
+        ]
+        nodes = self._graph._nodes if isinstance(self._graph, Roadmap) else None
+        vertices: list[Optional[str]] = [repr(node) for node in nodes or []]
+        return _core.in_names(message, agents, vertices)
+
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        """Errors of the library inside of it have names instead of numbers."""
+        try:
+            yield
+        except InputError as error:
+            raise renamed(error, self._in_names(str(error))) from None
 
     def _cost(self, cost: int) -> float:
         """A cost of the library in the user's unit of time."""

@@ -411,10 +411,16 @@ class StepPlan(Plan):
 
     def verify(self) -> Report:
         violations, sum_of_costs, makespan = self._instance.verify(self._plan)
-        return Report([Violation(*violation) for violation in violations], sum_of_costs, makespan)
+        called = self._fleet._in_names
+        found = [
+            Violation(kind, agent, other, time, called(message))
+            for kind, agent, other, time, message in violations
+        ]
+        return Report(found, sum_of_costs, makespan)
 
     def _precedences(self) -> _core.Precedences:
-        return _core.step_precedences(self._instance, self._plan)
+        with self._fleet._named():
+            return _core.step_precedences(self._instance, self._plan)
 
     def _page(self, title: str) -> str:
         return _core.step_page(self._instance, self._plan, title, self._shown())
@@ -636,7 +642,7 @@ class TimedPlan(Plan):
         clearances["gap"], clearances["time"] = (gaps * np.array(self._roadmap.resolution)).T
         return Report(
             [
-                Violation(kind, agent, other, fleet._cost(tick), message)
+                Violation(kind, agent, other, fleet._cost(tick), fleet._in_names(message))
                 for kind, agent, other, tick, message in violations
             ],
             fleet._cost(sum_of_costs),
@@ -782,7 +788,8 @@ class TimedPlan(Plan):
         return self._roadmap.resolution[0]
 
     def _precedences(self) -> _core.Precedences:
-        return _core.timed_precedences(self._instance, self._plan)
+        with self._fleet._named():
+            return _core.timed_precedences(self._instance, self._plan)
 
     def _page(self, title: str) -> str:
         return _core.timed_page(self._instance, self._plan, title, self._shown())

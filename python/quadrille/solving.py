@@ -273,7 +273,7 @@ def searched(
         cost=None if best is None else cost(best),
         lower_bound=None if bound is None else cost(bound),
         stop=outcome["stop"],
-        explanation=outcome["explanation"],
+        explanation=outcome["explanation"] if fleet._unread else fleet._in_names(outcome["explanation"]),
         statistics=Statistics(**outcome["statistics"]),
         internal_error=outcome["internal_error"],
         rests_on_known_bound=outcome["rests_on_known_bound"],

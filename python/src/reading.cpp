@@ -5,9 +5,11 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "quadrille/core/in_names.hpp"
 #include "quadrille/input/grid.hpp"
 #include "quadrille/input/roadmap.hpp"
 #include "saving.hpp"
@@ -68,6 +70,17 @@ py::object read(const py::dict& names) {
 
 }  // namespace
 
-void bind_reading(py::module_& module) { module.def("read", &read); }
+void bind_reading(py::module_& module) {
+  module.def("read", &read);
+  // Names by number, as messages have them; None: the number.
+  module.def("in_names", [](const std::string& message,
+                            const std::vector<std::optional<std::string>>& agents,
+                            const std::vector<std::optional<std::string>>& vertices) {
+    const auto of = [](const std::vector<std::optional<std::string>>& names) {
+      return [&names](std::size_t i) { return i < names.size() ? names[i] : std::nullopt; };
+    };
+    return in_names(message, {of(agents), of(vertices)});
+  });
+}
 
 }  // namespace quadrille::python

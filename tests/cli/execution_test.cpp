@@ -125,8 +125,11 @@ TEST_F(ExecutionCliTest, DispatchLetsAFleetWork) {
   EXPECT_GE(report["gap_percent_mean"].get<double>(), 0);
   // The same again, but for the time that calls take.
   json again = json::parse(run(asked).out);
-  for (json* const one : {&report, &again})
+  ASSERT_EQ(report["each_call"]["gap_percent"].size(), 150u);
+  for (json* const one : {&report, &again}) {
     for (const char* key : {"call_s_mean", "call_s_95", "call_s_longest"}) one->erase(key);
+    (*one)["each_call"].erase("seconds");
+  }
   EXPECT_EQ(report, again);
 }
 
@@ -136,8 +139,6 @@ TEST_F(ExecutionCliTest, DispatchEndsWhenAllThereIsToDoIsDone) {
   const json report = json::parse(finished.out);
   EXPECT_EQ(report["tasks_done"], report["robots"]);
   EXPECT_LT(report["calls"], 1000);
-  EXPECT_EQ(run(square("dispatch")).code, 64);
-  EXPECT_THAT(run(square("dispatch")).err, HasSubstr("dispatch needs a roadmap"));
   EXPECT_THAT(run(discs("dispatch", {"--step", "1e30"})).err, HasSubstr("--step is too long"));
 }
 

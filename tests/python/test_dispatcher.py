@@ -83,7 +83,7 @@ def test_what_makes_no_sense_is_refused():
         dispatcher.assign(4, 0)
     with pytest.raises(q.InputError, match="there is no agent called 'x'"):
         dispatcher.clock("x")
-    with pytest.raises(q.InputError, match="was allowed to go to 0"):
+    with pytest.raises(q.InputError, match="1 is beyond 0, as far as the agent was allowed to go"):
         dispatcher.report(0, 1)
     with pytest.raises(q.InputError, match="time has to go on"):
         dispatcher.tick(0)

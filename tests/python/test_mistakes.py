@@ -96,6 +96,39 @@ def test_no_plan_is_an_outcome(make, why, tmp_path):
     assert q.solve(made, progress=seen.append, on_plan=seen.append, known_bound=1, time_limit=1).status == "infeasible"
 
 
+def test_violations_are_told_in_names():
+    made = fleet(["dock", "desk"], ["desk", "dock"])
+    broken = made.plan([["dock", "hall", "desk"], ["desk", "hall", "dock"]]).verify()
+    assert "'amr' and 'cart' collide" in broken.violations[0].message and "agent" not in broken.violations[0].message
+    away = made.plan([["dock", "hall"], ["desk"]]).verify()
+    messages = " ".join(violation.message for violation in away.violations)
+    assert "'amr'" in messages and "agent " not in messages and "vertex " not in messages, messages
+    steps = q.Fleet(GRID, [(0, 0), (1, 0)], [(1, 0), (0, 0)], names=["amr", "cart"])
+    swap = steps.plan([[(0, 0), (1, 0)], [(1, 0), (0, 0)]]).verify()
+    assert swap.violations[0].message.startswith("'amr' and 'cart'")
+    # Without names they are called by their numbers.
+    assert q.Fleet(GRID, [(0, 0)], [(1, 0)]).plan([[(0, 0)]]).verify().violations[0].message.startswith("agent 0")
+
+
+@pytest.mark.parametrize("make, message", [
+    (lambda: q.Executor(fleet(["dock", "hall"], ["hall", "desk"]).plan([["dock", "hall"], ["hall"]])), "'cart'"),
+    (lambda: q.Executor(fleet().plan([["dock"]])), "'amr'"),
+    (lambda: q.simulate(fleet().plan([["dock", "hall", "desk"]]), "coupeled"), "rule: 'coupeled' is not naive, gated or coupled"),
+    (lambda: fleet().plan([["dock", "desk"]]), "'amr', stop 1: no edge leads there from the stop before"),
+    (lambda: fleet().plan(["dock"]), "no vertex called"),
+    (lambda: q.solve(fleet()).plan["arm"], "there is no agent called 'arm'"),
+    (lambda: q.solve(fleet()).plan.to_vda5050(version="2"), "version: '2' is not 3.0, 2.1 or 2.0"),
+    (lambda: q.Dispatcher(q.Fleet(GRID, [(0, 0)], [(1, 0)])), "a dispatcher needs a roadmap"),
+    (lambda: q.Dispatcher(fleet()).assign("amr", "attic"), "amr"),
+    (lambda: q.Dispatcher(fleet()).report("amr", 5), "clock"),
+])
+def test_mistakes_with_plans_and_live_fleets(make, message):
+    with pytest.raises(ValueError) as raised:
+        make()
+    assert message in str(raised.value), raised.value
+    assert "agent 0" not in str(raised.value), raised.value
+
+
 def test_files_without_a_plan_end_as_in_the_program(tmp_path):
     file = tmp_path / "i.json"
     fleet(["dock", "hall"], ["desk", "dock"]).save(file)

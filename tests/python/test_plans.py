@@ -82,7 +82,7 @@ def test_plans_of_ones_own_on_roadmaps():
     assert fleet.plan([[(path.places[k], s["arrive"], s["depart"]) for k, s in enumerate(path.stops)] for path in best]) == best
     for wrong, why in (
         ([["west"]], "1 paths for 2 agents"),
-        ([["west", "east"], ["east"]], "agent 0, stop 1: no edge leads there"),
+        ([["west", "east"], ["east"]], "'slow', stop 1: no edge leads there"),
         ([["west", "nowhere"], ["east"]], "no vertex called 'nowhere'"),
         ([[], ["east"]], r"paths\[0\]: a path has at least one stop"),
         ([[("west", 0, 0, 0)], ["east"]], "a stop is a vertex"),

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/view/page.hpp"
 
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "page_parts.hpp"
 #include "quadrille/core/contract.hpp"
+#include "quadrille/core/in_names.hpp"
 #include "scene.hpp"
 #include "scene_json.hpp"
 #include "svg.hpp"
@@ -13,8 +15,20 @@
 namespace quadrille::view {
 namespace {
 
+/// What is said in words calls agents by their names.
+void call_by_names(const PageOptions& options, Scene& scene) {
+  const auto agent = [&](std::size_t i) -> std::optional<std::string> {
+    if (i >= options.agent_names.size() || options.agent_names[i].empty()) return std::nullopt;
+    return options.agent_names[i];
+  };
+  const auto vertex = [](std::size_t) -> std::optional<std::string> { return std::nullopt; };
+  for (SceneViolation& violation : scene.violations)
+    violation.message = in_names(violation.message, {agent, vertex});
+}
+
 /// The document with its marks replaced. What is put in is not looked at again.
-std::string fill(const Scene& scene, PageOptions options) {
+std::string fill(Scene scene, PageOptions options) {
+  call_by_names(options, scene);
   if (options.title.empty()) {
     const std::size_t count = scene.agents.size();
     options.title = (options.obstruction ? "No plan for " : "Plan of ") + std::to_string(count) +
@@ -46,7 +60,7 @@ std::string page(const discrete::Instance& instance, const discrete::Plan& plan,
   if (options.attribution) add_attribution(instance, *options.attribution, scene);
   add_precedences(instance, plan, scene);
   if (options.obstruction) scene.violations.clear();
-  return fill(scene, options);
+  return fill(std::move(scene), options);
 }
 
 namespace {
@@ -56,7 +70,7 @@ std::string page_of(Scene scene, const continuous::Instance& instance, const con
   if (options.attribution) add_attribution(*options.attribution, scene);
   add_precedences(instance, plan, scene);
   if (options.obstruction) scene.violations.clear();
-  return fill(scene, options);
+  return fill(std::move(scene), options);
 }
 
 }  // namespace
@@ -79,7 +93,7 @@ std::string page(const continuous::Instance& instance, const std::vector<Track>&
   for (const Track& track : tracks) QUADRILLE_REQUIRE(!track.empty(), "at least one sight");
   Scene scene = make_scene(instance, continuous::Plan{}, grid);
   add_tracks(tracks, scene);
-  return fill(scene, options);
+  return fill(std::move(scene), options);
 }
 
 }  // namespace quadrille::view

@@ -11,6 +11,7 @@
 
 #include "formats/json_bodies.hpp"
 #include "formats/json_numbers.hpp"
+#include "quadrille/continuous/in_words.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/core/decimal.hpp"
 #include "quadrille/text/choice.hpp"
@@ -54,16 +55,41 @@ class InstanceReader {
     auto made = Roadmap::make(std::move(positions_), std::move(edges_), std::move(lane_places_),
                               std::move(shapes_), std::move(no_waiting_));
     if (!made) return document_.error(*roadmap, made.error().code, made.error().message);
-    auto instance = Instance::make(std::move(made).value(), std::move(agents_), resolution_,
-                                   places_, std::move(obstacles_), now_);
-    if (!instance && instance.error().where.file.empty())
-      return document_.error(obstacles ? *obstacles : *roadmap, instance.error().code,
-                             instance.error().message);
-    if (instance && names != nullptr) *names = std::move(names_);
+    const auto roads = std::make_shared<const Roadmap>(std::move(made).value());
+    auto instance = Instance::make(roads, agents_, resolution_, places_, obstacles_, now_);
+    if (!instance) {
+      Error error = named(instance.error(), roads);
+      if (!error.where.file.empty()) return error;
+      return document_.error(obstacles ? *obstacles : *roadmap, error.code, error.message);
+    }
+    if (names != nullptr) *names = std::move(names_);
     return instance;
   }
 
  private:
+  /// What Instance::make says, in the names of the file if it has any.
+  [[nodiscard]] Error named(const Error& error, const std::shared_ptr<const Roadmap>& roads) const {
+    if (names_.agents.empty() && names_.vertices.empty()) return error;
+    const Words words{
+        [this](AgentId i) {
+          const std::string* const name = names_.agent(i.index());
+          return name != nullptr ? text::in_quotes(*name) : "agent " + std::to_string(i.index());
+        },
+        [](std::size_t o) { return "obstacle " + std::to_string(o); },
+        [this](VertexId v) {
+          if (v.index() >= names_.vertices.size()) return "vertex " + std::to_string(v.index());
+          const std::string& name = names_.vertices[v.index()];  // JSON
+          return name.starts_with('"')
+                     ? text::in_quotes(std::string_view(name).substr(1, name.size() - 2))
+                     : name;
+        },
+        [this](Ticks time) { return decimal(in_input_units(time, resolution_)); }};
+    Error said = continuous::in_words(error, roads, agents_, resolution_, obstacles_, now_, words);
+    said.code = error.code;
+    said.where = error.where;
+    return said;
+  }
+
   bool read_version(Node kind, Node version) {
     std::string_view name;
     std::int64_t number = 0;
