@@ -215,12 +215,13 @@ export class Reasons {
 /**
  * @param {import("./scene.js").Scene} scene
  * @param {number[]} agents
+ * @param {string} [separator]
  * @returns {string}
  */
-export function agentsName(scene, agents) {
+export function agentsName(scene, agents, separator = ", ") {
   if (agents.length > 8) return `${agents.length} agents`;
   const names = agents.map((index) => scene.agents[index]?.name ?? `agent ${index}`);
   if (agents.length === 1) return names[0];
   const areNumbered = names.every((name, k) => name === `agent ${agents[k]}`);
-  return areNumbered ? `agents ${agents.join(agents.length === 2 ? " and " : ", ")}` : names.join(", ");
+  return areNumbered ? `agents ${agents.join(separator)}` : names.join(separator);
 }

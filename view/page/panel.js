@@ -131,10 +131,11 @@ export class Panel {
     const { state } = this;
     if (!state.scene.continuous) return;
     const { lengthUnit } = state.scene;
-    this.fill("nearest", "nearest-list", state.scene.nearest.map(({ agents, gap, time }) => ({
-      text: `${showGap(gap * lengthUnit)}  ${agentsName(state.scene, agents)} at ${state.showMoment(time)}`,
-      time, agents: [...agents],
-    })));
+    this.fill("nearest", "nearest-list", state.scene.nearest.map(({ agents, gap, time }) => {
+      const names = agentsName(state.scene, agents, " and ");
+      const text = `${showGap(gap * lengthUnit)}  ${names} at ${state.showMoment(time)}`;
+      return { text, time, agents: [...agents] };
+    }));
   }
 
   listDelays() {
@@ -154,7 +155,7 @@ export class Panel {
     if (scene.continuous && scene.nearest.length > 0) {
       const least = state.clearances.leastAt(player.time);
       this.clearance.textContent = least === null ? "none"
-        : `${showGap(least.gap * scene.lengthUnit)}, ${agentsName(scene, least.agents)}`;
+        : `${showGap(least.gap * scene.lengthUnit)}, ${agentsName(scene, least.agents, " and ")}`;
     }
     const agent = state.agent();
     this.agentSection.hidden = agent === null;
