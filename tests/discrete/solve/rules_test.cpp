@@ -90,9 +90,8 @@ struct Kind {
 };
 
 Instance draw(Random& random, const Kind& kind) {
-  Instance plain = kind.kinds.turning || random.percent(50)
-                       ? random_grid(random, {1, 3, 30, 2, 3})
-                       : random_graph(random, 7, 3);
+  Instance plain = kind.kinds.turning || random.percent(50) ? random_grid(random, {1, 3, 30, 2, 3})
+                                                            : random_graph(random, 7, 3);
   if (kind.has_goal_sets) plain = with_group_goals(random, plain);
   RuleKinds kinds = kind.kinds;
   if (kind.is_mixed)
