@@ -73,8 +73,16 @@ bool are_plain(const PoseGrid& grid, const continuous::Instance& instance) {
   return true;
 }
 
+/// The same one, or an equal one.
+bool is_roadmap_of(const PoseGrid& grid, const continuous::Roadmap& roadmap) {
+  const continuous::Roadmap& own = *grid.roadmap();
+  return &own == &roadmap ||
+         (own.positions() == roadmap.positions() && own.edges() == roadmap.edges() &&
+          roadmap.no_waiting().empty() && own.shapes() == roadmap.shapes());
+}
+
 bool is_known(const PoseGrid& grid, const continuous::Instance& instance) {
-  return instance.shared_roadmap() == grid.roadmap() && instance.now() == 0 &&
+  return is_roadmap_of(grid, instance.roadmap()) && instance.now() == 0 &&
          instance.obstacles().empty() && grid.turn() <= Ticks(discrete::kMaxTurn) &&
          are_plain(grid, instance);
 }

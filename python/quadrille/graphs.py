@@ -367,5 +367,9 @@ class PoseGrid(Roadmap):
             self._vertex(pose, "any_heading")
         return poses
 
+    def _cells(self) -> tuple[npt.NDArray[np.bool_], int]:
+        """Which of them are free, and how long a quarter turn takes."""
+        return self._free, self._turn
+
     def __repr__(self) -> str:
         return f"<quadrille.PoseGrid {self.num_vertices} poses, a quarter turn takes {self.turn}>"

@@ -653,7 +653,7 @@ class TimedPlan(Plan):
     def _poses(self) -> Optional[tuple[npt.NDArray[np.bool_], int]]:
         """Of robots that turn on a grid: its cells, and how long a quarter turn takes."""
         graph = self._fleet.graph
-        return (graph._free, graph._turn) if isinstance(graph, PoseGrid) else None
+        return graph._cells() if isinstance(graph, PoseGrid) else None
 
     def _robots(self) -> _core.Names:
         """For messages to others."""

@@ -11,6 +11,7 @@ from . import _core
 from ._errors import RoundingWarning
 from .attribution import Attribution, _attribution
 from .fleet import Fleet, P
+from .graphs import PoseGrid
 
 
 class Statistics(NamedTuple):
@@ -234,6 +235,8 @@ def solve(
     )
     if rounded := fleet._duration_warning():
         warnings.warn(rounded, RoundingWarning, stacklevel=2)
+    if isinstance(fleet.graph, PoseGrid):
+        given["poses"] = fleet.graph._cells()
     return searched(fleet, fleet._instance.solve, given, progress, on_plan, keep_interrupt)
 
 

@@ -13,6 +13,7 @@
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "executing.hpp"
+#include "pose_grids.hpp"
 #include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/exports/exports.hpp"
 #include "quadrille/exports/orders.hpp"
@@ -22,17 +23,6 @@
 
 namespace quadrille::python {
 namespace {
-
-/// What the instance is made of, if robots turn on a grid: its cells, and the time of a quarter
-/// turn.
-using Poses = std::optional<std::pair<Bools, std::int64_t>>;
-std::optional<continuous::PoseGrid> made_of(const Poses& poses) {
-  if (!poses) return std::nullopt;
-  const Bools& free = poses->first;
-  const continuous::OccupancyGrid cells{static_cast<std::int32_t>(free.shape(0)),
-                                        static_cast<std::int32_t>(free.shape(1)), flags_of(free)};
-  return take(continuous::PoseGrid::make(cells, continuous::Ticks(poses->second)));
-}
 
 /// A text in the format: csv, multidof or path.
 std::string samples_of(const TimedInstance& self, const continuous::Plan& plan, const Poses& given,

@@ -19,6 +19,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "pose_grids.hpp"
 #include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/free_cost.hpp"
 #include "quadrille/continuous/instance_json.hpp"
@@ -26,6 +27,7 @@
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/continuous/verify.hpp"
+#include "quadrille/poses/steps.hpp"
 #include "saving.hpp"
 #include "solving.hpp"
 #include "timed_solving.hpp"
@@ -42,10 +44,15 @@ using continuous::Ticks;
 
 py::dict solve_timed(const TimedInstance& self, const py::dict& arguments) {
   if (self.no_plan()) return solve_refused(self, arguments);
+  std::optional<continuous::PoseGrid> grid;
   const auto set_options = [&](Arguments& given, const std::atomic<bool>& interrupt) {
+    grid = made_of(given.take<Poses::value_type>("poses"));
     return options_of(self.resolution(), given, interrupt);
   };
-  return run_solve<Plan>(self.instance(), arguments, set_options);
+  const auto search = [&](const Instance& instance, const continuous::SolveOptions& options) {
+    return grid ? poses::solve(*grid, instance, options) : solve(instance, options);
+  };
+  return run_solve<Plan>(self.instance(), arguments, set_options, search);
 }
 
 /// (violations, sum of costs, makespan, clearances); a violation is (kind, agent, other, tick,
@@ -283,6 +290,7 @@ py::dict solve_refused(const TimedInstance& self, const py::dict& given) {
   Arguments arguments(given);
   arguments.take<py::function>("progress");
   arguments.take<py::function>("on_plan");
+  arguments.take<Poses::value_type>("poses");
   const std::atomic<bool> interrupt = false;
   // A bound is in ticks of any size here.
   options_of({}, arguments, interrupt);

@@ -54,3 +54,17 @@ def test_what_is_wrong() -> None:
         poses.any_heading(1, 0)
     with pytest.raises(q.InputError, match="starts"):
         q.Fleet(poses, [(0, 0, "up")], [poses.any_heading(0, 0)], radius=0.35)
+
+
+def test_robots_that_turn_are_solved_in_timesteps() -> None:
+    # With the same costs as in continuous time, where the other system stays.
+    grid = q.Grid(np.ones((4, 5))).with_headings(turn=2)
+    starts = [(0, 0, "east"), (4, 3, "north"), (2, 1, "west"), (0, 3, "south")]
+    goals = [grid.any_heading(4, 3), grid.any_heading(0, 0), grid.any_heading(0, 2), grid.any_heading(3, 0)]
+    fleet = q.Fleet(grid, starts, goals, radius=grid.RADIUS)
+    result, other = q.solve(fleet), q.solve(fleet, system="smt-cbs")
+    assert result.status == other.status == "optimal"
+    assert result.cost == other.cost
+    assert result.plan is not None and result.plan.verify().valid
+    again = q.solve(fleet, initial=result.plan)
+    assert again.cost == result.cost

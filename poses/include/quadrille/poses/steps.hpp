@@ -20,9 +20,8 @@ namespace quadrille::poses {
 /// its plans have the same costs. nullopt if there is none: for agents that are no discs of at most
 /// PoseGrid::kRadius or whose moves do not take one tick, goals with some headings only, a
 /// beginning later than 0, agents that leave, are released, have a deadline, are under way or
-/// overlap at their starts, two with the same cell as their only goal, moving obstacles, and turns
-/// of more than discrete::kMaxTurn ticks.
-/// `instance`: on `grid`'s roadmap. O(V + E + goals).
+/// overlap at their starts, two with the same cell as their only goal, moving obstacles, turns of
+/// more than discrete::kMaxTurn ticks, and a roadmap that is not like `grid`'s. O(V + E + goals).
 [[nodiscard]] std::optional<discrete::Instance> in_steps(const continuous::PoseGrid& grid,
                                                          const continuous::Instance& instance);
 
