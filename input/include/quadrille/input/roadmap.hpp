@@ -66,6 +66,10 @@ struct RoadmapInput {
   [[nodiscard]] const continuous::GridRoadmap* grid_or_null() const {
     return grid ? &*grid : nullptr;
   }
+  /// The cells that pages show.
+  [[nodiscard]] const continuous::GridRoadmap* cells_or_null() const {
+    return poses ? &poses->cells() : grid_or_null();
+  }
 };
 /// Requires options that name a roadmap and pass check_roadmap_options. All rows of the task
 /// without `--agents`.
