@@ -33,8 +33,12 @@ Result<NavGraph> add_nav_graph(RoadmapBuilder& roads, const std::filesystem::pat
     const continuous::Point& p = graph.position(VertexId(v));
     added.vertices.push_back(roads.vertex({metres(p.x), metres(p.y), metres(p.z)}, names[v]));
   }
+  for (const VertexId v : graph.no_waiting()) roads.no_waiting(added.vertices[v.index()]);
   for (const continuous::Edge& edge : graph.edges()) {
     LaneSpec spec;
+    if (edge.speed_limit)
+      spec.speed_limit =
+          MetresPerSecond(continuous::speed_in_input_units(*edge.speed_limit, sizes));
     if (edge.duration) spec.duration = Seconds(continuous::in_input_units(*edge.duration, sizes));
     roads.lane(added.vertices[edge.from.index()], added.vertices[edge.to.index()], std::move(spec));
   }

@@ -235,7 +235,7 @@ def solve(
     )
     if rounded := fleet._duration_warning():
         warnings.warn(rounded, RoundingWarning, stacklevel=2)
-    if isinstance(fleet.graph, PoseGrid):
+    if not fleet._unread and isinstance(fleet.graph, PoseGrid):
         given["poses"] = fleet.graph._cells()
     return searched(fleet, fleet._instance.solve, given, progress, on_plan, keep_interrupt)
 
@@ -283,7 +283,7 @@ def searched(
         attribution=_attribution(outcome["attribution"], cost),
         moves=None if outcome["moves"] is None else Moves(*outcome["moves"]),
     )
-    if result.stop == "interrupt" and not keep_interrupt:
+    if outcome.get("interrupted", False) and not keep_interrupt:
         interrupted = Interrupted("Ctrl-C has ended the search; its result is this one's")
         interrupted.result = result
         raise interrupted

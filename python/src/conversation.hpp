@@ -33,6 +33,8 @@ class Conversation {
 
   /// For Limits::interrupt.
   [[nodiscard]] const std::atomic<bool>& interrupt() const noexcept { return interrupt_; }
+  /// Ctrl-C was heard, perhaps as the search ended for another reason.
+  [[nodiscard]] bool was_interrupted() const noexcept { return interrupt_; }
   /// To be called by the search. What has not been passed on is replaced by what is newer.
   void tell(const Progress& progress) {
     const std::lock_guard lock(mutex_);

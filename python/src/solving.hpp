@@ -67,6 +67,7 @@ py::dict run_solve(const Instance& instance, const py::dict& given, const SetOpt
   const py::object attribution = attribution_object(instance, outcome.attribution);
   py::dict parts = outcome_of(std::move(outcome));
   parts["attribution"] = attribution;
+  parts["interrupted"] = conversation.was_interrupted();
   return parts;
 }
 

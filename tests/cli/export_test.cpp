@@ -430,7 +430,8 @@ TEST_F(ExportTest, RefusesWhatItCannotDo) {
   refuses(xml("export",
               {"--to", "vda5050", "--names", path("names.json"), "--output", path("names.json")}),
           64, "names.json is an input of this run");
-  refuses(xml("export", {"--to", "bag"}), 64, "csv, multidof, path, vda5050 or planviz");
+  refuses(xml("export", {"--to", "bag"}), 64,
+          "csv, multidof, path, vda5050, open-rmf-plan or planviz");
   refuses(xml("export", {"--to", "csv", "--rate", "1e12"}), 65, "more than 10 million samples");
   refuses(small("export", {"--to", "csv"}), 64, "export is for plans on roadmaps");
 }

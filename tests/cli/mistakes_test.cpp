@@ -92,13 +92,13 @@ TEST_F(MistakesTest, OrGiveNoPlan) {
   const struct {
     const char *from, *to, *message;
   } cases[] = {
-      {"\"goal\": 0", "\"goal\": 3",
-       "11: agent 1 cannot reach its goal: there is no way from vertex 2 to vertex 3"},
+      {"\"goal\": 0", "\"goal\": 3", "11: agent 1 cannot get from vertex 2 to vertex 3"},
       {"\"deadline\": 99", "\"deadline\": 7.5",
        "11: agent 1 cannot arrive before 8, and its deadline is 7.5"},
-      {"\"start\": 2", "\"start\": 0", "11: the starts of agents 0 and 1 overlap"},
+      {"\"start\": 2", "\"start\": 0",
+       "11: the starts of agent 0 at vertex 0 and agent 1 at vertex 0 overlap"},
       {"\"start\": 3, \"goal\": 3", "\"start\": 3, \"goal\": 2",
-       "12: the goals of agents 0 and 2 overlap"},
+       "12: the goals of agent 0 at vertex 2 and agent 2 at vertex 2 overlap"},
   };
   for (const auto& c : cases) {
     const std::string file = with(c.from, c.to);

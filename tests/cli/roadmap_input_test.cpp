@@ -192,7 +192,7 @@ TEST_F(RoadmapInputTest, WhatCannotHaveAPlanIsInfeasible) {
   ASSERT_NE(text.find(goal), std::string::npos);
   text.replace(text.find(goal), goal.size(), "\"goal\": 2");
   expect_no_plan({"solve", "--instance", write("bad.json", text)},
-                 "bad.json:11: the goals of agents 0 and 1 overlap");
+                 "bad.json:11: the goals of agent 0 at vertex 2 and agent 1 at vertex 2 overlap");
 }
 
 TEST_F(RoadmapInputTest, MapsAndScenariosOfMovingAiToo) {

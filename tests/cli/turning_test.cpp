@@ -217,7 +217,7 @@ class RobotRunnersTest : public TurningTest {
     std::filesystem::create_directories(path("maps"));
     write("maps/room.map", "type octile\nheight 2\nwidth 3\nmap\n.E.\nS.@\n");
     write("room.agents", "3\n0\n2\n4\n");
-    write("room.tasks", "# version for LoRR 2024\n4\n1,0\n0\n3,5\n2\n");
+    write("room.tasks", "# version for LoRR 2024\n4\n1,0\n0\n3,1\n2\n");
     write("room.json", problem());
   }
   [[nodiscard]] static std::string problem(const std::string& more = "\"teamSize\": 2") {

@@ -226,7 +226,7 @@ TEST(MapFiles, LevelsAndLanesBothWaysOfNavGraphs) {
   with.level = "L1";
   const auto map = read(kNavGraph, with);
   ASSERT_TRUE(map.has_value()) << map.error().to_string();
-  EXPECT_EQ(edges_of(*map), "0-1:2000 1-0:2000 1-2");
+  EXPECT_EQ(edges_of(*map), "0-1@500 1-0@500 1-2");
   EXPECT_EQ(map->names.find("lift", 3).value(), VertexId(2));
   with.level = "L2";
   EXPECT_EQ(roadmap_of(read(kNavGraph, with).value()).num_vertices(), 2u);

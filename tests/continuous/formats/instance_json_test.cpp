@@ -205,8 +205,7 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithTheRulesOfFleets) {
       {"\"at_goal\": \"leave\"", "\"at_goal\": \"vanish\"",
        "f:15: /agents/1/at_goal: expected 'stay' or 'leave', found 'vanish'"},
       {"\"at_goal\": \"leave\"", "\"at_goal\": true", "f:15: /agents/1/at_goal: expected a string"},
-      {"\"goal\": 2", "\"goal\": 3",
-       "f:14: agent 0 cannot reach its goal: there is no way from vertex 0 to vertex 3"},
+      {"\"goal\": 2", "\"goal\": 3", "f:14: agent 0 cannot get from vertex 0 to vertex 3"},
   };
   test::expect_refused(test::contents(test::data("fleet.json")), faults,
                        [](std::istream& in) { return read_instance_json(in, "f"); });
@@ -282,12 +281,15 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithLineAndReason) {
       {"\"radius\": 0.25", "\"polygon\": [[0, 0], [1, 0], [2, 0.0009]]",
        "f:11: /agents/1/polygon: polygon: three consecutive corners are on a line"},
       {"\"start\": 2", "\"start\": 9", "f:11: /agents/1/start: there is no vertex 9 among 4"},
-      {"\"start\": 2", "\"start\": 0", "f:11: the starts of agents 0 and 1 overlap"},
-      {"\"goal\": 0", "\"goal\": 2", "f:11: the goals of agents 0 and 1 overlap"},
-      {"0.3", "1.751", "f:11: the starts of agents 0 and 1 overlap"},
+      {"\"start\": 2", "\"start\": 0",
+       "f:11: the starts of agent 0 at vertex 0 and agent 1 at vertex 0 overlap"},
+      {"\"goal\": 0", "\"goal\": 2",
+       "f:11: the goals of agent 0 at vertex 2 and agent 1 at vertex 2 overlap"},
+      {"0.3", "1.751", "f:11: the starts of agent 0 at vertex 0 and agent 1 at vertex 2 overlap"},
       {"[0, 1], [1, 0], [1, 2]", "[0, 1], [1, 2]",
-       "f:11: agent 1 cannot reach its goal: there is no way from vertex 2 to vertex 0"},
-      {"\"speed\": 2", "\"speed\": 1000000", "f:11: edge 0 takes less than one tick"},
+       "f:11: agent 1 cannot get from vertex 2 to vertex 0"},
+      {"\"speed\": 2", "\"speed\": 1000000",
+       "f:11: the lane from vertex 0 to vertex 1 takes less than one tick"},
   };
   test::expect_refused(test::contents(test::data("discs.json")), faults,
                        [](std::istream& in) { return read_instance_json(in, "f"); });
