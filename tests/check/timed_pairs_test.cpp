@@ -144,7 +144,12 @@ Case draw(std::uint32_t seed) {
   asked.under_way_percent = 10;
   asked.obstacles_percent = 0;
   asked.max_radius = 6;
-  Case drawn{with_whole_places(random_instance(seed, asked)), {}, {}};
+  auto placed = in_whole_places(random_instance(seed, asked));
+  if (!placed) {  // too large: nobody is under way
+    asked.under_way_percent = 0;
+    placed = random_instance(seed, asked);
+  }
+  Case drawn{std::move(placed).value(), {}, {}};
   LimitMonitor limits({});
   Scene scene(drawn.instance, limits);
   const Roadmap& roadmap = drawn.instance.roadmap();

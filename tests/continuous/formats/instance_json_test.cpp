@@ -289,7 +289,8 @@ TEST(RoadmapJson, RefusesWhatIsWrongWithLineAndReason) {
       {"[0, 1], [1, 0], [1, 2]", "[0, 1], [1, 2]",
        "f:11: agent 1 cannot get from vertex 2 to vertex 0"},
       {"\"speed\": 2", "\"speed\": 1000000",
-       "f:11: the lane from vertex 0 to vertex 1 takes agent 1 less than one tick"},
+       "f:11: the lane from vertex 0 to vertex 1 takes agent 1 less than half a step of 0.001, or "
+       "too long"},
   };
   test::expect_refused(test::contents(test::data("discs.json")), faults,
                        [](std::istream& in) { return read_instance_json(in, "f"); });

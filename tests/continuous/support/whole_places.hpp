@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -15,7 +16,7 @@ namespace quadrille::continuous::test {
 /// coordinates: they are vertices as any other, and the rest of a move is an edge as any other. For
 /// oracles, which know nothing of places that are not whole. The places of the roadmap may be so
 /// many that a unit would be too small: then its `make` fails.
-[[nodiscard]] inline Instance with_whole_places(const Instance& instance) {
+[[nodiscard]] inline Result<Instance> in_whole_places(const Instance& instance) {
   const Roadmap& roadmap = instance.roadmap();
   if (roadmap.lane_places().empty()) return instance;
   std::int64_t scale = 1;
@@ -31,12 +32,16 @@ namespace quadrille::continuous::test {
     points[place.vertex.index()] = {between(from.x, to.x), between(from.y, to.y),
                                     between(from.z, to.z)};
   }
+  std::optional<Error> error;
   const auto larger = [&](const Body& body) -> Body {
     if (const auto* const disc = std::get_if<Disc>(&body)) return Disc{scale * disc->radius};
     std::vector<Point> corners;
     for (const Point& corner : std::get<ConvexPolygon>(body).vertices())
       corners.push_back(scaled(corner));
-    return ConvexPolygon::make(std::move(corners)).value();
+    auto polygon = ConvexPolygon::make(std::move(corners));
+    if (polygon) return std::move(polygon).value();
+    error = polygon.error();
+    return body;
   };
   std::vector<Edge> edges = roadmap.edges();
   for (Edge& edge : edges)
@@ -52,12 +57,16 @@ namespace quadrille::continuous::test {
     obstacle.body = larger(obstacle.body);
     for (MovingObstacle::Stop& stop : obstacle.path) stop.at = scaled(stop.at);
   }
-  return Instance::make(Roadmap::make(std::move(points), std::move(edges), {}, roadmap.shapes(),
-                                      roadmap.no_waiting())
-                            .value(),
-                        std::move(agents), instance.resolution(), {}, std::move(obstacles),
-                        instance.now())
-      .value();
+  auto made = Roadmap::make(std::move(points), std::move(edges), {}, roadmap.shapes(),
+                            roadmap.no_waiting());
+  if (error || !made) return error ? *error : made.error();
+  return Instance::make(std::move(made).value(), std::move(agents), instance.resolution(), {},
+                        std::move(obstacles), instance.now());
+}
+
+/// The same. Requires that nothing becomes too large.
+[[nodiscard]] inline Instance with_whole_places(const Instance& instance) {
+  return in_whole_places(instance).value();
 }
 
 }  // namespace quadrille::continuous::test
