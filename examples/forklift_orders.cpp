@@ -5,15 +5,12 @@
 #include <cstdio>
 #include <iostream>
 #include <numbers>
-#include <quadrille/continuous/nav_graph.hpp>
-#include <quadrille/continuous/quantise.hpp>
 #include <quadrille/execution/precedences.hpp>
 #include <quadrille/execution/releaser.hpp>
+#include <quadrille/fleet/nav_graph.hpp>
 #include <quadrille/fleet/pose_builder.hpp>
 #include <quadrille/fleet/solver.hpp>
 #include <string>
-#include <variant>
-#include <vector>
 
 using namespace quadrille;
 using namespace quadrille::fleet;
@@ -22,31 +19,6 @@ using namespace quadrille::units;
 namespace {
 
 constexpr Resolution kResolution{.length = 1_mm, .time = 100_ms};
-const continuous::Resolution kUnits{0.001, 0.1};
-
-/// The places and lanes of the graph in metres, with their names, limits and passthrough points.
-Result<Roadmap> read_places(const std::string& file) {
-  const auto graph = continuous::read_nav_graph(file, {kUnits, continuous::kUnitSpeed});
-  if (!graph) return graph.error();
-  const auto& roads = std::get<continuous::Roadmap>(graph->map);
-  std::vector<std::string> names(roads.num_vertices());
-  for (const auto& [name, vertex] : graph->names.places) names[vertex.index()] = name;
-  const auto metres = [](auto units) { return Metres(continuous::in_input_units(units, kUnits)); };
-  RoadmapBuilder builder(kResolution);
-  for (std::size_t v = 0; v < names.size(); ++v) {
-    const auto& at = roads.position(VertexId(v));
-    builder.vertex(metres(at.x), metres(at.y), names[v]);
-  }
-  for (const continuous::Edge& edge : roads.edges()) {
-    LaneSpec lane;
-    if (edge.speed_limit)
-      lane.speed_limit =
-          MetresPerSecond(continuous::speed_in_input_units(*edge.speed_limit, kUnits));
-    builder.lane(edge.from, edge.to, lane);
-  }
-  for (const VertexId v : roads.no_waiting()) builder.no_waiting(v);
-  return builder.build();
-}
 
 /// An order in JSON, of which `released` moves may be made at once. A turn is an edge between two
 /// nodes in one place. VDA 5050 has angles from -pi to pi.
@@ -78,7 +50,14 @@ std::string order(const TimedPath& path, const PoseRoadmap& poses, const Roadmap
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto places = read_places(argc > 1 ? argv[1] : "hall.nav.yaml");
+  // The places and lanes in metres, with their names, limits and passthrough points.
+  RoadmapBuilder roads(kResolution);
+  const auto added = add_nav_graph(roads, argc > 1 ? argv[1] : "hall.nav.yaml");
+  if (!added) {
+    std::cerr << added.error().to_string() << "\n";
+    return 1;
+  }
+  const auto places = roads.build();
   if (!places) {
     std::cerr << places.error().to_string() << "\n";
     return 1;

@@ -69,7 +69,7 @@ class PathCheck {
 
   [[nodiscard]] bool forbids_waiting(VertexId v) const {
     const std::vector<VertexId>& all = instance_.roadmap().no_waiting();
-    return std::find(all.begin(), all.end(), v) != all.end();
+    return std::binary_search(all.begin(), all.end(), v);
   }
 
   bool check_stops(const Path& path) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "quadrille/core/outcome.hpp"
 #include "quadrille/discrete/plan_improver.hpp"
 #include "quadrille/discrete/primal.hpp"
 #include "ruled/turning_order.hpp"
@@ -17,8 +16,6 @@ namespace {
 /// and the share of the search's effort that plans get beside it.
 constexpr Effort kMostFirst = Effort::microseconds(1'000'000), kSlice = Effort::microseconds(6'250);
 constexpr std::int64_t kMostAttempts = 32, kShare = 8;
-/// In per cent: while the gap is larger, plans get as much effort as the search.
-constexpr double kLargeGap = 2;
 /// Where agents turn, what so many orders of agents have not found is left to a plan without turns.
 constexpr std::int64_t kAttemptsWithTurns = 4;
 /// For making that plan cheaper before turns are added.
@@ -36,9 +33,9 @@ bool RuledSearch::is_first_plan_due() const {
 
 Effort RuledSearch::work() {
   const std::int64_t before = plans_.effort(), steps = steps_of_plans(kSlice);
-  if (!incumbent_.upper() && may_add_turns() && plans_.num_attempts() >= kAttemptsWithTurns) {
-    add_turns();
-  } else if (!incumbent_.upper()) {
+  if (!incumbent_.upper() && may_add_turns() && plans_.num_attempts() >= kAttemptsWithTurns)
+    return std::max(kSlice, add_turns());
+  if (!incumbent_.upper()) {
     if (plans_.num_attempts() < kLastAttempt && plans_.find(steps))
       incumbent_.offer(plans_.plan(), "prioritised");
   } else {
@@ -49,14 +46,14 @@ Effort RuledSearch::work() {
   return std::max(kSlice, effort_of_plans(plans_.effort() - before));
 }
 
-void RuledSearch::add_turns() {
+Effort RuledSearch::add_turns() {
   has_added_turns_ = true;
   Rules rules = instance_.rules();
   rules.turn = 0;
   const auto without = instance_.with_rules(std::move(rules));
-  if (!without || !without->is_plain()) return;
+  if (!without || !without->is_plain()) return {};
   const auto plan = find_plan(*without, limits_, seed_);
-  if (!plan) return;
+  if (!plan) return {};
   incumbent_.offer(with_turns(instance_, *plan), "turns added");
   // The less a plan jams, the fewer wait for those who turn.
   PlanImprover improver(*without, distances_, objective_, *plan, seed_);
@@ -64,13 +61,11 @@ void RuledSearch::add_turns() {
   for (std::int64_t k = 0; k < kSlicesWithoutTurns && !limits_.exhausted_now(); ++k)
     if (improver.improve(slice, limits_))
       incumbent_.offer(with_turns(instance_, improver.plan()), "turns added");
+  return effort_of_plans(improver.effort());
 }
 
 void RuledSearch::advance(Effort search_effort, const std::function<void()>& after_slice) {
-  const bool is_gap_large =
-      incumbent_.upper() && gap_percent(*incumbent_.upper(), incumbent_.lower()) > kLargeGap;
-  const Effort effort = search_effort - seen_effort_;
-  credit_ += is_gap_large ? effort : effort / kShare;
+  credit_ += (search_effort - seen_effort_) / kShare;
   seen_effort_ = search_effort;
   for (; credit_ >= kSlice && !incumbent_.are_closed(); after_slice()) credit_ -= work();
 }

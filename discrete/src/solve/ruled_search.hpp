@@ -37,7 +37,8 @@ class RuledSearch {
  private:
   [[nodiscard]] bool may_add_turns() const { return instance_.poses() && !has_added_turns_; }
   /// Where agents turn, and nothing else is asked of them: of a plan in which they need not.
-  void add_turns();
+  /// Returns what its improvement took.
+  Effort add_turns();
 
   const Instance& instance_;
   const std::shared_ptr<const GoalDistances> distances_;

@@ -17,7 +17,7 @@ namespace quadrille::fleet {
 /// How a nav graph is read.
 struct NavGraphOptions {
   std::string level = {};  ///< Of a building with several; empty: there has to be one.
-  /// Of the robots: lanes with a speed limit below it take all of them as long as that makes it.
+  /// Of the robots: to say at once that a lane takes too long at its limit.
   MetresPerSecond speed = MetresPerSecond(1);
 };
 
@@ -28,8 +28,9 @@ struct NavGraph {
   std::vector<std::string> notes;
 };
 
-/// Adds the vertices, with their names, and the lanes of a nav graph of Open-RMF, one level of a
-/// building (docs/formats-of-others.md). Places are rounded to the builder's resolution. Errors,
+/// Adds the vertices, with their names, and the lanes, with their speed limits, of a nav graph of
+/// Open-RMF, one level of a building (docs/formats-of-others.md); nobody waits at passthrough
+/// points. Places are rounded to the builder's resolution. Errors,
 /// with file and line: those of continuous::read_nav_graph; out_of_range for a speed that is not
 /// supported. What is refused adds nothing.
 [[nodiscard]] Result<NavGraph> add_nav_graph(RoadmapBuilder& roads,

@@ -71,12 +71,13 @@ struct RoadmapInput {
     return poses ? &poses->cells() : grid_or_null();
   }
 };
-/// Requires options that name a roadmap and pass check_roadmap_options. All rows of the task
-/// without `--agents`.
 /// A grid in continuous time: agents are discs of radius 0.35 cells, which take one unit of time
 /// for a move, and collide as on the grid when they move at the same time. Errors
-/// (invalid_instance): what is no grid, and agents with rules that there are on graphs only.
+/// (invalid_instance): what is no grid, and an instance with rules.
 [[nodiscard]] Result<RoadmapInput> as_roadmap(const GridInput& grid);
+
+/// Requires options that name a roadmap and pass check_roadmap_options. All rows of the task
+/// without `--agents`.
 [[nodiscard]] Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options,
                                                       const InputOptions& input);
 
