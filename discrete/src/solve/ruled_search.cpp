@@ -18,9 +18,8 @@ constexpr Effort kMostFirst = Effort::microseconds(1'000'000), kSlice = Effort::
 constexpr std::int64_t kMostAttempts = 32, kShare = 8;
 /// Where agents turn, what so many orders of agents have not found is left to a plan without turns.
 constexpr std::int64_t kAttemptsWithTurns = 4;
-/// For making that plan cheaper before turns are added.
-constexpr Effort kMostWithoutTurns = Effort::microseconds(4'000'000);
-constexpr std::int64_t kSlicesWithoutTurns = 16;
+/// For making that plan cheaper before turns are added, by its sum of costs; and in how many parts.
+constexpr std::int64_t kStepsByCost = 512, kParts = 16;
 /// What so many orders of agents have not found, others do not find either.
 constexpr std::int64_t kLastAttempt = 4096;
 
@@ -57,9 +56,9 @@ Effort RuledSearch::add_turns() {
   incumbent_.offer(with_turns(instance_, *plan), "turns added");
   // The less a plan jams, the fewer wait for those who turn.
   PlanImprover improver(*without, distances_, objective_, *plan, seed_);
-  const std::int64_t slice = steps_of_plans(kMostWithoutTurns) / kSlicesWithoutTurns;
-  for (std::int64_t k = 0; k < kSlicesWithoutTurns && !limits_.exhausted_now(); ++k)
-    if (improver.improve(slice, limits_))
+  const std::int64_t part = kStepsByCost * plan->cost(Objective::sum_of_costs) / kParts;
+  for (std::int64_t k = 0; k < kParts && !limits_.exhausted_now(); ++k)
+    if (improver.improve(part, limits_))
       incumbent_.offer(with_turns(instance_, improver.plan()), "turns added");
   return effort_of_plans(improver.effort());
 }
