@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <span>
 
+#include "quadrille/core/contract.hpp"
+
 namespace quadrille::discrete {
 
 using sat::Lit;
@@ -51,15 +53,41 @@ std::int64_t ExplicitPaths::size(AgentId agent, Timestep max_delay) const {
     const Timestep slack = d.from_start(v) + d.to_goal(v) - d.length();
     size += std::max(0, max_delay - slack + 1);
   }
-  return size;
+  if (!CommonEnd::is_needed(d)) return size;
+  Timestep longest = 0;
+  for (const VertexId goal : d.goals().vertices()) {
+    d.for_each_end(goal, [&](VertexId end) {
+      if (d.from_start(end) == kUnreachable) return;
+      const Timestep slack = d.from_start(end) + d.price(goal) - d.length();
+      size += std::max(0, max_delay - slack + 1);
+    });
+    longest = std::max(longest, d.price(goal));
+  }
+  return size + std::int64_t{longest + 1} * (max_delay + 1);
+}
+
+const Graph& ExplicitPaths::graph(AgentId agent) const {
+  const std::optional<CommonEnd>& common = agents_[agent].common;
+  return common ? common->graph() : model_.distances(agent).states();
+}
+
+void ExplicitPaths::make_paths(AgentId agent) {
+  Agent& a = agents_[agent];
+  const AgentDistances& d = model_.distances(agent);
+  VertexId end;
+  if (CommonEnd::is_needed(d)) {
+    end = a.common.emplace(d).home();
+  } else {
+    d.for_each_end(d.goals().only(), [&](VertexId state) { end = state; });
+  }
+  a.paths.emplace(graph(agent), discrete::Agent{d.start_state(), end});
+  QUADRILLE_REQUIRE(a.paths->mdd().distance() == d.length() + (a.common ? kWayHome : 0),
+                    "delays count from the same length");
 }
 
 void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer) {
   Agent& a = agents_[agent];
-  // The clauses of MddPaths lead to one goal, without a price.
   const AgentDistances& d = model_.distances(agent);
-  const Goals& goals = model_.instance().agents()[agent].goals;
-  if (!d.has_one_end() || model_.price(goals.only()) > 0) return;
   if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
   const Timestep delay = cap - d.length();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;
@@ -68,13 +96,9 @@ void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& wr
     a.next_look = 2 * a.num_lemmas;
     return;
   }
-  const Graph& graph = d.states();
-  if (!a.paths)
-    d.for_each_end(goals.only(), [&](VertexId end) {
-      a.paths.emplace(graph, discrete::Agent{d.start_state(), end});
-    });
+  if (!a.paths) make_paths(agent);
   AgentFormula formula(model_, agent, writer);
-  if (!a.paths->extend(graph, delay, formula, nullptr)) {
+  if (!a.paths->extend(graph(agent), delay, formula, nullptr)) {
     a.next_look = INT64_MAX;
     return;
   }
@@ -84,7 +108,7 @@ void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& wr
 
 Lit ExplicitPaths::gone(AgentId agent, VertexId state, Timestep t, FormulaWriter& writer) {
   const AgentDistances& d = model_.distances(agent);
-  if (!d.leaves() || !d.is_goal(state) || t <= d.free_cost()) return {};
+  if (agents_[agent].common || !d.leaves() || !d.is_goal(state) || t <= d.free_cost()) return {};
   return ~model_.cost_above(agent, t - 1, writer);
 }
 
@@ -111,6 +135,13 @@ void ExplicitPaths::add_bans(AgentId agent, Timestep old_cap, FormulaWriter& wri
             before.valid() && d.is_step_banned(d.place(u), d.place(v), t - 1))
           add({~before, ~here});
     }
+  if (!agents_[agent].common) return;
+  for (const CommonEnd::End& end : agents_[agent].common->ends())
+    for (Timestep slack = old_cap + 1; slack <= paths.cap(); ++slack) {
+      const Timestep t = paths.mdd().timestep(end.rest, slack);
+      const Lit here = paths.at(end.rest, t);
+      if (here.valid() && t - 1 < d.may_rest_from(end.goal)) add({~here});
+    }
 }
 
 void ExplicitPaths::link_new_obstacles(FormulaWriter& writer) {
@@ -122,10 +153,31 @@ void ExplicitPaths::link_new_obstacles(FormulaWriter& writer) {
   }
 }
 
+// Of who leaves only where it ends counts.
+void ExplicitPaths::link_rests(AgentId agent, const Obstacle& obstacle, Timestep old_cap,
+                               FormulaWriter& writer) {
+  const MddPaths& paths = *agents_[agent].paths;
+  const bool is_about_ends =
+      obstacle.kind == Obstacle::Kind::end || obstacle.kind == Obstacle::Kind::elsewhere;
+  if (model_.distances(agent).leaves() && !is_about_ends) return;
+  for (const CommonEnd::End& end : agents_[agent].common->ends()) {
+    const Timestep last = model_.obstacles().last_block(obstacle, end.goal);
+    for (Timestep slack = old_cap + 1; slack <= paths.cap(); ++slack) {
+      const Timestep t = paths.mdd().timestep(end.rest, slack);
+      if (t - 1 > last) break;
+      const Lit here = paths.at(end.rest, t);
+      if (!here.valid()) continue;
+      const std::array clause{~here, obstacle.allowed};
+      writer.add({sat::why::ExplicitPath{agent}, clause, {}, false});
+    }
+  }
+}
+
 void ExplicitPaths::link(AgentId agent, ObstacleId id, Timestep old_cap, FormulaWriter& writer) {
   const MddPaths& paths = *agents_[agent].paths;
   const AgentDistances& d = model_.distances(agent);
   const Obstacle o = model_.obstacles()[id];
+  if (agents_[agent].common) link_rests(agent, o, old_cap, writer);
   const auto is_new = [&](VertexId v, Timestep t) { return paths.mdd().slack(v, t) > old_cap; };
   // Of a state.
   const auto visit = [&](VertexId v, Timestep t) {
@@ -163,7 +215,7 @@ void ExplicitPaths::link(AgentId agent, ObstacleId id, Timestep old_cap, Formula
         d.for_each_state(v.vertex, [&](VertexId state) { visit(state, v.timestep); });
       break;
     case Obstacle::Kind::end:
-    case Obstacle::Kind::elsewhere:  // path lemmas say what follows
+    case Obstacle::Kind::elsewhere:
       break;
   }
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lazy/common_end.hpp"
 #include "lazy/lazy_model.hpp"
 #include "mdd/mdd_paths.hpp"
 #include "quadrille/core/settings.hpp"
@@ -18,8 +19,7 @@ namespace quadrille::discrete {
 ///
 /// X(v,t) implies all usage literals of obstacles that (v,t) is part of, so the explicit paths keep
 /// off all that the theory's paths keep off. All clauses hold in every plan: they are redundant.
-/// Agents whose goals are several or have prices have none, nor have those that turn where they are
-/// to stay: they may end in two states.
+/// The paths of an agent that may end in several states, or at a price, lead to a common end.
 class ExplicitPaths {
  public:
   /// As many `variables` are worth as many path `lemmas`, at least 1. No variables: no explicit
@@ -41,6 +41,7 @@ class ExplicitPaths {
     std::int64_t num_lemmas = 0;
     std::int64_t next_look = 0;         // number of lemmas
     std::optional<MddPaths> paths;      // absent: not explicit
+    std::optional<CommonEnd> common;    // absent: it has one end
     std::vector<ObstacleId> obstacles;  // of this agent
   };
   class AgentFormula;
@@ -48,11 +49,16 @@ class ExplicitPaths {
   // Delays count from the length of the way to the goal, as those of MddPaths do.
 
   [[nodiscard]] std::int64_t size(AgentId agent, Timestep max_delay) const;
+  void make_paths(AgentId agent);
+  [[nodiscard]] const Graph& graph(AgentId agent) const;
   /// X is false where rules forbid to be, for X beyond the delay `old_cap`.
   void add_bans(AgentId agent, Timestep old_cap, FormulaWriter& writer);
   /// Of an agent that leaves: "it arrives before `t`", for its goal, where X stays true when it is
   /// gone. Invalid: X means by itself that it is there.
   [[nodiscard]] sat::Lit gone(AgentId agent, VertexId state, Timestep t, FormulaWriter& writer);
+  /// Being at rest implies what the obstacle's literal says, likewise, for an agent with a common
+  /// end.
+  void link_rests(AgentId agent, const Obstacle& obstacle, Timestep old_cap, FormulaWriter& writer);
   /// X implies what the obstacle's literal says, for X beyond the delay `old_cap`.
   void link(AgentId agent, ObstacleId id, Timestep old_cap, FormulaWriter& writer);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "lazy/common_end.hpp"
+
 namespace quadrille::discrete {
 
 using sat::Lit;
@@ -95,6 +97,7 @@ std::string LazyAuditor::audit_path(const sat::Lemma& lemma, AgentId agent) cons
 // No path may do the opposite of everything that the clause says.
 std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
   Demand demand;
+  std::vector<Visit> elsewhere;  // where the clause says that it is
   const auto avoid_range = [&](VertexId v, Timestep first, Timestep last) {
     demand.avoided.push_back({Kind::range, agent, {}, v, {}, first, last, 0, 0});
   };
@@ -104,10 +107,7 @@ std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
       if (var.agent != agent) return "a clause is about the explicit paths of two agents";
       const Visit visit = model_.visit(var);
       demand.horizon = std::max(demand.horizon, visit.timestep);
-      if (lit.positive())
-        avoid_range(visit.vertex, visit.timestep, visit.timestep);
-      else
-        demand.visits.push_back(visit);
+      (lit.positive() ? elsewhere : demand.visits).push_back(visit);
     } else if (lit.positive() || var.kind == VariableKind::auxiliary) {
       return "explicit paths are bound to what is false";
     } else if (var.kind == VariableKind::usage) {
@@ -123,7 +123,47 @@ std::string LazyAuditor::audit_explicit(Clause clause, AgentId agent) const {
       avoid_range(goal, rests_from(var, goal), kForever);
     }
   }
-  return has_path(agent, demand) ? "some path does not satisfy a clause about explicit paths" : "";
+  bool holds = false;
+  if (CommonEnd::is_needed(model_.distances(agent))) {
+    holds = !has_way_home(agent, demand, elsewhere);
+  } else {
+    for (const Visit& visit : elsewhere) avoid_range(visit.vertex, visit.timestep, visit.timestep);
+    holds = !has_path(agent, demand);
+  }
+  return holds ? "" : "some path does not satisfy a clause about explicit paths";
+}
+
+/// As has_path, where visits are those of an explicit path to a common end.
+bool LazyAuditor::has_way_home(AgentId agent, const Demand& demand,
+                               std::span<const Visit> elsewhere) const {
+  const AgentDistances& d = model_.distances(agent);
+  const CommonEnd common(d);
+  const auto try_end = [&](const CommonEnd::End& end, Timestep arrives) {
+    Demand way{demand.avoided, {}, {}, 0};
+    const auto is_behind = [&](const Visit& visit) { return visit.timestep > arrives; };
+    const auto is_there = [&](const Visit& visit) {
+      return visit.vertex == common.state_at(end, arrives, d.price(end.goal), visit.timestep);
+    };
+    for (const Visit& visit : demand.visits) {
+      if (is_behind(visit) && !is_there(visit)) return false;
+      if (!is_behind(visit)) way.visits.push_back(visit);
+    }
+    for (const Visit& visit : elsewhere) {
+      if (is_behind(visit) && is_there(visit)) return false;
+      if (is_behind(visit)) continue;
+      way.avoided.push_back(
+          {Kind::point, agent, {}, visit.vertex, {}, visit.timestep, visit.timestep, 0, 0});
+    }
+    return has_path_until(arrives, agent, way, end.goal, true);
+  };
+  // Who arrives later than that can do so wherever it is when the clause has no more to say.
+  const Timestep late = demand.horizon + static_cast<Timestep>(d.graph().num_vertices());
+  for (const CommonEnd::End& end : common.ends()) {
+    const Timestep latest = std::min(demand.bound.value_or(kForever) - d.price(end.goal), late);
+    for (Timestep arrives = 0; arrives <= latest; ++arrives)
+      if (try_end(end, arrives)) return true;
+  }
+  return false;
 }
 
 /// From when on an agent rests there that costs no more than the variable says.
@@ -140,9 +180,9 @@ bool LazyAuditor::has_path(AgentId agent, const Demand& demand) const {
   });
 }
 
-/// Ends at the goal then, or anywhere.
+/// Ends at the goal then, and not before if `from_then`, or anywhere.
 bool LazyAuditor::has_path_until(Timestep end, AgentId agent, const Demand& demand,
-                                 std::optional<VertexId> goal) const {
+                                 std::optional<VertexId> goal, bool from_then) const {
   if (end < 0) return false;
   const Graph& graph = model_.instance().graph();
   const Agent& task = model_.instance().agents()[agent];
@@ -163,7 +203,8 @@ bool LazyAuditor::has_path_until(Timestep end, AgentId agent, const Demand& dema
     IdVector<VertexId, bool> next(graph.num_vertices(), false);
     for (const VertexId v : IdRange<VertexId>(graph.num_vertices())) {
       if (!here[v]) continue;
-      if (visit_allowed(v, t + 1)) next[v] = true;
+      const bool may_stay = !from_then || t + 1 < end || v != goal;
+      if (may_stay && visit_allowed(v, t + 1)) next[v] = true;
       for (const VertexId w : graph.neighbours(v))
         if (visit_allowed(w, t + 1) && move_allowed(v, w, t)) next[w] = true;
     }
@@ -314,13 +355,25 @@ std::optional<bool> LazyAuditor::find_in_plan(Lit lit) const {
     case VariableKind::rest:
       return (path.back() == var.goal && cost < var.cost) == lit.positive();
     case VariableKind::own:
-      return (model_.distances(var.agent).state_at(path, model_.visit(var).timestep) ==
+      return (explicit_state(var.agent, path, model_.visit(var).timestep) ==
               model_.visit(var).vertex) == lit.positive();
     case VariableKind::left_over:
     case VariableKind::auxiliary:
       break;
   }
   return std::nullopt;
+}
+
+/// Where the explicit path of an agent is that has this path.
+VertexId LazyAuditor::explicit_state(AgentId agent, const Path& path, Timestep t) const {
+  const AgentDistances& d = model_.distances(agent);
+  const auto arrives = static_cast<Timestep>(arrival(path));
+  if (t <= arrives || !CommonEnd::is_needed(d)) return d.state_at(path, t);
+  const CommonEnd common(d);
+  const VertexId last = d.state_at(path, arrives);
+  const auto end = std::find_if(common.ends().begin(), common.ends().end(),
+                                [&](const CommonEnd::End& e) { return e.state == last; });
+  return common.state_at(*end, arrives, d.price(end->goal), t);
 }
 
 std::string LazyAuditor::describe(Clause clause) const {
@@ -332,9 +385,12 @@ std::string LazyAuditor::describe(Clause clause) const {
     text += lit.positive() != is_negated ? " +" : " -";
     if (var.kind == VariableKind::own) {
       const Visit visit = model_.visit(var);
-      const VertexId place = model_.distances(var.agent).place(visit.vertex);
-      text += "at(" + agent + "," + vertex_name(model_.instance().graph(), place) + "," +
-              std::to_string(visit.timestep) + ")";
+      const AgentDistances& d = model_.distances(var.agent);
+      const bool is_home = visit.vertex.index() >= d.states().num_vertices();
+      text += "at(" + agent + "," +
+              (is_home ? "home " + std::to_string(visit.vertex.index())
+                       : vertex_name(model_.instance().graph(), d.place(visit.vertex))) +
+              "," + std::to_string(visit.timestep) + ")";
     } else if (var.kind == VariableKind::auxiliary) {
       text += "v" + std::to_string(lit.variable());
     } else if (var.kind == VariableKind::left_over) {

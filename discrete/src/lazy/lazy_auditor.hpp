@@ -42,8 +42,11 @@ class LazyAuditor final : public sat::ClauseAuditor {
     Timestep horizon = 0;
   };
   [[nodiscard]] bool has_path(AgentId agent, const Demand& demand) const;
+  [[nodiscard]] bool has_way_home(AgentId agent, const Demand& demand,
+                                  std::span<const Visit> elsewhere) const;
   [[nodiscard]] bool has_path_until(Timestep end, AgentId agent, const Demand& demand,
-                                    std::optional<VertexId> goal) const;
+                                    std::optional<VertexId> goal, bool from_then = false) const;
+  [[nodiscard]] VertexId explicit_state(AgentId agent, const Path& path, Timestep t) const;
   [[nodiscard]] Timestep rests_from(const LazyModel::Variable& variable, VertexId goal) const;
   /// True if the agents can move from their starts so that they do not collide and each makes all
   /// of its usages. At most four usages.

@@ -24,28 +24,15 @@ using quadrille::support::only_system;
 using quadrille::support::scaled;
 
 struct Count {
-  int solved = 0, infeasible = 0, puzzles = 0;
+  int solved = 0, infeasible = 0;
 };
-
-/// Agents that have to get out of each other's way again and again: the lazy system, which has no
-/// explicit paths to several goals, may take minutes for four of them on five vertices.
-bool is_puzzle(const Instance& instance, const JointAnswer& expected) {
-  if (expected.status != Status::optimal) return false;
-  Cost ways = 0;
-  for (const Agent& task : instance.agents())
-    ways += distances_to_nearest(instance.graph(), task.goals)[task.start];
-  return expected.plan.cost(Objective::sum_of_costs) > ways + 16;
-}
 
 void compare(const Instance& instance, Random& random, const std::string& origin, Count& count) {
   const Objective objective = random.percent(60) ? Objective::sum_of_costs : Objective::makespan;
   const JointAnswer expected = joint_search(instance, objective);
   ASSERT_NE(expected.status, Status::unknown) << origin;
   count.infeasible += expected.status == Status::infeasible ? 1 : 0;
-  const bool puzzle = is_puzzle(instance, expected);
-  count.puzzles += puzzle ? 1 : 0;
   for (const TunedOptions& options : random_systems(random, objective)) {
-    if (puzzle && (options.system == System::dpll || options.threads > 1)) continue;
     if (!only_system().empty() && to_string(options.system) != only_system()) continue;
     const std::string fault = solve_and_compare(instance, options, expected, origin);
     ASSERT_EQ(fault, "") << fault;
@@ -67,7 +54,6 @@ void run_shard(const char* name, int shard, std::size_t cases, const Draw& draw)
   }
   testing::Test::RecordProperty("solved", count.solved);
   testing::Test::RecordProperty("infeasible", count.infeasible);
-  testing::Test::RecordProperty("puzzles", count.puzzles);
 }
 
 class GoalSets : public testing::TestWithParam<int> {};
