@@ -173,6 +173,9 @@ class CaseReader {
     } else if (key == "first-turn" && !value.empty() && value.size() < 10 &&
                value.find_first_not_of("0123456789") == std::string::npos) {
       options_->first_turn = std::stol(value);
+    } else if (key == "first-explicit" && !value.empty() && value.size() < 10 &&
+               value.find_first_not_of("0123456789") == std::string::npos) {
+      options_->first_explicit = std::stol(value);
     } else if (key == "round" && !value.empty() && value.size() < 10 &&
                value.find_first_not_of("0123456789") == std::string::npos && std::stol(value) > 0) {
       options_->round = std::stol(value);
@@ -288,6 +291,8 @@ std::string options_text(const TunedOptions& options) {
     text += *options.lazy.chronological ? " chronological" : " not-chronological";
   if (options.round) text += " round=" + std::to_string(*options.round);
   if (options.first_turn) text += " first-turn=" + std::to_string(*options.first_turn);
+  if (options.first_explicit)
+    text += " first-explicit=" + std::to_string(*options.first_explicit);
   if (options.open) text += *options.open ? " open" : " not-open";
   if (!options.first_plan) text += " no-first-plan";
   if (options.debug.audit) text += " audit";

@@ -42,6 +42,8 @@ CheckSchedule random_fractions(Random& random) {
 void randomise(Random& random, std::vector<TunedOptions>& systems) {
   for (TunedOptions& options : systems) {
     options.seed = random.percent(50) ? 0 : static_cast<std::uint32_t>(random.below(2'000'000'001));
+    if (options.seed % 2 == 1)
+      options.first_explicit = static_cast<std::int64_t>(options.seed / 2 % 8);
     options.mdd.growth = random.percent(50) ? MddGrowth::on_demand : MddGrowth::full;
     if (random.percent(50))
       options.cost_search = random.percent(50) ? CostSearch::iterative : CostSearch::core_guided;

@@ -12,11 +12,6 @@ namespace quadrille::discrete {
 
 using sat::Lit;
 
-namespace {
-/// Lemmas of an agent before its explicit paths are considered.
-constexpr std::int64_t kFirstLook = 64;
-}  // namespace
-
 class ExplicitPaths::AgentFormula final : public MddPaths::Formula {
  public:
   AgentFormula(LazyModel& model, AgentId agent, FormulaWriter& writer)
@@ -88,7 +83,7 @@ void ExplicitPaths::make_paths(AgentId agent) {
 void ExplicitPaths::on_path_lemma(AgentId agent, Timestep cap, FormulaWriter& writer) {
   Agent& a = agents_[agent];
   const AgentDistances& d = model_.distances(agent);
-  if (++a.num_lemmas < std::max(kFirstLook, a.next_look) || cap == kForever) return;
+  if (++a.num_lemmas < std::max(price_.first_look, a.next_look) || cap == kForever) return;
   const Timestep delay = cap - d.length();
   const Timestep old_cap = a.paths ? a.paths->cap() : -1;
   if (delay <= old_cap) return;

@@ -23,9 +23,10 @@ namespace quadrille::discrete {
 class ExplicitPaths {
  public:
   /// As many `variables` are worth as many path `lemmas`, at least 1. No variables: no explicit
-  /// paths.
+  /// paths. An agent has `first_look` lemmas before they are considered.
   struct Price {
     std::int64_t variables = Settings().explicit_variables, lemmas = Settings().explicit_lemmas;
+    std::int64_t first_look = 64;
   };
   /// `model` outlives this.
   ExplicitPaths(LazyModel& model, Price price)
