@@ -35,6 +35,13 @@ void CollisionTheory::on_assign(std::span<const Lit> newly_true) {
 }
 
 void CollisionTheory::on_retract(std::size_t kept) {
+  leave(kept);
+  stack_.resize(kept);
+  // A share that is passed again is checked again.
+  stages_done_ = std::min(stages_done_, stage(kept, num_variables_));
+}
+
+void CollisionTheory::leave(std::size_t kept) {
   while (entered_.size() > kept) {
     const Entered& last = entered_.back();
     const auto var = model_.variable(last.lit);
@@ -42,9 +49,6 @@ void CollisionTheory::on_retract(std::size_t kept) {
       occupant_.at(var.vertex, var.number) = last.previous;
     entered_.pop_back();
   }
-  stack_.resize(kept);
-  // A share that is passed again is checked again.
-  stages_done_ = std::min(stages_done_, stage(kept, num_variables_));
 }
 
 std::size_t CollisionTheory::stage(std::size_t assigned, std::size_t variables) const {
@@ -71,7 +75,10 @@ void CollisionTheory::check(sat::Extent extent, sat::TheoryContext& context) {
     check_paths(context);
   } else if (is_due(context)) {
     ++num_checks_;
-    enter_all(context);
+    if (schedule_.kind == CheckSchedule::Kind::fractions)
+      check_walks(context);
+    else
+      enter_all(context);
   }
 }
 
@@ -84,6 +91,20 @@ void CollisionTheory::enter_all(sat::TheoryContext& context) {
     else
       enter_early_rest(lit, context);
   }
+}
+
+void CollisionTheory::check_walks(sat::TheoryContext& context) {
+  const auto is_true = [&](Lit lit) { return context.value(lit) == Truth::is_true; };
+  for (const AgentId i : model_.instance().agent_ids()) {
+    if (!model_.has_path(i, is_true)) continue;
+    const Path walk = model_.extract_walk(i, is_true);
+    for (std::size_t t = 0; t < walk.size(); ++t) {
+      const Lit x = model_.at(i, walk[t], static_cast<Timestep>(t));
+      entered_.push_back({x, Lit()});
+      enter(x, context);
+    }
+  }
+  leave(0);
 }
 
 void CollisionTheory::enter(Lit x, sat::TheoryContext& context) {

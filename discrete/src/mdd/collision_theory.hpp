@@ -49,6 +49,12 @@ class CollisionTheory final : public sat::Theory {
   /// Number of fractions of the schedule that `assigned` of `variables` reaches.
   [[nodiscard]] std::size_t stage(std::size_t assigned, std::size_t variables) const;
   void enter_all(sat::TheoryContext& context);
+  /// Looks for collisions of what agents do from their starts on, as far as that is known. X
+  /// literals that are true besides are left over from other assignments: a model may have any
+  /// number of them, and no path uses them.
+  void check_walks(sat::TheoryContext& context);
+  /// Undoes `enter` of all but the first `kept`.
+  void leave(std::size_t kept);
   void enter(sat::Lit x, sat::TheoryContext& context);
   void enter_early_rest(sat::Lit not_late, sat::TheoryContext& context);
   void enter_end(const MddModel::Variable& var, sat::TheoryContext& context);
@@ -64,7 +70,7 @@ class CollisionTheory final : public sat::Theory {
   CheckSchedule schedule_;
   CollisionClauses clauses_;
   std::vector<sat::Lit> stack_;
-  std::vector<Entered> entered_;             // a prefix of stack_
+  std::vector<Entered> entered_;             // a prefix of stack_; with fractions nobody for long
   CellTable<sat::Lit> occupant_;             // the last entered X literal of each cell
   CellTable<std::vector<sat::Lit>> rivals_;  // propagate: all X literals of each cell
   int rivals_end_ = 0;                       // variables below are in rivals_

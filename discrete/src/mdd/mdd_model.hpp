@@ -107,13 +107,18 @@ class MddModel {
   /// `is_true(Lit)` tells the assignment.
   template <class IsTrue>
   [[nodiscard]] Path extract_path(AgentId agent, const IsTrue& is_true) const {
+    Path path = extract_walk(agent, is_true);
+    QUADRILLE_REQUIRE(
+        static_cast<Timestep>(path.size()) > agents_[agent].paths.mdd().distance() + cap(agent),
+        "a true vertex has a true successor");
+    QUADRILLE_REQUIRE(is_end(agent, path.back(), is_true), "the guard forces a goal");
+    path.resize(static_cast<std::size_t>(arrival(path)) + 1);
+    return path;
+  }
+  /// As far as a partial assignment says where the agent goes, from timestep 0 on.
+  template <class IsTrue>
+  [[nodiscard]] Path extract_walk(AgentId agent, const IsTrue& is_true) const {
     const Mdd& mdd = agents_[agent].paths.mdd();
-    // Where several goals are called its end, it ends at the one that it comes to.
-    const auto is_end = [&](VertexId v) {
-      if (!mdd.is_goal(v)) return false;
-      const sat::Lit end = end_at(agent, v);
-      return !end.valid() || is_true(end);
-    };
     const Timestep end = mdd.distance() + cap(agent);
     Path path{mdd.task().start};
     for (Timestep t = 1; t <= end; ++t) {
@@ -123,15 +128,13 @@ class MddModel {
         return lit.valid() && is_true(lit);
       };
       std::optional<VertexId> next;
-      if (can_be(from) && is_end(from)) next = from;
+      if (can_be(from) && is_end(agent, from, is_true)) next = from;
       for (const VertexId w : instance_.graph().neighbours(from))
         if (!next && can_be(w)) next = w;
       if (!next && can_be(from)) next = from;
-      QUADRILLE_REQUIRE(next.has_value(), "a true vertex has a true successor");
+      if (!next) break;
       path.push_back(*next);
     }
-    QUADRILLE_REQUIRE(is_end(path.back()), "the guard forces a goal");
-    path.resize(static_cast<std::size_t>(arrival(path)) + 1);
     return path;
   }
 
@@ -142,6 +145,13 @@ class MddModel {
     std::vector<sat::Lit> ends;  // by goal; empty if there is one only
   };
   class AgentFormula;
+  /// Where several goals are called its end, it ends at the one that it comes to.
+  template <class IsTrue>
+  [[nodiscard]] bool is_end(AgentId agent, VertexId v, const IsTrue& is_true) const {
+    if (!agents_[agent].paths.mdd().is_goal(v)) return false;
+    const sat::Lit end = end_at(agent, v);
+    return !end.valid() || is_true(end);
+  }
   [[nodiscard]] sat::Lit new_lit(const Variable& variable);
   void prepare_rest(AgentId agent, VertexId v, Timestep t);
   /// The clauses of the agent's own rules, over literals of layers beyond `old_cap`.
