@@ -9,13 +9,13 @@ namespace quadrille::sat {
 Verdict find_plan(const CostSearchContext& context, std::span<const Lit> assumptions,
                   std::optional<std::int64_t> conflicts) {
   LimitMonitor& limits = context.limits;
+  // Each slice begins with a restart: of a long question there are few.
   Effort slice = Effort::microseconds(context.settings.question_slice);
   const std::int64_t end = limits.conflicts() + conflicts.value_or(0);
   context.problem.on_solve(true);
   while (true) {
     SolveBudget budget;
     budget.effort = slice;
-    const std::int64_t conflicts_before = limits.conflicts();
     const Effort slice_end = context.engine.effort() + slice;
     if (conflicts)
       budget.conflicts = static_cast<int>(
@@ -28,8 +28,7 @@ Verdict find_plan(const CostSearchContext& context, std::span<const Lit> assumpt
       return verdict;
     }
     const bool is_slice_over = context.engine.effort() >= slice_end;
-    // Each slice begins from nothing: it has to be long enough to get anywhere.
-    if (limits.conflicts() == conflicts_before) slice = 2 * slice;
+    slice = 2 * slice;
     if (!is_slice_over || (conflicts && limits.conflicts() >= end)) return verdict;
     context.yield_point.yield();
     if (limits.exhausted_now() || context.bounds.are_closed()) return verdict;
