@@ -48,7 +48,7 @@ _quadrille() {
     return
   fi
 
-  local instance="--map --scen --agents --instance --passable --blocked --share-goals --leave --robust
+  local instance="--map --scen --agents --instance --passable --blocked --share-goals --leave --robust --whole-moves
     --roadmap --task --radius --speed --neighbourhood --level --vehicle-type --resolution --overlap-at-start --headings
     --turn"
   local options=

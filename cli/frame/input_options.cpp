@@ -78,6 +78,10 @@ void add_input_options(CLI::App& app, InputOptions& options) {
               "On grids and graphs: nobody is in a place within K timesteps after another agent")
       ->type_name("K")
       ->group(group);
+  app.add_flag("--whole-moves", options.whole_moves,
+               "Plans for systems that release whole moves: moves that cross are never under way\n"
+               "at the same time; on grids and graphs that is --robust 1")
+      ->group(group);
 }
 
 void add_roadmap_options(CLI::App& app, RoadmapOptions& options) {

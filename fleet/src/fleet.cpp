@@ -243,7 +243,7 @@ Result<continuous::Instance> Fleet::instance() const {
   if (!parts) return parts.error();
   auto instance = continuous::Instance::make(parts->roads, parts->agents, roadmap_.unit_sizes(), {},
                                              parts->obstacles, parts->now);
-  if (instance) return instance;
+  if (instance) return instance->with_whole_moves(whole_moves_);
   return continuous::in_words(instance.error(), parts->roads, parts->agents, roadmap_.unit_sizes(),
                               parts->obstacles, parts->now, words());
 }

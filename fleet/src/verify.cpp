@@ -55,6 +55,10 @@ std::string message(const Fleet& fleet, const continuous::Violation& violation,
     case Kind::collision:
       return robot + "and '" + fleet.name(violation.other.value_or(violation.agent)) +
              "' collide at " + when;
+    case Kind::whole_moves:
+      return robot + "and '" + fleet.name(violation.other.value_or(violation.agent)) +
+             "' are under way at " + when +
+             " on moves that cross, and moves are released as a whole";
     default:
       return violation.message;
   }

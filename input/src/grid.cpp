@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "quadrille/input/grid.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -25,11 +26,12 @@ std::string name_other_map(const discrete::Scenario& scenario, const std::string
 /// With the rules that options give to all agents.
 Result<discrete::Instance> with_rules(const discrete::Instance& instance,
                                       const InputOptions& options) {
-  if (!options.leave && !options.robust) return instance;
+  if (!options.leave && !options.robust && !options.whole_moves) return instance;
   std::vector<discrete::Agent> agents(instance.agents().begin(), instance.agents().end());
   for (discrete::Agent& agent : agents) agent.leaves = agent.leaves || options.leave;
   discrete::Rules rules = instance.rules();
   if (options.robust) rules.robust = static_cast<Timestep>(*options.robust);
+  if (options.whole_moves) rules.robust = std::max(rules.robust, Timestep{1});
   return discrete::Instance::make(instance.shared_graph(), std::move(agents), instance.now(),
                                   std::move(rules));
 }

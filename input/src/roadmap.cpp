@@ -277,11 +277,9 @@ std::string why_no_roadmap(const RoadmapOptions& options) {
          "belong to --roadmap";
 }
 
-Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const InputOptions& input) {
-  if (options.headings) return read_turning(options, input);
-  if (options.roadmap.empty())
-    return is_robot_runners(*input.instance_text) ? read_robot_problem(input)
-                                                  : read_instance(input);
+namespace {
+
+Result<RoadmapInput> load_roadmap(const RoadmapOptions& options, const InputOptions& input) {
   const auto numbers = quantise(options);
   if (!numbers) return numbers.error();
   auto map = read_map(options.roadmap, input.letters,
@@ -334,6 +332,17 @@ Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const Inp
   if (map->names.are_ids)
     for (const std::string& id : map->names.of_vertices)
       read.names.vertices.push_back(text::quoted_json(id));
+  return read;
+}
+
+}  // namespace
+
+Result<RoadmapInput> load_roadmap_input(const RoadmapOptions& options, const InputOptions& input) {
+  auto read = options.headings                         ? read_turning(options, input)
+              : !options.roadmap.empty()               ? load_roadmap(options, input)
+              : is_robot_runners(*input.instance_text) ? read_robot_problem(input)
+                                                       : read_instance(input);
+  if (read && input.whole_moves) read->instance = read->instance.with_whole_moves();
   return read;
 }
 

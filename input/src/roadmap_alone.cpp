@@ -37,7 +37,7 @@ Result<RoadmapInput> with_agents_of(RoadmapInput input, const continuous::Plan& 
   auto instance = continuous::Instance::make(input.instance.shared_roadmap(), std::move(agents),
                                              input.instance.resolution(), {}, {}, now);
   if (!instance) return Error{ErrorCode::invalid_plan, instance.error().message, {file, 0}};
-  input.instance = std::move(instance).value();
+  input.instance = instance->with_whole_moves(input.instance.has_whole_moves());
   input.task_source = file;
   input.rows = input.instance.num_agents();
   return input;

@@ -63,6 +63,8 @@ class Fleet(Immutable, Generic[P]):
         obstacles: On roadmaps: ``Obstacle`` s, of which agents keep clear.
         robust: On grids and graphs: nobody is in a place within so many timesteps after another agent
             was there; 1: nobody follows another one closely. Default 0.
+        whole_moves: Plans are for systems that release whole moves, such as VDA 5050: moves that cross
+            are never under way at the same time. On grids and graphs that is ``robust=1``. Default false.
         names: n names for the agents, which plans and tables show; default "0", "1", ...
         now: When the agents are at their starts: a timestep, 0 to 1,000,000,000, on roadmaps a time in
             your unit, rounded to the nearest tick. All times, those of plans too, are those of the
@@ -93,6 +95,7 @@ class Fleet(Immutable, Generic[P]):
         deadline: Any = None,
         leaves: Optional[npt.ArrayLike] = None,
         robust: int = 0,
+        whole_moves: bool = False,
         names: Optional[Sequence[str]] = None,
         now: int = 0,
     ) -> None: ...
@@ -113,6 +116,7 @@ class Fleet(Immutable, Generic[P]):
         leaves: Optional[npt.ArrayLike] = None,
         overlap_at_start: Optional[npt.ArrayLike] = None,
         obstacles: Sequence[Obstacle] = (),
+        whole_moves: bool = False,
         names: Optional[Sequence[str]] = None,
         now: float = 0,
     ) -> None: ...
@@ -133,6 +137,7 @@ class Fleet(Immutable, Generic[P]):
         overlap_at_start: Optional[npt.ArrayLike] = None,
         obstacles: Sequence[Obstacle] = (),
         robust: int = 0,
+        whole_moves: bool = False,
         names: Optional[Sequence[str]] = None,
         now: float = 0,
     ) -> None:
@@ -165,6 +170,7 @@ class Fleet(Immutable, Generic[P]):
                     under_way=under_way,
                     obstacles=[obstacle._given() for obstacle in obstacles],
                     now=doubles(now, "now", ()).item(),
+                    whole_moves=bool(whole_moves),
                 ),
                 dict(
                     agent=lambda i: called[i] if i < len(called) else f"agent {i}",
@@ -193,7 +199,7 @@ class Fleet(Immutable, Generic[P]):
                     releases=timesteps(release, "release", n, 0),
                     deadlines=timesteps(deadline, "deadline", n, -1),
                     leaves=flags(False if leaves is None else leaves, "leaves", n),
-                    robust=ints(robust, "robust", ()).item(),
+                    robust=max(ints(robust, "robust", ()).item(), int(bool(whole_moves))),
                 ),
             )
         self._setup(graph, instance, names)
@@ -327,6 +333,11 @@ class Fleet(Immutable, Generic[P]):
     def robust(self) -> int:
         """On grids and graphs: for how many timesteps a place stays closed to others; else 0."""
         return cast(int, self._instance.rules().get("robust", 0))
+
+    @property
+    def whole_moves(self) -> bool:
+        """Whether plans are for systems that release whole moves."""
+        return bool(self._instance.rules().get("whole_moves", self.robust > 0))
 
     @property
     def _moves(self) -> dict[int, Underway]:

@@ -286,7 +286,7 @@ TimedInstance instance_of(const std::shared_ptr<Roadmap>& roadmap, const Sizes& 
   const auto roads =
       put_under_way(rules["under_way"].cast<py::list>(), roadmap, resolution, *now, words, agents);
   auto instance = Instance::make(roads, agents, resolution, {}, obstacles, *now);
-  if (instance) return TimedInstance(std::move(instance).value());
+  if (instance) return TimedInstance(instance->with_whole_moves(rules["whole_moves"].cast<bool>()));
   Error error =
       continuous::in_words(instance.error(), roads, agents, resolution, obstacles, *now, words);
   if (error.code != ErrorCode::no_plan) raise(error);
@@ -388,6 +388,7 @@ py::dict rules_of(const TimedInstance& self) {
           !self.agents()[at].under_way));
   rules["moves"] = moves;
   rules["obstacles"] = obstacles;
+  rules["whole_moves"] = !self.no_plan() && self.instance().has_whole_moves();
   return rules;
 }
 

@@ -48,6 +48,8 @@ std::string name_of(Violation::Kind kind) {
       return "collision";
     case Violation::Kind::obstacle:
       return "collision with an obstacle";
+    case Violation::Kind::whole_moves:
+      return "two moves at one time";
   }
   return "violation";
 }

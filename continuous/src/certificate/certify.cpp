@@ -179,6 +179,7 @@ std::string why_no_certificate(const Instance& instance) {
   if (instance.has_shapes()) return "agents whose bodies change on their way";
   if (!instance.roadmap().no_waiting().empty()) return "places where nobody may wait";
   if (!instance.parked_pairs().empty()) return "agents that overlap at their starts";
+  if (instance.has_whole_moves()) return "moves that are released as a whole";
   // The checker would have to know exact places between whole coordinates.
   if (!instance.roadmap().lane_places().empty()) return "vertices in the middle of moves";
   return "";

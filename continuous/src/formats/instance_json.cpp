@@ -34,11 +34,12 @@ class InstanceReader {
 
   Result<Instance> run(text::Names* names) {
     std::optional<Node> kind, version, resolution, now, roadmap, agents, goal_sets, bodies,
-        obstacles, groups;
+        obstacles, groups, whole;
     if (!check_.members(Document::kRoot, {{"quadrille", &kind},
                                           {"version", &version},
                                           {"resolution", &resolution, false},
                                           {"now", &now, false},
+                                          {"whole_moves", &whole, false},
                                           {"roadmap", &roadmap},
                                           {"agents", &agents},
                                           {"goal_sets", &goal_sets, false},
@@ -47,8 +48,8 @@ class InstanceReader {
                                           {"group_names", &groups, false}}) ||
         !read_version(*kind, *version) ||
         (resolution && !read_resolution(document_, check_, *resolution, resolution_)) ||
-        (now && !read_time(*now, now_)) || !read_roadmap(*roadmap) ||
-        (goal_sets && !read_goal_sets(*goal_sets)) ||
+        (now && !read_time(*now, now_)) || (whole && !check_.boolean(*whole, whole_moves_)) ||
+        !read_roadmap(*roadmap) || (goal_sets && !read_goal_sets(*goal_sets)) ||
         (bodies && !body_reader_.read_list(*bodies)) || !read_agents(*agents) ||
         (obstacles && !read_obstacles(*obstacles)) || (groups && !read_group_names(*groups)))
       return check_.error();
@@ -63,7 +64,7 @@ class InstanceReader {
       return document_.error(obstacles ? *obstacles : *roadmap, error.code, error.message);
     }
     if (names != nullptr) *names = std::move(names_);
-    return instance;
+    return instance->with_whole_moves(whole_moves_);
   }
 
  private:
@@ -421,6 +422,7 @@ class InstanceReader {
   Resolution resolution_;
   BodyReader body_reader_;
   Ticks now_ = 0;
+  bool whole_moves_ = false;
   std::size_t num_coordinates_ = 0;  // of a point; 0: there was none yet
   std::vector<Point> positions_;
   std::vector<Edge> edges_;

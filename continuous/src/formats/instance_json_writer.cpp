@@ -130,6 +130,7 @@ std::optional<Error> write_instance_json(std::ostream& out, const std::string& f
   out << "{\n  \"quadrille\": \"instance\",\n  \"version\": " << kInstanceJsonVersion
       << ",\n  \"resolution\": " << resolution_json(resolution);
   if (instance.now() > 0) out << ",\n  \"now\": " << number(instance.now());
+  if (instance.has_whole_moves()) out << ",\n  \"whole_moves\": true";
   out << ",\n  \"roadmap\": {\n    \"vertices\": [";
   const char* separator = "\n";
   for (const Point& point : instance.roadmap().positions()) {

@@ -290,6 +290,17 @@ Result<std::vector<Ticks>> durations_at(const Roadmap& roadmap, Speed speed, std
   return durations;
 }
 
+/// From the begin of an edge to a place in its middle, along an axis, at most.
+Length longest_way_behind(const Roadmap& roadmap) {
+  Length most = 0;
+  for (const LanePlace& lane : roadmap.lane_places()) {
+    const Point &from = roadmap.position(lane.from), &at = roadmap.position(lane.vertex);
+    for (Length Point::*axis : {&Point::x, &Point::y, &Point::z})
+      most = std::max(most, std::max(at.*axis - from.*axis, from.*axis - at.*axis) + 1);
+  }
+  return most;
+}
+
 }  // namespace
 
 Result<Instance> Instance::make(std::shared_ptr<const Roadmap> roadmap, std::vector<Agent> agents,
@@ -307,7 +318,17 @@ Result<Instance> Instance::make(Roadmap roadmap, std::vector<Agent> agents, Reso
 }
 
 Result<Instance> Instance::with_agents(std::vector<Agent> agents) const {
-  return build(roadmap_, std::move(agents), resolution_, {}, obstacles_, now_, false);
+  auto made = build(roadmap_, std::move(agents), resolution_, {}, obstacles_, now_, false);
+  if (made && has_whole_moves_) return made->with_whole_moves();
+  return made;
+}
+
+Instance Instance::with_whole_moves(bool whole) const {
+  Instance same = *this;
+  same.has_whole_moves_ = whole;
+  const Length behind = whole ? longest_way_behind(*roadmap_) : Length(0);
+  for (Class& c : same.classes_) c.reach = c.body_reach + behind;
+  return same;
 }
 
 Result<Instance> Instance::build(std::shared_ptr<const Roadmap> roadmap, std::vector<Agent> agents,
@@ -358,8 +379,9 @@ Result<Instance> Instance::build(std::shared_ptr<const Roadmap> roadmap, std::ve
     const auto key = std::make_tuple(numbers_of(agent), agent.speed, group);
     const auto [known, is_new_class] = classes.try_emplace(key, instance.classes_.next_id());
     if (is_new_class)
-      instance.classes_.push_back({bodies_of(agent), reach_of(agent) + rounding, agent.speed,
-                                   speed->second, agent.group, open->second});
+      instance.classes_.push_back({bodies_of(agent), reach_of(agent) + rounding,
+                                   reach_of(agent) + rounding, agent.speed, speed->second,
+                                   agent.group, open->second});
     instance.has_shapes_ = instance.has_shapes_ || !agent.shapes.empty();
     instance.class_of_.push_back(known->second);
   }

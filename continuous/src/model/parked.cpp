@@ -82,7 +82,7 @@ PrivateStarts::PrivateStarts(const Instance& instance)
   auto inner = Instance::make(std::move(made).value(), std::move(agents), instance.resolution(), {},
                               instance.obstacles(), instance.now());
   QUADRILLE_REQUIRE(inner, "copies of starts are as good as these");
-  inner_ = std::move(inner).value();
+  inner_ = inner->with_whole_moves(instance.has_whole_moves());
 }
 
 void PrivateStarts::enter(Plan& plan) const {

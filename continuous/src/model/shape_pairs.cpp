@@ -11,10 +11,22 @@ const Body& body_as(const std::vector<Body>& bodies, ShapeId shape) {
   return bodies.size() == 1 ? bodies.front() : bodies[shape.index()];
 }
 
+/// What a part of a move is a part of.
+geometry::Motion whole_of(geometry::Motion motion) {
+  if (motion.is_rest()) return motion;
+  motion.duration += motion.behind;
+  motion.behind = 0;
+  return motion;
+}
+
 }  // namespace
 
-ShapePairs::ShapePairs(std::vector<Body> a, std::vector<Body> b)
-    : a_(std::move(a)), b_(std::move(b)) {}
+ShapePairs::ShapePairs(std::vector<Body> a, std::vector<Body> b, bool whole_moves)
+    : a_(std::move(a)), b_(std::move(b)), whole_moves_(whole_moves) {}
+
+bool ShapePairs::exclude_each_other(const Move& a, const Move& b) {
+  return whole_moves_ && can_meet(a, b);
+}
 
 const geometry::BodyPair& ShapePairs::of(ShapeId a, ShapeId b) {
   const std::pair key(a_.size() == 1 ? ShapeId() : a, b_.size() == 1 ? ShapeId() : b);
@@ -33,17 +45,27 @@ const geometry::BodyPair& ShapePairs::around(ShapeId a) {
   return around_.emplace(a, geometry::BodyPair(own, other)).first->second;
 }
 
+// Bodies may collide where one move ends and the other one begins, too: then these are unsafe as
+// well.
 std::optional<geometry::TickInterval> ShapePairs::unsafe_offsets(const Move& a, const Move& b) {
   auto offsets = of(a.shape, b.shape).unsafe_offsets(a.motion, b.motion);
+  const geometry::TickInterval inner{1 - b.motion.duration, a.motion.duration};
+  if (exclude_each_other(a, b)) {
+    if (!offsets || has_shapes()) return inner;
+    return geometry::TickInterval{std::min(offsets->begin, inner.begin),
+                                  std::max(offsets->end, inner.end)};
+  }
   if (!offsets || !has_shapes()) return offsets;
-  const geometry::TickInterval inner{std::max(offsets->begin, 1 - b.motion.duration),
-                                     std::min(offsets->end, a.motion.duration)};
-  return inner.is_empty() ? std::nullopt : std::optional(inner);
+  const geometry::TickInterval cut{std::max(offsets->begin, inner.begin),
+                                   std::min(offsets->end, inner.end)};
+  return cut.is_empty() ? std::nullopt : std::optional(cut);
 }
 
 bool ShapePairs::collide(const Move& a, const Move& b, Ticks offset) {
-  if (has_shapes() && (offset >= a.motion.duration || offset <= -b.motion.duration)) return false;
-  return of(a.shape, b.shape).collide(a.motion, b.motion, offset);
+  const bool share_time = offset < a.motion.duration && offset > -b.motion.duration;
+  if (has_shapes() && !share_time) return false;
+  return (share_time && exclude_each_other(a, b)) ||
+         of(a.shape, b.shape).collide(a.motion, b.motion, offset);
 }
 
 std::optional<geometry::TickInterval> ShapePairs::contact_window(const Move& a, const Stand& b) {
@@ -58,6 +80,7 @@ bool ShapePairs::overlap(const Stand& a, const Stand& b) {
 }
 
 bool ShapePairs::can_meet(const Move& a, const Move& b) {
+  if (whole_moves_) return of(a.shape, b.shape).can_meet(whole_of(a.motion), whole_of(b.motion));
   return of(a.shape, b.shape).can_meet(a.motion, b.motion);
 }
 

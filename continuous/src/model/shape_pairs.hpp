@@ -17,10 +17,13 @@ namespace quadrille::continuous {
 /// moves count without their ends: two that have only a moment in common do not collide, and who
 /// stands is in the way of a move strictly between its begin and its end. Without shapes that makes
 /// no difference to plans: what collides at an end does so in the move before or after it.
+///
+/// With `whole_moves` two moves that can ever meet collide whenever they have more than a moment in
+/// common (Instance::has_whole_moves).
 class ShapePairs {
  public:
   /// Of the bodies by shape; one if there are no shapes.
-  ShapePairs(std::vector<Body> a, std::vector<Body> b);
+  ShapePairs(std::vector<Body> a, std::vector<Body> b, bool whole_moves = false);
 
   struct Move {
     ShapeId shape;
@@ -47,14 +50,18 @@ class ShapePairs {
   [[nodiscard]] bool has_shapes() const noexcept { return a_.size() > 1 || b_.size() > 1; }
 
  private:
+  /// They are never under way at the same time.
+  [[nodiscard]] bool exclude_each_other(const Move& a, const Move& b);
+
   const std::vector<Body> a_, b_;
+  const bool whole_moves_;
   std::map<std::pair<ShapeId, ShapeId>, geometry::BodyPair> pairs_;
   std::map<ShapeId, geometry::BodyPair> around_;
 };
 
 /// Of two classes.
 [[nodiscard]] inline ShapePairs shape_pairs(const Instance& instance, ClassId a, ClassId b) {
-  return {instance.bodies(a), instance.bodies(b)};
+  return {instance.bodies(a), instance.bodies(b), instance.has_whole_moves()};
 }
 [[nodiscard]] inline ShapePairs::Move move_of(const Instance& instance, ClassId c, EdgeId e) {
   return {instance.roadmap().edge(e).shape, instance.motion(c, e)};

@@ -75,6 +75,7 @@ struct Session::Parts {
   std::shared_ptr<const Roadmap> roadmap;
   Resolution resolution;
   std::vector<MovingObstacle> obstacles;
+  bool whole_moves = false;
   std::size_t num_added = 0;
   Situation now;
   // What is learned is in the times of searches, which count from `now.begin`.
@@ -118,9 +119,10 @@ std::shared_ptr<const Roadmap> Session::Parts::roads(std::vector<Agent>& agents)
 }
 
 Session::Session(std::shared_ptr<const Roadmap> roadmap, Resolution resolution,
-                 std::vector<MovingObstacle> obstacles, Ticks now) {
+                 std::vector<MovingObstacle> obstacles, Ticks now, bool whole_moves) {
   QUADRILLE_REQUIRE(roadmap != nullptr, "a session has a roadmap");
   parts_ = std::make_unique<Parts>(std::move(roadmap), resolution, std::move(obstacles), now);
+  parts_->whole_moves = whole_moves;
 }
 
 Session::~Session() = default;
@@ -238,8 +240,10 @@ Ticks Session::now() const noexcept { return parts_->now.begin; }
 Result<Instance> Session::instance() const {
   std::vector<Agent> agents;
   auto roads = parts_->roads(agents);
-  return Instance::make(std::move(roads), std::move(agents), parts_->resolution, {},
-                        parts_->obstacles, parts_->now.begin);
+  auto made = Instance::make(std::move(roads), std::move(agents), parts_->resolution, {},
+                             parts_->obstacles, parts_->now.begin);
+  if (!made) return made;
+  return made->with_whole_moves(parts_->whole_moves);
 }
 
 Result<SolveOutcome> Session::solve(const SolveOptions& options) {

@@ -68,7 +68,7 @@ bool PricedGoals::build(const Instance& instance) {
   auto made = Instance::make(std::move(roadmap).value(), std::move(agents), instance.resolution(),
                              {}, instance.obstacles());
   if (!made) return false;
-  priced_ = std::move(made).value();
+  priced_ = made->with_whole_moves(instance.has_whole_moves());
   return true;
 }
 

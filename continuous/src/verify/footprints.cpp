@@ -326,4 +326,59 @@ bool FootprintPair::interiors_meet(const ExactStep& step) const {
   return polygons_meet(step, scaled_corners(a_, step.scale), scaled_corners(b_, step.scale));
 }
 
+// Places at which interiors meet form an open convex set, and the sweep is a parallelogram. If they
+// have a point in common, so have the set and a side, or the set is inside of the parallelogram; of
+// balls in space also if the plane cuts the set within the parallelogram.
+bool FootprintPair::sweeps_meet(const ExactSweep& sweep) const {
+  const auto plus = [](const ExactPoint& p, const ExactPoint& q) {
+    return ExactPoint{p.x + q.x, p.y + q.y, p.z + q.z};
+  };
+  const ExactPoint &first = sweep.corner, second = plus(first, sweep.way_b),
+                   third = plus(second, sweep.way_a), fourth = plus(first, sweep.way_a);
+  return interiors_meet({first, second, 1}) || interiors_meet({second, third, 1}) ||
+         interiors_meet({third, fourth, 1}) || interiors_meet({fourth, first, 1}) ||
+         meet_inside(sweep);
+}
+
+bool FootprintPair::meet_inside(const ExactSweep& sweep) const {
+  const auto cross = [](const ExactPoint& p, const ExactPoint& q) {
+    return ExactPoint{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+  };
+  const auto dot = [](const ExactPoint& p, const ExactPoint& q) -> Integer {
+    return p.x * q.x + p.y * q.y + p.z * q.z;
+  };
+  const ExactPoint normal = cross(sweep.way_a, sweep.way_b);
+  const Integer area = dot(normal, normal);
+  if (area == 0) return false;  // the sides are all there is
+  // A place within the set, times `scale`: where the centre of b is that of a.
+  const auto sum_of_corners = [](const Body& body) {
+    ExactPoint sum{0, 0};
+    if (const auto* const polygon = std::get_if<ConvexPolygon>(&body))
+      for (const Point& corner : polygon->vertices()) {
+        sum.x += corner.x.value();
+        sum.y += corner.y.value();
+      }
+    return sum;
+  };
+  const auto num_corners = [](const Body& body) -> Integer {
+    const auto* const polygon = std::get_if<ConvexPolygon>(&body);
+    return polygon == nullptr ? 1 : static_cast<std::int64_t>(polygon->vertices().size());
+  };
+  const Integer na = num_corners(a_), nb = num_corners(b_), scale = na * nb;
+  const ExactPoint a = sum_of_corners(a_), b = sum_of_corners(b_);
+  const ExactPoint within{nb * a.x - na * b.x - scale * sweep.corner.x,
+                          nb * a.y - na * b.y - scale * sweep.corner.y,
+                          -scale * sweep.corner.z};  // from the corner of the sweep
+  // Its shares of the two ways, times `area`, after it is put onto the plane.
+  const Integer share_a = dot(cross(within, sweep.way_b), normal);
+  const Integer share_b = dot(cross(sweep.way_a, within), normal);
+  if (share_a <= 0 || share_a >= scale * area || share_b <= 0 || share_b >= scale * area)
+    return false;
+  const auto *disc_a = disc_of(a_), *disc_b = disc_of(b_);
+  if (disc_a == nullptr || disc_b == nullptr) return true;
+  const Integer off = dot(sweep.corner, normal);
+  const Integer reach = (disc_a->radius + disc_b->radius).value();
+  return off * off < reach * reach * area;
+}
+
 }  // namespace quadrille::continuous

@@ -34,6 +34,12 @@ struct ExactStep {
   Integer scale;
 };
 
+/// Places of b as seen from a, in length units, where each is somewhere on a straight way of its
+/// own: from `corner` by a share of `way_a` and one of `way_b`.
+struct ExactSweep {
+  ExactPoint corner, way_a, way_b;
+};
+
 /// Two discs are balls. A polygon requires that steps have no height.
 class FootprintPair {
  public:
@@ -53,8 +59,11 @@ class FootprintPair {
 
   /// Whether the interiors meet at some moment of the step. Exact.
   [[nodiscard]] bool interiors_meet(const ExactStep& step) const;
+  /// Whether they do at some of these places. Exact.
+  [[nodiscard]] bool sweeps_meet(const ExactSweep& sweep) const;
 
  private:
+  [[nodiscard]] bool meet_inside(const ExactSweep& sweep) const;
   /// How far b's position is from `core_`: negative inside. With a polygon.
   [[nodiscard]] long double distance(FlatPoint p) const;
   [[nodiscard]] bool may_enter_core(FlatPoint from, FlatPoint to) const;

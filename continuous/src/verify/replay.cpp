@@ -220,7 +220,7 @@ class Replay {
   }
 
   [[nodiscard]] std::vector<Violation> collisions() const {
-    std::vector<Violation> found;
+    std::vector<Violation> found = overlaps_;
     for (const auto& [pair, all] : collisions_)
       for (const Collision& collision : all) found.push_back(violation(pair, collision));
     std::stable_sort(found.begin(), found.end(), [](const Violation& a, const Violation& b) {
@@ -306,11 +306,39 @@ class Replay {
     if (begin >= end) return;
     const bool are_agents = pair.second < num_agents_;
     if (are_agents && are_parked(pair, begin)) return;
+    const bool collide = find_collision(pair, begin, end, are_agents);
+    if (are_agents && instance_.has_whole_moves() && !collide) find_overlap(pair, begin);
+  }
+
+  /// Of two moves that are released as a whole.
+  void find_overlap(Pair pair, Ticks begin) {
+    const Traveller &a = travellers_[pair.first], &b = travellers_[pair.second];
+    const Piece &p = *a.piece, &q = *b.piece;
+    if (p.start == p.goal || q.start == q.goal) return;
+    const auto between = [](const Point& from, const Point& to) {
+      return ExactPoint{(to.x - from.x).value(), (to.y - from.y).value(), (to.z - from.z).value()};
+    };
+    if (!footprints(a, b).sweeps_meet(
+            {between(p.from, q.from), between(p.to, p.from), between(q.from, q.to)}))
+      return;
+    const auto who = [&](std::size_t agent, const Piece& piece) {
+      return "agent " + std::to_string(agent) + " " + describe(piece);
+    };
+    overlaps_.push_back({Kind::whole_moves, AgentId(pair.first), AgentId(pair.second), begin,
+                         "at time " + time_text(instance_, begin) + " " + who(pair.first, p) +
+                             " and " + who(pair.second, q) +
+                             ": bodies could collide there, and moves are released as a whole"});
+  }
+
+  /// Whether there is one.
+  bool find_collision(Pair pair, Ticks begin, Ticks end, bool are_agents) {
+    const Traveller &a = travellers_[pair.first], &b = travellers_[pair.second];
+    const Piece &p = *a.piece, &q = *b.piece;
     const double ceiling = are_agents ? least_.ceiling() : -1;
     const FootprintPair& bodies = footprints(a, b);
     const RealStep step = real_step(p, q, begin, end);
     const long double least = bodies.least_gap(step);
-    if (least >= 1 && static_cast<double>(least) > ceiling) return;
+    if (least >= 1 && static_cast<double>(least) > ceiling) return false;
     const FootprintPair::Nearest near = bodies.nearest(step);
     const Nearness here{
         static_cast<double>(near.gap),
@@ -319,19 +347,20 @@ class Replay {
     if (are_agents) least_.add({AgentId(pair.first), AgentId(pair.second), here.gap, here.tick});
     // Coordinates are below 2^42 and the rounding error of `nearest`, even where long double is
     // double, below 2^-5: those that are a whole unit apart need no exact look.
-    if (near.gap >= 1 || !bodies.interiors_meet(exact_step(p, q, begin, end))) return;
+    if (near.gap >= 1 || !bodies.interiors_meet(exact_step(p, q, begin, end))) return false;
     const bool goes_on = bodies.interiors_meet(exact_step(p, q, end, end));
     const auto [first, last_touch] = moments_of_contact(bodies, p, q, begin, end);
     std::vector<Collision>& all = collisions_[pair];
     // What goes on at its end goes on in the next stretches of the two.
     if (all.empty() || !all.back().goes_on || all.back().end < begin) {
       all.push_back({p, q, first, last_touch, here, goes_on});
-      return;
+      return true;
     }
     Collision& last = all.back();
     if (here.gap < last.nearest.gap) std::tie(last.a, last.b, last.nearest) = std::tie(p, q, here);
     last.end = last_touch;
     last.goes_on = goes_on;
+    return true;
   }
 
   /// Both may overlap at their starts and do, where one of them is and the other one is as well or
@@ -387,6 +416,7 @@ class Replay {
   using Look = std::pair<std::size_t, ShapeId>;  // a kind in a shape
   std::map<std::pair<Look, Look>, FootprintPair> footprints_;
   std::map<Pair, std::vector<Collision>> collisions_;
+  std::vector<Violation> overlaps_;
   LeastClearances least_;
 };
 

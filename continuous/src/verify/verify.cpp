@@ -154,6 +154,8 @@ std::string_view to_string(Violation::Kind kind) noexcept {
       return "collision";
     case Kind::obstacle:
       return "obstacle";
+    case Kind::whole_moves:
+      return "whole-moves";
   }
   return "";
 }

@@ -187,6 +187,97 @@ std::optional<Clearance> without_ends(std::optional<Clearance> clear, const Elem
   return clear;
 }
 
+namespace {
+
+struct Vec {
+  Wide x, y, z;
+};
+Vec minus(const Point& p, const Point& q) {
+  return {Wide((p.x - q.x).value()), Wide((p.y - q.y).value()), Wide((p.z - q.z).value())};
+}
+Wide dot(const Vec& p, const Vec& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
+Vec cross(const Vec& p, const Vec& q) {
+  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+struct Line {
+  Point from, to;
+};
+
+Square to_line(const Point& p, const Line& line) {
+  const Vec along = minus(line.to, line.from), off = minus(p, line.from);
+  const Wide share = dot(off, along), whole = dot(along, along);
+  if (share <= 0) return {dot(off, off)};
+  const Vec end = minus(p, line.to);
+  if (share >= whole) return {dot(end, end)};
+  return {dot(off, off) * whole - share * share, whole};
+}
+
+/// Of the distance: at an end of one of them, or where their common normal is within both.
+Square between(const Line& a, const Line& b) {
+  Square least = to_line(a.from, b);
+  for (const Square& other : {to_line(a.to, b), to_line(b.from, a), to_line(b.to, a)})
+    if (less(other, least)) least = other;
+  const Vec u = minus(a.to, a.from), v = minus(b.to, b.from), w = minus(b.from, a.from);
+  const Vec normal = cross(u, v);
+  const Wide square = dot(normal, normal);
+  const Wide s = dot(cross(w, v), normal), t = dot(cross(w, u), normal);
+  if (square > 0 && 0 < s && s < square && 0 < t && t < square) {
+    const Wide off = dot(w, normal);
+    if (const Square inner{off * off, square}; less(inner, least)) least = inner;
+  }
+  return least;
+}
+
+/// The convex hull of points, grown by a radius.
+struct Sweep {
+  std::vector<Point> points;
+  Length radius = 0;
+};
+
+Sweep sweep_of(const Element& e, const Body& body) {
+  if (const auto* const disc = std::get_if<Disc>(&body)) return {{e.from, e.to}, disc->radius};
+  Sweep sweep;
+  for (const Point& corner : std::get<geometry::ConvexPolygon>(body).vertices())
+    for (const Point& at : {e.from, e.to})
+      sweep.points.push_back({at.x + corner.x, at.y + corner.y, at.z});
+  return sweep;
+}
+
+/// Whether a line along two points of the one or the other has all of the one on one side and all
+/// of the other on the other side, in the plane.
+bool are_separated(const Sweep& a, const Sweep& b) {
+  for (const Sweep* const sides : {&a, &b})
+    for (const Point& p : sides->points)
+      for (const Point& q : sides->points) {
+        const Vec axis{Wide((p.y - q.y).value()), Wide((q.x - p.x).value()), 0};
+        if (axis.x == 0 && axis.y == 0) continue;
+        const auto along = [&](const Point& point) -> Wide {
+          return axis.x * point.x.value() + axis.y * point.y.value();
+        };
+        Wide most_a = along(a.points[0]), least_b = along(b.points[0]);
+        for (const Point& point : a.points) most_a = std::max(most_a, along(point));
+        for (const Point& point : b.points) least_b = std::min(least_b, along(point));
+        if (most_a <= least_b) return true;
+      }
+  return false;
+}
+
+}  // namespace
+
+bool sweeps_meet(const Element& a, const Body& body_a, const Element& b, const Body& body_b) {
+  const Sweep p = sweep_of(a, body_a), q = sweep_of(b, body_b);
+  const bool has_area_p = p.points.size() > 2, has_area_q = q.points.size() > 2;
+  if ((has_area_p || has_area_q) && !are_separated(p, q)) return true;
+  const Wide reach = (p.radius + q.radius).value();
+  for (const Point& p0 : p.points)
+    for (const Point& p1 : p.points)
+      for (const Point& q0 : q.points)
+        for (const Point& q1 : q.points)
+          if (less(between({p0, p1}, {q0, q1}), {reach * reach})) return true;
+  return false;
+}
+
 Meetings::Meetings(const Instance& instance) : instance_(instance) {
   const std::size_t edges = instance.roadmap().num_edges();
   const std::size_t pairs = instance.num_classes() * instance.num_classes();
@@ -204,6 +295,13 @@ const std::optional<Run>& Meetings::moves(ClassId a, EdgeId e, ClassId b, EdgeId
   known = {true, meeting_starts(element(a, e), instance_.body(a, roadmap.edge(e).shape),
                                 element(b, f), instance_.body(b, roadmap.edge(f).shape))};
   if (have_shapes(a, b)) known.value = without_ends(known.value, element(a, e), element(b, f));
+  if (instance_.has_whole_moves() &&
+      sweeps_meet(element(a, e), instance_.body(a, roadmap.edge(e).shape), element(b, f),
+                  instance_.body(b, roadmap.edge(f).shape))) {
+    Run& run = known.value ? *known.value : known.value.emplace();
+    run.first = std::min(run.first, 1 - element(b, f).end);
+    run.last = std::max(run.last, element(a, e).end - 1);
+  }
   return known.value;
 }
 

@@ -29,6 +29,11 @@ struct Run {
 [[nodiscard]] std::optional<Run> meeting_starts(const Element& a, const Body& body_a,
                                                 const Element& b, const Body& body_b);
 
+/// Whether two bodies that are each somewhere on a way of their own can overlap: what they sweep
+/// has interior points in common. Exact.
+[[nodiscard]] bool sweeps_meet(const Element& a, const Body& body_a, const Element& b,
+                               const Body& body_b);
+
 /// What keeps a move clear of a stay: either of these.
 struct Clearance {
   Ticks after_leaving = 0;   ///< It begins so long after the end of the stay, at least.

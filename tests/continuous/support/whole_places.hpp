@@ -60,8 +60,10 @@ namespace quadrille::continuous::test {
   auto made = Roadmap::make(std::move(points), std::move(edges), {}, roadmap.shapes(),
                             roadmap.no_waiting());
   if (error || !made) return error ? *error : made.error();
-  return Instance::make(std::move(made).value(), std::move(agents), instance.resolution(), {},
-                        std::move(obstacles), instance.now());
+  auto same = Instance::make(std::move(made).value(), std::move(agents), instance.resolution(), {},
+                             std::move(obstacles), instance.now());
+  if (!same) return same;
+  return same->with_whole_moves(instance.has_whole_moves());
 }
 
 /// The same. Requires that nothing becomes too large.

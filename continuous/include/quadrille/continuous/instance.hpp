@@ -127,6 +127,8 @@ class Instance {
                                              Ticks now = 0);
   /// The same with other agents. Errors as those of `make`.
   [[nodiscard]] Result<Instance> with_agents(std::vector<Agent> agents) const;
+  /// The same for systems that release whole moves, or no longer: see has_whole_moves.
+  [[nodiscard]] Instance with_whole_moves(bool whole = true) const;
 
   [[nodiscard]] const Roadmap& roadmap() const noexcept { return *roadmap_; }
   [[nodiscard]] std::shared_ptr<const Roadmap> shared_roadmap() const noexcept { return roadmap_; }
@@ -139,6 +141,13 @@ class Instance {
   [[nodiscard]] const Agent& agent(AgentId i) const { return agents_[i]; }
   /// When all agents are at their starts.
   [[nodiscard]] Ticks now() const noexcept { return now_; }
+  /// Moves are released as a whole, one after the other: two moves of different agents that would
+  /// collide at some offset, real ones included, have no moment in common but the end of one and
+  /// the begin of the other. Agents who carry out such a plan never have to be held back within a
+  /// move, and never wait for each other in a circle (docs/soundness/continuous.md, "Whole moves").
+  /// A move that begins in the middle of an edge counts as the whole edge here. Who stands, and
+  /// moving obstacles, are met as ever.
+  [[nodiscard]] bool has_whole_moves() const noexcept { return has_whole_moves_; }
   /// Some agent has more than one goal.
   [[nodiscard]] bool has_goal_sets() const noexcept { return has_goal_sets_; }
   /// The agents that overlap at their starts, in pairs, each of them ascending.
@@ -164,7 +173,8 @@ class Instance {
   [[nodiscard]] bool has_shapes() const noexcept { return has_shapes_; }
   /// An agent is nowhere further than that from Roadmap::position of where it stands, or from the
   /// line between those of the ends of its move: geometry::enclosing_radius of the largest of its
-  /// bodies, and one more where places in the middle of moves are rounded.
+  /// bodies, and one more where places in the middle of moves are rounded; where such moves count
+  /// as whole ones, more by the longest way that lies behind such a place.
   [[nodiscard]] Length reach(ClassId c) const { return classes_[c].reach; }
   [[nodiscard]] Ticks duration(ClassId c, EdgeId e) const {
     return durations_[classes_[c].durations][e.index()];
@@ -194,6 +204,7 @@ class Instance {
   };
   struct Class {
     std::vector<Body> bodies;  // by shape, or one
+    Length body_reach = 1;     // without what is behind places in the middle of moves
     Length reach = 1;
     Speed speed = kUnitSpeed;
     std::size_t durations = 0;              // into durations_, one per speed
@@ -216,6 +227,7 @@ class Instance {
   bool is_flat_ = true;
   bool has_goal_sets_ = false;
   bool has_shapes_ = false;
+  bool has_whole_moves_ = false;
   std::vector<std::pair<AgentId, AgentId>> parked_pairs_;
   Resolution resolution_;
   IdVector<ClassId, Class> classes_;

@@ -30,9 +30,10 @@ using MemberId = StrongId<struct MemberTag>;
 /// searches have come to, the last 16 answers, and up to 3,000 lemmas and as many cores.
 class Session {
  public:
-  /// Requires a roadmap. The rest is as in Instance::make.
+  /// Requires a roadmap. The rest is as in Instance::make; `whole_moves`: with_whole_moves.
   explicit Session(std::shared_ptr<const Roadmap> roadmap, Resolution resolution = {},
-                   std::vector<MovingObstacle> obstacles = {}, Ticks now = 0);
+                   std::vector<MovingObstacle> obstacles = {}, Ticks now = 0,
+                   bool whole_moves = false);
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;

@@ -33,10 +33,11 @@ struct Violation {
     duration,      ///< A move that takes longer or shorter than its edge does.
     collision,     ///< The interiors of two agents' bodies meet.
     obstacle,      ///< Those of an agent and of a moving obstacle meet.
+    whole_moves,   ///< Two moves at one time that may not (Instance::has_whole_moves).
   };
   Kind kind;
   AgentId agent;
-  std::optional<AgentId> other;  ///< For collisions; larger than `agent`.
+  std::optional<AgentId> other;  ///< Of two agents; larger than `agent`.
   /// When the step begins in which it happens; of a collision the last tick before bodies overlap.
   Ticks tick = 0;
   std::string message;  ///< One sentence that names agents, place and time as the input counts.
@@ -45,7 +46,7 @@ struct Violation {
 };
 
 [[nodiscard]] std::string_view to_string(
-    Violation::Kind kind) noexcept;  ///< "path-count" | ... | "obstacle"
+    Violation::Kind kind) noexcept;  ///< "path-count" | ... | "whole-moves"
 /// The free space between two agents over all time.
 struct Clearance {
   AgentId agent;

@@ -150,6 +150,12 @@ class Fleet {
   void begins_at(Seconds time) { begin_ = time; }
   [[nodiscard]] Seconds begin() const noexcept { return begin_; }
 
+  /// Plans are for systems that release whole moves, such as VDA 5050: two moves that cross are
+  /// never under way at the same time, so that nobody waits for a release while all are on time,
+  /// and robots that are late never lock up (continuous::Instance::has_whole_moves).
+  void release_whole_moves(bool whole = true) { whole_moves_ = whole; }
+  [[nodiscard]] bool releases_whole_moves() const noexcept { return whole_moves_; }
+
   /// Another robot. Whether it makes sense is checked by `instance`.
   Robot robot(RobotSpec spec);
   /// One that is there already, to be given another task. Requires a robot of this fleet.
@@ -236,6 +242,7 @@ class Fleet {
   IdVector<AgentId, Entry> robots_;
   std::vector<MovingObstacle> obstacles_;
   Seconds begin_ = {};
+  bool whole_moves_ = false;
 };
 
 }  // namespace quadrille::fleet

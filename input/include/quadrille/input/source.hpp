@@ -25,6 +25,8 @@ struct InputOptions {
   /// Rules for all agents on grids and graphs: they leave at their goals; plans are k-robust.
   bool leave = false;
   std::optional<std::int64_t> robust;
+  /// Plans are for systems that release whole moves: on grids and graphs they are 1-robust.
+  bool whole_moves = false;
   /// Maps with more passable cells are refused before a graph is made of them.
   std::size_t most_vertices = SIZE_MAX;
   /// The contents of `instance`, if they have been read already.
