@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <list>
-#include <map>
-#include <optional>
-#include <set>
-#include <utility>
-#include <vector>
-
 #include "quadrille/continuous/session.hpp"
+#include "quadrille/solve/answers.hpp"
 #include "session/history.hpp"
 #include "solve/warm_start.hpp"
 
@@ -28,57 +22,25 @@ struct Task {
   friend bool operator==(const Task&, const Task&) = default;
 };
 
-/// A session at one time.
-struct Situation {
-  std::map<MemberId, Task> tasks;  ///< In the order of the instance's agents.
-  std::set<EdgeId> closed;
-  Ticks begin = 0;  ///< Instance::now. What is learned counts from here.
+/// What solve::AnswerCache asks for.
+struct AnswerDomain {
+  using Task = continuous::Task;
+  using Closed = EdgeId;
+  using Time = Ticks;
+  using Instance = continuous::Instance;
+  using Path = continuous::Path;
+  using Plan = continuous::Plan;
+  using Outcome = SolveOutcome;
+  using Later = continuous::Later;
+
+  [[nodiscard]] static Later later(const Path& path, Ticks time) {
+    return continuous::later(path, time);
+  }
+  [[nodiscard]] static bool adopt(Path& path, const Instance& instance, AgentId agent);
+  [[nodiscard]] static Cost as_cost(Ticks time) { return continuous::as_cost(time); }
 };
-
-/// What the members have done between two situations of the same roads: plans of the later one are
-/// what is left of plans of the earlier one that begin with this.
-struct History {
-  Situation before, after;
-  std::map<MemberId, Later> members;  ///< Of `before`.
-};
-
-/// The last answers of a session, and what they say about another situation on the same roadmap.
-/// Why that is true: docs/soundness/sessions.md.
-class BoundCache {
- public:
-  /// The answer for a situation.
-  void add(const Situation& situation, Objective objective, const SolveOutcome& outcome);
-
-  /// Time has gone on. Of members whose task is not that of `before` nothing is known any more.
-  void advance(const History& history);
-
-  /// Bounds of groups of agents of `now`, at most one of each answer.
-  [[nodiscard]] std::vector<GroupBound> bounds(const Situation& now, Objective objective) const;
-  /// Paths of answers, of which `instance`, that of `now`, allows all, most first; at most two.
-  [[nodiscard]] std::vector<IdVector<AgentId, Path>> drafts(const Situation& now,
-                                                            const Instance& instance) const;
-
- private:
-  struct Answer {
-    Situation situation;
-    std::vector<MemberId> members;  // by agent
-    Objective objective = Objective::sum_of_costs;
-    std::optional<Attribution> proved;
-    std::optional<Plan> plan;
-    /// Since then. Tasks are those of now, except of members that are `lost`.
-    Ticks elapsed = 0;
-    std::set<MemberId> lost = {};
-    /// Have arrived since then: what they cost has come to an end, which bounds know nothing of.
-    std::set<MemberId> arrived = {};
-  };
-  /// Whether the member has the task of then, or what is left of it.
-  [[nodiscard]] static bool is_same(const Answer& answer, MemberId member, const Task& now);
-  [[nodiscard]] static std::optional<GroupBound> bound_of(const Answer& answer,
-                                                          const Situation& now);
-  [[nodiscard]] static IdVector<AgentId, Path> paths_of(const Answer& answer, const Situation& now,
-                                                        const Instance& instance);
-
-  std::list<Answer> answers_;  // the last one first
-};
+using Situation = solve::Situation<AnswerDomain>;
+using History = solve::History<AnswerDomain>;
+using BoundCache = solve::AnswerCache<AnswerDomain>;
 
 }  // namespace quadrille::continuous

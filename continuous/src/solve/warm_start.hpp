@@ -8,17 +8,13 @@
 #include "cover/core_table.hpp"
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/solver.hpp"
+#include "quadrille/solve/answers.hpp"
 #include "solve/lemma_stock.hpp"
 #include "traffic/scene_store.hpp"
 
 namespace quadrille::continuous {
 
-/// Proved: these agents alone, as if there were no others, cost at least `cost` together (makespan:
-/// one of them).
-struct GroupBound {
-  std::vector<AgentId> agents;  ///< Increasing.
-  Cost cost = 0;
-};
+using solve::GroupBound;
 
 /// What a search by clauses has learned.
 struct Learned {

@@ -10,14 +10,14 @@
 #include "quadrille/continuous/plan.hpp"
 #include "quadrille/continuous/solver.hpp"
 #include "quadrille/core/export.hpp"
+#include "quadrille/core/member.hpp"
 #include "quadrille/core/result.hpp"
 
 QUADRILLE_API_BEGIN
 
 namespace quadrille::continuous {
 
-/// An agent of a session, as long as it is there. No number is given twice.
-using MemberId = StrongId<struct MemberTag>;
+using quadrille::MemberId;
 
 /// A roadmap and agents that change, and are solved again after each change. What the answers rest
 /// on lives on: what is in whose way, the distances to goals, the lower bounds of groups of agents

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <list>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "quadrille/core/attribution.hpp"
+#include "quadrille/core/export.hpp"
+#include "quadrille/core/ids.hpp"
+#include "quadrille/core/member.hpp"
+#include "quadrille/core/outcome.hpp"
+
+QUADRILLE_API_BEGIN
+
+namespace quadrille::solve {
+
+/// Proved: these agents alone, as if there were no others, cost at least `cost` together (makespan:
+/// one of them).
+struct GroupBound {
+  std::vector<AgentId> agents;  ///< Increasing.
+  Cost cost = 0;
+};
+
+/// What all cost at least by such bounds, of groups that have nobody in common as far as they are
+/// taken, the first ones first, and by what the others cost alone. `free_cost(agent)`.
+template <class FreeCost>
+[[nodiscard]] Cost bound_of_all(const std::vector<GroupBound>& groups, std::size_t num_agents,
+                                Objective objective, const FreeCost& free_cost) {
+  IdVector<AgentId, bool> is_in(num_agents, false);
+  Cost bound = 0;
+  const auto add = [&](Cost cost) {
+    bound = objective == Objective::sum_of_costs ? bound + cost : std::max(bound, cost);
+  };
+  for (const GroupBound& group : groups) {
+    const auto& agents = group.agents;
+    if (std::any_of(agents.begin(), agents.end(), [&](AgentId i) { return is_in[i]; })) continue;
+    for (const AgentId i : agents) is_in[i] = true;
+    add(group.cost);
+  }
+  for (const AgentId i : IdRange<AgentId>(num_agents))
+    if (!is_in[i] || objective == Objective::makespan) add(free_cost(i));
+  return bound;
+}
+
+/// A session at one time. `Domain`: see AnswerCache.
+template <class Domain>
+struct Situation {
+  std::map<MemberId, typename Domain::Task> tasks;  ///< In the order of the instance's agents.
+  std::set<typename Domain::Closed> closed;
+  typename Domain::Time begin{};  ///< Instance::now. What is learned counts from here.
+};
+
+/// What the members have done between two situations of the same roads: plans of the later one are
+/// what is left of plans of the earlier one that begin with this.
+template <class Domain>
+struct History {
+  Situation<Domain> before, after;
+  std::map<MemberId, typename Domain::Later> members;  ///< Of `before`.
+};
+
+/// The last answers of a session, and what they say about another situation on the same roads. Why
+/// that is true: docs/soundness/sessions.md. `Domain` knows, all static:
+///
+///     Task, Closed, Time          what a member has to do, what may be closed, and when
+///     Instance, Path, Plan, Outcome
+///     Later                       where a member is on its path, and what is left of it: `ends`,
+///                                 `rest`, and `is_where(other)`
+///     later(path, time)           for a time that counts from the path's beginning
+///     adopt(path, instance, i)    puts the path on the agent's start; whether all that it uses is
+///                                 open
+///     as_cost(time)
+template <class Domain>
+class AnswerCache {
+ public:
+  using Situation = solve::Situation<Domain>;
+  using History = solve::History<Domain>;
+  using Instance = typename Domain::Instance;
+  using Path = typename Domain::Path;
+  using Paths = IdVector<AgentId, Path>;
+  using Time = typename Domain::Time;
+
+  /// The answer for a situation.
+  void add(const Situation& situation, Objective objective,
+           const typename Domain::Outcome& outcome);
+  /// Time has gone on. Of members whose task is not that of `before` nothing is known any more.
+  void advance(const History& history);
+  void clear() { answers_.clear(); }
+
+  /// Bounds of groups of agents of `now`, at most one of each answer.
+  [[nodiscard]] std::vector<GroupBound> bounds(const Situation& now, Objective objective) const;
+  /// Paths of answers, of which `instance`, that of `now`, allows all, most first; at most two.
+  [[nodiscard]] std::vector<Paths> drafts(const Situation& now, const Instance& instance) const;
+
+ private:
+  static constexpr std::size_t kMaxAnswers = 16, kMaxDrafts = 2;
+
+  struct Answer {
+    Situation situation;
+    std::vector<MemberId> members;  // by agent
+    Objective objective = Objective::sum_of_costs;
+    std::optional<Attribution> proved;
+    std::optional<typename Domain::Plan> plan;
+    /// Since then. Tasks are those of now, except of members that are `lost`.
+    Time elapsed{};
+    std::set<MemberId> lost = {};
+    /// Have arrived since then: what they cost has come to an end, which bounds know nothing of.
+    std::set<MemberId> arrived = {};
+  };
+  /// That all agents together cost at least the bound.
+  [[nodiscard]] static Attribution undivided(std::size_t num_agents, Objective objective,
+                                             Cost bound);
+  [[nodiscard]] static std::size_t num_paths(const Paths& paths) {
+    return static_cast<std::size_t>(
+        std::count_if(paths.begin(), paths.end(), [](const Path& path) { return !path.empty(); }));
+  }
+  /// Whether the member has the task of then, or what is left of it.
+  [[nodiscard]] static bool is_same(const Answer& answer, MemberId member,
+                                    const typename Domain::Task& now);
+  [[nodiscard]] static std::optional<GroupBound> bound_of(const Answer& answer,
+                                                          const Situation& now);
+  [[nodiscard]] static Paths paths_of(const Answer& answer, const Situation& now,
+                                      const Instance& instance);
+
+  std::list<Answer> answers_;  // the last one first
+};
+
+template <class Domain>
+Attribution AnswerCache<Domain>::undivided(std::size_t num_agents, Objective objective,
+                                           Cost bound) {
+  Attribution all;
+  all.objective = objective;
+  all.agents = IdVector<AgentId, AgentCharge>(num_agents);
+  all.lower_bound = bound;
+  Raise raise{RaiseKind::total, bound, {}, {}};
+  for (const AgentId i : IdRange<AgentId>(num_agents)) raise.agents.push_back(i);
+  all.raises.push_back(std::move(raise));
+  return all;
+}
+
+template <class Domain>
+void AnswerCache<Domain>::add(const Situation& situation, Objective objective,
+                              const typename Domain::Outcome& outcome) {
+  if (outcome.internal_error || outcome.status == Status::infeasible) return;
+  Answer answer{situation, {}, objective, {}, outcome.plan, Time{}};
+  for (const auto& [member, task] : situation.tasks) answer.members.push_back(member);
+  // A bound that the user knows is no proof.
+  if (!outcome.rests_on_known_bound) {
+    answer.proved = outcome.attribution;
+    if (!answer.proved && !answer.members.empty())
+      answer.proved = undivided(answer.members.size(), objective, outcome.lower_bound);
+  }
+  answers_.push_front(std::move(answer));
+  if (answers_.size() > kMaxAnswers) answers_.pop_back();
+}
+
+template <class Domain>
+void AnswerCache<Domain>::advance(const History& history) {
+  const Situation& before = history.before;
+  // What was done on a road that was closed then is no beginning of a plan of then.
+  std::erase_if(answers_, [&](const Answer& answer) {
+    const auto& closed = answer.situation.closed;
+    return !std::includes(before.closed.begin(), before.closed.end(), closed.begin(), closed.end());
+  });
+  const Time time = history.after.begin - before.begin;
+  for (Answer& answer : answers_) {
+    answer.elapsed += time;
+    for (std::size_t index = 0; index < answer.members.size(); ++index) {
+      const MemberId member = answer.members[index];
+      Path* const path = answer.plan ? &answer.plan->paths[AgentId(index)] : nullptr;
+      const auto now = before.tasks.find(member), then = history.after.tasks.find(member);
+      if (now == before.tasks.end() || then == history.after.tasks.end() ||
+          !is_same(answer, member, now->second)) {
+        answer.lost.insert(member);
+        continue;
+      }
+      answer.situation.tasks.at(member) = then->second;
+      const typename Domain::Later& done = history.members.at(member);
+      if (done.ends) answer.arrived.insert(member);
+      if (path == nullptr || path->empty()) continue;
+      auto planned = Domain::later(*path, time);
+      *path = planned.is_where(done) ? std::move(planned.rest) : Path();
+    }
+  }
+}
+
+template <class Domain>
+bool AnswerCache<Domain>::is_same(const Answer& answer, MemberId member,
+                                  const typename Domain::Task& now) {
+  const auto then = answer.situation.tasks.find(member);
+  return then != answer.situation.tasks.end() && then->second == now &&
+         !answer.lost.contains(member);
+}
+
+template <class Domain>
+std::vector<GroupBound> AnswerCache<Domain>::bounds(const Situation& now,
+                                                    Objective objective) const {
+  std::vector<GroupBound> bounds;
+  for (const Answer& answer : answers_)
+    if (answer.objective == objective && answer.proved)
+      if (auto bound = bound_of(answer, now)) bounds.push_back(std::move(*bound));
+  return bounds;
+}
+
+template <class Domain>
+std::optional<GroupBound> AnswerCache<Domain>::bound_of(const Answer& answer,
+                                                        const Situation& now) {
+  const auto& closed = answer.situation.closed;
+  // With an edge that was closed then there may be cheaper plans.
+  if (!std::includes(now.closed.begin(), now.closed.end(), closed.begin(), closed.end()))
+    return std::nullopt;
+  /// Those who have the same task now, by agent then.
+  std::vector<std::optional<AgentId>> same(answer.members.size());
+  std::size_t index = 0;
+  for (const auto& [member, task] : now.tasks) {
+    const auto then = answer.situation.tasks.find(member);
+    if (is_same(answer, member, task) && !answer.arrived.contains(member))
+      same[static_cast<std::size_t>(std::distance(answer.situation.tasks.begin(), then))] =
+          AgentId(index);
+    ++index;
+  }
+  const auto are_same = [&](const std::vector<AgentId>& agents) {
+    return std::all_of(agents.begin(), agents.end(),
+                       [&](AgentId i) { return same[i.index()].has_value(); });
+  };
+  const Attribution& proved = *answer.proved;
+  GroupBound bound;
+  std::set<AgentId> group;  // then
+  Cost raised = 0;
+  for (const Raise& raise : proved.raises) {
+    raised += raise.amount;
+    if (!are_same(raise.agents) || !are_same(raise.bystanders)) continue;
+    if (proved.objective == Objective::makespan) {
+      group.clear();
+      bound.cost = proved.free_bound + raised;
+    } else {
+      bound.cost += raise.amount;
+    }
+    group.insert(raise.agents.begin(), raise.agents.end());
+    group.insert(raise.bystanders.begin(), raise.bystanders.end());
+  }
+  if (group.empty()) return std::nullopt;
+  for (const AgentId then : group) {
+    if (proved.objective == Objective::sum_of_costs) bound.cost += proved.agents[then].free_cost;
+    bound.agents.push_back(*same[then.index()]);
+  }
+  // Everybody has spent so much of it, at most.
+  const auto times = proved.objective == Objective::makespan
+                         ? std::int64_t{1}
+                         : static_cast<std::int64_t>(bound.agents.size());
+  bound.cost -= times * Domain::as_cost(answer.elapsed);
+  std::sort(bound.agents.begin(), bound.agents.end());
+  return bound;
+}
+
+template <class Domain>
+std::vector<typename AnswerCache<Domain>::Paths> AnswerCache<Domain>::drafts(
+    const Situation& now, const Instance& instance) const {
+  std::vector<Paths> drafts;
+  for (const Answer& answer : answers_)
+    if (answer.plan) drafts.push_back(paths_of(answer, now, instance));
+  std::erase_if(drafts, [](const auto& paths) { return num_paths(paths) == 0; });
+  std::stable_sort(drafts.begin(), drafts.end(),
+                   [](const auto& a, const auto& b) { return num_paths(a) > num_paths(b); });
+  if (drafts.size() > kMaxDrafts) drafts.resize(kMaxDrafts);
+  return drafts;
+}
+
+template <class Domain>
+typename AnswerCache<Domain>::Paths AnswerCache<Domain>::paths_of(const Answer& answer,
+                                                                  const Situation& now,
+                                                                  const Instance& instance) {
+  Paths paths(instance.num_agents());
+  std::size_t index = 0;
+  for (const auto& [member, task] : now.tasks) {
+    const AgentId i(index++);
+    const auto then = answer.situation.tasks.find(member);
+    if (!is_same(answer, member, task)) continue;
+    const AgentId then_i(
+        static_cast<std::size_t>(std::distance(answer.situation.tasks.begin(), then)));
+    Path path = answer.plan->paths[then_i];
+    if (!path.empty() && Domain::adopt(path, instance, i)) paths[i] = std::move(path);
+  }
+  return paths;
+}
+
+}  // namespace quadrille::solve
+
+QUADRILLE_API_END
