@@ -3,16 +3,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional, Sequence, cast
+from typing import Any, Callable, Optional, Sequence, Union, cast
 
 import numpy as np
 
 from . import _core
-from ._arrays import per_agent
+from ._arrays import ints, per_agent
 from ._errors import InputError
 from .fleet import Fleet, _bodies, _goal_vertices, _starts
-from .graphs import Roadmap
-from .plans import TimedPlan
+from .graphs import Graph, Grid, Roadmap
+from .plans import StepPlan, TimedPlan
 from .rules import Obstacle, flags, group_numbers, moments
 from .solving import Progress, Result, searched
 
@@ -29,32 +29,55 @@ _DEFAULTS: dict[str, Any] = dict(
 )
 
 
+_STEP_DEFAULTS: dict[str, Any] = dict(release=None, deadline=None, leaves=False)
+
+
 class Session:
-    """A roadmap and agents that change, and are solved again after each change. What the answers rest on
-    lives on: distances, bounds of groups of agents of whom nothing has changed, the last plans, which are
-    mended instead of made anew, lemmas and cores. Costs and proofs are those of ``solve`` for
-    ``fleet()``; among plans of the same cost it may be another one.
+    """A grid, a graph or a roadmap, and agents that change, and are solved again after each change. What
+    the answers rest on lives on: bounds of groups of agents of whom nothing has changed, the last plans,
+    which are mended instead of made anew, and on roadmaps distances, lemmas and cores. Costs and proofs
+    are those of ``solve`` for ``fleet()``; among plans of the same cost it may be another one.
 
     Agents are called by names. Whether they are in each other's way, or can reach their goals, is
     found out when the session is solved.
 
     Args:
-        roadmap: Where the agents move.
-        obstacles: ``Obstacle`` s, of which agents keep clear.
+        graph: Where the agents move.
+        obstacles: On roadmaps: ``Obstacle`` s, of which agents keep clear.
+        robust: On grids and graphs, as for a ``Fleet``.
+        whole_moves: As for a ``Fleet``.
         now: When agents are at their starts.
 
     Raises:
         InputError: for numbers that are out of range.
     """
 
+    _defaults = _DEFAULTS
+
+    def __new__(cls, graph: Any, **options: Any) -> Session:
+        return object.__new__(_StepSession if isinstance(graph, (Grid, Graph)) else cls)
+
     def __init__(
-        self, roadmap: Roadmap, *, obstacles: Sequence[Obstacle] = (), now: float = 0.0
+        self,
+        graph: Union[Grid, Graph, Roadmap],
+        *,
+        obstacles: Sequence[Obstacle] = (),
+        robust: int = 0,
+        whole_moves: bool = False,
+        now: float = 0,
     ) -> None:
-        if not isinstance(roadmap, Roadmap):
-            raise InputError("a session needs a roadmap")
-        self._graph = roadmap
+        if not isinstance(graph, Roadmap):
+            raise InputError("a session needs a grid, a graph or a roadmap")
+        if robust != 0:
+            raise ValueError("robust is for grids and graphs")
+        self._graph = graph
         given = [obstacle._given() for obstacle in obstacles]
-        self._core = _core.Session(roadmap._graph, roadmap.resolution, given, float(now))
+        self._core: Any = _core.Session(
+            graph._graph, graph.resolution, given, float(now), bool(whole_moves)
+        )
+        self._begin()
+
+    def _begin(self) -> None:
         self._members: dict[str, int] = {}
         self._agents: dict[str, dict[str, Any]] = {}
 
@@ -80,17 +103,17 @@ class Session:
 
         Args:
             name: No other one is called so.
-            start: A vertex, or an ``Underway``, which may not wait.
-            goals: A vertex, or a list of several.
-            more: ``radius``, ``polygon``, ``speed``, ``group``, ``release``, ``deadline``, ``leaves`` and
-                ``overlap_at_start``, as for one agent of a ``Fleet``.
+            start: A vertex or a cell, on roadmaps also an ``Underway``, which may not wait.
+            goals: A vertex or a cell, or a list of several.
+            more: ``release``, ``deadline`` and ``leaves``, and on roadmaps ``radius``, ``polygon``,
+                ``speed``, ``group`` and ``overlap_at_start``, as for one agent of a ``Fleet``.
 
         Raises:
             InputError: as ``Fleet``.
         """
         if name in self._members:
             raise InputError(f"there is an agent called {name!r} already")
-        agent = {**_DEFAULTS, "start": start, "goals": goals}
+        agent = {**self._defaults, "start": start, "goals": goals}
         self._agents[name] = self._merged(agent, more)
         try:
             self._members[name] = self._core.add(*self._parts(name))
@@ -123,19 +146,30 @@ class Session:
         self._core.remove(self._member(name))
         del self._members[name], self._agents[name]
 
-    def close(self, source: Any, target: Any) -> None:
-        """Nobody may use the edge from one vertex to another one, until it is opened.
+    def close(self, source: Any, target: Any = None) -> None:
+        """Nobody may use the edge from one vertex to another one, until it is opened. On grids and graphs
+        that is for both directions, and without a target nobody may be in the place ``source``.
 
         Raises:
             InputError: if there is none, or it is closed already.
         """
         self._core.close(*self._edge(source, target))
 
-    def open(self, source: Any, target: Any) -> None:
+    def open(self, source: Any, target: Any = None) -> None:
         """Closed no more."""
         self._core.open(*self._edge(source, target))
 
-    def fleet(self) -> Fleet[TimedPlan]:
+    def advance_to(self, now: int, plan: StepPlan) -> None:
+        """On grids and graphs: time has gone on until the timestep ``now``, and everybody has followed the
+        plan, one of ``fleet()``: that of the last answer, or what has become of it where somebody was
+        late. Agents begin where they are then; those that leave and have arrived are removed.
+
+        Raises:
+            InputError: if ``now`` is over, or the plan is none.
+        """
+        raise InputError("advance_to is for grids and graphs")
+
+    def fleet(self) -> Fleet[Any]:
         """The agents as things are now, on the roadmap as it is."""
         fleet: Fleet[TimedPlan] = cast(Any, Fleet.__new__)(Fleet)
         names = self.names
@@ -147,26 +181,26 @@ class Session:
         self,
         *,
         progress: Optional[Callable[[Progress], object]] = None,
-        on_plan: Optional[Callable[[TimedPlan], object]] = None,
-        initial: Optional[TimedPlan] = None,
+        on_plan: Optional[Callable[[Any], object]] = None,
+        initial: Union[None, StepPlan, TimedPlan] = None,
         keep_interrupt: bool = False,
         **options: Any,
-    ) -> Result[TimedPlan]:
+    ) -> Result[Any]:
         """As ``quadrille.solve`` for ``fleet()``, with its arguments."""
         fleet = self.fleet()
         given = dict(options, initial=None if initial is None else initial._plan)
 
-        def search(arguments: dict[str, Any]) -> dict[str, Any]:
-            return self._core.solve(fleet._timed("solve"), arguments)
+        return searched(fleet, self._search(fleet), given, progress, on_plan, keep_interrupt)
 
-        return searched(fleet, search, given, progress, on_plan, keep_interrupt)
+    def _search(self, fleet: Fleet[Any]) -> Callable[[dict[str, Any]], dict[str, Any]]:
+        return lambda arguments: cast("dict[str, Any]", self._core.solve(fleet._timed("solve"), arguments))
 
     def _member(self, name: str) -> int:
         if name not in self._members:
             raise InputError(f"there is no agent called {name!r}")
         return self._members[name]
 
-    def _edge(self, source: Any, target: Any) -> tuple[int, int]:
+    def _edge(self, source: Any, target: Any) -> tuple[Any, Any]:
         return self._graph._vertex(source, "source"), self._graph._vertex(target, "target")
 
     @staticmethod
@@ -211,3 +245,61 @@ class Session:
         for _, source, target, fraction, begun, _ in under_way:
             member = self._members[name]
             self._core.put_under_way(member, source, target, fraction, begun, repr(name))
+
+
+class _StepSession(Session):
+    """A ``Session`` on a grid or a graph."""
+
+    _defaults = _STEP_DEFAULTS
+
+    def __init__(
+        self,
+        graph: Any,
+        *,
+        obstacles: Sequence[Obstacle] = (),
+        robust: int = 0,
+        whole_moves: bool = False,
+        now: float = 0,
+    ) -> None:
+        if obstacles:
+            raise ValueError("obstacles is for roadmaps")
+        self._graph = graph
+        begin, distance = ints(now, "now", ()).item(), ints(robust, "robust", ()).item()
+        # What is wrong with these is what is wrong with a fleet of nobody.
+        empty = np.zeros((0, 2) if isinstance(graph, Grid) else 0, np.int64)
+        Fleet(graph, empty, empty, robust=distance, now=begin)
+        self._core = _core.StepSession(graph._graph, begin, max(distance, int(bool(whole_moves))))
+        self._begin()
+
+    def advance_to(self, now: int, plan: StepPlan) -> None:
+        self._core.advance_to(ints(now, "now", ()).item(), plan._plan)
+        members = self._core.members
+        for name in [name for name, member in self._members.items() if member not in members]:
+            del self._members[name], self._agents[name]
+        starts = self._core.instance().starts()
+        for name, start in zip(self.names, starts.tolist()):
+            self._agents[name]["start"] = start
+
+    def fleet(self) -> Fleet[Any]:
+        fleet: Fleet[StepPlan] = cast(Any, Fleet.__new__)(Fleet)
+        fleet._setup(self._graph, self._core.instance(), self.names)
+        return fleet
+
+    def _search(self, fleet: Fleet[Any]) -> Callable[[dict[str, Any]], dict[str, Any]]:
+        return lambda arguments: cast("dict[str, Any]", self._core.solve(arguments))
+
+    def _edge(self, source: Any, target: Any) -> tuple[Any, Any]:
+        shape = (2,) if isinstance(self._graph, Grid) else ()
+        end = None if target is None else ints(target, "target", shape)
+        return ints(source, "source", shape), end
+
+    def _parts(self, name: str) -> tuple[Any, ...]:
+        agent = self._agents[name]
+        rules = {key: agent[key] for key in _STEP_DEFAULTS if agent[key] is not None}
+        one = Fleet(
+            self._graph, [agent["start"]], [agent["goals"]], names=[name], now=self._core.now, **rules
+        )
+        return (one._instance,)
+
+    def _put_under_way(self, name: str) -> None:
+        pass

@@ -15,7 +15,8 @@ void bind_dispatching(pybind11::module_& module);  ///< Live fleets.
 void bind_executing(pybind11::module_& module);    ///< Who may go on, with plans of either.
 void bind_exporting(pybind11::module_& module);    ///< Plans for other systems.
 void bind_session(pybind11::module_& module);      ///< Solving again and again, in continuous time.
-void bind_viewing(pybind11::module_& module);      ///< Pages and pictures of either.
-void bind_reading(pybind11::module_& module);      ///< Files of either.
+void bind_step_session(pybind11::module_& module);  ///< The same in timesteps.
+void bind_viewing(pybind11::module_& module);       ///< Pages and pictures of either.
+void bind_reading(pybind11::module_& module);       ///< Files of either.
 
 }  // namespace quadrille::python

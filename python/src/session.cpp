@@ -32,12 +32,12 @@ using continuous::Ticks;
 class Session {
  public:
   Session(std::shared_ptr<Roadmap> roadmap, const Sizes& sizes, const py::list& obstacles,
-          double now)
+          double now, bool whole_moves)
       : roadmap_(std::move(roadmap)),
         sizes_(sizes),
         obstacles_(obstacles_of(obstacles, sizes)),
         now_(moment_of(now, sizes, "now: the session begins")),
-        session_(roadmap_, resolution_of(sizes), obstacles_, now_) {}
+        session_(roadmap_, resolution_of(sizes), obstacles_, now_, whole_moves) {}
 
   /// All of these as agents_of takes them, of one agent.
   std::size_t add(const Ints& start, const Ints& goals, std::size_t num_goals, const py::list& body,
@@ -132,7 +132,7 @@ class Session {
 
 void bind_session(py::module_& module) {
   py::class_<Session>(module, "Session")
-      .def(py::init<std::shared_ptr<Roadmap>, const Sizes&, const py::list&, double>())
+      .def(py::init<std::shared_ptr<Roadmap>, const Sizes&, const py::list&, double, bool>())
       .def("add", &Session::add)
       .def("change", &Session::change)
       .def("remove", &Session::remove)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The discrete domain: graphs, tasks and plans in timesteps.
+#include "steps.hpp"
+
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -76,7 +78,8 @@ py::array edges_of(const Graph& graph) {
   return frozen(array);
 }
 
-/// The vertex of a place: its number, or the cell (x, y) on a grid. `name` is for messages.
+}  // namespace
+
 VertexId vertex_of(const Graph& graph, const std::int64_t* place, const std::string& name) {
   if (!graph.layout()) {
     if (place[0] < 0 || place[0] >= static_cast<std::int64_t>(graph.num_vertices()))
@@ -94,6 +97,8 @@ VertexId vertex_of(const Graph& graph, const std::int64_t* place, const std::str
            ") is blocked, or outside of the grid");
   return *vertex;
 }
+
+namespace {
 
 /// How many numbers name a place.
 std::size_t place_size(const Graph& graph) { return graph.layout() ? 2 : 1; }
@@ -229,6 +234,8 @@ Plan plan_of(const Graph& graph, const Ints& paths) {
   return plan;
 }
 
+}  // namespace
+
 discrete::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>& interrupt) {
   discrete::SolveOptions options;
   set_common(arguments, options, interrupt);
@@ -250,8 +257,13 @@ discrete::SolveOptions options_of(Arguments& arguments, const std::atomic<bool>&
   return options;
 }
 
+namespace {
+
 py::dict solve_steps(const Instance& instance, const py::dict& arguments) {
-  return run_solve<Plan>(instance, arguments, options_of);
+  return run_solve<Plan>(instance, arguments,
+                         [](Arguments& given, const std::atomic<bool>& interrupt) {
+                           return options_of(given, interrupt);
+                         });
 }
 
 /// (violations, sum of costs, makespan); a violation is (kind, agent, other, timestep, message).

@@ -48,6 +48,73 @@ def test_answers_are_those_of_solve():
     assert compared > 0
 
 
+def test_grids_answer_like_solve_while_time_passes():
+    compared = moments = 0
+    for seed in range(scaled(15)):
+        draw = random.Random(seed)
+        grid = q.Grid([[draw.random() < 0.85 for _ in range(5)] for _ in range(5)])
+        free = [(x, y) for y in range(5) for x in range(5) if grid.free[y][x]]
+        session = q.Session(grid, now=seed % 3, whole_moves=seed % 4 == 0)
+        for k, start in enumerate(draw.sample(free, 3)):
+            session.add(f"robot {k}", start, draw.choice(free), leaves=draw.random() < 0.3)
+        for _ in range(8):
+            if len(session) > 0 and draw.random() < 0.5:
+                session.change(draw.choice(session.names), goals=[draw.choice(free)])
+            try:
+                fleet = session.fleet()
+            except q.InputError:  # two at one goal
+                with pytest.raises(q.InputError):
+                    session.solve()
+                session.change(draw.choice(session.names), goals=[draw.choice(free)])
+                continue
+            result, fresh = session.solve(), q.solve(fleet)
+            assert (result.status, result.cost, result.lower_bound) == (fresh.status, fresh.cost, fresh.lower_bound)
+            compared += 1
+            if result.plan is not None:
+                assert result.plan.verify() and result.plan.names == session.names
+                now = int(fleet.now) + draw.randrange(4)
+                session.advance_to(now, result.plan)
+                assert all(start in free for start in map(tuple, session.fleet().starts.tolist()))
+                moments += 1
+    assert compared > 0 and moments > 0
+
+
+def test_grids_close_and_refuse():
+    session = q.Session(q.Graph(3, [(0, 1), (1, 2)]))
+    session.add("a", 0, 2)
+    assert session.solve().cost == 2
+    session.close(1)
+    assert session.solve().status == "infeasible"
+    session.open(1)
+    session.close(2, 1)
+    assert session.solve().status == "infeasible"
+    with pytest.raises(q.InputError, match="closed already"):
+        session.close(1, 2)
+    session.open(1, 2)
+    plan = session.solve().plan
+    session.advance_to(1, plan)
+    assert session.fleet().starts.tolist() == [1] and session.solve().cost == 1
+    with pytest.raises(q.InputError, match="time goes back from 1 to 0"):
+        session.advance_to(0, plan)
+    with pytest.raises(q.InputError, match="an agent called 'a' already"):
+        session.add("a", 0, 2)
+    with pytest.raises(TypeError, match="has no 'radius'"):
+        session.change("a", radius=1)
+
+
+def test_whole_moves():
+    grid = q.Fleet(q.Graph(3, [(0, 1), (1, 2)]), [0, 1], [1, 2], whole_moves=True)
+    assert grid.whole_moves and q.solve(grid).cost == 3
+    roads = q.Roadmap([(0, 0), (1, 0), (2, 0), (3, 0)], [(0, 1), (1, 2), (2, 3)])
+    for whole, cost in ((False, 4), (True, 5)):
+        fleet = q.Fleet(roads, [0, 1], [2, 3], radius=0.1, whole_moves=whole)
+        assert fleet.whole_moves == whole and q.solve(fleet).cost == pytest.approx(cost)
+        session = q.Session(roads, whole_moves=whole)
+        for name, start, goal in (("a", 0, 2), ("b", 1, 3)):
+            session.add(name, start, goal, radius=0.1)
+        assert session.solve().cost == pytest.approx(cost)
+
+
 def test_names_and_mistakes():
     session = q.Session(ROADS)
     session.add("amr", "west", "east", radius=0.3)
@@ -66,7 +133,7 @@ def test_names_and_mistakes():
         (lambda: session.open("west", "cross"), "edge"),
         (lambda: session.solve(gap=-1), "gap"),
         (lambda: session.solve(tie="any"), "tie"),
-        (lambda: q.Session(q.Grid([[1]])), "a session needs a roadmap"),
+        (lambda: q.Session(3), "a session needs a grid, a graph or a roadmap"),
     ):
         with pytest.raises(q.InputError, match=why):
             call()
