@@ -28,10 +28,6 @@ constexpr std::size_t kMostAtOnce = 64;
 constexpr std::int64_t kConflictsAtOnce = 100;
 constexpr double kGapAtOnce = 10;
 
-std::string name(AgentId robot) { return "robot " + std::to_string(robot.index()); }
-Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
-Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
-
 }  // namespace
 
 class Dispatcher::Parts {
@@ -39,6 +35,7 @@ class Dispatcher::Parts {
   Parts(const Instance& instance, const Options& options)
       : options_(options),
         roadmap_(instance.shared_roadmap()),
+        roads_(roadmap_),
         resolution_(instance.resolution()),
         replanner_(roadmap_) {
     for (const continuous::Agent& agent : instance.agents()) {
@@ -50,15 +47,14 @@ class Dispatcher::Parts {
   }
 
   std::vector<Robot>& robots() { return robots_; }
+  Roads& roads() { return roads_; }
+  [[nodiscard]] const execution::Precedences& order() const { return order_; }
   [[nodiscard]] Ticks now() const { return now_; }
 
   std::optional<Error> assign(AgentId id, Task task) {
-    if (id.index() >= robots_.size()) return invalid("there is no " + name(id));
-    if (task.service < 0 || task.service > geometry::kMaxDuration ||
-        (task.deadline && *task.deadline < 0))
-      return out_of_range("the task of " + name(id) + " has a time that is negative or too long");
+    if (auto error = refuse_task(id, robots_.size(), task, geometry::kMaxDuration)) return error;
     if (auto error = refuse(robots_[id.index()].agent, task.goals)) {
-      error->message = name(id) + ": " + error->message;
+      error->message = robot_name(id) + ": " + error->message;
       return error;
     }
     robots_[id.index()].tasks.push_back({std::move(task), num_assigned_++});
@@ -74,10 +70,12 @@ class Dispatcher::Parts {
     }
     finish_tasks(news);
     const Ticks patience = options_.patience > 0 ? options_.patience : kPatience * duration;
-    if (now_ - earliest_that_moves() > patience) news.has_new_origin = begin_anew();
+    if (find_barred() || now_ - earliest_that_moves() > patience)
+      news.has_new_origin = begin_anew();
     plan(limits, news);
     release(duration);
-    for (const Robot& robot : robots_) news.num_waiting += robot.wants_path() ? 1 : 0;
+    for (const Robot& robot : robots_)
+      news.num_waiting += robot.wants_path() || (robot.is_barred && !robot.tasks.empty()) ? 1 : 0;
     return news;
   }
 
@@ -103,6 +101,23 @@ class Dispatcher::Parts {
       robot.next_try = 0;
       robot.patience = 1;
     }
+  }
+
+  /// Those whose courses lead into lanes that are closed. Whether one should be there already, and
+  /// it is time to plan for it from where it is.
+  bool find_barred() {
+    bool is_late = false;
+    for (Robot& robot : robots_) {
+      const auto barrier = roads_.barrier(robot.course, robot.limit);
+      robot.is_barred = barrier.has_value() && !robot.busy_until;
+      if (!robot.is_barred) continue;
+      robot.is_bound = false;
+      if (*barrier >= now_ || robot.next_try > call_) continue;
+      is_late = true;
+      robot.patience = std::min(2 * robot.patience, kMostPatience);
+      robot.next_try = call_ + robot.patience;
+    }
+    return is_late;
   }
 
   /// As the others see it: whoever has arrived is at rest, and late for nothing.
@@ -157,7 +172,7 @@ class Dispatcher::Parts {
 
   /// New courses from now on, if there is need of any, and if they can be put into force.
   void plan(const Limits& limits, News& news) {
-    const Work work = next_work(robots_, *roadmap_, call_, now_);
+    const Work work = next_work(robots_, *roadmap_, roads_, call_, now_);
     if (options_.effort <= Effort() || (work.order.empty() && !options_.improves)) return;
     std::vector<continuous::Agent> agents = this->agents();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
@@ -165,12 +180,15 @@ class Dispatcher::Parts {
       agents[i].release = robots_[i].busy_until.value_or(Ticks(0));
     }
     const std::vector<Course> before = courses();
-    const auto snapshot = take_snapshot(roadmap_, resolution_, std::move(agents), before, now_);
+    const auto snapshot = take_snapshot(roadmap_, resolution_, std::move(agents), before, now_,
+                                        roads_.closed_edges());
     if (!snapshot) return;
     replanner_.begin(snapshot->instance, snapshot->plan, limits);
     send(work);
     if (is_somebody_stuck()) plan_all_at_once(*snapshot, limits);
-    if (options_.improves && replanner_.effort() < options_.effort)
+    const bool are_barred = std::any_of(robots_.begin(), robots_.end(),
+                                        [](const Robot& robot) { return robot.is_barred; });
+    if (options_.improves && !are_barred && replanner_.effort() < options_.effort)
       replanner_.improve(options_.effort - replanner_.effort());
     news.effort = replanner_.effort();
     adopt(*snapshot, before, news);
@@ -186,7 +204,8 @@ class Dispatcher::Parts {
         if (other.busy_until) return false;
         return !other.is_bound || is_more_urgent(robot, other);
       };
-      const bool is_sent = robot.wants_path() ? replanner_.send(i, may_push) : replanner_.send(i);
+      const bool may_ask = robot.wants_path() || robot.is_barred;
+      const bool is_sent = may_ask ? replanner_.send(i, may_push) : replanner_.send(i);
       sent_.emplace_back(i, is_sent);
     }
   }
@@ -221,8 +240,8 @@ class Dispatcher::Parts {
       after[i.index()] = joined(until(before[i.index()], now_), snapshot.course(plan.paths[i]));
     }
     if (news.has_new_plan) {
-      const auto allowed = find_limits(traffic(), after);
-      const auto keeps = [&](std::size_t i) { return (*allowed)[i] >= robots_[i].limit; };
+      const auto allowed = find_right_of_way(traffic(), after);
+      const auto keeps = [&](std::size_t i) { return allowed->limits[i] >= robots_[i].limit; };
       bool is_kept = allowed.has_value();
       for (std::size_t i = 0; is_kept && i < robots_.size(); ++i) is_kept = keeps(i);
       news.was_too_late = !is_kept;
@@ -240,6 +259,11 @@ class Dispatcher::Parts {
     for (const AgentId i : snapshot.instance.agent_ids()) {
       Robot& robot = robots_[i.index()];
       if (news.has_new_plan) robot.course = std::move(after[i.index()]);
+      if (roads_.barrier(robot.course, robot.limit)) continue;
+      if (std::exchange(robot.is_barred, false)) {
+        robot.next_try = 0;
+        robot.patience = 1;
+      }
       if (!robot.tasks.empty() && !robot.busy_until)
         robot.is_bound = robot.tasks.front().task.goals.contains(robot.course.back().spot.from);
       if (!robot.is_bound || robot.busy_until) continue;
@@ -250,12 +274,15 @@ class Dispatcher::Parts {
 
   /// Everybody may go on for so long, if the others allow it.
   void release(Ticks duration) {
-    const auto allowed = find_limits(traffic(), courses());
+    auto allowed = find_right_of_way(traffic(), courses());
     QUADRILLE_REQUIRE(allowed.has_value(), "the courses in force do not collide");
+    order_ = std::move(allowed->order);
     now_ += duration;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       Robot& robot = robots_[i];
-      Ticks limit = std::min((*allowed)[i], now_);
+      Ticks limit = std::min(allowed->limits[i], now_);
+      if (const auto barrier = roads_.barrier(robot.course, robot.limit))
+        limit = std::min(limit, *barrier);
       if (options_.reach > 0 && !robot.has_arrived())
         limit = std::min(limit, robot.clock + options_.reach);
       robot.limit = std::max(robot.limit, limit);
@@ -278,13 +305,14 @@ class Dispatcher::Parts {
 
   const Options options_;
   const std::shared_ptr<const Roadmap> roadmap_;
+  Roads roads_;
   const continuous::Resolution resolution_;
   continuous::Replanner replanner_;
   std::vector<Robot> robots_;
   std::vector<std::pair<AgentId, bool>> sent_;  // of this call: whether it got a path
+  execution::Precedences order_;                // of the courses in force
   Ticks now_ = 0, origin_ = 0;
-  std::int64_t call_ = 0;
-  std::uint64_t num_assigned_ = 0;
+  std::int64_t call_ = 0, num_assigned_ = 0;
 };
 
 Result<Dispatcher> Dispatcher::make(std::shared_ptr<const Roadmap> roadmap,
@@ -324,7 +352,7 @@ std::optional<Error> Dispatcher::assign(AgentId robot, Task task) {
 }
 
 std::optional<Error> Dispatcher::cancel(AgentId robot) {
-  if (robot.index() >= num_robots()) return invalid("there is no " + name(robot));
+  if (robot.index() >= num_robots()) return invalid("there is no " + robot_name(robot));
   Robot& one = parts_->robots()[robot.index()];
   one.tasks.clear();
   one.busy_until.reset();
@@ -332,14 +360,21 @@ std::optional<Error> Dispatcher::cancel(AgentId robot) {
   return std::nullopt;
 }
 
+std::optional<Error> Dispatcher::close(VertexId from, VertexId to) {
+  return parts_->roads().close(from, to);
+}
+std::optional<Error> Dispatcher::open(VertexId from, VertexId to) {
+  return parts_->roads().open(from, to);
+}
+
 std::optional<Error> Dispatcher::report(AgentId robot, Ticks clock) {
-  if (robot.index() >= num_robots()) return invalid("there is no " + name(robot));
+  if (robot.index() >= num_robots()) return invalid("there is no " + robot_name(robot));
   Robot& one = parts_->robots()[robot.index()];
   if (clock < one.clock)
-    return out_of_range("the clock of " + name(robot) + " goes back from " +
+    return out_of_range("the clock of " + robot_name(robot) + " goes back from " +
                         std::to_string(one.clock.value()) + " to " + std::to_string(clock.value()));
   if (clock > one.limit)
-    return out_of_range(name(robot) + " has gone on to " + std::to_string(clock.value()) +
+    return out_of_range(robot_name(robot) + " has gone on to " + std::to_string(clock.value()) +
                         ", and was allowed to go to " + std::to_string(one.limit.value()));
   one.clock = clock;
   return std::nullopt;
@@ -355,6 +390,7 @@ const Course& Dispatcher::course(AgentId robot) const {
 }
 Ticks Dispatcher::clock(AgentId robot) const { return parts_->robots().at(robot.index()).clock; }
 Ticks Dispatcher::limit(AgentId robot) const { return parts_->robots().at(robot.index()).limit; }
+const execution::Precedences& Dispatcher::order() const noexcept { return parts_->order(); }
 Ticks Dispatcher::now() const noexcept { return parts_->now(); }
 std::size_t Dispatcher::num_tasks(AgentId robot) const {
   return parts_->robots().at(robot.index()).tasks.size();

@@ -10,58 +10,55 @@ namespace quadrille::dispatch {
 
 GridSimulation::GridSimulation(GridDispatcher& dispatcher,
                                std::shared_ptr<const discrete::Graph> graph,
-                               const GridSimulationOptions& options)
+                               const SimulationOptions& options)
     : dispatcher_(dispatcher),
       graph_(std::move(graph)),
       options_(options),
       random_(options.seed),
+      feed_(
+          options, dispatcher.num_robots(), graph_->num_vertices(),
+          [&dispatcher](AgentId robot, const Task& task) { return dispatcher.assign(robot, task); },
+          [&dispatcher](AgentId robot) { return dispatcher.num_tasks(robot); }, time()),
       paused_until_(dispatcher.num_robots(), 0),
-      still_since_(dispatcher.num_robots(), dispatcher.now()),
-      since_(dispatcher.num_robots()) {
-  QUADRILLE_REQUIRE(options.longest_pause >= 1, "at least one timestep");
-  for (std::size_t i = 0; i < since_.size(); ++i)
-    since_[i].resize(dispatcher.num_tasks(AgentId(i)), dispatcher.now());
-}
-
-void GridSimulation::draw_tasks() {
-  const Ticks service(std::int64_t{options_.service});
-  for (std::size_t i = 0; i < since_.size(); ++i) {
-    // A vertex that it cannot reach is refused, and another one drawn.
-    for (int tries = 0; tries < 100 && dispatcher_.num_tasks(AgentId(i)) == 0; ++tries) {
-      const VertexId goal(static_cast<std::size_t>(random_.below(graph_->num_vertices())));
-      if (dispatcher_.assign(AgentId(i), Task{goal, service, {}})) continue;
-      since_[i].push_back(dispatcher_.now());
-    }
-  }
+      still_since_(dispatcher.num_robots(), dispatcher.now()) {
+  QUADRILLE_REQUIRE(options.step == 1 && options.longest_pause >= 1, "whole timesteps");
+  show();
 }
 
 void GridSimulation::draw_pauses() {
   held_.clear();
-  for (std::size_t i = 0; i < since_.size(); ++i) {
+  for (std::size_t i = 0; i < dispatcher_.num_robots(); ++i) {
     const Timestep now = dispatcher_.now();
     if (now >= paused_until_[i] && random_.chance(options_.pause_chance))
       paused_until_[i] =
-          now + 1 +
-          static_cast<Timestep>(random_.below(static_cast<std::uint64_t>(options_.longest_pause)));
+          now + 1 + static_cast<Timestep>(drawn(random_, options_.longest_pause).value());
     if (now < paused_until_[i]) held_.emplace_back(i);
   }
 }
 
 News GridSimulation::step(const Limits& limits) {
-  if (options_.has_random_tasks) draw_tasks();
+  feed_.feed(time(), random_);
   draw_pauses();
   std::vector<VertexId> before;
-  for (std::size_t i = 0; i < since_.size(); ++i) before.push_back(dispatcher_.place(AgentId(i)));
-  const Timestep now = dispatcher_.now();
+  for (std::size_t i = 0; i < dispatcher_.num_robots(); ++i)
+    before.push_back(dispatcher_.place(AgentId(i)));
+  const Ticks now = time();
   News news = dispatcher_.tick(held_, limits);
-  for (const AgentId robot : news.served) {
-    std::vector<Timestep>& since = since_[robot.index()];
-    service_times_.push_back(now - since.front());
-    since.erase(since.begin());
-    still_since_[robot.index()] = dispatcher_.now();
-  }
+  feed_.finish(news.served, now);
+  for (const AgentId robot : news.served) still_since_[robot.index()] = dispatcher_.now();
   look(before);
+  show();
   return news;
+}
+
+void GridSimulation::show() const {
+  if (!options_.watch || !graph_->layout()) return;
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < dispatcher_.num_robots(); ++i) {
+    const discrete::Cell cell = graph_->layout()->cell_of(dispatcher_.place(AgentId(i)));
+    places.push_back({static_cast<double>(cell.x), static_cast<double>(cell.y), 0});
+  }
+  options_.watch(time(), places);
 }
 
 void GridSimulation::look(const std::vector<VertexId>& before) {

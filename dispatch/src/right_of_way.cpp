@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "quadrille/execution/executor.hpp"
-#include "quadrille/execution/precedences.hpp"
 #include "quadrille/geometry/body_pair.hpp"
 
 namespace quadrille::dispatch {
@@ -55,8 +54,8 @@ void lead_with(const std::vector<TimedMove>& lanes, AgentId robot, const Instanc
 
 }  // namespace
 
-std::optional<std::vector<Ticks>> find_limits(const Traffic& traffic,
-                                              std::span<const Course> courses) {
+std::optional<RightOfWay> find_right_of_way(const Traffic& traffic,
+                                            std::span<const Course> courses) {
   const std::vector<Ticks>& clocks = traffic.clocks;
   const Ticks earliest = *std::min_element(clocks.begin(), clocks.end());
   const Ticks moment = std::max(traffic.origin, earliest);
@@ -70,9 +69,10 @@ std::optional<std::vector<Ticks>> find_limits(const Traffic& traffic,
       lead_with(lanes_until(courses[i], clocks[i], traffic.origin), AgentId(i), snapshot->instance,
                 *order);
   execution::Executor executor(*order);
-  std::vector<Ticks> limits(clocks.size());
-  executor.limits(clocks, limits);
-  return limits;
+  RightOfWay found{std::vector<Ticks>(clocks.size()), {}};
+  executor.limits(clocks, found.limits);
+  found.order = std::move(order).value();
+  return found;
 }
 
 }  // namespace quadrille::dispatch

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "quadrille/execution/precedences.hpp"
 #include "snapshot.hpp"
 
 namespace quadrille::dispatch {
@@ -22,10 +23,16 @@ struct Traffic {
   std::vector<Ticks> clocks;
 };
 
-/// How far each clock may run on these courses; nothing if the courses collide. What lies before
-/// the earliest clock is left out. A robot whose clock is before the origin leads all others on
-/// what it has still to go until then, in whole moves.
-[[nodiscard]] std::optional<std::vector<Ticks>> find_limits(const Traffic& traffic,
-                                                            std::span<const Course> courses);
+/// How far each clock may run on some courses, and the order of moves that this follows from.
+struct RightOfWay {
+  std::vector<Ticks> limits;
+  execution::Precedences order;
+};
+
+/// Nothing if the courses collide. What lies before the earliest clock is left out. A robot whose
+/// clock is before the origin leads all others on what it has still to go until then, in whole
+/// moves.
+[[nodiscard]] std::optional<RightOfWay> find_right_of_way(const Traffic& traffic,
+                                                          std::span<const Course> courses);
 
 }  // namespace quadrille::dispatch

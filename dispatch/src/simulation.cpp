@@ -23,56 +23,30 @@ Simulation::Simulation(Dispatcher& dispatcher, std::shared_ptr<const continuous:
       roadmap_(std::move(roadmap)),
       options_(options),
       random_(options.seed),
+      feed_(
+          options, dispatcher.num_robots(), roadmap_->num_vertices(),
+          [&dispatcher](AgentId robot, const Task& task) { return dispatcher.assign(robot, task); },
+          [&dispatcher](AgentId robot) { return dispatcher.num_tasks(robot); }, 0),
       robots_(std::move(robots)),
       clocks_(robots_.size(), 0),
-      pauses_(robots_.size()),
-      since_(robots_.size()) {
+      pauses_(robots_.size()) {
   QUADRILLE_REQUIRE(robots_.size() == dispatcher.num_robots(), "the robots of the dispatcher");
   QUADRILLE_REQUIRE(options.step >= 1 && options.longest_pause >= 1, "at least one tick");
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     radii_.push_back(number(geometry::enclosing_radius(robots_[i].body)));
     are_discs_.push_back(std::holds_alternative<continuous::Disc>(robots_[i].body));
     clocks_[i] = dispatcher.clock(AgentId(i));
-    since_[i].resize(dispatcher.num_tasks(AgentId(i)), 0);
-  }
-}
-
-void Simulation::ask_for_tasks() {
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
-    if (dispatcher_.num_tasks(AgentId(i)) > 0) continue;
-    for (Task& task : options_.next_tasks(AgentId(i))) {
-      const auto error = dispatcher_.assign(AgentId(i), std::move(task));
-      QUADRILLE_REQUIRE(!error, "a task that can be done");
-      since_[i].push_back(time_);
-    }
-  }
-}
-
-void Simulation::draw_tasks() {
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
-    // A vertex that it cannot reach is refused, and another one drawn.
-    for (int tries = 0; tries < 100 && dispatcher_.num_tasks(AgentId(i)) == 0; ++tries) {
-      const VertexId goal(static_cast<std::size_t>(random_.below(roadmap_->num_vertices())));
-      if (!dispatcher_.assign(AgentId(i), {goal, options_.service, {}})) since_[i].push_back(time_);
-    }
   }
 }
 
 News Simulation::step(const Limits& limits) {
-  if (options_.next_tasks)
-    ask_for_tasks();
-  else if (options_.has_random_tasks)
-    draw_tasks();
+  feed_.feed(time_, random_);
   for (std::size_t i = 0; i < robots_.size(); ++i)
     QUADRILLE_REQUIRE(!dispatcher_.report(AgentId(i), clocks_[i]), "a robot that obeys");
   News news = dispatcher_.tick(options_.step, limits);
   for (std::size_t i = 0; i < robots_.size(); ++i) clocks_[i] = dispatcher_.clock(AgentId(i));
   if (before_.empty()) look();
-  for (const AgentId robot : news.served) {
-    std::vector<Ticks>& since = since_[robot.index()];
-    service_times_.push_back(time_ - since.front());
-    since.erase(since.begin());
-  }
+  feed_.finish(news.served, time_);
   draw_pauses();
   const Ticks end = time_ + options_.step;
   while (time_ < end) {
@@ -83,16 +57,12 @@ News Simulation::step(const Limits& limits) {
 }
 
 void Simulation::draw_pauses() {
-  const auto drawn = [&](Ticks below) {
-    return Ticks(
-        static_cast<std::int64_t>(random_.below(static_cast<std::uint64_t>(below.value()))));
-  };
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     if (time_ < pauses_[i].until || clocks_[i] >= dispatcher_.limit(AgentId(i))) continue;
     if (random_.below(1'000'000) >= static_cast<std::uint64_t>(1e6 * options_.pause_chance))
       continue;
-    pauses_[i].from = time_ + drawn(options_.step);
-    pauses_[i].until = pauses_[i].from + 1 + drawn(options_.longest_pause);
+    pauses_[i].from = time_ + drawn(random_, options_.step);
+    pauses_[i].until = pauses_[i].from + 1 + drawn(random_, options_.longest_pause);
   }
 }
 

@@ -24,7 +24,8 @@ Course Snapshot::course(const continuous::Path& path) const {
 
 Result<Snapshot> take_snapshot(const std::shared_ptr<const Roadmap>& roadmap,
                                const Resolution& resolution, std::vector<Agent> agents,
-                               std::span<const Course> courses, Ticks moment) {
+                               std::span<const Course> courses, Ticks moment,
+                               std::span<const continuous::EdgeId> closed) {
   QUADRILLE_REQUIRE(agents.size() == courses.size(), "a course for each agent");
   continuous::RoadmapParts parts(*roadmap);
   continuous::Plan plan;
@@ -55,6 +56,7 @@ Result<Snapshot> take_snapshot(const std::shared_ptr<const Roadmap>& roadmap,
     if (!made) return made.error();
     roads = std::make_shared<const Roadmap>(std::move(made).value());
   }
+  if (!closed.empty()) roads = std::make_shared<const Roadmap>(roads->with_closed(closed));
   auto instance = Instance::make(std::move(roads), std::move(agents), resolution, {}, {}, moment);
   if (!instance) return instance.error();
   return Snapshot{std::move(instance).value(), std::move(plan)};

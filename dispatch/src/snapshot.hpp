@@ -26,11 +26,13 @@ struct Snapshot {
 };
 
 /// `agents`: one per course, whose starts are set. Goals, releases and deadlines stay what they
-/// are. Errors: those of Instance::make.
+/// are. Edges in `closed` are open to nobody, but courses may lead there. Errors: those of
+/// Instance::make.
 [[nodiscard]] Result<Snapshot> take_snapshot(const std::shared_ptr<const Roadmap>& roadmap,
                                              const continuous::Resolution& resolution,
                                              std::vector<continuous::Agent> agents,
-                                             std::span<const Course> courses, Ticks moment);
+                                             std::span<const Course> courses, Ticks moment,
+                                             std::span<const continuous::EdgeId> closed = {});
 
 /// The same, with the ends of the courses as goals.
 [[nodiscard]] Result<Snapshot> take_snapshot_of_ends(const std::shared_ptr<const Roadmap>& roadmap,

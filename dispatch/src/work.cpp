@@ -18,8 +18,8 @@ Goals anywhere(const Robot& robot) {
 
 }  // namespace
 
-Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap, std::int64_t call,
-               Ticks now) {
+Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
+               const Roads& roads, std::int64_t call, Ticks now) {
   Work work;
   std::vector<std::size_t> waiting;
   std::vector<AgentId> held;
@@ -27,12 +27,19 @@ Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const Robot& robot = robots[i];
     work.goals.push_back(anywhere(robot));
+    const VertexId here = spot_at(robot.course, now).to;  // where it stands, or its lane ends
+    if (robot.is_barred) {
+      const auto barrier = roads.barrier(robot.course, robot.limit);
+      // Else it should be in that lane by now, and is planned for where it is not.
+      if (barrier && *barrier >= now) work.order.emplace_back(i);
+      work.goals.back() = roads.near(robot.agent, here);
+      continue;
+    }
     if (robot.wants_path()) waiting.push_back(i);
     const bool keeps = robot.is_bound || robot.busy_until;
     if (robot.is_held && !keeps && !robot.wants_path()) {
       held.emplace_back(i);
-      // It need not go anywhere: where it stands, or its lane ends, will do.
-      const VertexId here = spot_at(robot.course, now).to;
+      // It need not go anywhere.
       if (here != robot.course.back().spot.from)
         work.goals.back() = Goals({robot.course.back().spot.from, here});
     }
@@ -51,6 +58,8 @@ Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap
     for (const VertexId v : robot.tasks.front().task.goals.vertices())
       if (!taken.first_overlap(robot.agent.body, roadmap.place(v))) free.push_back(v);
     if (free.empty()) continue;
+    const VertexId here = spot_at(robot.course, now).to;
+    if (!roads.are_open() && !roads.lead(robot.agent, here, Goals(free))) continue;
     if (free.size() == 1) taken.add(i, robot.agent.body, roadmap.place(free.front()));
     work.goals[i] = Goals(std::move(free));
     if (robot.next_try > call) continue;

@@ -4,12 +4,14 @@
 #include <span>
 #include <vector>
 
+#include "roads.hpp"
 #include "robot.hpp"
 
 namespace quadrille::dispatch {
 
 /// Who is to get a path, the most urgent first, then those that have one and wait on it for others
-/// that are late; and where each robot may go.
+/// that are late; and where each robot may go. First of all come those whose ways are closed, which
+/// are to wait where they can.
 struct Work {
   std::vector<AgentId> order;
   std::vector<Goals> goals;  ///< By robot.
@@ -19,6 +21,6 @@ struct Work {
 /// no path before it is done there. Robots that need no path have the end of their course as a
 /// goal, and another vertex beside it.
 [[nodiscard]] Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
-                             std::int64_t call, Ticks now);
+                             const Roads& roads, std::int64_t call, Ticks now);
 
 }  // namespace quadrille::dispatch

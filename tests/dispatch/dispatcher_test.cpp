@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "dispatch/simulated_fleet.hpp"
@@ -115,6 +117,110 @@ TEST(Dispatcher, GoesOnWhereRobotsStopForEver) {
     EXPECT_EQ(fleet.referee().num_contacts(), 0U) << seed;
     EXPECT_GT(early.num_served + late.num_served, 0U) << seed;
   }
+}
+
+/// Lanes that a robot enters on its course between these times of its clock.
+std::vector<std::pair<VertexId, VertexId>> lanes_entered(const Course& course, Ticks from,
+                                                         Ticks until) {
+  std::vector<std::pair<VertexId, VertexId>> lanes;
+  for (std::size_t k = 0; k + 1 < course.size(); ++k) {
+    const Spot &here = course[k].spot, &next = course[k + 1].spot;
+    if (here.is_vertex() && course[k].depart >= from && course[k].depart < until)
+      lanes.emplace_back(here.from, next.is_vertex() ? next.from : next.to);
+  }
+  return lanes;
+}
+
+// Lanes are closed under robots that are about to enter them, or are there.
+TEST(Dispatcher, NobodyEntersLanesThatAreClosed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const auto roadmap = grid(6, 5, 150, seed);
+    const std::size_t n = 8;
+    Options options = quick();
+    options.improves = seed == 2;
+    SimulatedFleet fleet(roadmap, robots_on(*roadmap, n, seed), options, {seed < 3 ? 0 : 2, 40, {}},
+                         seed);
+    Dispatcher& dispatcher = fleet.dispatcher();
+    support::Random random(seed);
+    using Lane = std::pair<VertexId, VertexId>;
+    std::set<Lane> closed;
+    std::set<std::pair<std::size_t, Lane>> allowed;  // when it was closed
+    std::size_t num_served = 0, num_barred = 0, longest_idle = 0;
+    const auto run = [&](std::size_t steps, bool closes) {
+      for (std::size_t step = 0; step < steps; ++step) {
+        if (closes && step % 7 == 0) {
+          // A lane that somebody is going to use, if there is one.
+          const AgentId robot(random.below(n));
+          const auto ahead = lanes_entered(dispatcher.course(robot), dispatcher.clock(robot),
+                                           Ticks(1'000'000'000));
+          const Lane lane = ahead.empty() ? Lane(VertexId(step % 29), VertexId(step % 29 + 1))
+                                          : random.pick(ahead);
+          if (!dispatcher.close(lane.first, lane.second)) {
+            closed.insert(lane);
+            for (std::size_t i = 0; i < n; ++i) {
+              const Course& course = dispatcher.course(AgentId(i));
+              const Ticks limit = dispatcher.limit(AgentId(i));
+              const auto now = lanes_entered(course, dispatcher.clock(AgentId(i)), limit);
+              const auto later = lanes_entered(course, limit, Ticks(1'000'000'000));
+              if (std::count(now.begin(), now.end(), lane) > 0) allowed.emplace(i, lane);
+              num_barred += std::count(later.begin(), later.end(), lane) > 0 ? 1 : 0;
+            }
+          }
+          if (closed.size() > 10) {
+            const Lane oldest = *closed.begin();
+            EXPECT_FALSE(dispatcher.open(oldest.first, oldest.second));
+            closed.erase(oldest);
+            std::erase_if(allowed, [&](const auto& entry) { return entry.second == oldest; });
+          }
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+          if (dispatcher.num_tasks(AgentId(i)) > 0) continue;
+          EXPECT_FALSE(dispatcher.assign(AgentId(i), {VertexId(random.below(30)), 5}));
+        }
+        num_served += fleet.step(10).served.size();
+        for (std::size_t i = 0; i < n; ++i) {
+          longest_idle = std::max(longest_idle, fleet.idle(AgentId(i)));
+          for (const Lane& lane :
+               lanes_entered(dispatcher.course(AgentId(i)), dispatcher.clock(AgentId(i)),
+                             dispatcher.limit(AgentId(i))))
+            EXPECT_TRUE(!closed.contains(lane) || allowed.contains({i, lane}))
+                << seed << " step " << step << " robot " << i;
+        }
+      }
+    };
+    run(support::scaled(600), true);
+    EXPECT_EQ(fleet.referee().num_contacts(), 0U) << seed;
+    EXPECT_GT(num_served, support::scaled(600) / 5) << seed;
+    EXPECT_GT(num_barred, support::scaled(600) / 60) << seed;
+    for (const Lane& lane : closed) EXPECT_FALSE(dispatcher.open(lane.first, lane.second));
+    closed.clear();
+    const std::size_t before = num_served;
+    run(200, false);
+    EXPECT_GT(num_served, before + 20) << seed;
+    EXPECT_EQ(fleet.referee().num_contacts(), 0U) << seed;
+    EXPECT_LT(longest_idle, support::scaled(600)) << seed;
+  }
+}
+
+TEST(Dispatcher, GoalsBehindClosedLanesWait) {
+  const auto roadmap = grid(4, 1, 0, 1);
+  std::vector<Agent> robots = robots_on(*roadmap, 1, 1);
+  robots[0].start = VertexId(0);
+  SimulatedFleet fleet(roadmap, robots, quick(), {}, 1);
+  Dispatcher& dispatcher = fleet.dispatcher();
+  EXPECT_FALSE(dispatcher.assign(AgentId(0), {VertexId(3)}));
+  static_cast<void>(fleet.step(5));
+  EXPECT_FALSE(dispatcher.close(VertexId(1), VertexId(2)));
+  for (int t = 0; t < 60; ++t) EXPECT_TRUE(fleet.step(10).served.empty());
+  EXPECT_EQ(dispatcher.course(AgentId(0)).back().spot, Spot(VertexId(1)));
+  EXPECT_FALSE(dispatcher.open(VertexId(1), VertexId(2)));
+  std::size_t served = 0;
+  for (int t = 0; t < 60; ++t) served += fleet.step(10).served.size();
+  EXPECT_EQ(served, 1U);
+  EXPECT_EQ(dispatcher.close(VertexId(0), VertexId(2))->message,
+            "there is not the lane from vertex 0 to vertex 2");
+  EXPECT_EQ(dispatcher.open(VertexId(0), VertexId(1))->message,
+            "the lane from vertex 0 to vertex 1 is not closed");
 }
 
 TEST(Dispatcher, OnePlaceIsForOneAtATime) {

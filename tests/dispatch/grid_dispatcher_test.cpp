@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "quadrille/dispatch/grid_simulation.hpp"
@@ -69,10 +72,10 @@ TEST(GridDispatcher, NobodyCollidesOrIsStuck) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     auto dispatcher = GridDispatcher::make(graph, places_on(*graph, 30 * seed, seed), quick(500));
     ASSERT_TRUE(dispatcher);
-    GridSimulationOptions options;
+    SimulationOptions options;
     options.pause_chance = seed % 2 == 0 ? 0.05 : 0;
     options.longest_pause = 6;
-    options.service = static_cast<Timestep>(seed);
+    options.service = Ticks(static_cast<std::int64_t>(seed));
     options.seed = seed;
     GridSimulation simulation(*dispatcher, graph, options);
     const std::size_t steps = support::scaled(1000);
@@ -88,7 +91,7 @@ TEST(GridDispatcher, GoesOnWithoutEffort) {
   const auto graph = hall(9, 9);
   for (const std::int64_t effort : {0, 20}) {
     auto dispatcher = GridDispatcher::make(graph, places_on(*graph, 40, 2), quick(effort)).value();
-    GridSimulation simulation(dispatcher, graph, {0.02, 5, 0, true, 3});
+    GridSimulation simulation(dispatcher, graph, {1, 0.02, 5, 0, true, 3});
     EXPECT_GT(run_for(simulation, support::scaled(400)).num_served, support::scaled(400));
     EXPECT_EQ(simulation.num_contacts(), 0U);
   }
@@ -205,12 +208,116 @@ TEST(GridDispatcher, WhoIsUrgentGoesFirst) {
   }
 }
 
+// Edges are closed and opened again all the time, also so that goals are cut off.
+TEST(GridDispatcher, NobodyTakesEdgesThatAreClosed) {
+  const auto graph = warehouse();
+  std::vector<Graph::Edge> edges;
+  for (const VertexId v : IdRange<VertexId>(graph->num_vertices()))
+    for (const VertexId w : graph->neighbours(v))
+      if (v < w) edges.emplace_back(v, w);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    support::Random random(seed);
+    auto dispatcher =
+        GridDispatcher::make(graph, places_on(*graph, 40, seed), quick(seed == 1 ? 0 : 500))
+            .value();
+    SimulationOptions options{1, 0.02, 4, 2, true, seed};
+    GridSimulation simulation(dispatcher, graph, options);
+    std::set<Graph::Edge> closed;
+    const auto open_one = [&] {
+      const Graph::Edge edge = *closed.begin();
+      EXPECT_FALSE(dispatcher.open(edge.second, edge.first));
+      closed.erase(edge);
+    };
+    std::size_t num_served = 0, num_waiting = 0;
+    const auto step = [&] {
+      std::vector<VertexId> before;
+      for (std::size_t i = 0; i < 40; ++i) before.push_back(dispatcher.place(AgentId(i)));
+      const News news = simulation.step();
+      num_served += news.served.size();
+      num_waiting += news.num_waiting;
+      for (std::size_t i = 0; i < 40; ++i) {
+        const VertexId a = before[i], b = dispatcher.place(AgentId(i));
+        EXPECT_FALSE(closed.contains({std::min(a, b), std::max(a, b)})) << seed;
+      }
+    };
+    for (std::size_t t = 0; t < support::scaled(400); ++t) {
+      if (t % 5 == 0) {
+        const Graph::Edge edge = random.pick(edges);
+        const auto error = dispatcher.close(edge.first, edge.second);
+        EXPECT_EQ(error.has_value(), closed.contains(edge));
+        closed.insert(edge);
+        if (closed.size() > 40) open_one();
+      }
+      step();
+    }
+    EXPECT_GT(num_served, support::scaled(400) / 3) << seed;
+    EXPECT_GT(num_waiting, 0U);
+    while (!closed.empty()) open_one();
+    for (int t = 0; t < 200; ++t) step();
+    EXPECT_EQ(simulation.num_contacts(), 0U) << seed;
+    EXPECT_LT(simulation.longest_stay(), static_cast<Timestep>(support::scaled(400)) + 200);
+  }
+}
+
+TEST(GridDispatcher, GoalsBehindClosedEdgesWait) {
+  const auto graph = hall(4, 1);
+  auto dispatcher = GridDispatcher::make(graph, {VertexId(0)}).value();
+  EXPECT_FALSE(dispatcher.assign(AgentId(0), {VertexId(3)}));
+  static_cast<void>(dispatcher.tick());
+  EXPECT_FALSE(dispatcher.close(VertexId(2), VertexId(1)));
+  for (int t = 0; t < 5; ++t) {
+    const News news = dispatcher.tick();
+    EXPECT_EQ(news.num_waiting, 1U);
+    EXPECT_EQ(news.cost, 0);
+    EXPECT_LE(dispatcher.place(AgentId(0)), VertexId(1));
+  }
+  EXPECT_FALSE(dispatcher.assign(AgentId(0), {VertexId(0)}));
+  EXPECT_FALSE(dispatcher.open(VertexId(1), VertexId(2)));
+  std::size_t served = 0;
+  for (int t = 0; t < 10; ++t) served += dispatcher.tick().served.size();
+  EXPECT_EQ(served, 2U);
+  EXPECT_EQ(dispatcher.place(AgentId(0)), VertexId(0));
+  EXPECT_EQ(dispatcher.close(VertexId(0), VertexId(2))->message,
+            "there is no edge between vertices 0 and 2");
+  EXPECT_EQ(dispatcher.open(VertexId(0), VertexId(1))->message,
+            "the edge between (0, 0) and (1, 0) is not closed");
+}
+
+// Robots that wait for nothing but what they follow: clocks go on as the order allows.
+TEST(GridDispatcher, WhoObeysTheOrderCollidesWithNobody) {
+  const auto graph = hall(6, 5);
+  for (std::uint64_t seed = 1; seed <= support::scaled(40); ++seed) {
+    auto dispatcher = GridDispatcher::make(graph, places_on(*graph, 16, seed), quick(300)).value();
+    GridSimulation simulation(dispatcher, graph, {1, 0.05, 4, 1, true, seed});
+    static_cast<void>(run_for(simulation, 15));
+    const execution::Precedences order = dispatcher.order();
+    std::vector<std::size_t> at(16, 0);  // moves that are done
+    std::vector<VertexId> place;
+    for (std::size_t i = 0; i < 16; ++i) place.push_back(dispatcher.place(AgentId(i)));
+    support::Random random(seed);
+    for (int step = 0; step < 600; ++step) {
+      const std::size_t i = random.below(16);
+      const auto& moves = order.moves[AgentId(i)];
+      if (at[i] == moves.size()) continue;
+      const bool waits = std::any_of(order.list.begin(), order.list.end(), [&](const auto& p) {
+        return p.follower.agent == AgentId(i) && p.follower.move == at[i] &&
+               at[p.leader.agent.index()] <= p.leader.move;
+      });
+      if (waits) continue;
+      EXPECT_EQ(moves[at[i]].from, place[i]);
+      place[i] = moves[at[i]++].to;
+      for (std::size_t j = 0; j < 16; ++j) EXPECT_TRUE(i == j || place[i] != place[j]) << seed;
+    }
+    EXPECT_GT(std::accumulate(at.begin(), at.end(), std::size_t{0}), 20U) << seed;
+  }
+}
+
 TEST(GridDispatcher, SaysTheSameAgain) {
   const auto graph = warehouse();
   std::vector<discrete::Path> paths[2];
   for (auto& end : paths) {
     auto dispatcher = GridDispatcher::make(graph, places_on(*graph, 60, 6), quick(1000)).value();
-    GridSimulation simulation(dispatcher, graph, {0.03, 4, 1, true, 6});
+    GridSimulation simulation(dispatcher, graph, {1, 0.03, 4, 1, true, 6});
     static_cast<void>(run_for(simulation, 60));
     for (std::size_t i = 0; i < 60; ++i) end.push_back(dispatcher.path(AgentId(i)));
   }

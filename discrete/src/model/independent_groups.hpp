@@ -2,12 +2,10 @@
 #pragma once
 
 #include "quadrille/core/grouping.hpp"
+#include "quadrille/discrete/components.hpp"
 #include "quadrille/discrete/instance.hpp"
 
 namespace quadrille::discrete {
-
-/// The components of the graph, vertices by their index. O(V + E).
-[[nodiscard]] Grouping components_of(const Graph& graph);
 
 /// Agents in one component of the graph are one group: no others can ever meet. O(V + E).
 [[nodiscard]] AgentGroups independent_groups(const Instance& instance);

@@ -46,6 +46,24 @@ class RollingPlanner::Parts {
     std::iota(order_.begin(), order_.end(), 0U);
   }
 
+  /// The same fleet on another graph, with nothing planned.
+  [[nodiscard]] std::unique_ptr<Parts> on(std::shared_ptr<const Graph> graph) const {
+    const auto here = window_.configuration(0);
+    auto parts = std::make_unique<Parts>(std::move(graph), here, options_);
+    parts->random_ = random_;
+    parts->now_ = now_;
+    parts->robots_ = robots_;
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      Robot& robot = parts->robots_[k];
+      if (!robot.has_errand) continue;
+      parts->distances_.set(AgentId(k), robot.goals);
+      if (robot.arrival <= now_) continue;
+      robot.arrival = kForever;
+      parts->news_.emplace_back(k);
+    }
+    return parts;
+  }
+
   void send(AgentId i, const Goals& goals, Timestep service, std::int64_t rank) {
     robots_[i.index()] = {goals,
                           true,
@@ -78,7 +96,8 @@ class RollingPlanner::Parts {
       static_cast<void>(replace({news_[num_sent++]}));
     news_.erase(news_.begin(), news_.begin() + static_cast<std::ptrdiff_t>(num_sent));
     std::size_t num_content = 0;  // in a row
-    while (spent() < effort && num_content < robots_.size() && !monitor.exhausted()) {
+    while (options_.improves && spent() < effort && num_content < robots_.size() &&
+           !monitor.exhausted()) {
       const AgentId seed = next_seed();
       if (cost(seed) <= free_cost(seed)) {
         ++num_content;
@@ -330,6 +349,10 @@ void RollingPlanner::send(AgentId agent, const Goals& goals, Timestep service, s
   parts_->send(agent, goals, service, rank);
 }
 void RollingPlanner::release(AgentId agent) { parts_->release(agent); }
+void RollingPlanner::set_graph(std::shared_ptr<const Graph> graph) {
+  QUADRILLE_REQUIRE(graph != nullptr, "a graph");
+  parts_ = parts_->on(std::move(graph));
+}
 Effort RollingPlanner::plan(Effort effort, const Limits& limits) {
   return parts_->plan(effort, limits);
 }

@@ -22,6 +22,8 @@ struct RollingOptions {
   /// Timesteps that are planned ahead, at least 1.
   Timestep window = 20;
   std::uint64_t seed = 0;
+  /// Whether groups of agents get cheaper paths, once everybody who was sent somewhere has one.
+  bool improves = true;
 };
 
 /// Plans for fleets on graphs, timestep by timestep, whose goals change all the time: paths for the
@@ -50,6 +52,11 @@ class RollingPlanner {
   void send(AgentId agent, const Goals& goals, Timestep service, std::int64_t rank);
   /// It has nothing to do any more.
   void release(AgentId agent);
+
+  /// Edges have been closed, or opened: all paths are made anew, by the next call of `plan` or
+  /// `advance`. Requires the same vertices, and that everybody who was sent somewhere and is not
+  /// there can reach it. O(agents * graph).
+  void set_graph(std::shared_ptr<const Graph> graph);
 
   /// Makes the window whole, and looks for better paths for about `effort`, or until limits are
   /// met; PIBT is not counted. The effort that it took.

@@ -9,22 +9,15 @@
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/effort.hpp"
 #include "quadrille/core/export.hpp"
-#include "quadrille/core/goals.hpp"
 #include "quadrille/core/limits.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/dispatch/course.hpp"
+#include "quadrille/dispatch/task.hpp"
+#include "quadrille/execution/precedences.hpp"
 
 QUADRILLE_API_BEGIN
 
 namespace quadrille::dispatch {
-
-/// Somewhere to go.
-struct Task {
-  Goals goals;        ///< Any one of these.
-  Ticks service = 0;  ///< How long the robot stays there before it is free again.
-  /// By when it should be there. Says who is more urgent, and no more: who comes late does come.
-  std::optional<Ticks> deadline = {};
-};
 
 struct Options {
   /// For looking for paths, per call. 0: nobody gets a new path.
@@ -36,22 +29,6 @@ struct Options {
   Ticks patience = 0;
   /// What is left of the effort makes paths cheaper.
   bool improves = true;
-};
-
-/// What a call did.
-struct News {
-  std::vector<AgentId> served;  ///< Whose task is done, in order; once per task.
-  std::size_t num_sent = 0;     ///< That got a path to their goal.
-  std::size_t num_waiting =
-      0;  ///< That have a task and no path to it: for want of one, or of turn.
-  bool has_new_plan = false;
-  /// There was a new plan, but somebody has been allowed already what it leaves to others.
-  bool was_too_late = false;
-  bool has_new_origin = false;  ///< Late robots are planned for from where they are.
-  /// Of the robots with a path to their goal: from the beginning of what is not settled yet until
-  /// they arrive, in sum, and what that is at least: without the others.
-  Cost cost = 0, lower_bound = 0;
-  Effort effort;
 };
 
 /// A fleet whose tasks keep coming, and whose robots are late: says who may go where until when.
@@ -87,6 +64,11 @@ class Dispatcher {
   /// All that it has not been served with is forgotten; it finishes its move, and stands where it
   /// can.
   [[nodiscard]] std::optional<Error> cancel(AgentId robot);
+  /// Nobody enters the lane from one vertex to another one any more, but for those that have been
+  /// allowed to; until it is opened. Who was to go there finds another way, or waits where it can.
+  /// Errors: invalid_instance if there is no such lane, or it is closed (open) already.
+  [[nodiscard]] std::optional<Error> close(VertexId from, VertexId to);
+  [[nodiscard]] std::optional<Error> open(VertexId from, VertexId to);
   /// How far the robot has got: the time on its course, rounded down. Errors: invalid_instance for
   /// a robot that does not exist; out_of_range if it goes back, or beyond what was allowed.
   [[nodiscard]] std::optional<Error> report(AgentId robot, Ticks clock);
@@ -102,6 +84,10 @@ class Dispatcher {
   [[nodiscard]] Ticks clock(AgentId robot) const;
   /// How far it may go on its course.
   [[nodiscard]] Ticks limit(AgentId robot) const;
+  /// In which order robots pass the places that they share, on these courses; each move of it ends
+  /// where and when a stop of its robot's course begins. Robots that obey it may go further than
+  /// their limits, and do not collide. What nobody has to wait for any more is left out.
+  [[nodiscard]] const execution::Precedences& order() const noexcept;
   /// Until when everybody was told what to do.
   [[nodiscard]] Ticks now() const noexcept;
   /// Of the robot, those not done yet, the present one included.

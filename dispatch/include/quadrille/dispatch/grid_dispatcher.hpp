@@ -13,7 +13,8 @@
 #include "quadrille/core/result.hpp"
 #include "quadrille/discrete/graph.hpp"
 #include "quadrille/discrete/plan.hpp"
-#include "quadrille/dispatch/dispatcher.hpp"
+#include "quadrille/dispatch/task.hpp"
+#include "quadrille/execution/precedences.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -25,6 +26,9 @@ struct GridOptions {
   /// Timesteps that are planned ahead, at least 1.
   Timestep window = 20;
   std::uint64_t seed = 0;
+  /// Whether what is left of the effort, once everybody with a task has a path, makes paths
+  /// cheaper.
+  bool improves = true;
 };
 
 /// A fleet on a grid or graph whose tasks keep coming, and whose robots are held up: says who goes
@@ -54,6 +58,12 @@ class GridDispatcher {
   /// All that it has not been served with is forgotten.
   [[nodiscard]] std::optional<Error> cancel(AgentId robot);
 
+  /// Nobody takes the edge between two vertices any more, in either direction, until it is opened;
+  /// the next call makes all paths anew. Whose goals are behind closed edges wait. Errors:
+  /// invalid_instance if there is no such edge, or it is closed (open) already.
+  [[nodiscard]] std::optional<Error> close(VertexId a, VertexId b);
+  [[nodiscard]] std::optional<Error> open(VertexId a, VertexId b);
+
   /// A timestep. Those that are held up in it stay where they are. In the news, costs are timesteps
   /// of those that arrive within the window. `limits` end the search for better paths early, and
   /// nothing else. Requires robots that exist.
@@ -62,6 +72,9 @@ class GridDispatcher {
   [[nodiscard]] VertexId place(AgentId robot) const;
   /// Where it is now, and after each timestep to come, as planned.
   [[nodiscard]] discrete::Path path(AgentId robot) const;
+  /// In which order robots come to vertices, as planned, from now on. Whoever obeys it collides
+  /// with nobody, however late anybody is.
+  [[nodiscard]] execution::Precedences order() const;
   /// Timesteps that are over.
   [[nodiscard]] Timestep now() const noexcept;
   /// Of the robot, those not done yet, the present one included.
