@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "frame/arguments.hpp"
 #include "frame/subcommands.hpp"
-#include "roadmap/dispatch_roadmap.hpp"
+#include "fleets/dispatch.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -14,7 +16,8 @@ constexpr const char* kFooter =
     "Robots start where the agents of the instance do. Whoever has no task gets one at any\n"
     "vertex, or the nearest one that is known; robots are held up at random, and never collide\n"
     "(docs/dispatch.md). The gap of a call is by how much its paths are longer than they could\n"
-    "be without the others. On a grid a move takes one unit of time.\n"
+    "be without the others. On grids and graphs all take a timestep at the same time; with\n"
+    "--dispatcher roadmap each has a clock of its own, and a move takes one unit of time.\n"
     "\n"
     "Example:\n"
     "  quadrille dispatch --instance discs.json --steps 600 --step 0.5 --delays 0.02\n"
@@ -23,6 +26,13 @@ constexpr const char* kFooter =
     "\n";
 
 constexpr std::int64_t kMaxSteps = 10'000'000;
+constexpr std::int64_t kMaxWindow = 1'000;
+
+std::optional<std::optional<DispatcherKind>> choose_dispatcher(std::string_view name) {
+  if (name == "grid") return std::optional(DispatcherKind::grid);
+  if (name == "roadmap") return std::optional(DispatcherKind::roadmap);
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -32,6 +42,10 @@ Subcommand add_dispatch(CLI::App& program) {
   const auto arguments = std::make_shared<DispatchArguments>();
   add_input_options(*app, arguments->input);
   add_roadmap_options(*app, arguments->roadmap);
+  add_choice<std::optional<DispatcherKind>>(
+      *app, "--dispatcher", arguments->dispatcher, "grid or roadmap", choose_dispatcher,
+      "grid: timestep by timestep, all at the same time, thousands of robots; roadmap: each\n"
+      "robot by a clock of its own; default: by the input; roadmap for robots that turn");
   add_integer(*app, "--steps", arguments->steps, 1, kMaxSteps,
               "Calls of the dispatcher; default 1000");
   add_positive(*app, "--step", arguments->step,
@@ -48,6 +62,8 @@ Subcommand add_dispatch(CLI::App& program) {
   add_positive(*app, "--effort", arguments->effort,
                "For looking for paths, per call: nominal milliseconds, counted in steps;\n"
                "default 20");
+  add_integer(*app, "--window", arguments->window, 1, kMaxWindow,
+              "On grids: timesteps that are planned ahead; default 20");
   add_positive(*app, "--reach", arguments->reach,
                "How far a robot may go beyond where it was last seen, as time on its course;\n"
                "default: any");
@@ -68,7 +84,7 @@ Subcommand add_dispatch(CLI::App& program) {
                 "answer to each on standard output");
   app->add_flag("--quiet", arguments->quiet, "Print nothing but errors and what is asked for");
   app->footer(std::string(kFooter) + kExitCodesHelp);
-  return {app, [app, arguments] { return dispatch_on_roadmap(*app, *arguments); }};
+  return {app, [app, arguments] { return dispatch_fleet(*app, *arguments); }};
 }
 
 }  // namespace quadrille::cli

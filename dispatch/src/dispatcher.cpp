@@ -21,6 +21,8 @@ namespace {
 constexpr std::int64_t kMostPatience = 16;
 /// In calls, where nothing else was asked for: how late a robot may be.
 constexpr std::int64_t kPatience = 8;
+/// In calls: who has been allowed nothing for so long may be waiting in a circle.
+constexpr std::int64_t kStuck = 30;
 /// Who tries again only after so many calls has all paths made at once, in fleets of so many robots
 /// at most, where that takes some milliseconds.
 constexpr std::int64_t kTriesAlone = 16;
@@ -72,6 +74,7 @@ class Dispatcher::Parts {
     const Ticks patience = options_.patience > 0 ? options_.patience : kPatience * duration;
     if (find_barred() || now_ - earliest_that_moves() > patience)
       news.has_new_origin = begin_anew();
+    if (news.has_new_origin) give_way();
     plan(limits, news);
     release(duration);
     for (const Robot& robot : robots_)
@@ -101,6 +104,21 @@ class Dispatcher::Parts {
       robot.next_try = 0;
       robot.patience = 1;
     }
+  }
+
+  /// Robots that follow each other in a circle without slack wait for ever: the one that has waited
+  /// for longest goes elsewhere, if it is at a vertex and can.
+  void give_way() {
+    Robot* longest = nullptr;
+    for (Robot& robot : robots_)
+      if (robot.num_stuck >= kStuck && !robot.busy_until &&
+          spot_at(robot.course, now_).is_vertex() &&
+          (longest == nullptr || robot.num_stuck > longest->num_stuck))
+        longest = &robot;
+    if (longest == nullptr) return;
+    longest->num_stuck = 0;
+    longest->is_barred = true;
+    longest->is_bound = false;
   }
 
   /// Those whose courses lead into lanes that are closed. Whether one should be there already, and
@@ -286,6 +304,8 @@ class Dispatcher::Parts {
       if (options_.reach > 0 && !robot.has_arrived())
         limit = std::min(limit, robot.clock + options_.reach);
       robot.limit = std::max(robot.limit, limit);
+      const bool is_stuck = !robot.has_arrived() && robot.limit <= robot.clock;
+      robot.num_stuck = is_stuck ? robot.num_stuck + 1 : 0;
     }
     forget();
   }

@@ -2,14 +2,16 @@
 #include "roads.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
+#include <unordered_set>
 
 #include "open_task.hpp"
 
 namespace quadrille::dispatch {
 namespace {
 
-/// Where robots may wait that cannot go on: so many places.
+/// Where robots may go that have to go nowhere: so many places.
 constexpr std::size_t kPlacesNear = 16;
 
 std::string lane_name(VertexId from, VertexId to) {
@@ -59,16 +61,13 @@ std::optional<Ticks> Roads::barrier(const Course& course, Ticks since) const {
 
 std::vector<VertexId> Roads::reach(const continuous::Agent& agent, VertexId from,
                                    std::size_t most) const {
-  std::vector<bool> is_found(roadmap_->num_vertices(), false);
+  std::unordered_set<std::uint32_t> is_found{from.value()};
   std::vector<VertexId> found{from};
-  is_found[from.index()] = true;
   for (std::size_t k = 0; k < found.size() && found.size() < most; ++k)
     for (const continuous::EdgeId e : roadmap_->out_edges(found[k])) {
       const continuous::Edge& edge = roadmap_->edge(e);
-      if (is_found[edge.to.index()] || !edge.open_to.contains(agent.group)) continue;
-      if (closed_.contains({edge.from, edge.to})) continue;
-      is_found[edge.to.index()] = true;
-      found.push_back(edge.to);
+      if (!edge.open_to.contains(agent.group) || closed_.contains({edge.from, edge.to})) continue;
+      if (is_found.insert(edge.to.value()).second) found.push_back(edge.to);
     }
   return found;
 }

@@ -31,11 +31,11 @@ class Roads {
   /// Whether the agent comes from a vertex to one of these by lanes that are open to it.
   [[nodiscard]] bool lead(const continuous::Agent& agent, VertexId from, const Goals& goals) const;
   /// The vertex and others near it, by such lanes; two at least, of which the second may be
-  /// anywhere, as `anywhere` in work.cpp.
+  /// anywhere: as a set they may be where another robot has its goal.
   [[nodiscard]] Goals near(const continuous::Agent& agent, VertexId vertex) const;
 
  private:
-  /// Nearest first, so many at most.
+  /// Fewest moves first, about so many at most.
   [[nodiscard]] std::vector<VertexId> reach(const continuous::Agent& agent, VertexId from,
                                             std::size_t most) const;
 

@@ -9,15 +9,19 @@
 namespace quadrille::dispatch {
 namespace {
 
-/// The end of its course, which it need not leave, with another vertex: as a set it may be where
-/// another one has its goal.
-Goals anywhere(const Robot& robot) {
-  const VertexId end = robot.course.back().spot.from;
-  return Goals({end, VertexId(end.index() == 0 ? 1 : 0)});
+/// The one that it comes to next.
+VertexId next_vertex(const Course& course, Ticks now) {
+  const Course rest = since(course, now);
+  return rest[std::min<std::size_t>(1, rest.size() - 1)].spot.to;
+}
+
+Goals without(const Goals& goals, VertexId vertex) {
+  std::vector<VertexId> left(goals.vertices().begin(), goals.vertices().end());
+  std::erase(left, vertex);
+  return left.size() < 2 ? goals : Goals(std::move(left));
 }
 
 }  // namespace
-
 Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
                const Roads& roads, std::int64_t call, Ticks now) {
   Work work;
@@ -26,13 +30,17 @@ Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap
   geometry::BodyIndex taken;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const Robot& robot = robots[i];
-    work.goals.push_back(anywhere(robot));
     const VertexId here = spot_at(robot.course, now).to;  // where it stands, or its lane ends
+    // Who need not go anywhere gets out of the way of others, and so may end where these began.
+    work.goals.push_back(
+        roads.near(robot.agent, robot.is_barred ? here : robot.course.back().spot.from));
     if (robot.is_barred) {
       const auto barrier = roads.barrier(robot.course, robot.limit);
       // Else it should be in that lane by now, and is planned for where it is not.
-      if (barrier && *barrier >= now) work.order.emplace_back(i);
-      work.goals.back() = roads.near(robot.agent, here);
+      if (!barrier || *barrier >= now) work.order.emplace_back(i);
+      // Not where it has been waiting to go.
+      if (!barrier && robot.course.size() > 1)
+        work.goals.back() = without(work.goals.back(), next_vertex(robot.course, now));
       continue;
     }
     if (robot.wants_path()) waiting.push_back(i);

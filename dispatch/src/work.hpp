@@ -19,7 +19,7 @@ struct Work {
 
 /// Of robots that are sent to one place, or to places that overlap, one goes at a time: others get
 /// no path before it is done there. Robots that need no path have the end of their course as a
-/// goal, and another vertex beside it.
+/// goal, and some vertices near it.
 [[nodiscard]] Work next_work(std::span<const Robot> robots, const continuous::Roadmap& roadmap,
                              const Roads& roads, std::int64_t call, Ticks now);
 

@@ -23,29 +23,6 @@ using execution::Precedence;
 using execution::Precedences;
 using Json = nlohmann::ordered_json;
 
-/// What a follower has to wait for before it begins its move: the leader has begun this move, and
-/// come to that time, or has ended it.
-struct Blocker {
-  MoveId leader;
-  std::optional<Ticks> until;  ///< Within the move; nullopt: its end.
-};
-
-/// Once the leader has come to end - slack, the rule of execution lets the follower end its move.
-/// Of a robot that stands at a vertex the clock is as late as it may stand there. Nullopt: the
-/// leader need not have begun any move.
-std::optional<Blocker> blocker_of(const Precedences& order, const Precedence& precedence) {
-  const auto& moves = order.moves[precedence.leader.agent];
-  const Ticks needed = order.at(precedence.follower).end - precedence.slack;
-  if (needed >= order.at(precedence.leader).end) return Blocker{precedence.leader, {}};
-  for (std::uint32_t k = precedence.leader.move + 1; k-- > 0;) {
-    if (needed <= moves[k].begin) continue;
-    const MoveId leader{precedence.leader.agent, k};
-    if (needed >= moves[k].end) return Blocker{leader, {}};
-    return Blocker{leader, needed};
-  }
-  return std::nullopt;
-}
-
 /// The same text gives the same 16 bytes (FNV-1a, twice).
 Json uuid(std::string_view text) {
   Json bytes = Json::array();
@@ -198,6 +175,19 @@ class MoveNumbers {
 };
 
 }  // namespace
+
+std::optional<Blocker> blocker_of(const Precedences& order, const Precedence& precedence) {
+  const auto& moves = order.moves[precedence.leader.agent];
+  const Ticks needed = order.at(precedence.follower).end - precedence.slack;
+  if (needed >= order.at(precedence.leader).end) return Blocker{precedence.leader, {}};
+  for (std::uint32_t k = precedence.leader.move + 1; k-- > 0;) {
+    if (needed <= moves[k].begin) continue;
+    const MoveId leader{precedence.leader.agent, k};
+    if (needed >= moves[k].end) return Blocker{leader, {}};
+    return Blocker{leader, needed};
+  }
+  return std::nullopt;
+}
 
 std::string export_rmf_plan(const Instance& instance, const continuous::Plan& plan,
                             const Precedences& order, const RmfHeads& heads) {

@@ -6,9 +6,12 @@
 #include <memory>
 #include <sstream>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "quadrille/discrete/instance_json.hpp"
 #include "quadrille/discrete/instance_yaml.hpp"
+#include "quadrille/input/robot_runners.hpp"
 #include "quadrille/text/sniff.hpp"
 #include "shared_goals.hpp"
 
@@ -94,7 +97,51 @@ Result<discrete::Instance> read_instance(const InputOptions& options, text::Name
              : discrete::read_instance_json(in, options.instance, options.most_vertices, &names);
 }
 
+/// A problem of the League of Robot Runners, whose robots go in all directions at once.
+Result<GridInput> read_robot_problem(const InputOptions& options) {
+  const auto problem = read_robot_runners(*options.instance_text, options.instance);
+  if (!problem) return problem.error();
+  const continuous::OccupancyGrid& cells = problem->cells;
+  const auto graph = std::make_shared<const discrete::Graph>(
+      discrete::Graph::grid(cells.width, cells.height, cells.passable));
+  const auto vertex = [&](std::int64_t cell) {
+    const auto width = std::int64_t{cells.width};
+    return graph->layout()
+        ->vertex_at({static_cast<std::int32_t>(cell % width),
+                     static_cast<std::int32_t>(cell / width)})
+        .value();
+  };
+  std::vector<discrete::Agent> agents;
+  for (const continuous::TaskRow& row : problem->task.rows) {
+    const auto& [start, goal] = std::get<std::pair<std::int64_t, std::int64_t>>(row.places);
+    agents.push_back({vertex(start), vertex(goal)});
+  }
+  const std::size_t rows = agents.size();
+  if (auto error = check_agents(options, rows)) return *std::move(error);
+  if (options.agents) agents.resize(static_cast<std::size_t>(*options.agents));
+  // Several tasks may begin in one place, and robots only go where these lead them.
+  for (discrete::Agent& agent : agents) agent.goals = agent.start;
+  auto instance = discrete::Instance::make(graph, std::move(agents));
+  if (!instance) return instance.error();
+  GridInput read{std::move(instance).value(), options.instance, options.instance, rows, {}, ""};
+  for (const auto& places : problem->all_tasks) {
+    auto& task = read.tasks.emplace_back();
+    for (const std::int64_t cell : places) task.emplace_back(vertex(cell));
+  }
+  read.num_revealed = problem->num_revealed;
+  read.note = "robots go in all directions at once; those of the problem turn";
+  return read;
+}
+
 }  // namespace
+
+std::optional<Error> refuse_rules(const GridInput& grid) {
+  if (grid.instance.is_plain()) return std::nullopt;
+  return Error{ErrorCode::invalid_instance,
+               "robots that are sent about on a grid know no rules: one-way edges, agents that "
+               "leave, releases, deadlines, waypoints, obstacles, robust plans, turns",
+               {grid.source, 0}};
+}
 
 std::string check_grid_options(const InputOptions& options, Need need) {
   if (options.sharing && options.scen.empty()) return kSharingNeedsTask;
@@ -116,6 +163,8 @@ std::string check_grid_options(const InputOptions& options, Need need) {
 
 Result<GridInput> load_grid_input(const InputOptions& options) {
   if (options.instance.empty()) return load_map(options);
+  if (options.instance_text && is_robot_runners(*options.instance_text))
+    return read_robot_problem(options);
   text::Names names;
   auto instance = read_instance(options, names);
   if (!instance) return instance.error();

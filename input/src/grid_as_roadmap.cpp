@@ -20,10 +20,7 @@ Result<RoadmapInput> as_roadmap(const GridInput& grid) {
     return Error{ErrorCode::invalid_instance, what, {grid.source, 0}};
   };
   if (!layout) return refuse("a graph has no places, and robots need some: a grid, or a roadmap");
-  if (!grid.instance.is_plain())
-    return refuse(
-        "robots that are sent about on a grid know no rules: one-way edges, agents that leave, "
-        "releases, deadlines, waypoints, obstacles, robust plans, turns");
+  if (auto error = refuse_rules(grid)) return *error;
   continuous::OccupancyGrid cells{layout->height(), layout->width(), {}};
   for (std::int32_t y = 0; y < cells.height; ++y)
     for (std::int32_t x = 0; x < cells.width; ++x)

@@ -51,8 +51,73 @@ def test_grids(folder):
     graph = {"quadrille": "instance", "version": 1, "graph": {"vertices": 2, "edges": [[0, 1]]},
              "agents": [{"start": 0, "goal": 1}]}
     (folder / "graph.json").write_text(json.dumps(graph))
-    done = run("dispatch", "--instance", folder / "graph.json")
-    assert done.returncode == 65 and "a graph has no places" in done.stderr, done.stderr
+    on_graph = "--instance", folder / "graph.json"
+    assert report_of(*on_graph, "--own-tasks")["tasks_done"] == 1
+    for more in (["--dispatcher", "roadmap"], ["--view", "-"]):
+        done = run("dispatch", *on_graph, *more, "--quiet")
+        assert done.returncode == 65 and "a graph has no places" in done.stderr, done.stderr
+
+
+def test_which_dispatcher(folder):
+    on_roadmap = report_of(*room(folder), "--dispatcher", "roadmap", "--steps", 150, "--delays", 0.1, "--step", 0.5)
+    assert on_roadmap["dispatcher"] == "roadmap" and on_roadmap["contacts"] == 0 and on_roadmap["time"] == 75
+    on_grid = report_of(*room(folder), "--steps", 75, "--delays", 0.1, "--window", 8, "--service", 2)
+    assert on_grid["dispatcher"] == "grid" and on_grid["contacts"] == 0 and on_grid["tasks_done"] > 5
+    assert on_grid["new_origins"] == 0
+    league_tasks = league(folder, ["23,0,5", "3", "18,23", "5,18,0", "9", "15,21"], numTasksReveal=1.5)
+    without_turns = report_of(*league_tasks, "--dispatcher", "grid")
+    assert without_turns["tasks_done"] == len(without_turns["service_times"]) == 6
+    assert without_turns["time"] < report_of(*league_tasks, "--effort", 3)["time"]
+    for wrong, why in (
+        (["--step", 0.5], "--step: on a grid a call is one timestep"),
+        (["--reach", 3], "it belongs to --dispatcher roadmap"),
+        (["--service", 1.5], "--service: on a grid times are whole timesteps"),
+        (["--window", 9, "--dispatcher", "roadmap"], "--window belongs to --dispatcher grid"),
+        (["--dispatcher", "train"], "'train' is not grid or roadmap"),
+    ):
+        done = run("dispatch", *room(folder), *wrong)
+        assert done.returncode == 64 and why in done.stderr, (wrong, done.stderr)
+    done = run("dispatch", *town(folder), "--dispatcher", "grid")
+    assert done.returncode == 64 and "needs a grid or graph" in done.stderr, done.stderr
+
+
+def test_serving_a_grid(folder):
+    server, draw = Server(*room(folder), "--effort", 3), random.Random(3)
+    cells = [[x, y] for y, row in enumerate(ROOM.split("\n")[4:]) for x, letter in enumerate(row) if letter == "."]
+    closed, served, before = set(), 0, [[0, 0], [5, 0], [0, 3], [5, 3]]
+    for time in range(200):
+        if time % 20 == 10:
+            assert server.ask("close", **{"from": [2, 0], "to": [3, 0]}) == {"from": [2, 0], "to": [3, 0]}
+            closed = {(2, 0), (3, 0)}
+        if time % 20 == 19:
+            server.ask("open", **{"from": [3, 0], "to": [2, 0]})
+            closed = set()
+        held = [robot for robot in range(4) if draw.random() < 0.1]
+        news = server.ask("tick", duration=1, held=held)
+        assert news["now"] == time + 1 and news["cost"] >= news["lower_bound"]
+        served += len(news["served"])
+        places = [robot["course"][0]["vertex"] for robot in news["robots"]]
+        assert all(place in cells for place in places)
+        assert len({tuple(place) for place in places}) == 4
+        for who, (a, b) in enumerate(zip(before, places)):
+            assert math.dist(a, b) <= (0 if who in held else 1) and {tuple(a), tuple(b)} != closed
+            assert a == b or not any(before[other] == b and places[other] == a for other in range(4))
+        before = places
+        for robot in news["robots"]:
+            if robot["tasks"] == 0:
+                server.ask("assign", robot=robot["robot"], goals=draw.choice(cells))
+    assert served > 40
+    for line, why in (
+        ('{"tick": {"duration": 2}}', "a call is one timestep"),
+        ('{"tick": {"duration": 1, "held": 3}}', '"held" is a list'),
+        ('{"tick": {"duration": 1, "held": [9]}}', "there is no robot 9"),
+        ('{"close": {"from": [0, 0], "to": [3, 3]}}', "there is no edge"),
+        ('{"report": {"robot": 0, "clock": 999}}', "was allowed to go no further than to"),
+        ('{"assign": {"robot": 0, "goals": [[1, 1]]}}', "there is no vertex [1,1]"),
+    ):
+        answer = server.say(line)
+        assert "error" in answer and why in answer["error"]["message"], (line, answer)
+    server.end()
 
 
 def league(folder, tasks, **more):
@@ -194,7 +259,18 @@ def test_serving(folder):
                 server.ask("assign", robot=robot["robot"], goals=draw.choice(list(xy)))
         assert math.dist(*places) > 0.55 - 1e-6
     assert served > 20
+    for way in (("cross", "bay"), ("bay", "cross")):
+        server.ask("close", **dict(zip(("from", "to"), way)))
+    for _ in range(12):
+        for robot in server.ask("tick", duration=0.25)["robots"]:
+            server.ask("report", robot=robot["robot"], clock=robot["limit"])
+    for robot in server.ask("tick", duration=0.25)["robots"]:
+        ways = [(a["vertex"], b["vertex"]) for a, b in zip(robot["course"], robot["course"][1:])]
+        assert ("cross", "bay") not in ways and ("bay", "cross") not in ways
+        server.ask("report", robot=robot["robot"], clock=robot["limit"])
     for line, why in (
+        ('{"close": {"from": "bay", "to": "cross"}}', "is closed already"),
+        ('{"tick": {"duration": 1, "held": [0]}}', "\"held\" is for grids"),
         ("", "this is no JSON"),
         ("[1]", "a request is an object with one key"),
         ('{"assign": {"robot": "slow", "goals": 1}, "tick": {}}', "with one key"),
@@ -208,7 +284,7 @@ def test_serving(folder):
         ('{"assign": {"robot": "slow", "goals": 1, "service": -1}}', "\"service\" is negative or too long"),
         ('{"assign": {"robot": "slow", "goals": 1, "deadline": "soon"}}', "\"deadline\" is a number"),
         ('{"report": {"robot": "slow", "clock": 1e9}}', "was allowed to go no further than to"),
-        ('{"report": {"robot": "slow", "clock": 0}}', "clocks never go back"),
+        ('{"report": {"robot": "slow", "clock": -1}}', "\"clock\" is negative or too long"),
         ('{"tick": {"duration": 0}}', "time has to go on"),
         ('{"goal": {"robot": "slow", "one_of": []}}', "\"one_of\" is a list of at least one"),
         ('{"goal": {"robot": "slow", "one_of": [{"regions": []}]}}', "regions alone are no vertices"),
@@ -225,7 +301,8 @@ def test_serving(folder):
 
 
 def main():
-    for test in (test_grids, test_tasks_of_the_league, test_pages, test_serving):
+    for test in (test_grids, test_which_dispatcher, test_tasks_of_the_league, test_pages, test_serving,
+                 test_serving_a_grid):
         with tempfile.TemporaryDirectory() as folder:
             test(Path(folder))
     print("all is well")

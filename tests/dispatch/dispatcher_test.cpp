@@ -167,10 +167,11 @@ TEST(Dispatcher, NobodyEntersLanesThatAreClosed) {
             }
           }
           if (closed.size() > 10) {
-            const Lane oldest = *closed.begin();
-            EXPECT_FALSE(dispatcher.open(oldest.first, oldest.second));
-            closed.erase(oldest);
-            std::erase_if(allowed, [&](const auto& entry) { return entry.second == oldest; });
+            const std::vector<Lane> all(closed.begin(), closed.end());
+            const Lane one = random.pick(all);
+            EXPECT_FALSE(dispatcher.open(one.first, one.second));
+            closed.erase(one);
+            std::erase_if(allowed, [&](const auto& entry) { return entry.second == one; });
           }
         }
         for (std::size_t i = 0; i < n; ++i) {

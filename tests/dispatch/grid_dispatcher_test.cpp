@@ -224,7 +224,8 @@ TEST(GridDispatcher, NobodyTakesEdgesThatAreClosed) {
     GridSimulation simulation(dispatcher, graph, options);
     std::set<Graph::Edge> closed;
     const auto open_one = [&] {
-      const Graph::Edge edge = *closed.begin();
+      const std::vector<Graph::Edge> all(closed.begin(), closed.end());
+      const Graph::Edge edge = random.pick(all);
       EXPECT_FALSE(dispatcher.open(edge.second, edge.first));
       closed.erase(edge);
     };

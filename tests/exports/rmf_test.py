@@ -176,11 +176,161 @@ def test_server(program, folder):
     assert first["plan"]["plan_id"]["destination_session"]["uuid"] == list(range(16))
 
 
+class LiveRobot:
+    """Obeys departure blockers, also when it is under way already, and nothing else."""
+
+    def __init__(self, message, clock):
+        self.name, self.plan, self.clock = message["name"], message["plan"], clock
+        self.waypoints = self.plan["waypoints"]
+
+    @property
+    def left(self):
+        """The waypoint from which it goes on, or stands at."""
+        at = 0
+        while at + 1 < len(self.waypoints) and self.arrival(at + 1) <= self.clock:
+            at += 1
+        return at
+
+    def arrival(self, k):
+        return self.waypoints[k - 1]["departure_trajectory"][0]["final_progress_level"]
+
+    @property
+    def place(self):
+        at = self.left
+        way = self.waypoints[at]["departure_trajectory"]
+        if not way or self.clock <= way[0]["initial_progress_level"]:
+            return self.waypoints[at]["position"]
+        first, last = way[0]["initial_progress_level"], way[0]["final_progress_level"]
+        return place(self.waypoints, at, (self.clock - first) / (last - first))
+
+    def has_arrived(self):
+        return self.left + 1 == len(self.waypoints)
+
+    def step(self, time, robots):
+        here = self.waypoints[self.left]
+        if self.has_arrived():
+            return
+        begin = here["departure_trajectory"][0]["initial_progress_level"]
+        then = self.clock + time
+        # Up to where it leaves it may go at any time.
+        if then > begin:
+            for blocker in here["departure_blockers"]:
+                other = robots[blocker["name"]]
+                assert other.plan["plan_id"] == blocker["plan_id"]
+                # Who has arrived has made all its progress.
+                if other.clock < blocker["required_progress"] and not other.has_arrived():
+                    then = max(self.clock, min(then, begin))
+        self.clock = then
+
+
+def follow_live(messages, clocks, radii, seed):
+    robots = {message["name"]: LiveRobot(message, clocks[message["name"]]) for message in messages}
+    draw, least = random.Random(seed), math.inf
+    chance = {name: draw.choice([0.2, 0.6, 1.0]) for name in robots}
+    for _ in range(1500):
+        everybody = list(robots.values())
+        if all(robot.has_arrived() for robot in everybody):
+            break
+        draw.shuffle(everybody)
+        for robot in everybody:
+            if draw.random() < chance[robot.name]:
+                robot.step(0.02, robots)
+        for i, one in enumerate(everybody):
+            for other in everybody[:i]:
+                least = min(least, math.dist(one.place, other.place) - radii[one.name] - radii[other.name])
+    return least, all(robot.has_arrived() for robot in robots.values())
+
+
+def session(program, arguments, names, goals, seed, step, late, look):
+    """Robots of a server that are late at random. `look` sees messages and clocks after each call."""
+    draw = random.Random(seed)
+    server = subprocess.Popen([program, "dispatch", *map(str, arguments), "--serve", "--effort", "3"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def ask(what, **given):
+        server.stdin.write(json.dumps({what: given}) + "\n")
+        server.stdin.flush()
+        answer = json.loads(server.stdout.readline())
+        assert what in answer, answer
+        return answer[what]
+
+    for call in range(40):
+        held = [name for name in names if draw.random() < 0.2] if not late else []
+        news = ask("tick", duration=step, **({"held": held} if held else {}))
+        clocks = {robot["robot"]: robot["clock"] for robot in news["robots"]}
+        if call % 4 == 1:
+            look(ask("plans"), clocks)
+        for robot in news["robots"]:
+            if robot["tasks"] == 0:
+                ask("assign", robot=robot["robot"], goals=draw.choice(goals))
+            if late and draw.random() < 0.7:
+                ask("report", robot=robot["robot"], clock=robot["limit"])
+    server.stdin.close()
+    assert server.wait() == 0
+
+
+def test_blockers_of_a_server(program, folder):
+    seen = {"runs": 0, "blockers": 0, "arrived": 0, "tight": 0}
+    for seed in range(6):
+        file = folder / "live.json"
+        instance = crossing(seed)
+        for agent in instance["agents"]:
+            agent["goal"] = agent["start"]
+        file.write_text(json.dumps(instance))
+        radii = {agent["name"]: agent["radius"] for agent in instance["agents"]}
+
+        def look(messages, clocks):
+            for message in messages:
+                check(message["plan"], "Plan", message["name"])
+            seen["blockers"] += sum(len(w["departure_blockers"]) for m in messages for w in m["plan"]["waypoints"])
+            least, arrived = follow_live(messages, clocks, radii, seen["runs"])
+            assert least > -0.002, (seed, seen, least)
+            seen["runs"] += 1
+            seen["arrived"] += arrived
+            for message in messages:
+                for waypoint in message["plan"]["waypoints"]:
+                    waypoint["departure_blockers"] = []
+            seen["tight"] += follow_live(messages, clocks, radii, seen["runs"])[0] < -0.05
+
+        session(program, ["--instance", file], list(radii), list(range(9)), seed, 0.5, True, look)
+    assert seen["blockers"] > 100 and seen["arrived"] > 20 and seen["tight"] > 5, seen
+
+
+def test_blockers_on_a_grid(program, folder):
+    names = [f"r{k}" for k in range(6)]
+    instance = {
+        "quadrille": "instance", "version": 1, "grid": {"width": 4, "height": 3, "rows": ["....", ".@..", "...."]},
+        "agents": [{"name": name, "start": cell, "goal": cell}
+                   for name, cell in zip(names, [[0, 0], [1, 0], [3, 0], [3, 1], [0, 2], [2, 2]])],
+    }
+    file = folder / "grid.json"
+    file.write_text(json.dumps(instance))
+    seen = {"runs": 0, "blockers": 0, "tight": 0}
+
+    def look(messages, clocks):
+        radii = {name: 0.35 for name in names}
+        for message in messages:
+            check(message["plan"], "Plan", message["name"])
+        seen["blockers"] += sum(len(w["departure_blockers"]) for m in messages for w in m["plan"]["waypoints"])
+        assert follow_live(messages, clocks, radii, seen["runs"])[0] > -0.002
+        seen["runs"] += 1
+        for message in messages:
+            for waypoint in message["plan"]["waypoints"]:
+                waypoint["departure_blockers"] = []
+        seen["tight"] += follow_live(messages, clocks, radii, seen["runs"])[0] < -0.05
+
+    for seed in range(4):
+        session(program, ["--instance", file], names, [[0, 0], [3, 2], [2, 0], [0, 1], [2, 1]], seed, 1, False, look)
+    assert seen["blockers"] > 50 and seen["tight"] > 3, seen
+
+
 def main():
     program = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
         test_robots_never_collide(program, Path(folder))
         test_server(program, Path(folder))
+        test_blockers_of_a_server(program, Path(folder))
+        test_blockers_on_a_grid(program, Path(folder))
     print("all is well")
 
 

@@ -17,6 +17,18 @@ QUADRILLE_API_BEGIN
 
 namespace quadrille::exports {
 
+/// What a follower has to wait for before it begins its move, in whole: the leader has begun a move
+/// and come to a time of it, or has ended it.
+struct Blocker {
+  execution::MoveId leader;
+  std::optional<execution::Ticks> until;  ///< Within the move; nullopt: its end.
+};
+/// Once the leader has come to end - slack, the rule of execution lets the follower end its move.
+/// Of a robot that stands at a vertex the clock is as late as it may stand there. Nullopt: the
+/// leader need not have begun any move.
+[[nodiscard]] std::optional<Blocker> blocker_of(const execution::Precedences& order,
+                                                const execution::Precedence& precedence);
+
 /// What messages of a plan server of Open-RMF say besides the plan.
 struct RmfHeads {
   RobotNames robots;        ///< The namespaces of the participants; different ones.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap/dispatch_report.hpp"
+#include "fleets/dispatch_report.hpp"
 
 #include <fmt/format.h>
 
@@ -38,13 +38,19 @@ std::string number(const std::optional<double>& value) {
 }  // namespace
 
 std::string DispatchReport::text() const {
+  const std::string idle = number(static_cast<double>(waiting) / static_cast<double>(calls()));
+  const std::string waits =
+      is_on_grid
+          ? fmt::format("waiting    {} robots that do not arrive in the window, in the mean\n", idle)
+          : fmt::format("waiting    {} robots without a path in the mean\n"
+                        "origins    {} times planned anew for late robots; {} plans came too late\n",
+                        idle, origins, too_late);
   return fmt::format(
       "time       {:g}, in {} calls; seed {}\n"
       "tasks      {} done, {} per unit of time\n"
       "service    mean {}, 95 % within {}\n"
       "calls      mean {} ms, 95 % within {} ms, longest {} ms, with the simulation\n"
-      "waiting    {} robots without a path in the mean\n"
-      "origins    {} times planned anew for late robots; {} plans came too late\n"
+      "{}"
       "gap        mean {} %, median {} %, 95 % within {} %\n"
       "contacts   {}\n",
       time, calls(), seed, served, number(static_cast<double>(served) / time),
@@ -52,7 +58,7 @@ std::string DispatchReport::text() const {
       number(milliseconds(mean(call_seconds))),
       number(milliseconds(quantile(call_seconds, kShare))),
       number(milliseconds(quantile(call_seconds, 1))),
-      number(static_cast<double>(waiting) / static_cast<double>(calls())), origins, too_late,
+      waits,
       number(mean(gaps)), number(quantile(gaps, 0.5)), number(quantile(gaps, kShare)), contacts);
 }
 
@@ -60,6 +66,7 @@ std::string DispatchReport::json() const {
   const Json report = {
       {"quadrille", "dispatch"},
       {"version", 1},
+      {"dispatcher", is_on_grid ? "grid" : "roadmap"},
       {"robots", robots},
       {"seed", seed},
       {"time", time},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap/dispatch_serve.hpp"
+#include "fleets/dispatch_serve.hpp"
 
 #include <cstddef>
 #include <iostream>
@@ -12,15 +12,13 @@
 
 #include "frame/output.hpp"
 #include "quadrille/core/limits.hpp"
-#include "quadrille/dispatch/dispatcher.hpp"
-#include "roadmap/dispatch_options.hpp"
-#include "roadmap/dispatch_rmf.hpp"
-#include "roadmap/dispatch_words.hpp"
+#include "fleets/dispatch_rmf.hpp"
+#include "fleets/dispatch_words.hpp"
 
 namespace quadrille::cli {
 namespace {
 
-using dispatch::Dispatcher;
+using dispatch::Ticks;
 using Json = nlohmann::ordered_json;
 
 Error wrong(std::string message) { return {ErrorCode::syntax, std::move(message), {}}; }
@@ -28,12 +26,8 @@ Error wrong(std::string message) { return {ErrorCode::syntax, std::move(message)
 /// Answers requests.
 class Server {
  public:
-  Server(const DispatchArguments& arguments, const continuous::Instance& instance,
-         const text::Names& names, Dispatcher& dispatcher)
-      : instance_(instance),
-        dispatcher_(dispatcher),
-        words_(instance, names),
-        rmf_(instance, words_, dispatcher) {
+  Server(const DispatchArguments& arguments, const text::Names& names, LiveFleet& fleet)
+      : fleet_(fleet), words_(fleet, names), rmf_(fleet, words_) {
     limits_.wall_s = arguments.wall;
   }
 
@@ -58,7 +52,9 @@ class Server {
         {"goal", {&Server::goal, {"robot", "one_of"}, {"cost_bias", "session"}}},
         {"cancel", {&Server::cancel, {"robot"}, {}}},
         {"report", {&Server::report, {"robot", "clock"}, {}}},
-        {"tick", {&Server::tick, {"duration"}, {}}},
+        {"close", {&Server::close, {"from", "to"}, {}}},
+        {"open", {&Server::open, {"from", "to"}, {}}},
+        {"tick", {&Server::tick, {"duration"}, {"held"}}},
         {"plans", {&Server::plans, {}, {}}}};
     const Json request = Json::parse(line, nullptr, false);
     if (request.is_discarded()) return wrong("this is no JSON");
@@ -67,7 +63,7 @@ class Server {
     const std::string what = request.begin().key();
     const auto known = kRequests.find(what);
     if (known == kRequests.end())
-      return wrong("there is no request '" + what + "': assign, goal, cancel, report, tick, plans");
+      return wrong("there is no request '" + what + "': assign, goal, cancel, close, open, report, tick, plans");
     const Json& given = request.begin().value();
     for (const auto& [key, value] : given.items())
       if (known->second.needed.count(key) + known->second.possible.count(key) == 0)
@@ -121,15 +117,30 @@ class Server {
   }
 
   Result<Json> assigned(AgentId robot, dispatch::Task task) {
-    if (const auto error = dispatcher_.assign(robot, std::move(task))) return *error;
-    return Json({{"robot", words_.robot(robot)}, {"tasks", dispatcher_.num_tasks(robot)}});
+    if (const auto error = fleet_.assign(robot, std::move(task))) return *error;
+    return Json({{"robot", words_.robot(robot)}, {"tasks", fleet_.num_tasks(robot)}});
   }
 
   Result<Json> cancel(const Json& given) {
     const auto robot = words_.robot(given["robot"]);
     if (!robot) return robot.error();
-    if (const auto error = dispatcher_.cancel(*robot)) return *error;
-    return Json({{"robot", words_.robot(*robot)}, {"tasks", dispatcher_.num_tasks(*robot)}});
+    if (const auto error = fleet_.cancel(*robot)) return *error;
+    return Json({{"robot", words_.robot(*robot)}, {"tasks", fleet_.num_tasks(*robot)}});
+  }
+
+  Result<Json> close(const Json& given) {
+    return change_lane(given, [this](VertexId a, VertexId b) { return fleet_.close(a, b); });
+  }
+  Result<Json> open(const Json& given) {
+    return change_lane(given, [this](VertexId a, VertexId b) { return fleet_.open(a, b); });
+  }
+  template <class Change>
+  Result<Json> change_lane(const Json& given, const Change& change) {
+    const auto from = words_.vertex(given["from"]), to = words_.vertex(given["to"]);
+    if (!from) return from.error();
+    if (!to) return to.error();
+    if (const auto error = change(*from, *to)) return *error;
+    return Json({{"from", words_.vertex(*from)}, {"to", words_.vertex(*to)}});
   }
 
   Result<Json> report(const Json& given) {
@@ -137,42 +148,52 @@ class Server {
     if (!robot) return robot.error();
     const auto clock = words_.ticks(given["clock"], "clock", false);
     if (!clock) return clock.error();
-    const auto out_of_range = [&](const char* what, continuous::Ticks bound) {
+    const auto out_of_range = [&](const char* what, Ticks bound) {
       return Error{ErrorCode::out_of_range,
                    std::string("\"clock\": ") + what + " " + Json(words_.time(bound)).dump(),
                    {}};
     };
-    if (*clock < dispatcher_.clock(*robot))
-      return out_of_range("clocks never go back, and it was", dispatcher_.clock(*robot));
-    if (*clock > dispatcher_.limit(*robot))
+    if (*clock < fleet_.clock(*robot))
+      return out_of_range("clocks never go back, and it was", fleet_.clock(*robot));
+    if (*clock > fleet_.limit(*robot))
       return out_of_range("the robot was allowed to go no further than to",
-                          dispatcher_.limit(*robot));
-    if (const auto error = dispatcher_.report(*robot, *clock)) return *error;
+                          fleet_.limit(*robot));
+    if (const auto error = fleet_.report(*robot, *clock)) return *error;
     return Json(
-        {{"robot", words_.robot(*robot)}, {"clock", words_.time(dispatcher_.clock(*robot))}});
+        {{"robot", words_.robot(*robot)}, {"clock", words_.time(fleet_.clock(*robot))}});
   }
 
   Result<Json> tick(const Json& given) {
     const auto duration = words_.ticks(given["duration"], "duration", true);
     if (!duration) return duration.error();
     if (*duration < 1) return wrong("\"duration\" is 0, and time has to go on");
-    const dispatch::News news = dispatcher_.tick(*duration, limits_);
+    std::vector<AgentId> held;
+    if (given.contains("held") && !given["held"].is_array()) return wrong("\"held\" is a list");
+    for (const Json& called : given.contains("held") ? given["held"] : Json::array()) {
+      const auto robot = words_.robot(called);
+      if (!robot) return robot.error();
+      held.push_back(*robot);
+    }
+    const auto called = fleet_.tick(*duration, held, limits_);
+    if (!called) return called.error();
+    const dispatch::News& news = *called;
     rmf_.note_courses();
     Json served = Json::array(), robots = Json::array();
     for (const AgentId robot : news.served) served.push_back(words_.robot(robot));
-    for (const AgentId robot : instance_.agent_ids()) {
+    for (std::size_t i = 0; i < fleet_.num_robots(); ++i) {
+      const AgentId robot(i);
       Json course = Json::array();
-      for (const dispatch::Stop& stop : dispatcher_.course(robot))
+      for (const dispatch::Stop& stop : fleet_.course(robot))
         course.push_back(words_.stop(stop));
       robots.push_back({{"robot", words_.robot(robot)},
-                        {"clock", words_.time(dispatcher_.clock(robot))},
-                        {"limit", words_.time(dispatcher_.limit(robot))},
-                        {"tasks", dispatcher_.num_tasks(robot)},
+                        {"clock", words_.time(fleet_.clock(robot))},
+                        {"limit", words_.time(fleet_.limit(robot))},
+                        {"tasks", fleet_.num_tasks(robot)},
                         {"course", course}});
     }
-    const auto cost = words_.time(continuous::Ticks(news.cost));
-    const auto bound = words_.time(continuous::Ticks(news.lower_bound));
-    return Json({{"now", words_.time(dispatcher_.now())},
+    const auto cost = words_.time(Ticks(news.cost));
+    const auto bound = words_.time(Ticks(news.lower_bound));
+    return Json({{"now", words_.time(fleet_.now())},
                  {"served", served},
                  {"waiting", news.num_waiting},
                  {"new_plan", news.has_new_plan},
@@ -184,8 +205,7 @@ class Server {
 
   Result<Json> plans(const Json&) { return rmf_.messages(); }
 
-  const continuous::Instance& instance_;
-  Dispatcher& dispatcher_;
+  LiveFleet& fleet_;
   DispatchWords words_;
   DispatchRmf rmf_;
   Limits limits_;
@@ -193,16 +213,8 @@ class Server {
 
 }  // namespace
 
-ExitCode serve_dispatcher(const DispatchArguments& arguments, const input::RoadmapInput& input) {
-  const auto& given = input.instance.agents();
-  auto dispatcher = Dispatcher::make(input.instance.shared_roadmap(), {given.begin(), given.end()},
-                                     input.instance.resolution(),
-                                     dispatcher_options(arguments, input.instance.resolution()));
-  if (!dispatcher) {
-    report_error(dispatcher.error());
-    return ExitCode::bad_input;
-  }
-  Server server(arguments, input.instance, input.names, *dispatcher);
+ExitCode serve(const DispatchArguments& arguments, const text::Names& names, LiveFleet& fleet) {
+  Server server(arguments, names, fleet);
   std::string line;
   for (std::size_t number = 1; std::getline(std::cin, line); ++number)
     // At once, for whoever waits for it.

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "quadrille/continuous/instance.hpp"
 #include "quadrille/core/goals.hpp"
 #include "quadrille/core/result.hpp"
-#include "quadrille/dispatch/dispatcher.hpp"
-#include "roadmap/dispatch_words.hpp"
+#include "quadrille/execution/precedences.hpp"
+#include "fleets/dispatch_words.hpp"
+#include "fleets/live_fleet.hpp"
 
 namespace quadrille::cli {
 
@@ -20,8 +20,7 @@ class DispatchRmf {
   using Json = nlohmann::ordered_json;
 
   /// Keeps references to all.
-  DispatchRmf(const continuous::Instance& instance, const DispatchWords& words,
-              const dispatch::Dispatcher& dispatcher);
+  DispatchRmf(const LiveFleet& fleet, const DispatchWords& words);
 
   /// Those of a DestinationGoal that are the cheapest: of a robot that goes to it after what it has
   /// to do, alone, plus its cost_bias. Errors: syntax, invalid_instance.
@@ -40,13 +39,17 @@ class DispatchRmf {
     dispatch::Course course = {};
   };
   [[nodiscard]] Result<VertexId> vertex_of(const Json& constraints) const;
-  [[nodiscard]] Json plan(AgentId robot) const;
+  /// By robot and move, the moves that others have to have made before.
+  using Blockers = std::vector<std::vector<Json>>;
+  [[nodiscard]] Blockers blockers() const;
+  [[nodiscard]] Json plan(AgentId robot, const std::vector<Json>& blockers) const;
   [[nodiscard]] Json plan_id(AgentId robot) const;
   [[nodiscard]] Json waypoint(const dispatch::Course& course, std::size_t k) const;
+  /// From the k-th stop to the next one.
+  [[nodiscard]] Json trajectory(const dispatch::Course& course, std::size_t k) const;
 
-  const continuous::Instance& instance_;
+  const LiveFleet& fleet_;
   const DispatchWords& words_;
-  const dispatch::Dispatcher& dispatcher_;
   std::vector<Known> known_;  // by robot
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap/dispatch_words.hpp"
+#include "fleets/dispatch_words.hpp"
 
 #include <cmath>
 
-#include "quadrille/continuous/quantise.hpp"
 #include "quadrille/core/decimal.hpp"
 
 namespace quadrille::cli {
@@ -15,10 +14,10 @@ Error unknown(const std::string& what) { return {ErrorCode::invalid_instance, wh
 
 }  // namespace
 
-DispatchWords::DispatchWords(const continuous::Instance& instance, const text::Names& names)
-    : instance_(instance), names_(names) {
-  for (const AgentId i : instance.agent_ids())
-    if (const std::string* const name = names.agent(i.index())) robots_.emplace(*name, i);
+DispatchWords::DispatchWords(const LiveFleet& fleet, const text::Names& names)
+    : fleet_(fleet), names_(names) {
+  for (std::size_t i = 0; i < fleet.num_robots(); ++i)
+    if (const std::string* const name = names.agent(i)) robots_.emplace(*name, AgentId(i));
   for (std::size_t v = 0; v < names.vertices.size(); ++v)
     vertices_.emplace(Json::parse(names.vertices[v]), VertexId(v));
 }
@@ -27,24 +26,24 @@ Result<AgentId> DispatchWords::robot(const Json& called) const {
   if (called.is_string())
     if (const auto known = robots_.find(called.get<std::string>()); known != robots_.end())
       return known->second;
-  if (called.is_number_integer() && called >= 0 && called < instance_.num_agents())
+  if (called.is_number_integer() && called >= 0 && called < fleet_.num_robots())
     return AgentId(called.get<std::size_t>());
   return unknown("there is no robot " + called.dump());
 }
 
 Result<VertexId> DispatchWords::vertex(const Json& called) const {
   if (const auto known = vertices_.find(called); known != vertices_.end()) return known->second;
-  if (called.is_number_integer() && called >= 0 && called < instance_.roadmap().num_vertices())
+  if (called.is_number_integer() && called >= 0 && called < fleet_.num_vertices())
     return VertexId(called.get<std::size_t>());
   return unknown("there is no vertex " + called.dump());
 }
 
-Result<continuous::Ticks> DispatchWords::ticks(const Json& time, const std::string& what,
+Result<dispatch::Ticks> DispatchWords::ticks(const Json& time, const std::string& what,
                                                bool is_up) const {
   // What differs from a whole tick by a millionth of one is meant to be that.
   constexpr double kNear = 1e-6, kLongest = 1e15;
   if (!time.is_number()) return unknown("\"" + what + "\" is a number");
-  const double exact = time.get<double>() / instance_.resolution().time;
+  const double exact = time.get<double>() / fleet_.tick_size();
   const double whole = is_up ? std::ceil(exact - kNear) : std::floor(exact + kNear);
   if (!(whole >= 0 && whole <= kLongest))
     return Error{ErrorCode::out_of_range,
@@ -64,7 +63,7 @@ Json DispatchWords::vertex(VertexId vertex) const {
 }
 
 double DispatchWords::time(Ticks ticks) const {
-  return continuous::in_input_units(ticks, instance_.resolution());
+  return fleet_.units(ticks);
 }
 
 Json DispatchWords::stop(const dispatch::Stop& stop) const {
@@ -80,16 +79,9 @@ Json DispatchWords::stop(const dispatch::Stop& stop) const {
 }
 
 Json DispatchWords::position(const dispatch::Spot& spot) const {
-  const auto& from = instance_.roadmap().position(spot.from);
-  const auto& to = instance_.roadmap().position(spot.to);
-  const double share =
-      static_cast<double>(spot.behind.value()) / static_cast<double>(spot.whole.value());
-  const auto at = [&](continuous::Length a, continuous::Length b) {
-    return static_cast<float>(
-        (static_cast<double>(a.value()) + share * static_cast<double>((b - a).value())) *
-        instance_.resolution().length);
-  };
-  return {at(from.x, to.x), at(from.y, to.y)};
+  const auto place = fleet_.position(spot);
+  if (!place) return Json::array();
+  return {static_cast<float>((*place)[0]), static_cast<float>((*place)[1])};
 }
 
 std::string DispatchWords::participant(AgentId robot) const {

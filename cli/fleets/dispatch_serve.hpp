@@ -2,15 +2,16 @@
 #pragma once
 
 #include "frame/exit_codes.hpp"
-#include "quadrille/input/roadmap.hpp"
-#include "roadmap/dispatch_roadmap.hpp"
+#include "fleets/live_fleet.hpp"
+#include "quadrille/text/names.hpp"
+#include "fleets/dispatch.hpp"
 
 namespace quadrille::cli {
 
 /// Reads requests from standard input, one JSON object per line, and answers each with one line
 /// (docs/dispatch.md#one-line-in-one-line-out), until the input ends. What is wrong with a line is
 /// its answer, and the next one is read.
-[[nodiscard]] ExitCode serve_dispatcher(const DispatchArguments& arguments,
-                                        const input::RoadmapInput& input);
+[[nodiscard]] ExitCode serve(const DispatchArguments& arguments, const text::Names& names,
+                             LiveFleet& fleet);
 
 }  // namespace quadrille::cli

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "quadrille/continuous/instance.hpp"
+#include "fleets/live_fleet.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/dispatch/course.hpp"
@@ -18,10 +18,10 @@ namespace quadrille::cli {
 class DispatchWords {
  public:
   using Json = nlohmann::ordered_json;
-  using Ticks = continuous::Ticks;
+  using Ticks = dispatch::Ticks;
 
   /// Keeps references to both.
-  DispatchWords(const continuous::Instance& instance, const text::Names& names);
+  DispatchWords(const LiveFleet& fleet, const text::Names& names);
 
   // Of requests. Errors (invalid_instance, out_of_range) say what there is not.
   [[nodiscard]] Result<AgentId> robot(const Json& called) const;
@@ -35,13 +35,13 @@ class DispatchWords {
   [[nodiscard]] double time(Ticks ticks) const;
   /// {vertex, arrive, depart}, within a lane also {to, fraction}.
   [[nodiscard]] Json stop(const dispatch::Stop& stop) const;
-  /// [x, y] in float32, of a place on a lane too.
+  /// [x, y] in float32, of a place on a lane too; [] on a graph without places.
   [[nodiscard]] Json position(const dispatch::Spot& spot) const;
   /// In messages of Open-RMF: of a robot without a name "agent3".
   [[nodiscard]] std::string participant(AgentId robot) const;
 
  private:
-  const continuous::Instance& instance_;
+  const LiveFleet& fleet_;
   const text::Names& names_;
   std::map<std::string, AgentId> robots_;
   std::map<Json, VertexId> vertices_;

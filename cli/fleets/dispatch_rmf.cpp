@@ -1,56 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "roadmap/dispatch_rmf.hpp"
+#include "fleets/dispatch_rmf.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
 #include <limits>
-#include <queue>
 #include <string>
 #include <utility>
+
+#include "quadrille/exports/rmf.hpp"
 
 namespace quadrille::cli {
 namespace {
 
-using continuous::Ticks;
 using dispatch::Course;
+using dispatch::Ticks;
 using Json = DispatchRmf::Json;
 
 Error wrong(const std::string& message) { return {ErrorCode::syntax, message, {}}; }
 
 Json no_session() { return {{"uuid", std::vector<int>(16, 0)}}; }
 
-/// How long the robot takes from the vertex to each vertex, alone; the largest number: no way.
-std::vector<Ticks> times_from(const continuous::Instance& instance, AgentId robot, VertexId start) {
-  constexpr Ticks kFar{std::numeric_limits<Ticks::Count>::max()};
-  std::vector<Ticks> times(instance.roadmap().num_vertices(), kFar);
-  using Entry = std::pair<Ticks, VertexId>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  times[start.index()] = 0;
-  open.emplace(Ticks{0}, start);
-  const continuous::ClassId kind = instance.class_of(robot);
-  while (!open.empty()) {
-    const auto [time, v] = open.top();
-    open.pop();
-    if (time > times[v.index()]) continue;
-    for (const continuous::EdgeId e : instance.out_edges(kind, v)) {
-      const VertexId to = instance.roadmap().edge(e).to;
-      const Ticks then = time + instance.duration(kind, e);
-      if (then >= times[to.index()]) continue;
-      times[to.index()] = then;
-      open.emplace(then, to);
-    }
-  }
-  return times;
-}
-
 }  // namespace
 
-DispatchRmf::DispatchRmf(const continuous::Instance& instance, const DispatchWords& words,
-                         const dispatch::Dispatcher& dispatcher)
-    : instance_(instance), words_(words), dispatcher_(dispatcher) {
-  known_.resize(instance.num_agents(), {no_session(), 0, {}});
-  for (const AgentId robot : instance.agent_ids())
-    known_[robot.index()].course = dispatcher.course(robot);
+DispatchRmf::DispatchRmf(const LiveFleet& fleet, const DispatchWords& words)
+    : fleet_(fleet), words_(words) {
+  for (std::size_t i = 0; i < fleet.num_robots(); ++i)
+    known_.push_back({no_session(), 0, fleet.course(AgentId(i))});
 }
 
 Result<VertexId> DispatchRmf::vertex_of(const Json& constraints) const {
@@ -80,8 +55,8 @@ Result<Goals> DispatchRmf::goals(const Json& goal, AgentId robot) const {
       biases[k] = given[k].get<double>();
     }
   }
-  const dispatch::Spot end = dispatcher_.course(robot).back().spot;
-  const auto times = times_from(instance_, robot, end.to);
+  const dispatch::Spot end = fleet_.course(robot).back().spot;
+  const auto times = fleet_.times_from(robot, end.to);
   std::vector<VertexId> best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < choices.size(); ++k) {
@@ -101,12 +76,11 @@ void DispatchRmf::set_session(AgentId robot, const Json& goal) {
 }
 
 void DispatchRmf::note_courses() {
-  for (const AgentId robot : instance_.agent_ids()) {
-    Known& known = known_[robot.index()];
-    const Course& course = dispatcher_.course(robot);
-    if (course == known.course) continue;
-    known.course = course;
-    ++known.version;
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    Course course = fleet_.course(AgentId(i));
+    if (course == known_[i].course) continue;
+    known_[i].course = std::move(course);
+    ++known_[i].version;
   }
 }
 
@@ -135,15 +109,73 @@ Json DispatchRmf::waypoint(const Course& course, std::size_t k) const {
           {"progress", static_cast<float>(words_.time(course[k].depart))},
           {"maps", {"map"}},
           {"departure_blockers", Json::array()},
-          {"departure_trajectory", Json::array()},
+          {"departure_trajectory",
+           k + 1 < course.size() ? Json::array({trajectory(course, k)}) : Json::array()},
           {"departure_action", ""},
           {"arrival_action", ""}};
 }
 
-Json DispatchRmf::plan(AgentId robot) const {
+Json DispatchRmf::trajectory(const Course& course, std::size_t k) const {
+  const auto point = [&](const dispatch::Spot& spot) {
+    return Json{{"position", words_.position(spot)}, {"weight", 1.0F}};
+  };
+  const auto level = [&](Ticks time) { return static_cast<float>(words_.time(time)); };
+  const auto time = level(course[k + 1].arrive - course[k].depart);
+  return {{"curve",
+           {{"degree", 1},
+            {"control_points", {point(course[k].spot), point(course[k + 1].spot)}},
+            {"knots", {0.0F, 0.0F, time, time}}}},
+          {"initial_progress_level", level(course[k].depart)},
+          {"final_progress_level", level(course[k + 1].arrive)},
+          {"maps", {"map"}},
+          {"keys", Json::array()}};
+}
+
+// Moves of the order are found on courses by when they end: what has been passed is left out of
+// either.
+DispatchRmf::Blockers DispatchRmf::blockers() const {
+  const execution::Precedences order = fleet_.order();
+  std::vector<Course> courses;
+  Blockers blockers;
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    courses.push_back(fleet_.course(AgentId(i)));
+    blockers.emplace_back(courses.back().size(), Json::array());
+  }
+  const auto stop_at_end = [&](const execution::MoveId& id) -> std::optional<std::size_t> {
+    const Course& course = courses[id.agent.index()];
+    const auto at =
+        std::find_if(course.begin() + 1, course.end(),
+                     [&](const dispatch::Stop& stop) { return stop.arrive == order.at(id).end; });
+    if (at == course.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - course.begin());
+  };
+  for (const execution::Precedence& precedence : order.list) {
+    const auto blocker = exports::blocker_of(order, precedence);
+    if (!blocker) continue;
+    const auto follower = stop_at_end(precedence.follower), leader = stop_at_end(blocker->leader);
+    if (!follower || !leader) continue;
+    const Course& ahead = courses[blocker->leader.agent.index()];
+    const auto all = static_cast<float>(words_.time(ahead[*leader].depart));
+    float required = all;
+    // No progress before that time is as much.
+    if (blocker->until)
+      required = std::min(all, std::nextafter(static_cast<float>(words_.time(*blocker->until)),
+                                              std::numeric_limits<float>::infinity()));
+    blockers[precedence.follower.agent.index()][*follower - 1].push_back(
+        {{"name", words_.participant(blocker->leader.agent)},
+         {"plan_id", plan_id(blocker->leader.agent)},
+         {"required_progress", required}});
+  }
+  return blockers;
+}
+
+Json DispatchRmf::plan(AgentId robot, const std::vector<Json>& blockers) const {
   Json waypoints = Json::array();
-  const Course& course = dispatcher_.course(robot);
-  for (std::size_t k = 0; k < course.size(); ++k) waypoints.push_back(waypoint(course, k));
+  const Course course = fleet_.course(robot);
+  for (std::size_t k = 0; k < course.size(); ++k) {
+    waypoints.push_back(waypoint(course, k));
+    waypoints.back()["departure_blockers"] = blockers[k];
+  }
   return {{"waypoints", waypoints},
           {"start_time", {{"sec", 0}, {"nanosec", 0}}},
           {"plan_id", plan_id(robot)},
@@ -152,9 +184,11 @@ Json DispatchRmf::plan(AgentId robot) const {
 
 Json DispatchRmf::messages() const {
   Json list = Json::array();
-  for (const AgentId robot : instance_.agent_ids()) {
-    const Course& course = dispatcher_.course(robot);
-    const Ticks limit = dispatcher_.limit(robot), clock = dispatcher_.clock(robot);
+  const Blockers blockers = this->blockers();
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    const AgentId robot(i);
+    const Course course = fleet_.course(robot);
+    const Ticks limit = fleet_.limit(robot), clock = fleet_.clock(robot);
     std::size_t released = 0, reached = 0;
     for (std::size_t k = 0; k < course.size(); ++k) {
       if (course[k].arrive <= limit) released = k;
@@ -162,7 +196,7 @@ Json DispatchRmf::messages() const {
     }
     const bool is_under_way = course[reached].depart < clock && reached + 1 < course.size();
     list.push_back({{"name", words_.participant(robot)},
-                    {"plan", plan(robot)},
+                    {"plan", plan(robot, blockers[i])},
                     {"release", {{"waypoint_id", released}, {"plan_id", plan_id(robot)}}},
                     {"progress",
                      {{"progress", static_cast<float>(words_.time(clock))},

@@ -12,6 +12,7 @@ namespace quadrille::cli {
 struct DispatchReport {
   std::size_t robots = 0, served = 0, contacts = 0, waiting = 0, origins = 0, too_late = 0;
   std::uint64_t seed = 0;
+  bool is_on_grid = false;  ///< Where robots have no clocks of their own, and plans a window.
   double time = 0;
   std::vector<double> service_times;
   // Of each call: by how many per cent it is proved to be too dear at most, 0 if there was nothing
