@@ -55,8 +55,9 @@ std::string check(const ExportArguments& arguments) {
   return wrong;
 }
 
-const continuous::PoseGrid* poses_or_null(const input::RoadmapInput& input) {
-  return input.poses ? &*input.poses : nullptr;
+std::optional<exports::Yaws> yaws_of(const input::RoadmapInput& input) {
+  if (!input.poses) return std::nullopt;
+  return exports::yaws_of(*input.poses);
 }
 
 /// What agents and vertices are called: as the file of --names says, else as the instance does.
@@ -180,7 +181,8 @@ Result<std::string> convert(const ExportArguments& arguments, const input::Roadm
   if (!named) return named.error();
   const auto robots = exports::robot_names(named->names, input.instance.num_agents());
   if (!robots) return Error{robots.error().code, robots.error().message, {named->source, 0}};
-  return exports::export_samples(input.instance, poses_or_null(input), checked->plan, *robots,
+  const auto yaws = yaws_of(input);
+  return exports::export_samples(input.instance, yaws ? &*yaws : nullptr, checked->plan, *robots,
                                  options);
 }
 
@@ -213,8 +215,7 @@ Result<exports::OrderNames> names_in_orders(const ExportArguments& arguments,
                                             const continuous::Plan& plan) {
   const auto named = naming(arguments, input);
   if (!named) return named.error();
-  auto names = exports::order_names(*named, plan, input.instance.roadmap().num_vertices(),
-                                    arguments.order_id);
+  auto names = exports::order_names(*named, plan, input.instance.roadmap(), arguments.order_id);
   if (names && !arguments.time_stamp.empty()) names->time_stamp = arguments.time_stamp;
   return names;
 }
@@ -228,7 +229,8 @@ ExitCode write_orders(const ExportArguments& arguments, const OutputFile& output
   }
   warn_of_durations(input);
   if (!may_lock_up(arguments, checked.order, *names)) return ExitCode::violations;
-  const exports::OrderWriter writer(input.instance, poses_or_null(input), checked.plan,
+  const auto yaws = yaws_of(input);
+  const exports::OrderWriter writer(input.instance, yaws ? &*yaws : nullptr, checked.plan,
                                     std::move(names).value(),
                                     arguments.vda_version.value_or(exports::VdaVersion::v3_0));
   if (!arguments.states.empty()) return release(arguments, writer, checked.order);

@@ -65,10 +65,10 @@ std::optional<Error> why_no_samples(const continuous::Instance& instance,
   return std::nullopt;
 }
 
-std::string export_samples(const continuous::Instance& instance, const continuous::PoseGrid* poses,
+std::string export_samples(const continuous::Instance& instance, const Yaws* yaws,
                            const continuous::Plan& plan, const RobotNames& robots,
                            const SampleOptions& options) {
-  Sampler sampler(instance, poses, options.rate);
+  Sampler sampler(instance, yaws, options.rate);
   const bool is_flat = instance.is_flat();
   std::string csv = is_flat ? "agent,time,x,y,vx,vy\n" : "agent,time,x,y,z,vx,vy,vz\n";
   JsonLines messages;

@@ -90,8 +90,8 @@ bool is_serial_number(const std::string& text) {
 /// Of the vertices that the plan goes to.
 Result<IdVector<VertexId, std::string>> node_names(const text::Names& names,
                                                    const continuous::Plan& plan,
-                                                   std::size_t num_vertices) {
-  IdVector<VertexId, std::string> nodes(num_vertices);
+                                                   const continuous::Roadmap& roadmap) {
+  IdVector<VertexId, std::string> nodes(roadmap.num_vertices());
   std::map<std::string, VertexId> known;
   for (const continuous::Path& path : plan.paths)
     for (const continuous::Stop& stop : path) {
@@ -101,7 +101,8 @@ Result<IdVector<VertexId, std::string>> node_names(const text::Names& names,
       if (nodes[v].empty())
         return wrong_names("the name of vertex " + std::to_string(v.value()) + " is empty");
       const auto [other, is_new] = known.emplace(nodes[v], v);
-      if (!is_new) return called_alike("vertices", other->second.value(), v.value(), nodes[v]);
+      if (!is_new && roadmap.position(other->second) != roadmap.position(v))
+        return called_alike("vertices", other->second.value(), v.value(), nodes[v]);
     }
   return nodes;
 }
@@ -131,12 +132,12 @@ Result<Naming> parse_naming(std::string_view text, const std::string& file, Nami
 }
 
 Result<OrderNames> order_names(const Naming& naming, const continuous::Plan& plan,
-                               std::size_t num_vertices, const std::string& order) {
+                               const continuous::Roadmap& roadmap, const std::string& order) {
   OrderNames names;
   names.manufacturer = naming.manufacturer;
   names.map = naming.map;
   auto robots = robot_names(naming.names, plan.paths.size());
-  auto nodes = node_names(naming.names, plan, num_vertices);
+  auto nodes = node_names(naming.names, plan, roadmap);
   std::optional<Error> wrong;
   if (!robots) wrong = robots.error();
   if (!wrong && !nodes) wrong = nodes.error();

@@ -35,12 +35,11 @@ double speed_of(const Instance& instance, const Stop& from, const Stop& to) {
          (static_cast<double>((to.arrive - from.depart).value()) * instance.resolution().time);
 }
 
-Json position(const Instance& instance, const continuous::PoseGrid* poses, VertexId v,
-              const std::string& map) {
+Json position(const Instance& instance, const Yaws* yaws, VertexId v, const std::string& map) {
   const auto& p = instance.roadmap().position(v);
   Json json = {{"x", continuous::in_input_units(p.x, instance.resolution())},
                {"y", continuous::in_input_units(p.y, instance.resolution())}};
-  if (poses != nullptr) json["theta"] = angle_of(poses->pose(v).heading);
+  if (yaws != nullptr) json["theta"] = (*yaws)[v];
   json["mapId"] = map;
   return json;
 }
@@ -62,7 +61,7 @@ std::string OrderWriter::order(AgentId agent, const OrderState& state) const {
     nodes.push_back({{"nodeId", node},
                      {"sequenceId", 2 * k},
                      {"released", k <= state.released},
-                     {"nodePosition", position(instance_, poses_, path[k].vertex, names_.map)},
+                     {"nodePosition", position(instance_, yaws_, path[k].vertex, names_.map)},
                      {"actions", Json::array()}});
     if (k + 1 == path.size()) break;
     const std::string& next = names_.nodes[path[k + 1].vertex];

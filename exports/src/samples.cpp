@@ -16,6 +16,9 @@ using continuous::Ticks;
 
 namespace {
 
+/// Of an angle that differs by less one cannot say whether it is half a turn.
+constexpr double kSameHeading = 1e-7;
+
 /// The same angle in [-pi, pi].
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
@@ -25,10 +28,26 @@ double angle_of(continuous::Heading heading) noexcept {
   return wrapped(static_cast<double>(heading) * std::numbers::pi / 2);
 }
 
+Yaws yaws_of(const continuous::PoseGrid& poses) {
+  Yaws yaws;
+  for (const VertexId v : IdRange<VertexId>(poses.roadmap()->num_vertices()))
+    yaws.push_back(angle_of(poses.pose(v).heading));
+  return yaws;
+}
+
+Yaws yaws_of(const continuous::PoseRoadmap& poses) {
+  Yaws yaws;
+  for (const VertexId v : IdRange<VertexId>(poses.roadmap()->num_vertices()))
+    yaws.push_back(wrapped(poses.heading(v)));
+  return yaws;
+}
+
 std::vector<Sample> Sampler::samples(AgentId agent, const Path& path) {
   samples_.clear();
   next_ = 0;
-  turns_ = std::holds_alternative<geometry::Disc>(instance_.agent(agent).body);
+  const continuous::Agent& made = instance_.agent(agent);
+  turns_ = std::holds_alternative<geometry::Disc>(made.body) ||
+           (yaws_ != nullptr && !made.shapes.empty());
   yaw_ = first_yaw(path);
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     add({path[k].vertex, path[k].vertex, path[k].arrive, path[k].depart, yaw_});
@@ -59,9 +78,10 @@ Sample Sampler::at(VertexId vertex, Ticks time, double yaw) const {
 Sampler::Leg Sampler::leg(const Stop& from, const Stop& to) const {
   Leg leg{from.vertex, to.vertex, from.depart, to.arrive, yaw_};
   if (!turns_) return leg;
-  if (poses_ != nullptr) {
-    leg.yaw = angle_of(poses_->pose(from.vertex).heading);
-    leg.turn = wrapped(angle_of(poses_->pose(to.vertex).heading) - leg.yaw);
+  if (yaws_ != nullptr) {
+    leg.yaw = (*yaws_)[from.vertex];
+    leg.turn = wrapped((*yaws_)[to.vertex] - leg.yaw);
+    if (leg.turn < -std::numbers::pi + kSameHeading) leg.turn += 2 * std::numbers::pi;
     return leg;
   }
   const auto& p = instance_.roadmap().position(from.vertex);
@@ -75,7 +95,7 @@ Sampler::Leg Sampler::leg(const Stop& from, const Stop& to) const {
 
 double Sampler::first_yaw(const Path& path) const {
   if (!turns_) return 0;
-  if (poses_ != nullptr) return angle_of(poses_->pose(path.front().vertex).heading);
+  if (yaws_ != nullptr) return (*yaws_)[path.front().vertex];
   const auto& roadmap = instance_.roadmap();
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     const auto& p = roadmap.position(path[k].vertex);

@@ -141,13 +141,9 @@ Result<continuous::Agent> Fleet::agent(AgentId id) const {
 std::optional<Error> Fleet::add_shapes(continuous::Agent& agent) const {
   if (roadmap_.turns() == nullptr || std::holds_alternative<continuous::Disc>(agent.body))
     return std::nullopt;
-  const std::vector<Roadmap::Turn>& turns = *roadmap_.turns();
-  for (auto turn = turns.begin() + 1; turn != turns.end(); ++turn) {
-    auto shape = turn->from == turn->to ? geometry::turned(agent.body, turn->from)
-                                        : geometry::swept_by_turn(agent.body, turn->from, turn->to);
-    if (!shape) return Error{shape.error().code, "is too large to turn", {}};
-    agent.shapes.push_back(std::move(shape).value());
-  }
+  auto shapes = continuous::shapes_of(agent.body, *roadmap_.turns());
+  if (!shapes) return shapes.error();
+  agent.shapes = std::move(shapes).value();
   return std::nullopt;
 }
 

@@ -11,13 +11,14 @@ A place on a grid is ``(x, y)``, column and row. On roadmaps, lengths and times 
 """
 
 from ._core import __version__
-from ._errors import BodyWarning, FileError, InputError, NoPlanError, RoundingWarning
+from ._errors import BodyWarning, FileError, InputError, LayoutWarning, NoPlanError, RoundingWarning
 from .attribution import Attribution, Charge, Place, Raise, Reason, Site
 from .dispatching import Dispatcher, Orders
 from .execution import Executor, Releaser, Simulation, simulate
 from .fleet import Fleet
 from .graphs import Graph, Grid, PoseGrid, Roadmap
 from .plans import NodeOrder, Plan, StepPath, StepPlan, TimedPath, TimedPlan, Wait
+from .poses import Car, PoseRoadmap
 from .reading import read
 from .reports import Report, Violation
 from .rules import Obstacle, Underway
@@ -27,6 +28,7 @@ from .solving import Interrupted, Moves, Progress, Result, Statistics, solve
 __all__ = [
     "Attribution",
     "BodyWarning",
+    "Car",
     "Charge",
     "Dispatcher",
     "Executor",
@@ -36,6 +38,7 @@ __all__ = [
     "Grid",
     "InputError",
     "Interrupted",
+    "LayoutWarning",
     "Moves",
     "NoPlanError",
     "NodeOrder",
@@ -44,6 +47,7 @@ __all__ = [
     "Place",
     "Plan",
     "PoseGrid",
+    "PoseRoadmap",
     "Progress",
     "Raise",
     "Reason",

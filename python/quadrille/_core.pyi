@@ -92,6 +92,16 @@ class TimedGraph:
     def no_waiting(self) -> npt.NDArray[np.int64]: ...
     def open_to(self) -> npt.NDArray[np.uint64]: ...
 
+class PoseMap:
+    def __init__(self, places: TimedGraph, kinds: list[Any], rules: dict[str, Any]) -> None: ...
+    @property
+    def graph(self) -> TimedGraph: ...
+    def places(self) -> npt.NDArray[np.int64]: ...
+    def headings(self) -> npt.NDArray[np.float64]: ...
+    def leaving(self) -> npt.NDArray[np.bool_]: ...
+    def stays(self, place: int) -> list[int]: ...
+    def facing(self, place: int, heading: float) -> int: ...
+
 class TimedPlan:
     @property
     def num_agents(self) -> int: ...
@@ -231,6 +241,11 @@ class Dispatcher:
 
 pose_resolution: tuple[float, float]
 
+def read_map(
+    file: str, resolution: tuple[float, float], speed: float, level: str, vehicle_type: str
+) -> tuple[
+    TimedGraph, list[str], bool, list[tuple[str, int]], list[str], dict[str, list[Any]]
+]: ...
 def heading_names() -> list[str]: ...
 def step_precedences(
     instance: StepInstance, plan: StepPlan
@@ -262,7 +277,7 @@ def timed_run(
 def samples(
     instance: TimedInstance,
     plan: TimedPlan,
-    poses: Optional[tuple[npt.NDArray[np.bool_], int]],
+    yaws: Optional[npt.NDArray[np.float64]],
     names: Names,
     format: str,
     rate: float,
@@ -279,7 +294,7 @@ def rmf_plans(
 def orders(
     instance: TimedInstance,
     plan: TimedPlan,
-    poses: Optional[tuple[npt.NDArray[np.bool_], int]],
+    yaws: Optional[npt.NDArray[np.float64]],
     order: Precedences,
     names: Names,
     heads: list[str],

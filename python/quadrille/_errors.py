@@ -41,6 +41,10 @@ class BodyWarning(UserWarning):
     """A file says nothing of bodies, and no radius was given."""
 
 
+class LayoutWarning(UserWarning):
+    """A file of roads says something that plans do not honour."""
+
+
 def renamed(error: InputError, text: str) -> InputError:
     """The same error in other words."""
     other = type(error)(text)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import copyreg
 import os
+import warnings
 from contextlib import contextmanager
 from typing import Any, Generic, Iterator, Optional, Sequence, TypeVar, Union, cast, overload
 
@@ -13,7 +14,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import Immutable, Shape, doubles, ints, listed, per_agent
-from ._errors import InputError, renamed
+from ._errors import InputError, LayoutWarning, renamed
 from .graphs import Graph, Grid, Roadmap
 from .naming import file_names
 from .plans import Plan, StepPlan, TimedPlan
@@ -74,6 +75,9 @@ class Fleet(Immutable, Generic[P]):
         InputError: for places that do not exist or are blocked, two agents with the same start or
             the same goal, numbers that are out of range.
         ValueError: for arrays of another shape or type.
+
+    Warns:
+        LayoutWarning: if the file of the roadmap says how robots face, and they have no headings.
 
     Starts or goals of bodies that overlap, goals out of reach and deadlines that are too early are no
     errors: there is no plan, as ``solve`` says.
@@ -147,6 +151,12 @@ class Fleet(Immutable, Generic[P]):
         if isinstance(graph, Roadmap):
             if robust != 0:
                 raise ValueError("robust is for grids and graphs")
+            if any(graph._heading_rules.values()):
+                warnings.warn(
+                    "the layout says how robots face and turn: with_headings honours that",
+                    LayoutWarning,
+                    stacklevel=2,
+                )
             begin, under_way = _starts(graph, starts)
             end, num_goals = _goal_vertices(graph, goals)
             n = len(begin)
@@ -160,6 +170,7 @@ class Fleet(Immutable, Generic[P]):
                 _bodies(radius, polygon, n, called),
                 per_agent(1.0 if speed is None else speed, "speed", n),
                 dict(
+                    poses=graph._pose_map(),
                     groups=group_numbers(group, graph._groups, n),
                     releases=moments(release, "release", n, 0.0),
                     deadlines=moments(deadline, "deadline", n, np.nan),

@@ -3,18 +3,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Hashable, Optional, Sequence, Union
+import math
+import os
+import warnings
+from typing import TYPE_CHECKING, Any, Hashable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import Immutable, bools, doubles, ints, listed, with_places
-from ._errors import InputError
+from ._errors import InputError, LayoutWarning, renamed
 from .rules import Only, only_of, open_to
 
 if TYPE_CHECKING:
     import networkx as nx
+
+    from .poses import PoseRoadmap, Turning
 
 DEFAULT_RESOLUTION = 1e-6
 
@@ -184,6 +189,9 @@ class Roadmap(Immutable):
         self._graph = graph
         self._resolution = resolution
         self._groups = groups  # called 1, 2, ... by the compiled part
+        self._named_places: dict[str, list[int]] = {}
+        # What a file says of headings.
+        self._heading_rules: dict[str, list[Any]] = dict(further=[], lanes=[], stands=[], turns=[])
         self._nodes: Optional[list[Hashable]] = None
         self._number: dict[Hashable, int] = {}
 
@@ -246,6 +254,116 @@ class Roadmap(Immutable):
             nodes=nodes,
             only=None if only is None else [groups for _, _, groups in given.edges(data=only)],
         )
+
+    @classmethod
+    def read(
+        cls,
+        file: Union[str, os.PathLike[str]],
+        *,
+        level: str = "",
+        vehicle_type: str = "",
+        speed: float = 1,
+        resolution: Resolution = DEFAULT_RESOLUTION,
+    ) -> Roadmap:
+        """The roadmap of a file of others: a nav graph of Open-RMF, a layout in VDMA's LIF, a graph of Nav2,
+        GraphML or GML; its contents say which.
+
+        Nobody waits at passthrough points of a nav graph. Vertices are called as the nodes of a LIF or by
+        the names in a nav graph; where there is no name, or several vertices have it, by their numbers.
+        ``with_headings`` honours what a LIF says of orientations and rotations.
+
+        Args:
+            file: Its name.
+            level: Of a file with several levels or layouts.
+            vehicle_type: Of a LIF with several.
+            speed: Of the robots, to say at once that an edge takes too long at its limit.
+            resolution: As for ``Roadmap``.
+
+        Raises:
+            InputError: with file, line and reason.
+
+        Warns:
+            LayoutWarning: of what the file says and plans do not honour.
+        """
+        sizes = listed(doubles(np.broadcast_to(resolution, 2), "resolution", (2,)))
+        if not all(0 < size < float("inf") for size in sizes):
+            raise ValueError("resolution: a resolution is positive")
+        pair = (sizes[0], sizes[1])
+        try:
+            graph, ids, are_ids, places, notes, rules = _core.read_map(
+                os.fspath(file), pair, speed, level, vehicle_type
+            )
+        except InputError as error:
+            text = str(error).replace("--level", "level=").replace("--vehicle-type", "vehicle_type=")
+            raise renamed(error, text) from None
+        made = cls.__new__(cls)
+        made._setup(graph, pair, [])
+        for name, vertex in places:
+            made._named_places.setdefault(name, []).append(vertex)
+        nodes: list[Hashable] = list(ids) if are_ids else list(range(graph.num_vertices))
+        if not are_ids:
+            for name, vertices in made._named_places.items():
+                if len(vertices) == 1:
+                    nodes[vertices[0]] = name
+        made._name_nodes(nodes)
+        made._heading_rules = rules
+        for note in notes:
+            warnings.warn(f"{os.fspath(file)}: {note}", LayoutWarning, stacklevel=2)
+        return made
+
+    @property
+    def named_places(self) -> dict[str, list[Hashable]]:
+        """Of a file: further names, such as those of the stations of a LIF, and the vertices that have
+        them."""
+        nodes = self.nodes
+        return {name: [nodes[v] for v in vertices] for name, vertices in self._named_places.items()}
+
+    def with_headings(
+        self,
+        turning: Turning,
+        *,
+        kinds: Optional[Mapping[str, Turning]] = None,
+        headings: Sequence[tuple[Any, float]] = (),
+        lanes: Sequence[tuple[Any, Any, float]] = (),
+        stands: Sequence[tuple[Any, float]] = (),
+        turns: Sequence[tuple[Any, str]] = (),
+    ) -> PoseRoadmap:
+        """The roadmap for robots that turn.
+
+        At each place there are the headings of the edges that begin or end there. A robot goes along an
+        edge when it faces its way, up to one degree; turns in between take the angle divided by the rate,
+        rounded up to whole ticks.
+
+        Args:
+            turning: How robots turn of whom ``kinds`` says nothing: degrees per unit of time where they
+                stand, or a ``Car``.
+            kinds: The same for the robots of a group, by its name.
+            headings: (vertex, degrees): one more heading, where a robot begins, say, or has to end.
+            lanes: (source, target, degrees): whoever goes along that edge faces so all the way, and not
+                ahead. Told several times: in any one of these headings.
+            stands: (vertex, degrees): whoever comes to the vertex turns to that heading, and stays in it
+                or goes on from it.
+            turns: (vertex, "none", "ccw", "cw" or "both"): in which directions robots may turn there.
+
+        What the roadmap's file says of headings holds as well. Places are in the plane of x and y, y
+        upwards: 90 degrees are counter-clockwise from 0.
+
+        Raises:
+            InputError: for vertices, edges and groups that do not exist, numbers that are out of range, and
+                edges that go straight up or down.
+        """
+        from .poses import PoseRoadmap, heading_rules, kinds_of
+
+        rules = heading_rules(self, headings, lanes, stands, turns)
+        return PoseRoadmap(self, kinds_of(turning, kinds or {}, self._groups, self.resolution[1]), rules)
+
+    def _pose_map(self) -> Optional[_core.PoseMap]:
+        """Of robots that turn: how their bodies do."""
+        return None
+
+    def _yaws(self) -> Optional[npt.NDArray[np.float64]]:
+        """Of robots that turn: where they face at each vertex, in radians from -pi to pi."""
+        return None
 
     @property
     def num_vertices(self) -> int:
@@ -370,6 +488,20 @@ class PoseGrid(Roadmap):
     def _cells(self) -> tuple[npt.NDArray[np.bool_], int]:
         """Which of them are free, and how long a quarter turn takes."""
         return self._free, self._turn
+
+    def with_headings(self, turning: Turning, **rules: Any) -> PoseRoadmap:
+        """Its robots turn already.
+
+        Raises:
+            InputError: always.
+        """
+        raise InputError("with_headings: the vertices are poses already")
+
+    def _yaws(self) -> npt.NDArray[np.float64]:
+        # The rows of a grid go down, and so does y.
+        angles = {"east": 0.0, "south": math.pi / 2, "west": math.pi, "north": -math.pi / 2}
+        one = [angles[heading] for heading in _core.heading_names()]
+        return np.tile(np.array(one), self.num_vertices // len(one))
 
     def __repr__(self) -> str:
         return f"<quadrille.PoseGrid {self.num_vertices} poses, a quarter turn takes {self.turn}>"

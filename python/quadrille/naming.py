@@ -9,6 +9,7 @@ from typing import Any, Hashable, Optional, Union, cast
 from . import _core
 from ._errors import InputError
 from .graphs import Graph, Grid, Roadmap
+from .poses import PoseRoadmap
 
 
 def file_names(graph: Union[Grid, Graph, Roadmap], agents: list[str]) -> _core.Names:
@@ -18,7 +19,7 @@ def file_names(graph: Union[Grid, Graph, Roadmap], agents: list[str]) -> _core.N
         named = []
     if not isinstance(graph, Roadmap):
         return named, [], []
-    nodes = graph.nodes
+    nodes = graph.nodes if not isinstance(graph, PoseRoadmap) else [_written(node) for node in graph.nodes]
     while nodes and nodes[-1] == len(nodes) - 1:
         nodes.pop()
     vertices = [_as_json(node) for node in nodes]
@@ -26,6 +27,19 @@ def file_names(graph: Union[Grid, Graph, Roadmap], agents: list[str]) -> _core.N
     if graph.groups == [str(i + 1) for i in range(len(graph.groups))]:
         groups = []
     return named, vertices, groups
+
+
+def _written(pose: Any) -> Hashable:
+    """A pose in a file, which knows no fractions: a heading that is not whole is a text."""
+    place, heading, *role = pose
+    return (place, int(heading) if heading.is_integer() else repr(heading), *role)
+
+
+def place_names(graph: PoseRoadmap) -> list[str]:
+    """For messages to others, who call a place alike whatever the heading: as it is called in its own
+    roadmap, v0, v1, ... where that is a number."""
+    nodes = graph.places.nodes
+    return [_as_json(f"v{nodes[at]}" if isinstance(nodes[at], int) else nodes[at]) for at in graph._place_of]
 
 
 def agent_names(names: _core.Names, n: int) -> list[str]:

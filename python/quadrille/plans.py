@@ -15,10 +15,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import Immutable, frozen, listed
+from ._arrays import Immutable, doubles, frozen, listed
 from ._errors import InputError
-from .graphs import Graph, Grid, PoseGrid, Roadmap
-from .naming import file_names
+from .graphs import Graph, Grid, Roadmap
+from .naming import file_names, place_names
+from .poses import PoseRoadmap
 from .reports import Report, Violation
 from .rules import Obstacle, Underway, obstacle_of
 
@@ -650,14 +651,22 @@ class TimedPlan(Plan):
             frozen(clearances),
         )
 
-    def _poses(self) -> Optional[tuple[npt.NDArray[np.bool_], int]]:
-        """Of robots that turn on a grid: its cells, and how long a quarter turn takes."""
-        graph = self._fleet.graph
-        return graph._cells() if isinstance(graph, PoseGrid) else None
+    def _yaws(self) -> Optional[npt.NDArray[np.float64]]:
+        """Of robots that turn: where they face at each vertex of the instance, in radians. An agent that
+        begins in the middle of a move faces as at its end."""
+        graph = cast(Roadmap, self._fleet.graph)
+        yaws = graph._yaws()
+        if yaws is None:
+            return None
+        ends = [move.target for move in self._fleet._moves.values()]
+        return doubles(np.concatenate([yaws, yaws[np.array(ends, dtype=np.int64)]]), "yaws", (None,))
 
     def _robots(self) -> _core.Names:
         """For messages to others."""
-        return [*self._fleet.names], file_names(self._fleet.graph, self._fleet._names)[1], []
+        graph = self._fleet.graph
+        if isinstance(graph, PoseRoadmap):
+            return [*self._fleet.names], place_names(graph), []
+        return [*self._fleet.names], file_names(graph, self._fleet._names)[1], []
 
     def _valid(self) -> None:
         report = self.verify()
@@ -696,7 +705,7 @@ class TimedPlan(Plan):
             raise ValueError(f"rate: a rate is positive, not {rate}")
         self._valid()
         return _core.samples(
-            self._instance, self._plan, self._poses(), self._robots(), format, rate, version
+            self._instance, self._plan, self._yaws(), self._robots(), format, rate, version
         )
 
     def to_rmf(
@@ -771,7 +780,7 @@ class TimedPlan(Plan):
         texts = _core.orders(
             self._instance,
             self._plan,
-            self._poses(),
+            self._yaws(),
             order,
             self._robots(),
             heads,

@@ -224,6 +224,7 @@ class Session:
         goals, num_goals = _goal_vertices(graph, [agent["goals"]])
         polygon = None if agent["polygon"] is None else [agent["polygon"]]
         rules = dict(
+            poses=graph._pose_map(),
             groups=group_numbers(agent["group"], graph._groups, 1),
             releases=moments(agent["release"], "release", 1, 0.0),
             deadlines=moments(agent["deadline"], "deadline", 1, np.nan),

@@ -10,6 +10,7 @@ namespace quadrille::python {
 void bind_steps(pybind11::module_& module);        ///< The discrete domain.
 void bind_timed(pybind11::module_& module);        ///< The continuous domain.
 void bind_timed_graph(pybind11::module_& module);  ///< A part of it: roadmaps.
+void bind_poses(pybind11::module_& module);        ///< Robots that turn on roadmaps.
 void bind_precedences(pybind11::module_& module);  ///< Of plans of either.
 void bind_dispatching(pybind11::module_& module);  ///< Live fleets.
 void bind_executing(pybind11::module_& module);    ///< Who may go on, with plans of either.

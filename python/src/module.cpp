@@ -6,6 +6,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = QUADRILLE_VERSION;
   quadrille::python::bind_steps(module);
   quadrille::python::bind_timed(module);
+  quadrille::python::bind_poses(module);
   quadrille::python::bind_precedences(module);
   quadrille::python::bind_executing(module);
   quadrille::python::bind_exporting(module);

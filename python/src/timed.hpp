@@ -33,6 +33,9 @@ inline VertexId vertex_of(std::int64_t vertex, std::size_t size, const std::stri
   return VertexId(static_cast<std::size_t>(vertex));
 }
 
+/// A set of groups as the bits of a number.
+continuous::Groups groups_of(std::uint64_t bits);
+
 /// What an instance is made of.
 struct TimedParts {
   std::shared_ptr<const continuous::Roadmap> roadmap;
@@ -90,9 +93,10 @@ class TimedInstance {
 
 /// Starts and goals are vertices, the goals of the first agent, then those of the next one;
 /// `num_goals`: how many each has; a body is a radius, or float64[k, 2], the corners of a polygon.
-/// `rules`: what rules_of gives, `now`: when all begins, and `under_way`: [(agent, from, to,
-/// fraction, begun or None, may_wait)], instead of starts.
-/// `called`: "agent" and "vertex", functions from a number to what it is called in messages.
+/// `rules`: what rules_of gives, "poses": a PoseMap whose roadmap it is, or None, `now`: when all
+/// begins, and `under_way`: [(agent, from, to, fraction, begun or None, may_wait)], instead of
+/// starts. `called`: "agent" and "vertex", functions from a number to what it is called in
+/// messages.
 TimedInstance instance_of(const std::shared_ptr<continuous::Roadmap>& roadmap, const Sizes& sizes,
                           const Ints& starts, const Ints& goals,
                           const std::vector<std::size_t>& num_goals, const py::list& bodies,

@@ -32,14 +32,6 @@ std::string entry(const char* array, py::ssize_t row) {
 
 std::string number(VertexId v) { return std::to_string(v.index()); }
 
-/// A set of groups as the bits of a number.
-continuous::Groups groups_of(std::uint64_t bits) {
-  continuous::Groups groups;
-  for (std::size_t group = 0; group < continuous::kMaxGroups; ++group)
-    if ((bits >> group & 1) != 0) groups.insert(continuous::GroupId(group));
-  return groups;
-}
-
 std::uint64_t bits_of(const continuous::Groups& groups) {
   std::uint64_t bits = 0;
   for (std::size_t group = 0; group < continuous::kMaxGroups; ++group)
@@ -207,6 +199,13 @@ std::shared_ptr<Roadmap> roadmap_of_state(const py::bytes& state) {
 }
 
 }  // namespace
+
+continuous::Groups groups_of(std::uint64_t bits) {
+  continuous::Groups groups;
+  for (std::size_t group = 0; group < continuous::kMaxGroups; ++group)
+    if ((bits >> group & 1) != 0) groups.insert(continuous::GroupId(group));
+  return groups;
+}
 
 void bind_timed_graph(py::module_& module) {
   py::class_<Roadmap, std::shared_ptr<Roadmap>>(module, "TimedGraph")

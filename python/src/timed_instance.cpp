@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "poses.hpp"
 #include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/in_words.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -106,6 +107,11 @@ void set_rules(const py::dict& rules, const Resolution& resolution, const Words&
     made.deadline = moment_of(deadlines.at(row), resolution, who + " has its deadline");
     made.leaves = leaves.at(row);
     made.overlaps_at_start = overlaps.at(row);
+    if (rules["poses"].is_none()) continue;
+    const auto& poses = rules["poses"].cast<const PoseMap&>().poses;
+    auto shapes = continuous::shapes_of(made.body, *poses.turns());
+    if (!shapes) raise({shapes.error().code, who + " " + shapes.error().message, {}});
+    made.shapes = std::move(shapes).value();
   }
 }
 

@@ -2,10 +2,15 @@
 //
 // VDMA's Layout Interchange Format 1.0: JSON with layouts, of which one is read, with nodes, edges
 // that lead one way, and stations. Lengths are metres.
+#include "quadrille/continuous/lif.hpp"
+
+#include <fstream>
 #include <set>
 #include <utility>
 
+#include "formats/lif_headings.hpp"
 #include "formats/roadmap_readers.hpp"
+#include "quadrille/text/sniff.hpp"
 #include "quadrille/text/text_input.hpp"
 
 namespace quadrille::continuous {
@@ -31,6 +36,7 @@ class LifReader : DocumentRoadmapReader {
                            [&](Node key) { unused(key, "a LIF"); }) ||
         !read_version(*meta) || !find_layout(*layouts) || !read_layout(*layout_))
       return check_.error();
+    headings_.finish();
     return std::move(builder_).finish(document_.file());
   }
 
@@ -158,7 +164,7 @@ class LifReader : DocumentRoadmapReader {
   }
 
   bool read_node(Node node) {
-    std::optional<Node> id, position, properties, ours, x, y;
+    std::optional<Node> id, position, properties, ours, theta, x, y;
     std::string name;
     double at_x = 0, at_y = 0;
     if (!objects_.find_all(node, "a node",
@@ -171,15 +177,18 @@ class LifReader : DocumentRoadmapReader {
         !check_.number(*x, at_x) || !check_.number(*y, at_y))
       return false;
     if (!ours) closed_.insert(VertexId(builder_.num_vertices()));
-    if (ours && !objects_.find_all(*ours, "a vehicle type", {{"vehicleTypeId", &id_again_, false}},
+    if (ours && !objects_.find_all(*ours, "a vehicle type",
+                                   {{"vehicleTypeId", &id_again_, false}, {"theta", &theta, false}},
                                    [&](Node key) { unused(key, "a node"); }))
       return false;
     id_again_.reset();
+    if (theta && !read_theta(*theta)) return false;
     return accept(node, builder_.add_vertex(std::move(name), {at_x, at_y, 0}));
   }
 
   bool read_edge(Node edge) {
-    std::optional<Node> id, from_node, to_node, properties, ours, type, limit, turns;
+    std::optional<Node> id, from_node, to_node, properties, ours, type, limit;
+    LifHeadings::Edge facing;
     std::string from, to;
     if (!objects_.find_all(edge, "an edge",
                            {{"edgeId", &id},
@@ -190,11 +199,15 @@ class LifReader : DocumentRoadmapReader {
         !read_text(*from_node, from) || !read_text(*to_node, to) || !find_ours(*properties, ours))
       return false;
     if (!ours) return true;
-    // Robots without headings may turn wherever they are.
     if (!objects_.find_all(*ours, "a vehicle type",
                            {{"vehicleTypeId", &type},
                             {"maxSpeed", &limit, false},
-                            {"rotationAllowed", &turns, false}},
+                            {"vehicleOrientation", &facing.orientation, false},
+                            {"orientationType", &facing.type, false},
+                            {"rotationAllowed", &facing.on_edge, false},
+                            {"rotationAtStartNodeAllowed", &facing.at_start, false},
+                            {"rotationAtEndNodeAllowed", &facing.at_end, false},
+                            {"maxRotationSpeed", &facing.most, false}},
                            [&](Node key) { unused(key, "an edge"); }))
       return false;
     double speed = 0;
@@ -205,7 +218,13 @@ class LifReader : DocumentRoadmapReader {
       return true;
     }
     if ((source && closed_.contains(*source)) || (target && closed_.contains(*target))) return true;
-    return accept(edge, builder_.add_edge(from, to, limit ? std::optional(speed) : std::nullopt));
+    if (!accept(edge, builder_.add_edge(from, to, limit ? std::optional(speed) : std::nullopt)))
+      return false;
+    return headings_.add_edge(facing, *source, *target);
+  }
+
+  bool read_theta(Node theta) {
+    return headings_.add_stand(theta, VertexId(builder_.num_vertices()));
   }
 
   [[nodiscard]] bool is_text(Node node) const {
@@ -242,6 +261,7 @@ class LifReader : DocumentRoadmapReader {
     });
   }
 
+  LifHeadings headings_{document_, check_, options_, builder_};
   std::optional<Node> layout_, id_again_;
   std::set<std::string> types_, all_nodes_;
   std::set<VertexId> closed_;  // To our type.
@@ -250,11 +270,24 @@ class LifReader : DocumentRoadmapReader {
 
 }  // namespace
 
-Result<MapFile> read_lif(const std::string& text, const std::string& file,
-                         const MapFileOptions& options) {
+Result<MapFile> read_lif_text(const std::string& text, const std::string& file,
+                              const MapFileOptions& options) {
   const auto document = text::parse_json(text, file);
   if (!document) return document.error();
   return LifReader(*document, options).run();
+}
+
+Result<MapFile> read_lif(std::istream& in, const std::string& file, const MapFileOptions& options) {
+  const auto text = text::read_all(in, file);
+  if (!text) return text.error();
+  if (auto error = text::refuse_other(*text, file, {text::FileKind::lif})) return *error;
+  return read_lif_text(*text, file, options);
+}
+
+Result<MapFile> read_lif(const std::filesystem::path& path, const MapFileOptions& options) {
+  std::ifstream in;
+  if (const auto error = text::open_input(path, in)) return *error;
+  return read_lif(in, path.string(), options);
 }
 
 }  // namespace quadrille::continuous

@@ -17,7 +17,7 @@ Result<MapFile> read_map_file(std::istream& in, const std::string& file,
   if (!text) return text.error();
   switch (const FileKind kind = text::sniff(*text)) {
     case FileKind::lif:
-      return read_lif(*text, file, options);
+      return read_lif_text(*text, file, options);
     case FileKind::geojson:
       return read_route_graph(*text, file, options);
     case FileKind::gml:

@@ -2,6 +2,7 @@
 #include "formats/roadmap_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "quadrille/continuous/quantise.hpp"
@@ -109,6 +110,12 @@ std::optional<RoadmapBuilder::Fault> RoadmapBuilder::add_edge(VertexId from, Ver
   return std::nullopt;
 }
 
+double RoadmapBuilder::direction(VertexId from, VertexId to) const {
+  const Point &a = positions_[from.index()], &b = positions_[to.index()];
+  return std::atan2(static_cast<double>((b.y - a.y).value()),
+                    static_cast<double>((b.x - a.x).value()));
+}
+
 void RoadmapBuilder::add_place(std::string name, VertexId vertex) {
   places_.emplace_back(std::move(name), vertex);
 }
@@ -140,6 +147,11 @@ void RoadmapBuilder::renumber(const std::vector<std::size_t>& number_of) {
     for (VertexId* const end : {&edge.from, &edge.to}) *end = VertexId(number_of[end->index()]);
   for (VertexId& vertex : no_waiting_) vertex = VertexId(number_of[vertex.index()]);
   for (auto& [name, vertex] : places_) vertex = VertexId(number_of[vertex.index()]);
+  const auto set = [&](VertexId& vertex) { vertex = VertexId(number_of[vertex.index()]); };
+  for (HeadingRules::Lane& lane : headings_.lanes)
+    for (VertexId* const end : {&lane.from, &lane.to}) set(*end);
+  for (HeadingRules::Heading& told : headings_.stands) set(told.place);
+  for (HeadingRules::Turns& told : headings_.turns) set(told.place);
 }
 
 Result<MapFile> RoadmapBuilder::finish(const std::string& file) && {
@@ -152,7 +164,8 @@ Result<MapFile> RoadmapBuilder::finish(const std::string& file) && {
     notes_.push_back(what + " is not used (" + std::to_string(count) +
                      (count == 1 ? " time)" : " times)"));
   return MapFile{std::move(roadmap).value(), num_zero_length_edges_,
-                 VertexNames{std::move(ids_), !number_of, std::move(places_)}, std::move(notes_)};
+                 VertexNames{std::move(ids_), !number_of, std::move(places_)}, std::move(notes_),
+                 std::move(headings_)};
 }
 
 }  // namespace quadrille::continuous

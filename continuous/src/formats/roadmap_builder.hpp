@@ -32,6 +32,10 @@ class RoadmapBuilder {
   /// The next vertex, of which `id` is the only one. Coordinates in the input's unit of length.
   std::optional<Fault> add_vertex(std::string id, const std::array<double, 3>& at);
   [[nodiscard]] std::optional<VertexId> find(const std::string& id) const;
+  /// What a vertex was called when it was added.
+  [[nodiscard]] const std::string& id(VertexId vertex) const { return ids_[vertex.index()]; }
+  /// From one vertex to another, in radians, 0 along x; 0 in one place.
+  [[nodiscard]] double direction(VertexId from, VertexId to) const;
   /// From the vertex with the one id to that with the other; a limit of 0 is none.
   std::optional<Fault> add_edge(const std::string& from, const std::string& to,
                                 std::optional<double> speed_limit = std::nullopt);
@@ -39,6 +43,8 @@ class RoadmapBuilder {
                                 std::optional<double> speed_limit = std::nullopt);
   /// Nobody may wait there. Once per vertex.
   void forbid_waiting(VertexId vertex) { no_waiting_.push_back(vertex); }
+  /// What the file says of headings.
+  [[nodiscard]] HeadingRules& headings() noexcept { return headings_; }
   /// Something more that a vertex is called.
   void add_place(std::string name, VertexId vertex);
   /// Something that the file says and that plans do not honour; it is counted.
@@ -59,6 +65,7 @@ class RoadmapBuilder {
   std::vector<Point> positions_;
   std::vector<Edge> edges_;
   std::vector<VertexId> no_waiting_;
+  HeadingRules headings_;
   std::vector<std::string> ids_;
   std::unordered_map<std::string, VertexId> by_id_;  // Looked up only.
   std::vector<std::pair<std::string, VertexId>> places_;

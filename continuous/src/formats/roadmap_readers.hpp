@@ -17,8 +17,8 @@ namespace quadrille::continuous {
                                            const MapFileOptions& options);
 [[nodiscard]] Result<MapFile> read_nav_graph_text(const std::string& text, const std::string& file,
                                                   const MapFileOptions& options);
-[[nodiscard]] Result<MapFile> read_lif(const std::string& text, const std::string& file,
-                                       const MapFileOptions& options);
+[[nodiscard]] Result<MapFile> read_lif_text(const std::string& text, const std::string& file,
+                                            const MapFileOptions& options);
 [[nodiscard]] Result<MapFile> read_route_graph(const std::string& text, const std::string& file,
                                                const MapFileOptions& options);
 [[nodiscard]] Result<MapFile> read_gml(const std::string& text, const std::string& file,

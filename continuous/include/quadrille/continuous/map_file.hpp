@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "quadrille/continuous/grid.hpp"
+#include "quadrille/continuous/heading_rules.hpp"
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/roadmap.hpp"
 #include "quadrille/core/export.hpp"
@@ -45,6 +46,8 @@ struct MapFile {
   /// What the file says and plans do not honour, or what can be read in two ways; in words, for
   /// the user. Each once.
   std::vector<std::string> notes = {};
+  /// What it says of headings, if these are asked for.
+  HeadingRules headings = {};
 };
 
 struct MapFileOptions {
@@ -53,6 +56,8 @@ struct MapFileOptions {
   Speed speed;
   std::string level = {};         ///< Of a file with several; empty: there has to be one.
   std::string vehicle_type = {};  ///< Of a LIF with several; likewise.
+  /// Robots turn: what a LIF says of orientations and rotations is read, and not a note.
+  bool has_headings = false;
 };
 
 /// Reads a roadmap whose format the content tells: GraphML or a grid as XML (see read_map_xml), a

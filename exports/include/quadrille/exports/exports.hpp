@@ -7,11 +7,11 @@
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
-#include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/exports/naming.hpp"
 #include "quadrille/exports/ros.hpp"
+#include "quadrille/exports/samples.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -40,10 +40,9 @@ struct SampleOptions {
 [[nodiscard]] std::optional<Error> why_no_samples(const continuous::Instance& instance,
                                                   const continuous::Plan& plan,
                                                   const SampleOptions& options);
-/// The plan at moments, see Sampler. `poses`: those that the instance is made of, or null;
+/// The plan at moments, see Sampler. `yaws`: of the vertices of robots that turn, or null;
 /// `robots`: their names. Requires a valid plan, and for messages one that ends by kLastRosSecond.
-[[nodiscard]] std::string export_samples(const continuous::Instance& instance,
-                                         const continuous::PoseGrid* poses,
+[[nodiscard]] std::string export_samples(const continuous::Instance& instance, const Yaws* yaws,
                                          const continuous::Plan& plan, const RobotNames& robots,
                                          const SampleOptions& options);
 

@@ -48,9 +48,11 @@ struct OrderNames {
 /// `order`: the beginning of the ids of orders, which are followed by the robot; empty: they are
 /// the names of the robots. Errors (invalid_instance): names of robots that are no serial numbers
 /// of VDA 5050 (A-Z a-z 0-9 _ . : -), empty names, two robots or two places of the plan that are
-/// called alike. Linear in the plan and the vertices.
+/// called alike; vertices in one place may
+/// be. Linear in the plan and the vertices.
 [[nodiscard]] Result<OrderNames> order_names(const Naming& naming, const continuous::Plan& plan,
-                                             std::size_t num_vertices, const std::string& order);
+                                             const continuous::Roadmap& roadmap,
+                                             const std::string& order);
 
 }  // namespace quadrille::exports
 

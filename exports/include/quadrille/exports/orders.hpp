@@ -10,10 +10,10 @@
 
 #include "quadrille/continuous/instance.hpp"
 #include "quadrille/continuous/plan.hpp"
-#include "quadrille/continuous/pose_grid.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/execution/precedences.hpp"
 #include "quadrille/exports/naming.hpp"
+#include "quadrille/exports/samples.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -33,12 +33,12 @@ struct OrderState {
 /// Writes the orders of a plan.
 class OrderWriter {
  public:
-  /// `poses`: those that the instance is made of, or null; then nodes have no headings. Keeps
+  /// `yaws`: of the vertices of robots that turn, or null; then nodes have no headings. Keeps
   /// references to these and the plan.
-  OrderWriter(const continuous::Instance& instance, const continuous::PoseGrid* poses,
-              const continuous::Plan& plan, OrderNames names, VdaVersion version)
+  OrderWriter(const continuous::Instance& instance, const Yaws* yaws, const continuous::Plan& plan,
+              OrderNames names, VdaVersion version)
       : instance_(instance),
-        poses_(poses),
+        yaws_(yaws),
         plan_(plan),
         names_(std::move(names)),
         version_(version) {}
@@ -52,7 +52,7 @@ class OrderWriter {
 
  private:
   const continuous::Instance& instance_;
-  const continuous::PoseGrid* poses_;
+  const Yaws* yaws_;
   const continuous::Plan& plan_;
   OrderNames names_;
   VdaVersion version_;

@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "quadrille/continuous/pose_roadmap.hpp"
 #include "quadrille/continuous/resolution.hpp"
 #include "quadrille/continuous/roadmap.hpp"
 #include "quadrille/core/export.hpp"
 #include "quadrille/core/ids.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/fleet/units.hpp"
-#include "quadrille/geometry/turning.hpp"
 
 QUADRILLE_API_BEGIN
 
@@ -99,9 +99,7 @@ class Roadmap {
   }
   /// Of robots that are not round: from where to where they face while they have a shape
   /// (continuous::ShapeId), by its number. Null unless vertices are poses.
-  struct Turn {
-    geometry::Direction from, to;
-  };
+  using Turn = continuous::HeadingTurn;
   [[nodiscard]] const std::vector<Turn>* turns() const noexcept { return turns_.get(); }
 
  private:
