@@ -13,8 +13,11 @@ void add_page(const std::shared_ptr<const input::RoadmapInput>& input, std::int6
   made.page_ticks = page_ticks;
   made.position = [input](VertexId v) -> TrackRecorder::Place {
     const auto& p = input->instance.roadmap().position(v);
-    return {static_cast<double>(p.x.value()), static_cast<double>(p.y.value()),
-            static_cast<double>(p.z.value())};
+    TrackRecorder::Place place{static_cast<double>(p.x.value()), static_cast<double>(p.y.value()),
+                               static_cast<double>(p.z.value())};
+    // The rows of a grid go down, and so does y: a quarter turn to the right is one from x to y.
+    if (input->poses) place.heading = 90.0 * static_cast<double>(input->poses->pose(v).heading);
+    return place;
   };
   for (const continuous::Agent& agent : input->instance.agents())
     made.starts.push_back(agent.start);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "quadrille/view/page.hpp"
@@ -12,9 +13,10 @@ namespace quadrille::cli {
 /// Makes tracks of agents that are seen again and again, and go straight and evenly in between.
 class TrackRecorder {
  public:
-  /// In length units.
+  /// In length units, and degrees as in view::Sight.
   struct Place {
     double x = 0, y = 0, z = 0;
+    std::optional<double> heading = {};
   };
 
   /// Where the agent is at a time, in ticks, not earlier than the last one of this agent.

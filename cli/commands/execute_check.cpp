@@ -89,11 +89,13 @@ std::string order_json(const ExecutionCase& c, const NodeOrder& nodes) {
   const char* separator = "\n    ";
   for (const auto& path : c.order.moves) {
     Json moves = Json::array();
-    for (const TimedMove& move : path)
+    for (const TimedMove& move : path) {
       moves.push_back({{"from", move.from.value()},
                        {"to", move.to.value()},
                        {"begin", move.begin.value()},
                        {"end", move.end.value()}});
+      if (move.goes_on) moves.back()["goes_on"] = true;
+    }
     text += separator + moves.dump();
     separator = ",\n    ";
   }

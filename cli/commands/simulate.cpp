@@ -100,8 +100,12 @@ class RunRecorder {
         const double share = static_cast<double>((clock - move.begin).value()) /
                              static_cast<double>((move.end - move.begin).value());
         const auto from = case_.position(move.from), to = case_.position(move.to);
-        return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
-                from.z + share * (to.z - from.z)};
+        TrackRecorder::Place place{from.x + share * (to.x - from.x),
+                                   from.y + share * (to.y - from.y),
+                                   from.z + share * (to.z - from.z)};
+        if (from.heading && to.heading)
+          place.heading = *from.heading + share * std::remainder(*to.heading - *from.heading, 360);
+        return place;
       }
       at = move.to;
     }

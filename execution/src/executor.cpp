@@ -11,12 +11,13 @@ namespace quadrille::execution {
 Executor::Executor(const Precedences& precedences) {
   for (const Precedence& p : precedences.list) {
     const TimedMove &leader = precedences.at(p.leader), &follower = precedences.at(p.follower);
-    holds_.push_back({follower.begin, follower.end, leader.end, p.slack, p.leader.agent.value(),
-                      p.follower.agent.value()});
+    holds_.push_back({precedences.at(precedences.entry(p.follower)).begin, follower.end, leader.end,
+                      p.slack, p.leader.agent.value(), p.follower.agent.value(),
+                      precedences.is_in_passage(p.follower)});
   }
   std::sort(holds_.begin(), holds_.end(), [](const Hold& a, const Hold& b) {
-    return std::tie(a.follower, a.begin, a.leader, a.leader_end) <
-           std::tie(b.follower, b.begin, b.leader, b.leader_end);
+    return std::tie(a.follower, a.begin, a.end, a.leader, a.leader_end) <
+           std::tie(b.follower, b.begin, b.end, b.leader, b.leader_end);
   });
   begin_.resize(precedences.num_agents());
   end_.resize(precedences.num_agents());
@@ -54,7 +55,8 @@ void Executor::limits(std::span<const Ticks> clocks, std::span<Ticks> limits) {
       const Hold& hold = holds_[h];
       const Ticks leader = clocks[hold.leader];
       if (!is_over(hold, leader))
-        limit = std::min(limit, std::max(hold.begin, leader + hold.slack));
+        limit = std::min(
+            limit, hold.is_in_passage ? hold.begin : std::max(hold.begin, leader + hold.slack));
     }
     limits[i] = limit;
   }
@@ -71,8 +73,8 @@ void Executor::couple(std::span<const Ticks> clocks, std::span<Ticks> targets) {
       if (is_over(hold, clocks[hold.leader])) continue;
       // In proportion, both sides of clock <= leader's clock + slack are linear: what holds at both
       // ends of the step holds within. If it does not hold yet, the follower is still before its
-      // move, and goes no further than to its beginning.
-      if (clocks[i] <= reach)
+      // move, and goes no further than to its beginning; so it does before a passage.
+      if (clocks[i] <= reach && !hold.is_in_passage)
         coupled_.push_back(static_cast<std::uint32_t>(h));
       else
         targets[i] = std::max(clocks[i], std::min(targets[i], hold.begin));

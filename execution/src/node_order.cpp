@@ -43,7 +43,8 @@ class MoveGraph {
   void for_each_edge(const Precedences& precedences, const Take& take) const {
     for (Node v = 0; v + 1 < ids_.size(); ++v)
       if (ids_[v].agent == ids_[v + 1].agent) take(v, v + 1);
-    for (const Precedence& p : precedences.list) take(node(p.leader), node(p.follower));
+    for (const Precedence& p : precedences.list)
+      take(node(p.leader), node(precedences.entry(p.follower)));
   }
   [[nodiscard]] Node node(const MoveId& id) const { return base_[id.agent.index()] + id.move; }
 

@@ -17,7 +17,8 @@ Releaser::Releaser(const Precedences& order)
   for (const auto& moves : order.moves)
     gates_.push_back(std::vector<std::vector<Gate>>(moves.size()));
   for (const Precedence& p : order.list) {
-    gates_[p.follower.agent][p.follower.move].push_back({p.leader.agent, p.leader.move + 1});
+    gates_[p.follower.agent][order.entry(p.follower).move].push_back(
+        {p.leader.agent, p.leader.move + 1});
     followers_[p.leader.agent].push_back(p.follower.agent);
   }
   for (auto& followers : followers_) {

@@ -138,11 +138,14 @@ Delays draw_delays(const Precedences& order, const DelayOptions& options, std::u
   for (const auto& moves : order.moves) {
     AgentDelay delay;
     delay.speed = kFullSpeed - draw_up_to(random, slowest);
+    bool goes_on = false;  // From the move before.
     for (const TimedMove& move : moves) {
       // All are drawn, so that the same seed means the same with another chance.
       const bool pauses = random.chance(options.pause_chance);
-      const Ticks clock =
-          move.begin + Ticks(draw_up_to(random, (move.end - move.begin).value() - 1));
+      Ticks clock = move.begin + Ticks(draw_up_to(random, (move.end - move.begin).value() - 1));
+      // Nobody stops where nobody may wait, but on the way there or behind it.
+      if (goes_on && clock == move.begin && move.end - move.begin > 1) clock += 1;
+      goes_on = move.goes_on;
       const Ticks duration(1 + draw_up_to(random, options.longest_pause.value() - 1));
       if (pauses) delay.pauses.push_back({clock, duration});
     }

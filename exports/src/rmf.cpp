@@ -48,7 +48,8 @@ class Writer {
       blockers_.push_back(std::vector<std::vector<Blocker>>(order.moves[agent].size()));
     for (const Precedence& precedence : order.list)
       if (const auto blocker = blocker_of(order, precedence))
-        blockers_[precedence.follower.agent][precedence.follower.move].push_back(*blocker);
+        blockers_[precedence.follower.agent][order.entry(precedence.follower).move].push_back(
+            *blocker);
   }
 
   [[nodiscard]] Json message(AgentId agent) const {
@@ -211,7 +212,7 @@ std::vector<MoveId> blocked_for_ever(const Precedences& order) {
       add(numbers.of({agent, k - 1}), numbers.of({agent, k}));
   for (const Precedence& precedence : order.list)
     if (const auto blocker = blocker_of(order, precedence))
-      add(numbers.of(blocker->leader), numbers.of(precedence.follower));
+      add(numbers.of(blocker->leader), numbers.of(order.entry(precedence.follower)));
   std::vector<std::size_t> waits(numbers.count()), ready;
   for (std::size_t m = 0; m < waits.size(); ++m) {
     waits[m] = before[m].size();

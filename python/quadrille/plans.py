@@ -161,7 +161,8 @@ class Plan(Immutable):
 
         Returns:
             A DiGraph. A node is (agent, move), its attributes are ``source``, ``target`` (vertices),
-            ``begin`` and ``end`` (of the plan). An edge says that the second move waits for the first
+            ``begin`` and ``end`` (of the plan), and ``goes_on``: it ends where nobody may wait, so that the
+            agent does not begin it before it may make the next one, too. An edge says that the second move waits for the first
             one; ``kind`` is "next" within a path, "after" between two agents. The latter have a
             ``slack``: until the first move has ended, the second agent may be that much ahead of the
             first one, counted in times of the plan. ``graph["cycle"]`` of it is a list of (agent,
@@ -178,9 +179,14 @@ class Plan(Immutable):
         order = self._precedences()
         graph.graph["cycle"] = _cycle(order.node_order()[0])
         time = self._fleet._cost
-        for agent, move, source, target, begin, end in listed(order.moves()):
+        for agent, move, source, target, begin, end, goes_on in listed(order.moves()):
             graph.add_node(
-                (agent, move), source=source, target=target, begin=time(begin), end=time(end)
+                (agent, move),
+                source=source,
+                target=target,
+                begin=time(begin),
+                end=time(end),
+                goes_on=bool(goes_on),
             )
             if move > 0:
                 graph.add_edge((agent, move - 1), (agent, move), kind="next")

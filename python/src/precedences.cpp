@@ -22,11 +22,11 @@ std::int64_t* write(std::int64_t* to, const MoveId& id) {
   return to;
 }
 
-/// int64[k, 6]: agent, move, from, to, begin, end, in ticks or timesteps.
+/// int64[k, 7]: agent, move, from, to, begin, end, in ticks or timesteps, and whether it goes on.
 py::array moves_of(const Precedences& precedences) {
   std::size_t count = 0;
   for (const auto& moves : precedences.moves) count += moves.size();
-  auto moves = new_array<std::int64_t>({count, 6});
+  auto moves = new_array<std::int64_t>({count, 7});
   std::int64_t* to = moves.mutable_data();
   for (const AgentId agent : IdRange<AgentId>(precedences.num_agents())) {
     MoveId id{agent};
@@ -37,6 +37,7 @@ py::array moves_of(const Precedences& precedences) {
       *to++ = static_cast<std::int64_t>(move.to.index());
       *to++ = move.begin.value();
       *to++ = move.end.value();
+      *to++ = move.goes_on ? 1 : 0;
     }
   }
   return frozen(moves);

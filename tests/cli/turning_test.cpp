@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,6 +69,36 @@ TEST_F(TurningTest, AllThatReadsPlansKnowsThem) {
   EXPECT_EQ(run(turning("execute-check", {path("p.json")})).code, 0);
   EXPECT_EQ(run(turning("export", {"--to", "csv", path("p.json")})).code, 0);
   EXPECT_EQ(run(turning("info")).code, 0);
+}
+
+// Pages of what robots did under delays have arrows, too: along its way each robot faces ahead.
+TEST_F(TurningTest, PagesOfRunsSayWhereRobotsFace) {
+  ASSERT_EQ(run(turning("solve", {"--quiet", "--plan", path("p.json")})).code, 0);
+  const Finished ended = run(turning(
+      "simulate", {path("p.json"), "--view", "-", "--quiet", "--delays", "0.5", "--seed", "3"}));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::size_t type = ended.out.find("type=\"application/json\"");
+  ASSERT_NE(type, std::string::npos);
+  const std::size_t begin = ended.out.find('>', type) + 1;
+  const json scene =
+      json::parse(ended.out.substr(begin, ended.out.find("</script>", begin) - begin));
+  std::size_t num_turns = 0;
+  for (const json& agent : scene.at("agents")) {
+    const json &stops = agent.at("stops"), &headings = agent.at("headings");
+    ASSERT_EQ(stops.size(), 4 * headings.size());
+    for (std::size_t k = 0; k + 1 < headings.size(); ++k) {
+      const double dx = stops[4 * k + 4].get<double>() - stops[4 * k].get<double>();
+      const double dy = stops[4 * k + 5].get<double>() - stops[4 * k + 1].get<double>();
+      const double from = headings[k], to = headings[k + 1];
+      if (std::hypot(dx, dy) < 1) {
+        num_turns += from == to ? 0 : 1;
+        continue;
+      }
+      EXPECT_EQ(from, to);
+      EXPECT_NEAR(std::remainder(std::atan2(dy, dx) * 180 / std::numbers::pi - from, 360), 0, 1);
+    }
+  }
+  EXPECT_GE(num_turns, 1U);
 }
 
 // Facing east, it turns to the right for two timesteps, goes down, and turns back.

@@ -12,15 +12,22 @@
 
 namespace quadrille::execution::test {
 
-std::optional<ContinuousCase> continuous_case(std::uint32_t seed, std::size_t agents) {
+namespace {
+
+continuous::test::RandomOptions shape_for(std::size_t agents) {
   continuous::test::RandomOptions shape;
   shape.num_agents = agents;
   shape.num_vertices = agents * 5;
   shape.size = geometry::Length(static_cast<std::int64_t>(15 + 20 * agents));
   shape.max_radius = 6;
-  shape.obstacles_percent = 0;   // they wait for nobody
-  shape.no_waiting_percent = 0;  // who is late waits
+  shape.obstacles_percent = 0;  // they wait for nobody
+  shape.no_waiting_percent = 0;
   shape.edge_percent = agents > 4 ? 12 : 30;
+  return shape;
+}
+
+std::optional<ContinuousCase> planned(std::uint32_t seed,
+                                      const continuous::test::RandomOptions& shape) {
   const continuous::Instance instance = continuous::test::random_instance(seed, shape);
   continuous::SolveOptions options;
   options.gap_percent = 1e6;
@@ -30,6 +37,18 @@ std::optional<ContinuousCase> continuous_case(std::uint32_t seed, std::size_t ag
   auto outcome = continuous::solve(instance, options);
   if (!outcome || !outcome->plan) return std::nullopt;
   return ContinuousCase{instance, std::move(*outcome->plan)};
+}
+
+}  // namespace
+
+std::optional<ContinuousCase> continuous_case(std::uint32_t seed, std::size_t agents) {
+  return planned(seed, shape_for(agents));
+}
+
+std::optional<ContinuousCase> passing_case(std::uint32_t seed, std::size_t agents) {
+  continuous::test::RandomOptions shape = shape_for(agents);
+  shape.no_waiting_percent = 100;
+  return planned(seed, shape);
 }
 
 std::optional<DiscreteCase> leaving_case(std::uint64_t seed) {

@@ -200,12 +200,17 @@ void add_tracks(const std::vector<Track>& tracks, Scene& scene) {
   scene.nearest.clear();
   scene.sum_of_costs = scene.makespan = 0;
   const std::size_t num_vertices = scene.places.size();
+  const bool have_headings = std::ranges::all_of(tracks, [](const Track& track) {
+    return std::ranges::all_of(track, [](const Sight& sight) { return sight.heading.has_value(); });
+  });
+  if (have_headings) scene.headings.assign(num_vertices, 0);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     SceneAgent& agent = scene.agents[i];
     for (const Sight& sight : tracks[i]) {
       agent.stops.push_back(
           {scene.places.size(), sight.arrive - scene.now, sight.depart - scene.now});
       scene.places.push_back({sight.x, sight.y, sight.z});
+      if (have_headings) scene.headings.push_back(*sight.heading);
     }
     agent.start = agent.stops.front().place;
     agent.goal = agent.stops.back().place;

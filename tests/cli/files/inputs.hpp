@@ -30,6 +30,7 @@ struct Input {
   bool in_time = false;   ///< With a roadmap.
   bool has_cells = true;  ///< On a grid, in timesteps.
   bool has_heights = false;
+  bool may_block = false;    ///< Some plans have none: agents would wait where nobody may wait.
   bool is_no_order = false;  ///< No order of moves makes up for delays: obstacles that move, ...
   bool has_goal_sets = false;
   std::size_t num_agents = 0;  ///< As many as the options say.

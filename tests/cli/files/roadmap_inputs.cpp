@@ -39,7 +39,8 @@ Input one_file(Random& random, FileNames& names) {
   write_file(file, text.str());
   input.options = {"--instance", file};
   input.has_heights = !instance.roadmap().is_flat();
-  input.is_no_order = !instance.obstacles().empty() || !instance.roadmap().no_waiting().empty();
+  input.is_no_order = !instance.obstacles().empty();
+  input.may_block = !instance.roadmap().no_waiting().empty();
   input.num_agents = instance.num_agents();
   if (random.percent(20)) {
     input.num_agents = random.below(input.num_agents + 1);

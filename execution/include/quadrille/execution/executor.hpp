@@ -24,10 +24,14 @@ namespace quadrille::execution {
 /// - `limits`: agents that move on their own and report their clocks now and then, late or not at
 ///   all. Old clocks are safe. Where agents follow each other in a circle without any slack, all of
 ///   them wait for ever; `couple` is for those.
-/// - `couple`: agents that take a step at the same time. Never ends with all of them waiting.
+/// - `couple`: agents that take a step at the same time. Never ends with all of them waiting, of a
+///   plan that `precedences` takes.
 /// - `gate`: systems that release whole moves and cannot hold an agent back within one: a follower
 ///   begins its move when the leader has ended its own. All may wait for each other for ever unless
 ///   the order of moves has no cycle: see node_order.hpp.
+///
+/// Under all of them an agent begins a passage (TimedMove::goes_on) only when nothing is in its way
+/// any more until its end, and is not held back within it.
 ///
 /// Nothing is allocated after construction, nothing is thrown. One thread at a time. Time per call:
 /// agents + precedences that matter now (times agents at worst, where many are coupled).
@@ -49,7 +53,7 @@ class Executor {
   /// latest ones, none later than asked for, to which they may go *in proportion*: after a share of
   /// the step each has that share of its way behind it. If the targets ask for a step of at least
   /// one tick wherever an agent is not held up, those with the earliest clock get at least one
-  /// unless they follow one that is.
+  /// unless they follow one that is, or are about to begin a passage.
   void couple(std::span<const Ticks> clocks, std::span<Ticks> targets);
 
   /// The same for whole moves: an agent whose next move follows one that has not ended stops before
@@ -62,10 +66,12 @@ class Executor {
  private:
   /// One precedence, as its follower sees it.
   struct Hold {
-    Ticks begin, end;  // Of the follower's move.
+    Ticks begin;  // Of the follower's move, or of the passage that it is in.
+    Ticks end;    // Of the follower's move.
     Ticks leader_end;
     Ticks slack;
     std::uint32_t leader, follower;
+    bool is_in_passage;  // Of the follower.
   };
   [[nodiscard]] static bool is_over(const Hold& hold, Ticks leader) {
     return leader >= hold.leader_end || leader + hold.slack >= hold.end;

@@ -12,7 +12,8 @@ QUADRILLE_API_BEGIN
 namespace quadrille::execution {
 
 /// What becomes of a plan where moves are released as a whole: a follower begins its move after the
-/// leader has *ended* its own (VDA 5050, checkpoints of Open-RMF, Executor::gate).
+/// leader has *ended* its own (VDA 5050, checkpoints of Open-RMF, Executor::gate), and a passage
+/// (TimedMove::goes_on) after all that lead one of its moves.
 struct NodeOrder {
   /// Moves on a cycle, each of which has to wait for the end of the one before it, the first one
   /// for the last one: no order of whole moves keeps to the plan, and the agents concerned wait for

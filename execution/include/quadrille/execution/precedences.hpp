@@ -34,6 +34,9 @@ struct TimedMove {
   VertexId to;
   Ticks begin = 0;
   Ticks end = 0;  ///< Later than `begin`.
+  /// It ends where nobody may wait, and the next move begins then: both are one *passage*, which an
+  /// agent does not begin before it may end it.
+  bool goes_on = false;
   friend bool operator==(const TimedMove&, const TimedMove&) = default;
 };
 
@@ -41,7 +44,8 @@ struct TimedMove {
 /// the time of the plan that it has got to; it stands while the agent is held up. The rule: until
 /// the leader's clock has reached the end of its move, the follower's clock is at most
 /// max(begin of its own move, the leader's clock + slack); once that allows it to end its move, it
-/// is free. docs/execution.md proves that agents whose clocks obey this never collide.
+/// is free. A follower whose move is one of a passage stays where that begins until it is free.
+/// docs/execution.md proves that agents whose clocks obey this never collide.
 struct Precedence {
   MoveId leader;
   MoveId follower;
@@ -60,23 +64,35 @@ struct Precedences {
   [[nodiscard]] std::size_t num_agents() const noexcept { return moves.size(); }
   /// Requires a move of the plan.
   [[nodiscard]] const TimedMove& at(const MoveId& id) const { return moves[id.agent][id.move]; }
+  /// The first move of the passage that the move is in; without one the move itself. Linear in the
+  /// moves of the passage.
+  [[nodiscard]] MoveId entry(MoveId id) const {
+    while (id.move > 0 && moves[id.agent][id.move - 1].goes_on) --id.move;
+    return id;
+  }
+  /// Whether the move is one of several of a passage.
+  [[nodiscard]] bool is_in_passage(const MoveId& id) const {
+    return at(id).goes_on || entry(id) != id;
+  }
   /// When the agent ends its last move; `now` if it has none.
   [[nodiscard]] Ticks end(AgentId agent) const {
     return moves[agent].empty() ? now : moves[agent].back().end;
   }
-  /// Whether the follower may begin its move in the plan before the leader has ended its own.
+  /// Whether the follower may begin its move, or its passage, in the plan before the leader has
+  /// ended its own move.
   [[nodiscard]] bool overlaps(const Precedence& precedence) const {
-    return at(precedence.follower).begin < at(precedence.leader).end;
+    return at(entry(precedence.follower)).begin < at(precedence.leader).end;
   }
   friend bool operator==(const Precedences&, const Precedences&) = default;
 };
 
 /// Of a plan on a roadmap. The slack of two moves is what is left between their offset in the plan
 /// and the nearest offset at which they collide (geometry::BodyPair::unsafe_offsets). Errors:
-/// invalid_plan, with the first violation, if `verify` finds any; invalid_instance if there are
-/// moving obstacles, which wait for nobody, or agents that overlap at their starts. Releases and
-/// deadlines are not looked at. Time: quadratic in the number of different moves near each other,
-/// and in how often each is made.
+/// invalid_plan, with the first violation, if `verify` finds any, or if agents would wait for each
+/// other for ever in front of vertices where nobody may wait, which are named; invalid_instance if
+/// there are moving obstacles, which wait for nobody, or agents that overlap at their starts.
+/// Releases and deadlines are not looked at. Time: quadratic in the number of different moves near
+/// each other, and in how often each is made.
 [[nodiscard]] Result<Precedences> precedences(const continuous::Instance& instance,
                                               const continuous::Plan& plan);
 

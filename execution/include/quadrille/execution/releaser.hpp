@@ -14,8 +14,9 @@ namespace quadrille::execution {
 
 /// For systems that release whole moves, such as VDA 5050 with its base and horizon: which moves of
 /// each agent may be released, given how many of its moves each agent has ended. Once released, a
-/// move stays so. As long as agents make no move before it is released, they do not collide; all
-/// arrive if the order of whole moves has no cycle: look at `cycle` before robots set out.
+/// move stays so, and the moves of a passage are released together. As long as agents make no move
+/// before it is released, they do not collide; all arrive if the order of whole moves has no cycle:
+/// look at `cycle` before robots set out.
 class Releaser {
  public:
   /// Time: that of node_order (node_order.hpp).

@@ -44,7 +44,8 @@ struct AgentDelay {
 using Delays = IdVector<AgentId, AgentDelay>;
 
 /// Each agent's speed is drawn uniformly, and for each of its moves whether it pauses, when within
-/// the move, and for how long. The same on every platform. Requires options in their ranges.
+/// the move, and for how long; not where nobody may wait, if the move takes more than a tick. The
+/// same on every platform. Requires options in their ranges.
 [[nodiscard]] Delays draw_delays(const Precedences& order, const DelayOptions& options,
                                  std::uint64_t seed);
 

@@ -66,11 +66,15 @@ struct PageOptions {
 struct Sight {
   double x = 0, y = 0, z = 0;
   std::int64_t arrive = 0, depart = 0;
+  /// Where it faces, in degrees from the axis of x towards that of y, if it has headings.
+  std::optional<double> heading = {};
 };
-/// What it did: it stood at its sights, and went straight and evenly from each to the next.
+/// What it did: it stood at its sights, and went straight and evenly from each to the next,
+/// turning by the shorter way.
 using Track = std::vector<Sight>;
-/// The same page of what robots did, in place of a plan. Tells of no costs and violations. Requires
-/// a track, of at least one sight, per agent, whose bodies and roads are shown; those that change
+/// The same page of what robots did, in place of a plan. Tells of no costs and violations. Arrows
+/// show where they face if all sights say so. Requires a track, of at least one sight, per agent,
+/// whose bodies and roads are shown; those that change
 /// their bodies on the way are shown with that of their start.
 [[nodiscard]] std::string page(const continuous::Instance& instance,
                                const std::vector<Track>& tracks, const PageOptions& options = {},
