@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "fleets/dispatch.hpp"
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
@@ -7,7 +9,6 @@
 
 #include "frame/arguments.hpp"
 #include "frame/subcommands.hpp"
-#include "fleets/dispatch.hpp"
 
 namespace quadrille::cli {
 namespace {

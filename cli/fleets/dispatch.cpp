@@ -11,16 +11,16 @@
 
 #include "answers/delivery.hpp"
 #include "asked/shown_names.hpp"
-#include "frame/arguments.hpp"
-#include "frame/output.hpp"
-#include "quadrille/input/grid.hpp"
-#include "quadrille/view/page.hpp"
 #include "fleets/dispatch_run.hpp"
 #include "fleets/dispatch_serve.hpp"
 #include "fleets/grid_fleet.hpp"
 #include "fleets/roadmap_fleet.hpp"
+#include "frame/arguments.hpp"
+#include "frame/output.hpp"
 #include "grid/grid_text.hpp"
+#include "quadrille/input/grid.hpp"
 #include "quadrille/input/robot_runners.hpp"
+#include "quadrille/view/page.hpp"
 #include "roadmap/roadmap_text.hpp"
 
 namespace quadrille::cli {
@@ -65,8 +65,10 @@ std::string check_kind(const DispatchArguments& arguments, DispatcherKind kind) 
                                                  {"--patience", arguments.patience.has_value()}};
   for (const auto& [option, is_given] : others)
     if (is_given)
-      return fmt::format("{}: on a grid a call is one timestep, which all take at the same time; "
-                         "it belongs to --dispatcher roadmap", option);
+      return fmt::format(
+          "{}: on a grid a call is one timestep, which all take at the same time; "
+          "it belongs to --dispatcher roadmap",
+          option);
   for (const auto& [option, time] :
        {std::pair{"--service", arguments.service}, {"--longest", arguments.longest}})
     if (time && *time != std::floor(*time))
@@ -117,7 +119,8 @@ Result<std::string> page(const input::GridInput& input, std::vector<view::Track>
   const auto timestep = static_cast<std::int64_t>(std::llround(1 / sizes.time));
   for (view::Track& track : tracks)
     for (view::Sight& sight : track)
-      sight = {pitch * sight.x, pitch * sight.y, 0, timestep * sight.arrive, timestep * sight.depart};
+      sight = {pitch * sight.x, pitch * sight.y, 0, timestep * sight.arrive,
+               timestep * sight.depart};
   return page(*cells, tracks);
 }
 

@@ -40,11 +40,12 @@ std::string number(const std::optional<double>& value) {
 std::string DispatchReport::text() const {
   const std::string idle = number(static_cast<double>(waiting) / static_cast<double>(calls()));
   const std::string waits =
-      is_on_grid
-          ? fmt::format("waiting    {} robots that do not arrive in the window, in the mean\n", idle)
-          : fmt::format("waiting    {} robots without a path in the mean\n"
-                        "origins    {} times planned anew for late robots; {} plans came too late\n",
-                        idle, origins, too_late);
+      is_on_grid ? fmt::format(
+                       "waiting    {} robots that do not arrive in the window, in the mean\n", idle)
+                 : fmt::format(
+                       "waiting    {} robots without a path in the mean\n"
+                       "origins    {} times planned anew for late robots; {} plans came too late\n",
+                       idle, origins, too_late);
   return fmt::format(
       "time       {:g}, in {} calls; seed {}\n"
       "tasks      {} done, {} per unit of time\n"
@@ -57,9 +58,8 @@ std::string DispatchReport::text() const {
       number(mean(service_times)), number(quantile(service_times, kShare)),
       number(milliseconds(mean(call_seconds))),
       number(milliseconds(quantile(call_seconds, kShare))),
-      number(milliseconds(quantile(call_seconds, 1))),
-      waits,
-      number(mean(gaps)), number(quantile(gaps, 0.5)), number(quantile(gaps, kShare)), contacts);
+      number(milliseconds(quantile(call_seconds, 1))), waits, number(mean(gaps)),
+      number(quantile(gaps, 0.5)), number(quantile(gaps, kShare)), contacts);
 }
 
 std::string DispatchReport::json() const {

@@ -143,9 +143,9 @@ DispatchRmf::Blockers DispatchRmf::blockers() const {
   }
   const auto stop_at_end = [&](const execution::MoveId& id) -> std::optional<std::size_t> {
     const Course& course = courses[id.agent.index()];
-    const auto at =
-        std::find_if(course.begin() + 1, course.end(),
-                     [&](const dispatch::Stop& stop) { return stop.arrive == order.at(id).end; });
+    const auto at = std::find_if(course.begin() + 1, course.end(), [&](const dispatch::Stop& stop) {
+      return stop.arrive == order.at(id).end;
+    });
     if (at == course.end()) return std::nullopt;
     return static_cast<std::size_t>(at - course.begin());
   };

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "fleets/dispatch_words.hpp"
+#include "fleets/live_fleet.hpp"
 #include "quadrille/core/goals.hpp"
 #include "quadrille/core/result.hpp"
 #include "quadrille/execution/precedences.hpp"
-#include "fleets/dispatch_words.hpp"
-#include "fleets/live_fleet.hpp"
 
 namespace quadrille::cli {
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "frame/output.hpp"
-#include "quadrille/core/limits.hpp"
 #include "fleets/dispatch_rmf.hpp"
 #include "fleets/dispatch_words.hpp"
+#include "frame/output.hpp"
+#include "quadrille/core/limits.hpp"
 
 namespace quadrille::cli {
 namespace {
@@ -63,7 +63,8 @@ class Server {
     const std::string what = request.begin().key();
     const auto known = kRequests.find(what);
     if (known == kRequests.end())
-      return wrong("there is no request '" + what + "': assign, goal, cancel, close, open, report, tick, plans");
+      return wrong("there is no request '" + what +
+                   "': assign, goal, cancel, close, open, report, tick, plans");
     const Json& given = request.begin().value();
     for (const auto& [key, value] : given.items())
       if (known->second.needed.count(key) + known->second.possible.count(key) == 0)
@@ -156,11 +157,9 @@ class Server {
     if (*clock < fleet_.clock(*robot))
       return out_of_range("clocks never go back, and it was", fleet_.clock(*robot));
     if (*clock > fleet_.limit(*robot))
-      return out_of_range("the robot was allowed to go no further than to",
-                          fleet_.limit(*robot));
+      return out_of_range("the robot was allowed to go no further than to", fleet_.limit(*robot));
     if (const auto error = fleet_.report(*robot, *clock)) return *error;
-    return Json(
-        {{"robot", words_.robot(*robot)}, {"clock", words_.time(fleet_.clock(*robot))}});
+    return Json({{"robot", words_.robot(*robot)}, {"clock", words_.time(fleet_.clock(*robot))}});
   }
 
   Result<Json> tick(const Json& given) {
@@ -183,8 +182,7 @@ class Server {
     for (std::size_t i = 0; i < fleet_.num_robots(); ++i) {
       const AgentId robot(i);
       Json course = Json::array();
-      for (const dispatch::Stop& stop : fleet_.course(robot))
-        course.push_back(words_.stop(stop));
+      for (const dispatch::Stop& stop : fleet_.course(robot)) course.push_back(words_.stop(stop));
       robots.push_back({{"robot", words_.robot(robot)},
                         {"clock", words_.time(fleet_.clock(robot))},
                         {"limit", words_.time(fleet_.limit(robot))},

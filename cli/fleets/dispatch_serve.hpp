@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "frame/exit_codes.hpp"
-#include "fleets/live_fleet.hpp"
-#include "quadrille/text/names.hpp"
 #include "fleets/dispatch.hpp"
+#include "fleets/live_fleet.hpp"
+#include "frame/exit_codes.hpp"
+#include "quadrille/text/names.hpp"
 
 namespace quadrille::cli {
 

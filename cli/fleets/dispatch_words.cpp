@@ -39,7 +39,7 @@ Result<VertexId> DispatchWords::vertex(const Json& called) const {
 }
 
 Result<dispatch::Ticks> DispatchWords::ticks(const Json& time, const std::string& what,
-                                               bool is_up) const {
+                                             bool is_up) const {
   // What differs from a whole tick by a millionth of one is meant to be that.
   constexpr double kNear = 1e-6, kLongest = 1e15;
   if (!time.is_number()) return unknown("\"" + what + "\" is a number");
@@ -62,9 +62,7 @@ Json DispatchWords::vertex(VertexId vertex) const {
   return Json::parse(names_.vertices[vertex.index()]);
 }
 
-double DispatchWords::time(Ticks ticks) const {
-  return fleet_.units(ticks);
-}
+double DispatchWords::time(Ticks ticks) const { return fleet_.units(ticks); }
 
 Json DispatchWords::stop(const dispatch::Stop& stop) const {
   Json json = {{"vertex", vertex(stop.spot.from)}};

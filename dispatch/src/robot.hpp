@@ -17,11 +17,11 @@ struct Robot {
   Course course;
   Ticks clock = 0, limit = 0;
   std::deque<OpenTask> tasks;
-  bool is_bound = false;                    // its course ends at a goal of its first task
-  std::optional<Ticks> busy_until = {};     // it is there, until then
-  bool is_barred = false;  // its course leads into a lane that is closed, or cannot be gone on
-  std::int64_t num_stuck = 0;               // calls on end in which it was allowed nothing
-  bool is_held = false;                     // it waits for those that are late
+  bool is_bound = false;                 // its course ends at a goal of its first task
+  std::optional<Ticks> busy_until = {};  // it is there, until then
+  bool is_barred = false;      // its course leads into a lane that is closed, or cannot be gone on
+  std::int64_t num_stuck = 0;  // calls on end in which it was allowed nothing
+  bool is_held = false;        // it waits for those that are late
   std::int64_t next_try = 0, patience = 1;  // calls: after looking for a path in vain
   Ticks clock_at_origin = -1;               // when there was a new origin for the last time
 

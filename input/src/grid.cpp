@@ -107,8 +107,8 @@ Result<GridInput> read_robot_problem(const InputOptions& options) {
   const auto vertex = [&](std::int64_t cell) {
     const auto width = std::int64_t{cells.width};
     return graph->layout()
-        ->vertex_at({static_cast<std::int32_t>(cell % width),
-                     static_cast<std::int32_t>(cell / width)})
+        ->vertex_at(
+            {static_cast<std::int32_t>(cell % width), static_cast<std::int32_t>(cell / width)})
         .value();
   };
   std::vector<discrete::Agent> agents;

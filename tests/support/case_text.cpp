@@ -291,8 +291,7 @@ std::string options_text(const TunedOptions& options) {
     text += *options.lazy.chronological ? " chronological" : " not-chronological";
   if (options.round) text += " round=" + std::to_string(*options.round);
   if (options.first_turn) text += " first-turn=" + std::to_string(*options.first_turn);
-  if (options.first_explicit)
-    text += " first-explicit=" + std::to_string(*options.first_explicit);
+  if (options.first_explicit) text += " first-explicit=" + std::to_string(*options.first_explicit);
   if (options.open) text += *options.open ? " open" : " not-open";
   if (!options.first_plan) text += " no-first-plan";
   if (options.debug.audit) text += " audit";

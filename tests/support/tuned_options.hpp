@@ -14,7 +14,7 @@ struct TunedOptions : SolveOptions {
   std::optional<std::int64_t> round;       ///< Settings::grid_round
   /// From so many path lemmas on agents have explicit paths, however large.
   std::optional<std::int64_t> first_explicit;
-  std::optional<bool> open;                ///< Cost search as on open maps, or others.
+  std::optional<bool> open;  ///< Cost search as on open maps, or others.
 };
 
 /// As the function without settings.
