@@ -208,6 +208,8 @@ class Replay {
       add({Trip(obstacle, horizon), &obstacle.body, num_agents_ + o, reach_of(obstacle.body)},
           true);
     }
+    for (const AgentId i : instance.agent_ids())
+      if (sound[i] && instance.agent(i).leaves) find_appearances(i, plan.paths[i]);
   }
 
   void run() {
@@ -308,6 +310,31 @@ class Replay {
     if (are_agents && are_parked(pair, begin)) return;
     const bool collide = find_collision(pair, begin, end, are_agents);
     if (are_agents && instance_.has_whole_moves() && !collide) find_overlap(pair, begin);
+  }
+
+  /// An agent is in the way when it arrives and leaves, and an obstacle when it appears: where both
+  /// have only that moment in common, no stretch of time shows it. Who leaves from its start
+  /// at once is never there.
+  void find_appearances(AgentId i, const TimedPath& path) {
+    const Stop& last = path.back();
+    if (path.size() == 1 && last.depart == last.arrive) return;
+    const Roadmap& roadmap = instance_.roadmap();
+    const Point at = roadmap.position(last.vertex);
+    const Body& body = instance_.agent(i).shapes.empty()
+                           ? instance_.agent(i).body
+                           : instance_.agent(i).body_as(roadmap.shape(last.vertex));
+    for (std::size_t o = 0; o < instance_.obstacles().size(); ++o) {
+      const MovingObstacle& obstacle = instance_.obstacles()[o];
+      const MovingObstacle::Stop& first = obstacle.path.front();
+      if (first.arrive != last.depart) continue;
+      const ExactPoint apart{(first.at.x - at.x).value(), (first.at.y - at.y).value(),
+                             (first.at.z - at.z).value()};
+      if (FootprintPair(body, obstacle.body).interiors_meet({apart, apart, 1}))
+        overlaps_.push_back({Kind::obstacle, i, std::nullopt, last.depart,
+                             "at time " + time_text(instance_, last.depart) + " " + agent_name(i) +
+                                 " leaves from vertex " + std::to_string(last.vertex.index()) +
+                                 ", where obstacle " + std::to_string(o) + " appears"});
+    }
   }
 
   /// Of two moves that are released as a whole.

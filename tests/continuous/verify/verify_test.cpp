@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "continuous/support/roads.hpp"
+#include "quadrille/continuous/solver.hpp"
 
 namespace quadrille::continuous {
 namespace {
@@ -229,6 +230,27 @@ TEST(ContinuousVerify, WhoLeavesIsInNobodysWayAfterwards) {
   empty.paths[AgentId(0)] = {{VertexId(0), 0, 0}};
   EXPECT_TRUE(verify(gone, empty).valid());
   EXPECT_TRUE(verify(gone, empty).clearances.empty());
+}
+
+TEST(ContinuousVerify, WhoLeavesWhenAnObstacleAppearsThereHasHitIt) {
+  const auto roadmap = test::roadmap({{0, 0}, {200, 0}}, {{0, 1}});
+  Agent agent = test::agent(0, 1, 10);
+  agent.leaves = true;
+  const auto instance = [&](Ticks appears, Length beside) {
+    const MovingObstacle obstacle{Disc{10}, {{{200, beside}, appears, 900}}, true};
+    return Instance::make(roadmap, {agent}, kDefaultResolution, {}, {obstacle}).value();
+  };
+  Plan plan;
+  plan.paths.push_back({{VertexId(0), 0, 0}, {VertexId(1), 200, 200}});
+  EXPECT_EQ(kinds(verify(instance(199, 0), plan)), std::vector<Kind>{Kind::obstacle});
+  EXPECT_EQ(kinds(verify(instance(200, 0), plan)), std::vector<Kind>{Kind::obstacle});
+  EXPECT_EQ(kinds(verify(instance(200, 19), plan)), std::vector<Kind>{Kind::obstacle});
+  EXPECT_TRUE(verify(instance(200, 20), plan).valid());
+  EXPECT_TRUE(verify(instance(201, 0), plan).valid());
+  // The solver agrees.
+  EXPECT_EQ(*solve(instance(200, 20), {})->cost, 200);
+  EXPECT_EQ(*solve(instance(201, 0), {})->cost, 200);
+  EXPECT_GT(*solve(instance(200, 19), {})->cost, 900);
 }
 
 TEST(ContinuousVerify, ObstaclesAreHitExactly) {
