@@ -14,16 +14,16 @@
 namespace quadrille::cli::campaign {
 
 /// What other solvers found, from a CSV file with the columns map, scenario (or random_scen, a
-/// number), agents, optimal_sum_of_costs (or cost), share_goals (or none), and any *_cpu_s:
-/// seconds, empty for a run that was not made, ">30" for one that was not solved.
+/// number), agents, optimal_sum_of_costs (or cost), variant and share_goals (or none), and any
+/// *_cpu_s: seconds, empty for a run that was not made, ">30" for one that was not solved.
 struct Reference {
   struct Key {
-    std::string family, scenario, share_goals;
+    std::string family, scenario, variant, share_goals;
     std::int64_t agents;
     friend auto operator<=>(const Key&, const Key&) = default;
   };
   [[nodiscard]] static Key key_of(const Job& job) {
-    return {job.family, job.scenario, job.share_goals, job.agents};
+    return {job.family, job.scenario, job.variant, job.share_goals, job.agents};
   }
   std::vector<std::string> solvers;
   std::map<Key, std::int64_t> costs;  ///< Whole ones: those of continuous time are rounded.

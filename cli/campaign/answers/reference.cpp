@@ -24,7 +24,7 @@ std::vector<std::string> fields(std::string_view line) {
 }
 
 struct Columns {
-  std::optional<std::size_t> map, scenario, random_scenario, share_goals, agents, cost;
+  std::optional<std::size_t> map, scenario, random_scenario, variant, share_goals, agents, cost;
   std::vector<std::size_t> seconds;
 };
 
@@ -35,6 +35,7 @@ Columns find_columns(const std::vector<std::string>& names, Reference& reference
     if (name == "map") columns.map = i;
     if (name == "scenario") columns.scenario = i;
     if (name == "random_scen") columns.random_scenario = i;
+    if (name == "variant") columns.variant = i;
     if (name == "share_goals") columns.share_goals = i;
     if (name == "agents") columns.agents = i;
     if (name == "cost" || name == "optimal_sum_of_costs") columns.cost = i;
@@ -78,6 +79,7 @@ Result<Reference> read_reference(const std::string& path) {
     const Reference::Key key{
         row[*columns.map],
         columns.scenario ? row[*columns.scenario] : "random-" + row[*columns.random_scenario],
+        columns.variant ? row[*columns.variant] : "",
         columns.share_goals ? row[*columns.share_goals] : "", agents.value};
     if (columns.cost) {
       const auto cost = text::parse_natural(row[*columns.cost], INT64_MAX);

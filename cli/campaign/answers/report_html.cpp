@@ -91,7 +91,7 @@ std::string largest(const Merged& merged, const std::vector<std::size_t>& jobs) 
 std::string largest(const Reference& reference, const std::string& family, std::size_t solver) {
   std::optional<std::pair<std::int64_t, double>> best;
   for (const auto& [key, seconds] : reference.seconds)
-    if (family_name(key.family, key.share_goals) == family && seconds[solver] &&
+    if (family_name(key.family, key.variant, key.share_goals) == family && seconds[solver] &&
         (!best || key.agents > best->first))
       best = {key.agents, *seconds[solver]};
   return best ? fmt::format("{} ({:.2f} s)", best->first, best->second) : "-";

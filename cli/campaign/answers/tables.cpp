@@ -42,6 +42,7 @@ std::vector<std::pair<const char*, Json>> columns(const Merged& merged, const Jo
       {"objective", to_string(job.objective)},
       {"map", job.family},
       {"scenario", job.scenario},
+      {"variant", job.variant},
       {"share_goals", job.share_goals},
       {"agents", job.agents},
       {"system", job.system},
@@ -118,7 +119,8 @@ std::string tracker_table(const Merged& merged) {
   for (std::size_t job = 0; job < merged.rows.size(); ++job) {
     const Job& asked = merged.list.jobs[job];
     if (!merged.rows[job] || asked.objective != Objective::sum_of_costs) continue;
-    if (!asked.share_goals.empty()) continue;  // Another problem than the tracker's.
+    if (!asked.share_goals.empty() || !asked.variant.empty())
+      continue;  // Another problem than the tracker's.
     const Row& row = *merged.rows[job];
     const auto [at, is_new] = instances.try_emplace(asked.instance_id);
     if (is_new) order.push_back(asked.instance_id);

@@ -26,7 +26,7 @@ struct FileFacts {
 
 /// A scenario, task or file, with its map if it has one.
 struct Source {
-  std::string family, scenario;
+  std::string family, scenario, variant;
   std::vector<std::string> options;  ///< That name the files.
   std::string id;                    ///< Hash of the contents, and of the options of the instance.
   std::int64_t agents = 0;
@@ -113,7 +113,10 @@ class Expansion {
     if (!graph.empty()) hash.add(facts(set, graph).hash);
     hash.add(facts(set, agents).hash);
     source.options.insert(source.options.end(), set.options.begin(), set.options.end());
-    for (const std::string& option : set.options) hash.add(option);
+    for (const std::string& option : set.options) {
+      hash.add(option);
+      source.variant += (source.variant.empty() ? "" : " ") + option;
+    }
     if (!source.share_goals.empty())
       for (const std::string& option : {std::string("--share-goals"), source.share_goals}) {
         hash.add(option);
@@ -181,6 +184,7 @@ class Expansion {
     Job job;
     job.family = source.family;
     job.scenario = source.scenario;
+    job.variant = source.variant;
     job.share_goals = source.share_goals;
     job.agents = agents;
     job.system = system.name;

@@ -22,6 +22,7 @@ struct Job {
   std::string name;
   std::string family;       ///< Of the map: "empty-8-8".
   std::string scenario;     ///< "random-1".
+  std::string variant;      ///< Options of its entry: "--neighbourhood 3"; empty without.
   std::string share_goals;  ///< "all" or a number, of --share-goals; empty without.
   std::int64_t agents = 0;  ///< 0: all of the file.
   std::string system;
@@ -66,9 +67,10 @@ struct JobList {
   std::vector<Ladder> ladders;
 };
 
-/// The family, and who shares goals: "empty-8-8", "empty-8-8, goals shared by all", or "... by each
-/// 10".
-[[nodiscard]] std::string family_name(const std::string& family, const std::string& share_goals);
+/// The family, its variant, and who shares goals: "empty-8-8 --leave", "empty-8-8, goals shared by
+/// all", or "... by each 10".
+[[nodiscard]] std::string family_name(const std::string& family, const std::string& variant,
+                                      const std::string& share_goals);
 [[nodiscard]] std::string family_name(const Job& job);
 
 /// "empty-8-8 random-1, 12 agents, dpll, seed 0 (0123456789abcdef)"

@@ -41,6 +41,7 @@ Json job_json(const Job& job) {
   return {{"job", job.name},
           {"family", job.family},
           {"scenario", job.scenario},
+          {"variant", job.variant},
           {"share_goals", job.share_goals},
           {"agents", job.agents},
           {"system", job.system},
@@ -71,7 +72,8 @@ Job read_job(const Json& json) {
   json.at("job").get_to(job.name);
   json.at("family").get_to(job.family);
   json.at("scenario").get_to(job.scenario);
-  job.share_goals = json.value("share_goals", "");  // Older lists have none.
+  job.variant = json.value("variant", "");  // Older lists have none, of both.
+  job.share_goals = json.value("share_goals", "");
   job.agents = require_whole<std::int64_t>(json.at("agents"));
   json.at("system").get_to(job.system);
   const auto objective = parse_objective(json.at("objective").get<std::string>());
@@ -239,16 +241,20 @@ long line_of(const text::Document& document, const std::string& key, std::size_t
 
 }  // namespace
 
-std::string family_name(const std::string& family, const std::string& share_goals) {
-  if (share_goals.empty()) return family;
-  return family + ", goals shared by " + (share_goals == "all" ? "" : "each ") + share_goals;
+std::string family_name(const std::string& family, const std::string& variant,
+                        const std::string& share_goals) {
+  const std::string name = variant.empty() ? family : family + " " + variant;
+  if (share_goals.empty()) return name;
+  return name + ", goals shared by " + (share_goals == "all" ? "" : "each ") + share_goals;
 }
 
-std::string family_name(const Job& job) { return family_name(job.family, job.share_goals); }
+std::string family_name(const Job& job) {
+  return family_name(job.family, job.variant, job.share_goals);
+}
 
 std::string describe(const Job& job) {
   const std::string agents = job.agents == 0 ? "all agents" : fmt::format("{} agents", job.agents);
-  const std::string shared = family_name("", job.share_goals);
+  const std::string shared = family_name("", job.variant, job.share_goals);
   return terminal_line(fmt::format("{} {}{}, {}, {}, seed {} ({})", job.family, job.scenario,
                                    shared, agents, job.system, job.seed, job.name));
 }

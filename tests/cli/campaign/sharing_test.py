@@ -83,6 +83,29 @@ stop: never
         self.campaign("run", manifest)
         self.campaign("merge", manifest, code=1)
 
+    def test_options_of_instances_make_others(self):
+        self.write("data/reference.csv", "map,scenario,variant,agents,cost\nalpha,random-1,,4,1\n")
+        manifest = self.write("m.yaml", """data: data
+reference: reference.csv
+instances:
+  - {maps: alpha.map, scenarios: "{map}-random-*.scen", agents: "4", options: --leave}
+  - {maps: alpha.map, scenarios: "{map}-random-*.scen", agents: "4", options: --robust 1}
+""")
+        self.assertIn("alpha --robust 1", self.campaign("list", manifest))
+        self.campaign("run", manifest, "--jobs", "2")
+        self.campaign("merge", manifest)  # The reference is about neither.
+        costs = {(row["variant"], row["scenario"]): int(row["cost"]) for row in self.table()}
+        self.assertEqual(len(costs), 4)
+        for (variant, scenario), cost in costs.items():
+            if variant == "--leave":
+                self.assertLessEqual(cost, costs["--robust 1", scenario])
+        self.assertIn("alpha --leave", self.read("m.campaign/merged/report.html"))
+        self.assertEqual(self.read("m.campaign/merged/tracker.csv").count("alpha,random,"), 0)
+        self.write("data/reference.csv",
+                   "map,scenario,variant,agents,cost\nalpha,random-1,--leave,4,1\n")
+        self.campaign("run", manifest)
+        self.campaign("merge", manifest, code=1)
+
     def test_what_is_wrong_is_named_with_its_line(self):
         for values, message in (
                 ("some", "share-goals has to be all, or a whole number from 1 on"),

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Runs bench/campaigns/records.yaml and prints the table of docs/campaign.md.
+
+usage: bench/records.py PROGRAM DATA FOLDER [OPTION of campaign run]..
+
+FOLDER gets the scenarios of empty-32-32, links to those of DATA, and the campaign. What it has
+already is not run again.
+"""
+import collections
+import csv
+import pathlib
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENARIOS = range(1, 6)
+RADII = {"0.3535533905932738": "√2/4", "0.1767766952966369": "√2/8", "0.08838834764831845": "√2/16"}
+
+
+def double(source, target):
+    """The scenario on a grid of twice the size, with every coordinate doubled."""
+    lines = source.read_text().splitlines()
+    doubled = [lines[0]]
+    for line in lines[1:]:
+        bucket, _, *numbers, distance = line.split("\t")
+        doubled.append("\t".join([bucket, "empty-32-32.map"] + [str(2 * int(n)) for n in numbers]
+                                 + [str(2 * float(distance))]))
+    target.write_text("\n".join(doubled) + "\n")
+
+
+def prepare(data, folder):
+    """What the manifest's names are relative to."""
+    (folder / "doubled").mkdir(parents=True, exist_ok=True)
+    link = folder / "movingai"
+    if not link.exists():
+        link.symlink_to((data / "movingai").resolve())
+    for k in SCENARIOS:
+        double(link / "scens" / f"empty-16-16-random-{k}.scen",
+               folder / "doubled" / f"empty-32-32-random-{k}.scen")
+
+
+def gap(row):
+    """In per cent; None without a plan."""
+    if not row["cost"]:
+        return None
+    return 100 * (float(row["cost"]) / float(row["lower_bound"]) - 1)
+
+
+def cell(row):
+    words = row["variant"].split()
+    value = dict(zip(words[::2], words[1::2]))
+    name = pathlib.PurePath(row["map"]).stem
+    return (name, int(value["--neighbourhood"]), RADII[value["--radius"]], int(row["agents"]))
+
+
+def show(rows):
+    cells = collections.defaultdict(list)
+    for row in rows:
+        cells[cell(row)].append(row)
+    print("| map | k | radius | agents | instances | closed | mean CPU (s) | worst gap |")
+    print("|---|---|---|---|---|---|---|---|")
+    for key, found in cells.items():
+        closed = [row for row in found if row["status"] == "optimal"]
+        cpu = sum(float(row["process_cpu_s"]) for row in found) / len(found)
+        gaps = [gap(row) for row in found if row["status"] != "optimal"]
+        worst = "no plan" if None in gaps else f"{max(gaps):.2f} %" if gaps else ""
+        print("| " + " | ".join(map(str, key)) +
+              f" | {len(found)} | {len(closed)} | {cpu:.1f} | {worst} |")
+
+
+def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
+    program, data, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    prepare(data, folder)
+    manifest, campaign = str(HERE / "campaigns" / "records.yaml"), folder / "campaign"
+    common = [manifest, "--data", str(folder), "--folder", str(campaign)]
+    subprocess.run([program, "campaign", "run", *common, *sys.argv[4:]], check=True)
+    subprocess.run([program, "campaign", "merge", *common], check=True, stdout=subprocess.DEVNULL)
+    with open(campaign / "merged" / "table.csv", newline="", encoding="utf-8") as table:
+        show(list(csv.DictReader(table)))
+
+
+if __name__ == "__main__":
+    main()
