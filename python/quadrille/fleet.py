@@ -210,7 +210,7 @@ class Fleet(Immutable, Generic[P]):
                     releases=timesteps(release, "release", n, 0),
                     deadlines=timesteps(deadline, "deadline", n, -1),
                     leaves=flags(False if leaves is None else leaves, "leaves", n),
-                    robust=max(ints(robust, "robust", ()).item(), int(bool(whole_moves))),
+                    robust=ints(robust, "robust", ()).item() or int(bool(whole_moves)),
                 ),
             )
         self._setup(graph, instance, names)

@@ -269,7 +269,7 @@ class _StepSession(Session):
         # What is wrong with these is what is wrong with a fleet of nobody.
         empty = np.zeros((0, 2) if isinstance(graph, Grid) else 0, np.int64)
         Fleet(graph, empty, empty, robust=distance, now=begin)
-        self._core = _core.StepSession(graph._graph, begin, max(distance, int(bool(whole_moves))))
+        self._core = _core.StepSession(graph._graph, begin, distance or int(bool(whole_moves)))
         self._begin()
 
     def advance_to(self, now: int, plan: StepPlan) -> None:
