@@ -82,7 +82,7 @@ _quadrille() {
       ;;
     export) options="$instance --to --from --rate --ros --vda-version --names --order-id --time-stamp --states --allow-cycles --output" ;;
     execute-check) options="$instance --plan-format --json --quiet" ;;
-    dispatch) options="$instance --steps --step --own-tasks --service --delays --longest --effort --reach --patience --call-limit --no-improvement --seed --json --view --serve --quiet" ;;
+    dispatch) options="$instance --dispatcher --steps --step --own-tasks --service --delays --longest --effort --window --reach --patience --call-limit --no-improvement --seed --json --view --serve --quiet" ;;
     simulate)
       options="$instance --plan-format --json --quiet --rule --delays --longest --slow --period --runs --seed --view"
       ;;

@@ -71,6 +71,13 @@ std::optional<Error> Dispatcher::assign(AgentId robot, std::vector<VertexId> goa
 
 std::optional<Error> Dispatcher::cancel(AgentId robot) { return dispatcher_.cancel(robot); }
 
+std::optional<Error> Dispatcher::close(VertexId from, VertexId to) {
+  return dispatcher_.close(from, to);
+}
+std::optional<Error> Dispatcher::open(VertexId from, VertexId to) {
+  return dispatcher_.open(from, to);
+}
+
 std::optional<Error> Dispatcher::report(AgentId robot, Seconds clock) {
   // What differs from a whole step by a millionth of one is meant to be that.
   const double ticks = std::floor(clock.value() / roadmap_.resolution().time.value() + 1e-6);

@@ -13,7 +13,7 @@ A place on a grid is ``(x, y)``, column and row. On roadmaps, lengths and times 
 from ._core import __version__
 from ._errors import BodyWarning, FileError, InputError, LayoutWarning, NoPlanError, RoundingWarning
 from .attribution import Attribution, Charge, Place, Raise, Reason, Site
-from .dispatching import Dispatcher, Orders
+from .dispatching import Dispatcher, GridDispatcher, Orders
 from .execution import Executor, Releaser, Simulation, simulate
 from .fleet import Fleet
 from .graphs import Graph, Grid, PoseGrid, Roadmap
@@ -36,6 +36,7 @@ __all__ = [
     "Fleet",
     "Graph",
     "Grid",
+    "GridDispatcher",
     "InputError",
     "Interrupted",
     "LayoutWarning",

@@ -62,6 +62,13 @@ class Dispatching {
   void cancel(std::size_t robot) {
     if (const auto error = dispatcher_->cancel(AgentId(robot))) raise(*error);
   }
+  /// Lanes from one vertex to another one.
+  void close(std::int64_t from, std::int64_t to) {
+    if (const auto error = dispatcher_->close(vertex(from), vertex(to))) raise(*error);
+  }
+  void open(std::int64_t from, std::int64_t to) {
+    if (const auto error = dispatcher_->open(vertex(from), vertex(to))) raise(*error);
+  }
   void report(std::size_t robot, double clock) {
     // What differs from a whole tick by a millionth of one is meant to be that.
     const double whole = std::floor(clock / resolution_.time + 1e-6);
@@ -120,6 +127,10 @@ class Dispatching {
   }
 
  private:
+  /// The dispatcher says which lanes there are not.
+  static VertexId vertex(std::int64_t number) {
+    return vertex_of(number, std::size_t{1} << 31U, "edge");
+  }
   [[nodiscard]] Ticks ticks(double time, const std::string& what, bool is_up) const {
     const double exact = time / resolution_.time;
     const double whole = is_up ? std::ceil(exact - 1e-6) : std::floor(exact + 1e-6);
@@ -142,6 +153,8 @@ void bind_dispatching(py::module_& module) {
       .def("__len__", &Dispatching::size)
       .def("assign", &Dispatching::assign)
       .def("cancel", &Dispatching::cancel)
+      .def("close", &Dispatching::close)
+      .def("open", &Dispatching::open)
       .def("report", &Dispatching::report)
       .def("tick", &Dispatching::tick)
       .def("now", &Dispatching::now)

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   quadrille::python::bind_session(module);
   quadrille::python::bind_step_session(module);
   quadrille::python::bind_dispatching(module);
+  quadrille::python::bind_grid_dispatching(module);
   quadrille::python::bind_viewing(module);
   quadrille::python::bind_reading(module);
 }

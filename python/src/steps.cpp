@@ -98,9 +98,6 @@ VertexId vertex_of(const Graph& graph, const std::int64_t* place, const std::str
   return *vertex;
 }
 
-namespace {
-
-/// How many numbers name a place.
 std::size_t place_size(const Graph& graph) { return graph.layout() ? 2 : 1; }
 
 void write_place(const Graph& graph, VertexId v, std::int32_t* place) {
@@ -111,6 +108,8 @@ void write_place(const Graph& graph, VertexId v, std::int32_t* place) {
     place[0] = static_cast<std::int32_t>(v.index());
   }
 }
+
+namespace {
 
 /// int32[n, 2] on grids, int32[n] otherwise.
 template <class VertexOf>

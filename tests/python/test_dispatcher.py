@@ -87,10 +87,76 @@ def test_what_makes_no_sense_is_refused():
         dispatcher.report(0, 1)
     with pytest.raises(q.InputError, match="time has to go on"):
         dispatcher.tick(0)
-    with pytest.raises(q.InputError, match="a dispatcher needs a roadmap"):
+    with pytest.raises(q.InputError, match="a Dispatcher needs a roadmap; on grids and graphs there is GridDispatcher"):
         q.Dispatcher(q.Fleet(q.Grid(np.ones((2, 2), dtype=bool)), [(0, 0)], [(1, 0)]))
     with pytest.raises(q.InputError, match="in the middle of a move"):
         q.Dispatcher(q.Fleet(crossings(), [q.Underway(0, 1, 0.5)], [1], radius=0.6))
+
+
+def test_lanes_are_closed():
+    dispatcher = q.Dispatcher(standing(), effort=0.005, improves=False)
+    dispatcher.assign(0, 8)
+    dispatcher.tick(0.5)
+    for source, target in ((4, 8), (9, 8)):
+        dispatcher.close(source, target)
+    served = []
+    for _ in range(100):
+        served += dispatcher.tick(0.5).served
+        for robot in range(4):
+            dispatcher.report(robot, dispatcher.limit(robot))
+    assert not served and dispatcher.course(0)["source"][-1] != 8
+    dispatcher.open(9, 8)
+    for _ in range(100):
+        served += dispatcher.tick(0.5).served
+        for robot in range(4):
+            dispatcher.report(robot, dispatcher.limit(robot))
+    assert served == [0]
+    with pytest.raises(q.InputError, match="is closed already"):
+        dispatcher.close(4, 8)
+    with pytest.raises(q.InputError, match="there is not the lane"):
+        dispatcher.open(0, 7)
+
+
+def test_grids():
+    free = np.ones((5, 6), dtype=bool)
+    free[2, 1:4] = False
+    fleet = q.Fleet(q.Grid(free), [(0, 0), (5, 0), (0, 4), (5, 4)], [(5, 0), (0, 0), (0, 4), (5, 4)],
+                    names=["a", "b", "c", "d"])
+    dispatcher, draw = q.GridDispatcher(fleet, effort=0.002, window=8), random.Random(1)
+    assert len(dispatcher) == 4 and dispatcher.num_tasks("a") == 1 and dispatcher.num_tasks("c") == 0
+    dispatcher.close((2, 0), (3, 0))
+    served, before = 0, dispatcher.places
+    for step in range(150):
+        for agent in range(4):
+            if dispatcher.num_tasks(agent) == 0:
+                dispatcher.assign(agent, [(draw.randrange(6), 0), (5, draw.randrange(5))], service=1)
+        held = [agent for agent in "abcd" if draw.random() < 0.1]
+        orders = dispatcher.tick(held)
+        served += len(orders.served)
+        places = dispatcher.places
+        assert dispatcher.now == step + 1 and len({tuple(place) for place in places}) == 4
+        assert np.abs(places - before).sum(axis=1).max() <= 1 and free[places[:, 1], places[:, 0]].all()
+        for who, agent in enumerate("abcd"):
+            assert agent not in held or tuple(places[who]) == tuple(before[who])
+            assert {tuple(places[who]), tuple(before[who])} != {(2, 0), (3, 0)}
+        before = places
+    assert served > 30
+    assert dispatcher.path("a").shape == (8, 2) and tuple(dispatcher.path("a")[0]) == tuple(places[0])
+    dispatcher.open((3, 0), (2, 0))
+    dispatcher.cancel("a")
+    assert dispatcher.num_tasks("a") == 0
+    with pytest.raises(q.InputError, match="is blocked, or outside"):
+        dispatcher.assign(0, (1, 2))
+    with pytest.raises(q.InputError, match="is not closed"):
+        dispatcher.open((3, 0), (2, 0))
+    with pytest.raises(q.InputError, match="at least one timestep"):
+        q.GridDispatcher(fleet, window=0)
+    with pytest.raises(q.InputError, match="on roadmaps there is Dispatcher"):
+        q.GridDispatcher(standing())
+    with pytest.raises(TypeError, match="a GridDispatcher has a state of its own"):
+        copy.copy(dispatcher)
+    graph = q.GridDispatcher(q.Fleet(q.Graph(3, [(0, 1), (1, 2)]), [0], [2]))
+    assert [int(place) for _ in range(3) for place in (graph.tick(), graph.places)[1]] == [1, 2, 2]
 
 
 def test_moves_are_told_by_when_they_began():

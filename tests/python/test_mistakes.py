@@ -118,7 +118,7 @@ def test_violations_are_told_in_names():
     (lambda: fleet().plan(["dock"]), "no vertex called"),
     (lambda: q.solve(fleet()).plan["arm"], "there is no agent called 'arm'"),
     (lambda: q.solve(fleet()).plan.to_vda5050(version="2"), "version: '2' is not 3.0, 2.1 or 2.0"),
-    (lambda: q.Dispatcher(q.Fleet(GRID, [(0, 0)], [(1, 0)])), "a dispatcher needs a roadmap"),
+    (lambda: q.Dispatcher(q.Fleet(GRID, [(0, 0)], [(1, 0)])), "a Dispatcher needs a roadmap"),
     (lambda: q.Dispatcher(fleet()).assign("amr", "attic"), "amr"),
     (lambda: q.Dispatcher(fleet()).report("amr", 5), "clock"),
 ])

@@ -73,6 +73,11 @@ class Dispatcher {
   }
   /// Of what it has been told, nothing is left to do.
   [[nodiscard]] std::optional<Error> cancel(AgentId robot);
+  /// Nobody enters the lane from one vertex to another one any more, but for robots that have been
+  /// allowed to, until it is opened. Errors: invalid_instance if there is no such lane, or it is
+  /// closed (open) already.
+  [[nodiscard]] std::optional<Error> close(VertexId from, VertexId to);
+  [[nodiscard]] std::optional<Error> open(VertexId from, VertexId to);
   /// How far it has got: the time on its course, which is rounded down. Errors: invalid_instance
   /// for a robot that there is not; out_of_range if it goes back, or beyond `limit`.
   [[nodiscard]] std::optional<Error> report(AgentId robot, Seconds clock);
