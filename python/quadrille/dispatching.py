@@ -54,7 +54,7 @@ class _Dispatching:
     def __deepcopy__(self, memo: Any = None) -> Any:
         raise TypeError(f"a {type(self).__name__} has a state of its own, and cannot be copied")
 
-    __copy__ = __reduce__ = __deepcopy__  # type: ignore[assignment]
+    __copy__ = __reduce__ = __deepcopy__
 
     def _agent(self, agent: Union[int, str]) -> int:
         if isinstance(agent, str):
