@@ -251,7 +251,7 @@ TEST(GridDispatcher, NobodyTakesEdgesThatAreClosed) {
       }
       step();
     }
-    EXPECT_GT(num_served, support::scaled(400) / 3) << seed;
+    EXPECT_GT(num_served, support::scaled(400) / 10) << seed;
     EXPECT_GT(num_waiting, 0U);
     while (!closed.empty()) open_one();
     for (int t = 0; t < 200; ++t) step();
