@@ -159,15 +159,35 @@ class Session:
         """Closed no more."""
         self._core.open(*self._edge(source, target))
 
-    def advance_to(self, now: int, plan: StepPlan) -> None:
-        """On grids and graphs: time has gone on until the timestep ``now``, and everybody has followed the
-        plan, one of ``fleet()``: that of the last answer, or what has become of it where somebody was
-        late. Agents begin where they are then; those that leave and have arrived are removed.
+    def assign(self, name: str, goals: Any) -> None:
+        """Another goal, or several, from where the agent is.
 
         Raises:
-            InputError: if ``now`` is over, or the plan is none.
+            InputError: as ``add``, and if no agent is called so.
         """
-        raise InputError("advance_to is for grids and graphs")
+        self.change(name, goals=goals)
+
+    def advance_to(self, now: float, plan: Any) -> None:
+        """Time has gone on until ``now``, and everybody has followed the plan, one for ``fleet()``: that of
+        the last answer, or what has become of it where somebody was late. From now on agents begin where
+        they are then, at a vertex or under way; those that leave and have arrived are removed. What was
+        learned is learned of what is left of their ways.
+
+        Raises:
+            InputError: for a time that is over, or a plan that is not valid.
+        """
+        self._core.advance_to(float(now), plan._plan)
+        members = self._core.members()
+        for agent, name in enumerate(self.names):
+            if self._members[name] in members:
+                self._agents[name] = {**self._agents[name], "start": plan.start_at(agent, now)}
+            else:
+                del self._members[name], self._agents[name]
+
+    @property
+    def now(self) -> float:
+        """When agents are at their starts."""
+        return self._core.now()
 
     def fleet(self) -> Fleet[Any]:
         """The agents as things are now, on the roadmap as it is."""
@@ -272,7 +292,7 @@ class _StepSession(Session):
         self._core = _core.StepSession(graph._graph, begin, distance or int(bool(whole_moves)))
         self._begin()
 
-    def advance_to(self, now: int, plan: StepPlan) -> None:
+    def advance_to(self, now: float, plan: Any) -> None:
         self._core.advance_to(ints(now, "now", ()).item(), plan._plan)
         members = self._core.members
         for name in [name for name, member in self._members.items() if member not in members]:
@@ -280,6 +300,10 @@ class _StepSession(Session):
         starts = self._core.instance().starts()
         for name, start in zip(self.names, starts.tolist()):
             self._agents[name]["start"] = start
+
+    @property
+    def now(self) -> float:
+        return int(self._core.now)
 
     def fleet(self) -> Fleet[Any]:
         fleet: Fleet[StepPlan] = cast(Any, Fleet.__new__)(Fleet)

@@ -75,6 +75,19 @@ class Session {
     for (const EdgeId edge : edges_between(from, to)) check(session_.open(edge));
   }
 
+  void advance_to(double now, const continuous::Plan& plan) {
+    check(session_.advance_to(moment_of(now, sizes_, "now: the session goes on"), plan));
+    now_ = session_.now();
+  }
+  [[nodiscard]] double now() const {
+    return continuous::in_input_units(now_, resolution_of(sizes_));
+  }
+  [[nodiscard]] std::vector<std::size_t> members() const {
+    std::vector<std::size_t> numbers;
+    for (const MemberId member : session_.members()) numbers.push_back(member.index());
+    return numbers;
+  }
+
   /// `called`: names for messages, as instance_of takes them.
   [[nodiscard]] TimedInstance instance(const py::dict& called) const {
     auto made = session_.instance();
@@ -124,7 +137,7 @@ class Session {
   std::shared_ptr<Roadmap> roadmap_;
   const Sizes sizes_;
   const std::vector<continuous::MovingObstacle> obstacles_;
-  const Ticks now_;
+  Ticks now_;
   continuous::Session session_;
 };
 
@@ -139,6 +152,9 @@ void bind_session(py::module_& module) {
       .def("put_under_way", &Session::put_under_way)
       .def("close", &Session::close)
       .def("open", &Session::open)
+      .def("advance_to", &Session::advance_to)
+      .def("now", &Session::now)
+      .def("members", &Session::members)
       .def("instance", &Session::instance)
       .def("solve", &Session::solve);
 }

@@ -147,3 +147,27 @@ def test_names_and_mistakes():
     assert session.solve().explanation == "'amr' cannot get from 'west' to 'east'"
     session.open("west", "cross")
     assert session.solve().status == "optimal"
+
+
+def test_time_goes_on():
+    xy = [(5 * (i % 4), 5 * (i // 4)) for i in range(12)]
+    edges = [(i, i + 1) for i in range(12) if i % 4 < 3] + [(i, i + 4) for i in range(8)]
+    session = q.Session(q.Roadmap(xy, edges, both_ways=True))
+    session.add("a", 0, 11, radius=0.6)
+    session.add("b", 11, 0, radius=0.6)
+    session.add("c", 3, 2, radius=0.6, leaves=True)
+    plan = session.solve().plan
+    for now in (3.0, 7.5, 12.0):
+        session.advance_to(now, plan)
+        assert session.now == now and ("c" in session) == (now < 5)
+        starts = [session._agents[name]["start"] for name in session.names]
+        goals = [{"a": 11, "b": 0, "c": 2}[name] for name in session.names]
+        leaves = [name == "c" for name in session.names]
+        fresh = q.Fleet(session.fleet().graph, starts, goals, radius=0.6, leaves=leaves, now=now)
+        result = session.solve()
+        assert result.status == "optimal" and result.cost == pytest.approx(q.solve(fresh).cost)
+        plan = result.plan
+    session.assign("b", 5)
+    assert session.solve().plan["b"].stops["vertex"][-1] == 5
+    with pytest.raises(q.InputError):
+        session.advance_to(1.0, plan)
