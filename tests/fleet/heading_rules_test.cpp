@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <queue>
@@ -115,7 +116,8 @@ TEST(HeadingRules, Errors) {
             "there is a heading on a lane that the roadmap does not have");
   EXPECT_EQ(message(PoseBuilder(builder).stand(kB, 0_deg).stand(kB, 90_deg)),
             "robots stand in two headings at b: 0 deg and 90 deg");
-  EXPECT_EQ(message(PoseBuilder(builder).lane_heading(kA, kB, Radians(1. / 0.))),
+  EXPECT_EQ(message(PoseBuilder(builder).lane_heading(
+                kA, kB, Radians(std::numeric_limits<double>::infinity()))),
             "a heading from a to b is no finite angle");
   EXPECT_EQ(message(PoseBuilder(builder).turns(VertexId(9), Turns::none)),
             "there are turns at a place that the roadmap does not have");

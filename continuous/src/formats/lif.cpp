@@ -261,7 +261,7 @@ class LifReader : DocumentRoadmapReader {
     });
   }
 
-  LifHeadings headings_{document_, check_, options_, builder_};
+  LifHeadings headings_{check_, options_, builder_};
   std::optional<Node> layout_, id_again_;
   std::set<std::string> types_, all_nodes_;
   std::set<VertexId> closed_;  // To our type.

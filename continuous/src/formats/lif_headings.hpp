@@ -28,9 +28,8 @@ class LifHeadings {
   };
 
   /// All outlive it.
-  LifHeadings(const text::Document& document, text::Checker& check, const MapFileOptions& options,
-              RoadmapBuilder& builder)
-      : document_(document), check_(check), options_(options), builder_(builder) {}
+  LifHeadings(text::Checker& check, const MapFileOptions& options, RoadmapBuilder& builder)
+      : check_(check), options_(options), builder_(builder) {}
 
   /// Whoever is at the vertex faces there.
   bool add_stand(Node theta, VertexId vertex);
@@ -45,7 +44,6 @@ class LifHeadings {
   bool read_directions(const std::optional<Node>& node, HeadingRules::Turns& turns);
   void count_unused(const Edge& edge);
 
-  const text::Document& document_;
   text::Checker& check_;
   const MapFileOptions& options_;
   RoadmapBuilder& builder_;

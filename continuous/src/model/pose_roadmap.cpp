@@ -118,10 +118,11 @@ class PoseRoadmap::Making {
     at_.resize(roads.num_vertices());
     stand_.resize(roads.num_vertices());
     turns_at_.resize(roads.num_vertices());
-    for (const auto& [from, to, heading] : rules.lanes) {
-      std::vector<double>& lane = lanes_[{from, to}];
-      if (std::ranges::none_of(lane, [&](double h) { return is_same(h, normalised(heading)); }))
-        lane.push_back(normalised(heading));
+    for (const HeadingRules::Lane& told : rules.lanes) {
+      std::vector<double>& lane = lanes_[{told.from, told.to}];
+      const double heading = normalised(told.heading);
+      if (std::ranges::none_of(lane, [&](double other) { return is_same(other, heading); }))
+        lane.push_back(heading);
     }
     for (const HeadingRules::Turns& told : rules.turns) {
       HeadingRules::Turns& all = turns_at_[told.place];
