@@ -26,11 +26,12 @@ struct FileFacts {
 
 /// A scenario, task or file, with its map if it has one.
 struct Source {
-  std::string family, scenario, variant;
+  std::string family, scenario;
   std::vector<std::string> options;  ///< That name the files.
   std::string id;                    ///< Hash of the contents, and of the options of the instance.
   std::int64_t agents = 0;
   std::string share_goals;
+  std::string variant = {};  ///< The options of the instance.
 };
 
 std::int64_t count_agents(const std::string& text, const std::string& name) {

@@ -315,7 +315,7 @@ class Replay {
   /// An agent is in the way when it arrives and leaves, and an obstacle when it appears: where both
   /// have only that moment in common, no stretch of time shows it. Who leaves from its start
   /// at once is never there.
-  void find_appearances(AgentId i, const TimedPath& path) {
+  void find_appearances(AgentId i, const Path& path) {
     const Stop& last = path.back();
     if (path.size() == 1 && last.depart == last.arrive) return;
     const Roadmap& roadmap = instance_.roadmap();
