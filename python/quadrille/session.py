@@ -55,7 +55,9 @@ class Session:
     _defaults = _DEFAULTS
 
     def __new__(cls, graph: Any, **options: Any) -> Session:
-        return object.__new__(_StepSession if isinstance(graph, (Grid, Graph)) else cls)
+        if isinstance(graph, (Grid, Graph)):
+            return super().__new__(_StepSession)
+        return super().__new__(cls)
 
     def __init__(
         self,
@@ -187,7 +189,7 @@ class Session:
     @property
     def now(self) -> float:
         """When agents are at their starts."""
-        return self._core.now()
+        return float(self._core.now())
 
     def fleet(self) -> Fleet[Any]:
         """The agents as things are now, on the roadmap as it is."""
