@@ -194,17 +194,11 @@ std::optional<Error> Session::advance_to(Ticks now, const Plan& plan) {
   const VerifyReport found = verify(*instance, plan);
   if (!found.valid()) return Error{ErrorCode::invalid_plan, found.violations.front().message, {}};
   if (now == begin) return std::nullopt;
-  History history{parts_->now, parts_->now, {}};
-  history.after.begin = now;
-  std::size_t index = 0;
-  for (const auto& [member, task] : history.before.tasks) {
-    const AgentId i(index++);
-    const Later& done = history.members.emplace(member, later(plan.paths[i], now)).first->second;
-    if (done.ends && task.agent.leaves)
-      history.after.tasks.erase(member);
-    else
-      history.after.tasks.at(member) = rest_of(task, done, *instance, i);
-  }
+  const auto rest = [&](const Task& task, const Later& done, AgentId i) -> std::optional<Task> {
+    if (done.ends && task.agent.leaves) return std::nullopt;
+    return rest_of(task, done, *instance, i);
+  };
+  History history = solve::follow(parts_->now, plan, now, now, rest);
   parts_->bounds.advance(history);
   parts_->now = std::move(history.after);
   return std::nullopt;
@@ -221,11 +215,7 @@ std::optional<Error> Session::open(EdgeId edge) {
   return std::nullopt;
 }
 
-std::vector<MemberId> Session::members() const {
-  std::vector<MemberId> members;
-  for (const auto& [member, task] : parts_->now.tasks) members.push_back(member);
-  return members;
-}
+std::vector<MemberId> Session::members() const { return parts_->now.members(); }
 
 const Agent& Session::agent(MemberId member) const {
   const auto at = parts_->now.tasks.find(member);

@@ -210,7 +210,7 @@ void ExplicitPaths::link(AgentId agent, ObstacleId id, Timestep old_cap, Formula
         d.for_each_state(v.vertex, [&](VertexId state) { visit(state, v.timestep); });
       break;
     case Obstacle::Kind::end:
-    case Obstacle::Kind::elsewhere:
+    case Obstacle::Kind::elsewhere:  // of rests alone
       break;
   }
 }

@@ -123,17 +123,12 @@ std::optional<Error> Session::advance_to(Timestep now, const Plan& plan) {
   const VerifyReport found = verify(*instance, plan);
   if (!found.valid()) return Error{ErrorCode::invalid_plan, found.violations.front().message, {}};
   if (now == begin) return std::nullopt;
-  History history{parts_->now, parts_->now, {}};
-  history.after.begin = now;
-  std::size_t index = 0;
-  for (const auto& [member, agent] : history.before.tasks) {
-    const Path& path = plan.paths[AgentId(index++)];
-    const Later& done = history.members.emplace(member, later(path, now - begin)).first->second;
-    if (done.ends && agent.leaves)
-      history.after.tasks.erase(member);
-    else
-      history.after.tasks.at(member) = rest_of(agent, path, now - begin);
-  }
+  const Timestep time = now - begin;
+  const auto rest = [&](const Agent& agent, const Later& done, AgentId i) -> std::optional<Agent> {
+    if (done.ends && agent.leaves) return std::nullopt;
+    return rest_of(agent, plan.paths[i], time);
+  };
+  History history = solve::follow(parts_->now, plan, now, time, rest);
   // What was done and what is left, together, may come too close where they meet.
   if (parts_->rules.robust > 0)
     parts_->answers.clear();
@@ -157,11 +152,7 @@ std::optional<Error> Session::open(VertexId vertex, std::optional<VertexId> to) 
   return std::nullopt;
 }
 
-std::vector<MemberId> Session::members() const {
-  std::vector<MemberId> members;
-  for (const auto& [member, agent] : parts_->now.tasks) members.push_back(member);
-  return members;
-}
+std::vector<MemberId> Session::members() const { return parts_->now.members(); }
 
 const Agent& Session::agent(MemberId member) const {
   const auto at = parts_->now.tasks.find(member);
@@ -208,6 +199,11 @@ Result<SolveOutcome> Session::solve(const SolveOptions& options) {
     for (auto& paths : parts_->answers.drafts(parts_->now, *instance))
       if (!asked.initial_plan)
         asked.initial_plan = mend(*instance, std::move(paths), options.seed, limits);
+    // One limit for both.
+    if (asked.limits.wall_s)
+      asked.limits.wall_s = std::max(0.0, *asked.limits.wall_s - limits.elapsed_wall());
+    if (asked.limits.cpu_s)
+      asked.limits.cpu_s = std::max(0.0, *asked.limits.cpu_s - limits.elapsed_cpu());
   }
   auto outcome = discrete::solve(*instance, asked);
   if (!outcome) return outcome;

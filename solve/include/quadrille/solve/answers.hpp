@@ -56,6 +56,12 @@ struct Situation {
   std::map<MemberId, typename Domain::Task> tasks;  ///< In the order of the instance's agents.
   std::set<typename Domain::Closed> closed;
   typename Domain::Time begin{};  ///< Instance::now. What is learned counts from here.
+
+  [[nodiscard]] std::vector<MemberId> members() const {
+    std::vector<MemberId> members;
+    for (const auto& [member, task] : tasks) members.push_back(member);
+    return members;
+  }
 };
 
 /// What the members have done between two situations of the same roads: plans of the later one are
@@ -65,6 +71,28 @@ struct History {
   Situation<Domain> before, after;
   std::map<MemberId, typename Domain::Later> members;  ///< Of `before`.
 };
+
+/// Time goes on until `now`, and everybody follows its path of the plan, on which it is then where
+/// Domain::later says for `at`. `rest_of(task, later, agent)` is what somebody still has to do;
+/// nullopt: it has left. Requires a plan of the situation, with agents in the order of the members.
+template <class Domain, class RestOf>
+[[nodiscard]] History<Domain> follow(const Situation<Domain>& before,
+                                     const typename Domain::Plan& plan, typename Domain::Time now,
+                                     typename Domain::Time at, const RestOf& rest_of) {
+  History<Domain> history{before, before, {}};
+  history.after.begin = now;
+  std::size_t index = 0;
+  for (const auto& [member, task] : before.tasks) {
+    const AgentId i(index++);
+    auto done = Domain::later(plan.paths[i], at);
+    if (auto rest = rest_of(task, done, i))
+      history.after.tasks.at(member) = *std::move(rest);
+    else
+      history.after.tasks.erase(member);
+    history.members.emplace(member, std::move(done));
+  }
+  return history;
+}
 
 /// The last answers of a session, and what they say about another situation on the same roads. Why
 /// that is true: docs/soundness/sessions.md. `Domain` knows, all static:
@@ -149,8 +177,7 @@ template <class Domain>
 void AnswerCache<Domain>::add(const Situation& situation, Objective objective,
                               const typename Domain::Outcome& outcome) {
   if (outcome.internal_error || outcome.status == Status::infeasible) return;
-  Answer answer{situation, {}, objective, {}, outcome.plan, Time{}};
-  for (const auto& [member, task] : situation.tasks) answer.members.push_back(member);
+  Answer answer{situation, situation.members(), objective, {}, outcome.plan, Time{}};
   // A bound that the user knows is no proof.
   if (!outcome.rests_on_known_bound) {
     answer.proved = outcome.attribution;
