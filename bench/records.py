@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs bench/campaigns/records.yaml and prints the table of docs/campaign.md.
+"""Runs bench/campaigns/records.yaml and prints a Markdown table of its cells.
 
 usage: bench/records.py PROGRAM DATA FOLDER [OPTION of campaign run]..
 
