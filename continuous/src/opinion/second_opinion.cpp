@@ -164,7 +164,9 @@ class Opinion {
     std::pair<std::size_t, ShapeId> key;
   };
   [[nodiscard]] Look look_of(AgentId i, std::size_t leg) const {
-    const ShapeId shape = looks_[i].empty() ? ShapeId() : looks_[i][leg];
+    return look_as(i, looks_[i].empty() ? ShapeId() : looks_[i][leg]);
+  }
+  [[nodiscard]] Look look_as(AgentId i, ShapeId shape) const {
     return {&instance_.agent(i).body_as(shape), {instance_.class_of(i).index(), shape}};
   }
   [[nodiscard]] Look other_look(const Meeting& meeting, std::size_t leg) const {
@@ -208,12 +210,20 @@ class Opinion {
       const Leg& leg = a[l];
       while (first < b.size() && b[first].end < leg.begin) ++first;
       for (std::size_t k = first; k < b.size() && b[k].begin <= leg.end; ++k) {
-        // Who changes its shape has neither at the one moment between.
-        if (has_looks && std::max(leg.begin, b[k].begin) >= std::min(leg.end, b[k].end)) continue;
+        Look look = look_of(meeting.agent, l);
+        Leg here = leg;
+        if (has_looks && std::max(leg.begin, b[k].begin) >= std::min(leg.end, b[k].end)) {
+          // Who changes its shape has neither at the one moment between. What appears where an
+          // agent with shapes leaves meets the shape of the vertex.
+          if (meeting.other || l + 1 < a.size() || k > 0 || b[k].begin != leg.end) continue;
+          const VertexId last = plan_.paths[meeting.agent].back().vertex;
+          look = look_as(meeting.agent, instance_.roadmap().shape(last));
+          here = {leg.to, leg.to, leg.end - 1, leg.end, 0, 0, /*stands=*/true};
+        }
         ++opinion_.num_looks;
-        const EncounterCheck& check = between(look_of(meeting.agent, l), other_look(meeting, k));
+        const EncounterCheck& check = between(look, other_look(meeting, k));
         if (is_parked && is_first(a, l) && is_first(b, k) && part(check, leg, b[k])) continue;
-        const Encounter encounter = check.look(leg, b[k]);
+        const Encounter encounter = check.look(here, b[k]);
         if (encounter == Encounter::clear || (meets && encounter == Encounter::touch)) continue;
         meets = true;
         meeting.collide = encounter == Encounter::collision;

@@ -108,6 +108,33 @@ TEST(ShapesOfPlans, AreSeenAlikeByFcl) {
   EXPECT_GE(num_collisions, static_cast<int>(count) / 2);
 }
 
+/// Where the agent leaves on arrival, an obstacle that appears meets the shape of the vertex, which
+/// is smaller than the one of the move that ends.
+TEST(ShapesOfPlans, MeetWhatAppearsWhereTheyLeave) {
+  const auto ask = [](Length x) {
+    const std::vector<Point> points{{0, 0}, {0, 0}};
+    const std::vector<ShapeId> shapes{ShapeId(0), ShapeId(0)};
+    Agent agent{VertexId(0), VertexId(1), Disc{40}};
+    agent.shapes = {Disc{80}};
+    agent.leaves = true;
+    const MovingObstacle obstacle{Disc{10}, {{{x, 0}, 10, 20}}, true};
+    const Instance instance =
+        Instance::make(
+            Roadmap::make(points,
+                          {{VertexId(0), VertexId(1), Ticks(10), Groups::all(), ShapeId(1)}}, {},
+                          shapes)
+                .value(),
+            {agent}, kDefaultResolution, {}, {obstacle})
+            .value();
+    const Plan plan{{{{VertexId(0), 0, 0}, {VertexId(1), 10, 10}}}};
+    const bool is_valid = verify(instance, plan).valid();
+    EXPECT_EQ(find_contradiction(is_valid, ask_fcl(instance, plan)), "");
+    return is_valid;
+  };
+  EXPECT_FALSE(ask(30));
+  EXPECT_TRUE(ask(60));
+}
+
 TEST(ShapesInFiles, AreReadAsTheyWereWritten) {
   for (std::uint32_t seed = 0; seed < support::scaled(200); ++seed) {
     const Instance instance = random_instance(seed, with_shapes(seed));
