@@ -8,12 +8,11 @@ FOLDER gets the scenarios of empty-32-32, links to those of DATA, and the campai
 already is not run again.
 """
 import collections
-import csv
 import pathlib
-import subprocess
 import sys
 
-HERE = pathlib.Path(__file__).resolve().parent
+import prepared
+
 SCENARIOS = range(1, 6)
 RADII = {"0.3535533905932738": "√2/4", "0.1767766952966369": "√2/8", "0.08838834764831845": "√2/16"}
 
@@ -31,10 +30,8 @@ def double(source, target):
 
 def prepare(data, folder):
     """What the manifest's names are relative to."""
-    (folder / "doubled").mkdir(parents=True, exist_ok=True)
-    link = folder / "movingai"
-    if not link.exists():
-        link.symlink_to((data / "movingai").resolve())
+    link = prepared.link_data(data, folder)
+    (folder / "doubled").mkdir(exist_ok=True)
     for k in SCENARIOS:
         double(link / "scens" / f"empty-16-16-random-{k}.scen",
                folder / "doubled" / f"empty-32-32-random-{k}.scen")
@@ -74,12 +71,7 @@ def main():
         sys.exit(__doc__)
     program, data, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     prepare(data, folder)
-    manifest, campaign = str(HERE / "campaigns" / "records.yaml"), folder / "campaign"
-    common = [manifest, "--data", str(folder), "--folder", str(campaign)]
-    subprocess.run([program, "campaign", "run", *common, *sys.argv[4:]], check=True)
-    subprocess.run([program, "campaign", "merge", *common], check=True, stdout=subprocess.DEVNULL)
-    with open(campaign / "merged" / "table.csv", newline="", encoding="utf-8") as table:
-        show(list(csv.DictReader(table)))
+    show(prepared.run(program, "records", folder, sys.argv[4:]))
 
 
 if __name__ == "__main__":
