@@ -219,7 +219,7 @@ class Search final : private sat::YieldPoint {
   [[nodiscard]] sat::SearchEnd search_costs_of(Run& run, std::vector<Raise>* raises) {
     sat::Bounds& bounds = bounds_ ? static_cast<sat::Bounds&>(*bounds_) : incumbent_;
     const sat::CostSearchContext context{run.engine(), run.problem(),    bounds, limits_,
-                                         *this,        tuning_.settings, raises};
+                                         *this,        tuning_.settings, raises, options_.seed};
     const CostSearch by_default =
         options_.system == System::dpll ? CostSearch::core_guided : CostSearch::iterative;
     if (options_.objective == Objective::sum_of_costs &&

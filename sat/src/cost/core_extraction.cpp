@@ -11,7 +11,11 @@ namespace quadrille::sat {
 
 CoreExtraction::CoreExtraction(const CostSearchContext& context, const CoreGuidedOptions& options,
                                Statistics& statistics)
-    : context_(context), options_(options), statistics_(statistics), minimiser_(context) {}
+    : context_(context),
+      options_(options),
+      statistics_(statistics),
+      minimiser_(context),
+      order_(context.seed) {}
 
 CoreExtraction::~CoreExtraction() {
   if (context_.raises == nullptr) return;
@@ -35,12 +39,17 @@ Outcome CoreExtraction::advance(Slice slice) {
       if (!end_pass()) return Outcome::stopped;
       continue;
     }
-    std::vector<Lit> core = minimiser_.minimise(context_.engine.core(), conflicts_);
+    std::vector<Lit> core = minimiser_.minimise(ordered(context_.engine.core()), conflicts_);
     const Cost lift = minimiser_.raise(*relaxation_, core, max_lift(), conflicts_);
     if (core.empty()) return Outcome::exhausted;
     ++statistics_.cores;
     if (!relaxation_->relax(core, lift)) return Outcome::stopped;
   }
+}
+
+std::vector<Lit> CoreExtraction::ordered(std::vector<Lit> core) {
+  if (context_.seed != 0) order_.shuffle_front(core, core.size());
+  return core;
 }
 
 /// More than up to the incumbent is of no use, and without one there is an end as well.

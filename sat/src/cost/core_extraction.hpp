@@ -6,6 +6,7 @@
 
 #include "cost/core_minimiser.hpp"
 #include "cost/relaxation.hpp"
+#include "quadrille/core/random.hpp"
 #include "quadrille/sat/strategy.hpp"
 
 namespace quadrille::sat {
@@ -31,6 +32,8 @@ class CoreExtraction final : public Strategy {
 
  private:
   [[nodiscard]] bool in_passes() const noexcept { return pass_ < context_.settings.core_passes; }
+  /// In the order in which it is tried whether it is needed.
+  [[nodiscard]] std::vector<Lit> ordered(std::vector<Lit> core);
   /// Asks for a plan that violates nothing.
   [[nodiscard]] Verdict solve(Slice slice);
   [[nodiscard]] Cost max_lift() const;
@@ -41,6 +44,7 @@ class CoreExtraction final : public Strategy {
   const CoreGuidedOptions options_;
   Statistics& statistics_;
   CoreMinimiser minimiser_;
+  Random order_;
   std::unique_ptr<Relaxation> relaxation_, best_relaxation_;
   std::int64_t pass_ = 0, passes_without_gain_ = 0;
   std::int64_t conflicts_ = 0;  // of `solve`

@@ -83,6 +83,35 @@ TEST_P(LazySolver, AgreesWithTheMddModelAndPassesItsAudit) {
   EXPECT_GT(solved, 150);
 }
 
+// Without first plans, in which a seed may have its say too.
+TEST(LazySolverSeeds, ReachTheProof) {
+  quadrille::support::Random random(2);
+  int hard = 0, different = 0;
+  for (int round = 0; round < 30; ++round) {
+    SCOPED_TRACE(round);
+    const Instance instance = support::random_grid(random, {6, 8, 15, 12, 18});
+    TunedOptions options;
+    options.limits.conflicts = 4000;
+    options.first_plan = false;
+    const SolveOutcome usual = solve(instance, options).value();
+    if (usual.status != Status::optimal || usual.statistics.conflicts < 20) continue;
+    ++hard;
+    options.limits = {};
+    options.debug.audit = true;
+    options.debug.known_plan = usual.plan;
+    options.seed = 1 + static_cast<std::uint32_t>(round);
+    const SolveOutcome outcome = solve(instance, options).value();
+    ASSERT_EQ(outcome.status, Status::optimal) << outcome.explanation;
+    ASSERT_EQ(outcome.cost, usual.cost);
+    const SolveOutcome again = solve(instance, options).value();
+    EXPECT_EQ(again.statistics.conflicts, outcome.statistics.conflicts);
+    EXPECT_EQ(*again.plan, *outcome.plan);
+    if (outcome.statistics.conflicts != usual.statistics.conflicts) ++different;
+  }
+  EXPECT_GE(hard, 10);
+  EXPECT_GE(2 * different, hard);
+}
+
 // Larger and denser, so that the first plan is mostly not the best one: the search from above has
 // the first word in each hard core.
 TEST(LazySolverFromAbove, AgreesWithCoresAlone) {

@@ -39,6 +39,8 @@ struct CostSearchContext {
   /// Unless null, becomes the list of what raised the lower bound, whatever ends the search; no
   /// bystanders are named. Other bounds, such as those from above, are not in it.
   std::vector<Raise>* raises = nullptr;
+  /// Of the order in which what a core does not need is dropped. 0: the order of the assumptions.
+  std::uint32_t seed = 0;
 };
 
 /// How a cost search ended.
