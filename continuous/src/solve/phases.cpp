@@ -119,19 +119,11 @@ bool Phases::are_kept_off(const Scene& scene) {
   return false;
 }
 
-Cost Phases::bound_of_all(const Scene& scene, const GroupBound& group) const {
-  const bool is_sum = options_.objective == Objective::sum_of_costs;
-  Cost bound = group.cost;
-  for (const AgentId i : instance_.agent_ids()) {
-    if (std::binary_search(group.agents.begin(), group.agents.end(), i)) continue;
-    bound = is_sum ? bound + scene.free_cost(i) : std::max(bound, scene.free_cost(i));
-  }
-  return bound;
-}
-
 bool Phases::take_warm_start(Scene& scene) {
-  for (const GroupBound& group : warm_.bounds)
-    if (learn(scene, unless_proof(bound_of_all(scene, group)), std::nullopt, "")) return true;
+  IdVector<AgentId, Cost> free_costs(instance_.num_agents());
+  for (const AgentId i : instance_.agent_ids()) free_costs[i] = scene.free_cost(i);
+  const Cost bound = solve::bound_of_all(warm_.bounds, free_costs, options_.objective);
+  if (!warm_.bounds.empty() && learn(scene, unless_proof(bound), std::nullopt, "")) return true;
   for (const auto& draft : warm_.drafts) {
     desk_.pulse.enter(Phase::first_plan);
     if (learn(scene, known_.floor, complete_plan(scene, draft), "mended")) return true;

@@ -57,8 +57,6 @@ class Phases {
   [[nodiscard]] bool learn(const Scene& scene, Cost bound, std::optional<Plan> plan,
                            const char* source);
 
-  /// What a group costs, and the others when each is alone.
-  [[nodiscard]] Cost bound_of_all(const Scene& scene, const GroupBound& group) const;
   /// What of a bound counts that no clauses prove: a certificate would say nothing of it.
   [[nodiscard]] Cost unless_proof(Cost bound) const {
     return options_.proof ? known_.floor : bound;

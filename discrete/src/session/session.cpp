@@ -41,6 +41,8 @@ bool may_explain(const Instance& instance, const SolveOptions& options) {
 struct Session::Parts {
   [[nodiscard]] std::optional<Error> refuse(const Agent& agent) const;
   [[nodiscard]] bool has(VertexId vertex, std::optional<VertexId> to) const;
+  /// What is known of the cost; 0: nothing.
+  [[nodiscard]] Cost bound(const Instance& instance, Objective objective) const;
 
   std::shared_ptr<const Graph> graph;
   Rules rules;
@@ -64,6 +66,18 @@ bool Session::Parts::has(VertexId vertex, std::optional<VertexId> to) const {
   const auto exists = [&](VertexId v) { return v.index() < graph->num_vertices(); };
   if (!exists(vertex) || (to && !exists(*to))) return false;
   return !to || graph->adjacent(vertex, *to) || graph->adjacent(*to, vertex);
+}
+
+Cost Session::Parts::bound(const Instance& instance, Objective objective) const {
+  auto groups = answers.bounds(now, objective);
+  if (groups.empty()) return 0;
+  IdVector<AgentId, Cost> free_costs(instance.num_agents(), 0);
+  for (const AgentId i : instance.agent_ids()) {
+    const Agent& agent = instance.agents()[i];
+    const auto way = distances_to_nearest(instance.graph(), agent.goals)[agent.start];
+    if (way != kUnreachable) free_costs[i] = way;
+  }
+  return solve::bound_of_all(std::move(groups), free_costs, objective);
 }
 
 Session::Session(std::shared_ptr<const Graph> graph, Timestep now, Rules rules)
@@ -182,15 +196,7 @@ Result<SolveOutcome> Session::solve(const SolveOptions& options) {
   asked.explain = options.explain || may_explain(*instance, options);
   bool is_kept = false;  // the bound to begin with
   if (!options.proof) {
-    const auto free_cost = [&](AgentId i) -> Cost {
-      const Agent& agent = instance->agents()[i];
-      const auto way = distances_to_nearest(instance->graph(), agent.goals)[agent.start];
-      return way == kUnreachable ? 0 : way;
-    };
-    const auto groups = parts_->answers.bounds(parts_->now, options.objective);
-    const Cost bound = groups.empty() ? 0
-                                      : solve::bound_of_all(groups, instance->num_agents(),
-                                                            options.objective, free_cost);
+    const Cost bound = parts_->bound(*instance, options.objective);
     is_kept = bound > 0 && bound >= options.known_lower_bound.value_or(0);
     if (is_kept) asked.known_lower_bound = bound;
   }

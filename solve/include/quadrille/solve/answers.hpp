@@ -29,26 +29,16 @@ struct GroupBound {
   Cost cost = 0;
 };
 
-/// What all cost at least by such bounds, of groups that have nobody in common as far as they are
-/// taken, the first ones first, and by what the others cost alone. `free_cost(agent)`.
-template <class FreeCost>
-[[nodiscard]] Cost bound_of_all(const std::vector<GroupBound>& groups, std::size_t num_agents,
-                                Objective objective, const FreeCost& free_cost) {
-  IdVector<AgentId, bool> is_in(num_agents, false);
-  Cost bound = 0;
-  const auto add = [&](Cost cost) {
-    bound = objective == Objective::sum_of_costs ? bound + cost : std::max(bound, cost);
-  };
-  for (const GroupBound& group : groups) {
-    const auto& agents = group.agents;
-    if (std::any_of(agents.begin(), agents.end(), [&](AgentId i) { return is_in[i]; })) continue;
-    for (const AgentId i : agents) is_in[i] = true;
-    add(group.cost);
-  }
-  for (const AgentId i : IdRange<AgentId>(num_agents))
-    if (!is_in[i] || objective == Objective::makespan) add(free_cost(i));
-  return bound;
-}
+/// What all cost at least by such bounds and by what each agent costs alone, `free_costs`. Bounds
+/// of groups that have nobody in common are added up (makespan: the largest counts): first those
+/// that exceed the free costs of their agents most.
+[[nodiscard]] Cost bound_of_all(std::vector<GroupBound> groups,
+                                const IdVector<AgentId, Cost>& free_costs, Objective objective);
+
+/// What an attribution says of those of its agents that have the same task `elapsed` later, by
+/// agent then: a bound for each group that its raises connect; for the makespan the last one.
+void add_bounds(const Attribution& proved, const IdVector<AgentId, std::optional<AgentId>>& same,
+                Cost elapsed, std::vector<GroupBound>& bounds);
 
 /// A session at one time. `Domain`: see AnswerCache.
 template <class Domain>
@@ -122,7 +112,7 @@ class AnswerCache {
   void advance(const History& history);
   void clear() { answers_.clear(); }
 
-  /// Bounds of groups of agents of `now`, at most one of each answer.
+  /// Bounds of groups of agents of `now`.
   [[nodiscard]] std::vector<GroupBound> bounds(const Situation& now, Objective objective) const;
   /// Paths of answers, of which `instance`, that of `now`, allows all, most first; at most two.
   [[nodiscard]] std::vector<Paths> drafts(const Situation& now, const Instance& instance) const;
@@ -140,6 +130,7 @@ class AnswerCache {
     Time elapsed{};
     std::set<MemberId> lost = {};
     /// Have arrived since then: what they cost has come to an end, which bounds know nothing of.
+    /// Those that leave them out may be better ones.
     std::set<MemberId> arrived = {};
   };
   /// That all agents together cost at least the bound.
@@ -152,8 +143,11 @@ class AnswerCache {
   /// Whether the member has the task of then, or what is left of it.
   [[nodiscard]] static bool is_same(const Answer& answer, MemberId member,
                                     const typename Domain::Task& now);
-  [[nodiscard]] static std::optional<GroupBound> bound_of(const Answer& answer,
-                                                          const Situation& now);
+  /// Who of an answer's agents has the same task now, by agent then.
+  using Same = IdVector<AgentId, std::optional<AgentId>>;
+  [[nodiscard]] static Same same_of(const Answer& answer, const Situation& now);
+  static void add_bounds_of(const Answer& answer, const Situation& now,
+                            std::vector<GroupBound>& bounds);
   [[nodiscard]] static Paths paths_of(const Answer& answer, const Situation& now,
                                       const Instance& instance);
 
@@ -231,60 +225,38 @@ std::vector<GroupBound> AnswerCache<Domain>::bounds(const Situation& now,
                                                     Objective objective) const {
   std::vector<GroupBound> bounds;
   for (const Answer& answer : answers_)
-    if (answer.objective == objective && answer.proved)
-      if (auto bound = bound_of(answer, now)) bounds.push_back(std::move(*bound));
+    if (answer.objective == objective && answer.proved) add_bounds_of(answer, now, bounds);
   return bounds;
 }
 
 template <class Domain>
-std::optional<GroupBound> AnswerCache<Domain>::bound_of(const Answer& answer,
-                                                        const Situation& now) {
-  const auto& closed = answer.situation.closed;
-  // With an edge that was closed then there may be cheaper plans.
-  if (!std::includes(now.closed.begin(), now.closed.end(), closed.begin(), closed.end()))
-    return std::nullopt;
-  /// Those who have the same task now, by agent then.
-  std::vector<std::optional<AgentId>> same(answer.members.size());
+typename AnswerCache<Domain>::Same AnswerCache<Domain>::same_of(const Answer& answer,
+                                                                const Situation& now) {
+  Same same(answer.members.size());
   std::size_t index = 0;
   for (const auto& [member, task] : now.tasks) {
+    const AgentId i(index++);
+    if (!is_same(answer, member, task)) continue;
     const auto then = answer.situation.tasks.find(member);
-    if (is_same(answer, member, task) && !answer.arrived.contains(member))
-      same[static_cast<std::size_t>(std::distance(answer.situation.tasks.begin(), then))] =
-          AgentId(index);
-    ++index;
+    same[AgentId(static_cast<std::size_t>(std::distance(answer.situation.tasks.begin(), then)))] =
+        i;
   }
-  const auto are_same = [&](const std::vector<AgentId>& agents) {
-    return std::all_of(agents.begin(), agents.end(),
-                       [&](AgentId i) { return same[i.index()].has_value(); });
-  };
-  const Attribution& proved = *answer.proved;
-  GroupBound bound;
-  std::set<AgentId> group;  // then
-  Cost raised = 0;
-  for (const Raise& raise : proved.raises) {
-    raised += raise.amount;
-    if (!are_same(raise.agents) || !are_same(raise.bystanders)) continue;
-    if (proved.objective == Objective::makespan) {
-      group.clear();
-      bound.cost = proved.free_bound + raised;
-    } else {
-      bound.cost += raise.amount;
-    }
-    group.insert(raise.agents.begin(), raise.agents.end());
-    group.insert(raise.bystanders.begin(), raise.bystanders.end());
-  }
-  if (group.empty()) return std::nullopt;
-  for (const AgentId then : group) {
-    if (proved.objective == Objective::sum_of_costs) bound.cost += proved.agents[then].free_cost;
-    bound.agents.push_back(*same[then.index()]);
-  }
-  // Everybody has spent so much of it, at most.
-  const auto times = proved.objective == Objective::makespan
-                         ? std::int64_t{1}
-                         : static_cast<std::int64_t>(bound.agents.size());
-  bound.cost -= times * Domain::as_cost(answer.elapsed);
-  std::sort(bound.agents.begin(), bound.agents.end());
-  return bound;
+  return same;
+}
+
+template <class Domain>
+void AnswerCache<Domain>::add_bounds_of(const Answer& answer, const Situation& now,
+                                        std::vector<GroupBound>& bounds) {
+  const auto& closed = answer.situation.closed;
+  // With an edge that was closed then there may be cheaper plans.
+  if (!std::includes(now.closed.begin(), now.closed.end(), closed.begin(), closed.end())) return;
+  const Same same = same_of(answer, now);
+  Same on_their_way = same;
+  for (std::size_t i = 0; i < answer.members.size(); ++i)
+    if (answer.arrived.contains(answer.members[i])) on_their_way[AgentId(i)].reset();
+  const std::int64_t elapsed = Domain::as_cost(answer.elapsed);
+  add_bounds(*answer.proved, same, elapsed, bounds);
+  if (on_their_way != same) add_bounds(*answer.proved, on_their_way, elapsed, bounds);
 }
 
 template <class Domain>
