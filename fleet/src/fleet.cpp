@@ -64,6 +64,11 @@ Robot Robot::leaves(bool does) const {
   return *this;
 }
 
+Robot Robot::becomes(RobotSpec spec) const {
+  fleet_->robots_[id_].spec = std::move(spec);
+  return *this;
+}
+
 Robot Fleet::robot(RobotSpec spec) {
   Entry entry;
   entry.spec = std::move(spec);
@@ -79,6 +84,37 @@ Robot Fleet::operator[](AgentId id) {
 void Fleet::set_roadmap(Roadmap roadmap) {
   QUADRILLE_REQUIRE(roadmap.num_vertices() == roadmap_.num_vertices(), "the same vertices");
   roadmap_ = std::move(roadmap);
+  closed_.clear();
+}
+
+std::vector<continuous::EdgeId> Fleet::edges(VertexId from, VertexId to) const {
+  std::vector<continuous::EdgeId> edges;
+  if (from.index() >= roadmap_.num_vertices()) return edges;
+  for (const continuous::EdgeId e : roadmap_.in_units()->out_edges(from))
+    if (roadmap_.in_units()->edge(e).to == to) edges.push_back(e);
+  return edges;
+}
+
+std::string Fleet::lane_name(VertexId from, VertexId to) const {
+  const auto name = [&](VertexId v) {
+    return v.index() < roadmap_.num_vertices() ? roadmap_.name(v)
+                                               : "vertex " + std::to_string(v.index());
+  };
+  return "lane from " + name(from) + " to " + name(to);
+}
+
+std::optional<Error> Fleet::close(VertexId from, VertexId to) {
+  if (edges(from, to).empty()) return invalid("there is no " + lane_name(from, to));
+  if (!closed_.emplace(from, to).second)
+    return invalid("the " + lane_name(from, to) + " is closed already");
+  return std::nullopt;
+}
+
+std::optional<Error> Fleet::open(VertexId from, VertexId to) {
+  if (edges(from, to).empty()) return invalid("there is no " + lane_name(from, to));
+  if (closed_.erase({from, to}) == 0)
+    return invalid("the " + lane_name(from, to) + " is not closed");
+  return std::nullopt;
 }
 
 std::string Fleet::name(AgentId id) const {
@@ -226,6 +262,14 @@ Result<Fleet::Parts> Fleet::parts() const {
   if (!agents) return agents.error();
   auto roads = put_under_way(*agents, parts.now);
   if (!roads) return roads.error();
+  if (!closed_.empty()) {
+    std::vector<continuous::EdgeId> closed;
+    for (const auto& [from, to] : closed_) {
+      const auto between = edges(from, to);
+      closed.insert(closed.end(), between.begin(), between.end());
+    }
+    roads = std::make_shared<const continuous::Roadmap>((*roads)->with_closed(closed));
+  }
   auto obstacles = obstacles_in_units();
   if (!obstacles) return obstacles.error();
   parts.agents = std::move(agents).value();

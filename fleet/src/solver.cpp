@@ -8,6 +8,7 @@
 #include "numbers.hpp"
 #include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/core/usage.hpp"
+#include "solving.hpp"
 
 namespace quadrille::fleet {
 namespace {
@@ -76,10 +77,8 @@ void look_at_durations(const Fleet& fleet, const continuous::Instance& instance,
 /// In the words of the fleet; the layer below would have agents and ticks.
 std::optional<Error> refuse_initial_plan(const Fleet& fleet, const SolveOptions& options) {
   if (!options.initial_plan) return std::nullopt;
-  const continuous::Resolution given = options.initial_plan->instance().resolution();
-  const continuous::Resolution own = fleet.roadmap().unit_sizes();
-  if (given.length != own.length || given.time != own.time)
-    return Error{ErrorCode::invalid_plan, "the initial plan has another resolution", {}};
+  if (auto error = refuse_other_units(fleet, *options.initial_plan, "the initial plan"))
+    return error;
   const auto report = verify(fleet, options.initial_plan->in_units());
   if (!report) return report.error();
   if (report->valid()) return std::nullopt;
@@ -90,7 +89,22 @@ std::optional<Error> refuse_initial_plan(const Fleet& fleet, const SolveOptions&
 
 }  // namespace
 
+std::optional<Error> refuse_other_units(const Fleet& fleet, const TimedPlan& plan,
+                                        const std::string& what) {
+  const continuous::Resolution given = plan.instance().resolution();
+  const continuous::Resolution own = fleet.roadmap().unit_sizes();
+  if (given.length == own.length && given.time == own.time) return std::nullopt;
+  return Error{ErrorCode::invalid_plan, what + " has another resolution", {}};
+}
+
 Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
+  return solve_with(fleet, options, [](const auto& instance, const auto& asked) {
+    return continuous::solve(instance, asked);
+  });
+}
+
+Result<SolveOutcome> solve_with(const Fleet& fleet, const SolveOptions& options,
+                                const Search& search) {
   SolveOutcome outcome;
   const auto instance = fleet.instance();
   if (!instance && instance.error().code == ErrorCode::no_plan) {
@@ -103,7 +117,7 @@ Result<SolveOutcome> solve(const Fleet& fleet, const SolveOptions& options) {
   const continuous::Resolution resolution = instance->resolution();
   look_at_durations(fleet, *instance, outcome);
   const continuous::SolveOptions asked = in_units(fleet, resolution, options);
-  auto solved = continuous::solve(*instance, asked);
+  auto solved = search(*instance, asked);
   if (!solved) return solved.error();
 
   outcome.status = solved->status;

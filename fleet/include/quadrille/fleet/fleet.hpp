@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -128,6 +129,8 @@ class Robot {
   Robot deadline(std::optional<Seconds> time) const;  // NOLINT: part of a chain
   /// It vanishes when it arrives at its goal, and does not stay there.
   Robot leaves(bool does = true) const;  // NOLINT: part of a chain
+  /// Another body or speed, such as that of a robot with its load.
+  Robot becomes(RobotSpec spec) const;  // NOLINT: part of a chain
 
   [[nodiscard]] AgentId id() const noexcept { return id_; }
   operator AgentId() const noexcept { return id_; }  // NOLINT: an id is all that others need
@@ -162,8 +165,20 @@ class Fleet {
   [[nodiscard]] Robot operator[](AgentId id);
 
   [[nodiscard]] const Roadmap& roadmap() const noexcept { return roadmap_; }
-  /// Roads that were closed or opened. Requires the vertices to be the same in number.
+  /// Other roads, all of them open. Requires the vertices to be the same in number.
   void set_roadmap(Roadmap roadmap);
+  /// Nobody enters the lane from one vertex to another one, until it is opened; who is under way
+  /// there finishes its move. Errors: invalid_instance if there is no such lane, or it is closed
+  /// (open) already.
+  [[nodiscard]] std::optional<Error> close(VertexId from, VertexId to);
+  [[nodiscard]] std::optional<Error> open(VertexId from, VertexId to);
+  [[nodiscard]] bool is_closed(VertexId from, VertexId to) const {
+    return closed_.contains({from, to});
+  }
+  /// From where to where.
+  [[nodiscard]] const std::set<std::pair<VertexId, VertexId>>& closed_lanes() const noexcept {
+    return closed_;
+  }
 
   [[nodiscard]] std::size_t num_robots() const noexcept { return robots_.size(); }
   [[nodiscard]] IdRange<AgentId> robot_ids() const { return IdRange<AgentId>(num_robots()); }
@@ -209,6 +224,7 @@ class Fleet {
 
  private:
   friend class Robot;
+  friend class Session;
   struct Entry {
     RobotSpec spec;
     std::optional<VertexId> start = {};
@@ -232,6 +248,9 @@ class Fleet {
   [[nodiscard]] std::optional<Error> add_shapes(continuous::Agent& agent) const;
   [[nodiscard]] Result<continuous::LanePlace> lane_place(AgentId id, const continuous::Agent& agent,
                                                          continuous::Ticks now) const;
+  /// Those between the two vertices.
+  [[nodiscard]] std::vector<continuous::EdgeId> edges(VertexId from, VertexId to) const;
+  [[nodiscard]] std::string lane_name(VertexId from, VertexId to) const;
   [[nodiscard]] Result<Roads> put_under_way(std::vector<continuous::Agent>& agents,
                                             continuous::Ticks now) const;
   [[nodiscard]] Result<std::vector<continuous::MovingObstacle>> obstacles_in_units() const;
@@ -239,6 +258,7 @@ class Fleet {
   [[nodiscard]] continuous::Words words() const;
 
   Roadmap roadmap_;
+  std::set<std::pair<VertexId, VertexId>> closed_;
   IdVector<AgentId, Entry> robots_;
   std::vector<MovingObstacle> obstacles_;
   Seconds begin_ = {};
