@@ -181,8 +181,18 @@ ExitCode dispatch_on_roadmap(const CLI::App& app, const DispatchArguments& argum
   return simulate(arguments, *input, work_on_roadmap(*input), run_on_roadmap);
 }
 
+Result<input::GridInput> load_fleet(const input::InputOptions& options) {
+  auto grid = load_grid_input(options);
+  if (grid && grid->instance.now() != 0)
+    return Error{ErrorCode::invalid_instance,
+                 fmt::format("robots that are sent about begin at timestep 0, and not at {}",
+                             grid->instance.now()),
+                 {grid->source, 0}};
+  return grid;
+}
+
 ExitCode dispatch_on_grid(const CLI::App& app, const DispatchArguments& arguments) {
-  const auto input = load_grid_input(arguments.input);
+  const auto input = load_fleet(arguments.input);
   if (!input) {
     report_error(input.error());
     return ExitCode::bad_input;
@@ -194,7 +204,7 @@ ExitCode dispatch_on_grid(const CLI::App& app, const DispatchArguments& argument
 }
 
 Result<input::RoadmapInput> grid_as_roadmap(const input::InputOptions& options) {
-  const auto grid = load_grid_input(options);
+  const auto grid = load_fleet(options);
   if (!grid) return grid.error();
   return input::as_roadmap(*grid);
 }

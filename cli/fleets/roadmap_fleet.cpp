@@ -111,9 +111,7 @@ Result<Dispatcher> dispatcher_for(const DispatchArguments& arguments, const Inst
   if (arguments.reach) options.reach = whole_ticks(*arguments.reach, tick);
   if (arguments.patience) options.patience = whole_ticks(*arguments.patience, tick);
   options.improves = !arguments.does_not_improve;
-  return Dispatcher::make(instance.shared_roadmap(),
-                          {instance.agents().begin(), instance.agents().end()},
-                          instance.resolution(), options);
+  return Dispatcher::make(instance, options);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "quadrille/continuous/verify.hpp"
 #include "right_of_way.hpp"
 #include "robot.hpp"
+#include "unheeded.hpp"
 #include "work.hpp"
 
 namespace quadrille::dispatch {
@@ -340,24 +341,16 @@ Result<Dispatcher> Dispatcher::make(std::shared_ptr<const Roadmap> roadmap,
                                     continuous::Resolution resolution, const Options& options) {
   for (continuous::Agent& robot : robots) {
     robot.goals = robot.start;
-    robot.release = 0;
     robot.deadline.reset();
-    robot.leaves = false;
-    robot.under_way = false;
-    robot.overlaps_at_start = false;
   }
   const auto instance = Instance::make(std::move(roadmap), std::move(robots), resolution);
   if (!instance) return instance.error();
-  if (instance->roadmap().num_vertices() < 2)
-    return invalid("there has to be somewhere to go: two vertices");
-  if (instance->has_shapes())
-    return invalid(
-        "bodies that change on the way are not supported here: take the discs around them");
-  if (!instance->roadmap().no_waiting().empty())
-    return invalid("places where nobody may wait are not supported here: who is late waits");
-  if (!instance->roadmap().lane_places().empty())
-    return invalid("robots begin at vertices, and not in the middle of moves");
-  return Dispatcher(std::make_unique<Parts>(*instance, options));
+  return make(*instance, options);
+}
+
+Result<Dispatcher> Dispatcher::make(const Instance& instance, const Options& options) {
+  if (auto error = refuse_unheeded(instance)) return *std::move(error);
+  return Dispatcher(std::make_unique<Parts>(instance, options));
 }
 
 Dispatcher::Dispatcher(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}

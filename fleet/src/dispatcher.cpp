@@ -22,13 +22,17 @@ Effort effort_of(Seconds effort) {
 }  // namespace
 
 Result<Dispatcher> Dispatcher::make(const Fleet& fleet, DispatchOptions options) {
-  if (!fleet.obstacles().empty()) return invalid("moving obstacles wait for nobody");
   Fleet standing = fleet;
+  for (const auto& [from, to] : fleet.closed_lanes())
+    if (auto error = standing.open(from, to)) return *std::move(error);
   for (const AgentId robot : fleet.robot_ids()) {
-    if (fleet.under_way(robot))
-      return invalid("'" + fleet.name(robot) + "' begins in the middle of a move");
+    const std::string name = "'" + fleet.name(robot) + "' ";
+    if (fleet.under_way(robot)) return invalid(name + "begins in the middle of a move");
+    if (fleet.release(robot) > fleet.begin())
+      return invalid(name + "is released later: assign its task then");
+    if (fleet.leaves(robot)) return invalid(name + "leaves at its goal: robots stay in the fleet");
     if (const auto start = fleet.start(robot)) standing[robot].to(*start);
-    standing[robot].release(fleet.begin()).deadline({}).leaves(false);
+    standing[robot].deadline({});
   }
   const auto instance = standing.instance();
   if (!instance) return instance.error();
@@ -41,15 +45,17 @@ Result<Dispatcher> Dispatcher::make(const Fleet& fleet, DispatchOptions options)
   made.reach = ticks(options.reach);
   made.patience = ticks(options.patience);
   made.improves = options.improves;
-  const auto& agents = instance->agents();
-  auto dispatcher = dispatch::Dispatcher::make(
-      instance->shared_roadmap(), std::vector<continuous::Agent>(agents.begin(), agents.end()),
-      instance->resolution(), made);
+  auto dispatcher = dispatch::Dispatcher::make(*instance, made);
   if (!dispatcher) return dispatcher.error();
+  Dispatcher live(fleet.roadmap(), std::move(dispatcher).value());
   for (const AgentId robot : fleet.robot_ids())
     if (const auto& goals = fleet.goals(robot))
-      if (auto error = dispatcher->assign(robot, {*goals})) return *std::move(error);
-  return Dispatcher(fleet.roadmap(), std::move(dispatcher).value());
+      if (auto error = live.assign(robot, {goals->vertices().begin(), goals->vertices().end()},
+                                   {.deadline = fleet.deadline(robot)}))
+        return *std::move(error);
+  for (const auto& [from, to] : fleet.closed_lanes())
+    if (auto error = live.close(from, to)) return *std::move(error);
+  return live;
 }
 
 Seconds Dispatcher::seconds(continuous::Ticks ticks) const {

@@ -81,6 +81,26 @@ def test_which_dispatcher(folder):
     assert done.returncode == 64 and "needs a grid or graph" in done.stderr, done.stderr
 
 
+def test_what_is_not_heeded_is_refused(folder):
+    file = Path(town(folder)[1])
+    plain = json.loads(file.read_text())
+    later = dict(plain["agents"][0], release=3)
+    for more, why in (
+        (dict(whole_moves=True), "plans for whole moves are not supported here"),
+        (dict(now=5), "a live fleet begins at time 0"),
+        (dict(agents=[later, *plain["agents"][1:]]), "is released later, which is not supported here"),
+    ):
+        file.write_text(json.dumps({**plain, **more}))
+        for serves in ([], ["--serve"]):
+            done = run("dispatch", "--instance", file, *serves, given="")
+            assert done.returncode == 65 and why in done.stderr, (more, done.stderr)
+    graph = {"quadrille": "instance", "version": 1, "graph": {"vertices": 2, "edges": [[0, 1]]}, "now": 5,
+             "agents": [{"start": 0, "goal": 1}]}
+    file.write_text(json.dumps(graph))
+    done = run("dispatch", "--instance", file)
+    assert done.returncode == 65 and "begin at timestep 0, and not at 5" in done.stderr, done.stderr
+
+
 def test_serving_a_grid(folder):
     server, draw = Server(*room(folder), "--effort", 3), random.Random(3)
     cells = [[x, y] for y, row in enumerate(ROOM.split("\n")[4:]) for x, letter in enumerate(row) if letter == "."]
@@ -302,7 +322,7 @@ def test_serving(folder):
 
 def main():
     for test in (test_grids, test_which_dispatcher, test_tasks_of_the_league, test_pages, test_serving,
-                 test_serving_a_grid):
+                 test_what_is_not_heeded_is_refused, test_serving_a_grid):
         with tempfile.TemporaryDirectory() as folder:
             test(Path(folder))
     print("all is well")

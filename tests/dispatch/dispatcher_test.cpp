@@ -300,6 +300,64 @@ TEST(Dispatcher, RefusesWhatMakesNoSense) {
             "the clock of robot 0 goes back from 10 to 9");
 }
 
+// What an instance asks for is heeded, or refused.
+TEST(Dispatcher, RefusesWhatIsNotHeeded) {
+  const auto roadmap = grid(3, 2, 0, 1);
+  std::vector<Agent> robots = robots_on(*roadmap, 2, 1);
+  const auto message = [](const continuous::Instance& instance) {
+    const auto made = Dispatcher::make(instance);
+    return made ? "" : made.error().message;
+  };
+  const auto with = [&](auto change) {
+    std::vector<Agent> changed = robots;
+    change(changed[1]);
+    return continuous::Instance::make(roadmap, changed).value();
+  };
+  const continuous::Instance plain = with([](Agent&) {});
+  EXPECT_EQ(message(plain), "");
+  EXPECT_EQ(message(plain.with_whole_moves()),
+            "plans for whole moves are not supported here: robots wait within lanes, where their "
+            "limits are");
+  EXPECT_EQ(message(continuous::Instance::make(roadmap, robots, {}, {}, {}, 5).value()),
+            "a live fleet begins at time 0");
+  const continuous::MovingObstacle passer{
+      continuous::Disc{10}, {{{500, 500}, 0, 0}, {{600, 500}, 100, 100}}, true};
+  EXPECT_EQ(message(continuous::Instance::make(roadmap, robots, {}, {}, {passer}).value()),
+            "moving obstacles are not supported here: they wait for nobody");
+  EXPECT_EQ(message(with([](Agent& robot) { robot.release = 7; })),
+            "robot 1 is released later, which is not supported here: assign its task then");
+  EXPECT_EQ(message(with([](Agent& robot) { robot.leaves = true; })),
+            "robot 1 leaves at its goal, which is not supported here: robots stay in the fleet");
+  // Goals and deadlines are for tasks.
+  EXPECT_EQ(message(with([](Agent& robot) { robot.deadline = Ticks(100'000); })), "");
+
+  continuous::RoadmapParts parts(*roadmap);
+  std::vector<Agent> moving = robots;
+  const VertexId from = moving[1].start;
+  const continuous::Edge& lane = roadmap->edge(roadmap->out_edges(from).front());
+  moving[1].start = continuous::add_lane_place(parts, from, lane.to, 100, 30);
+  moving[1].goals = lane.to;
+  moving[0].goals = from;
+  moving[1].under_way = true;
+  EXPECT_EQ(message(continuous::Instance::make(std::move(parts).make().value(), moving).value()),
+            "robot 1 begins in the middle of a move, which is not supported here: robots begin at "
+            "vertices");
+
+  const auto close = std::make_shared<const continuous::Roadmap>(
+      continuous::Roadmap::make({{0, 0}, {500, 0}, {9000, 0}},
+                                {{VertexId(0), VertexId(2), {}}, {VertexId(1), VertexId(2), {}}})
+          .value());
+  std::vector<Agent> parked = robots_on(*close, 2, 1);
+  for (std::size_t i = 0; i < 2; ++i) {
+    parked[i].start = VertexId(i);
+    parked[i].goals = VertexId(2 * i);
+    parked[i].overlaps_at_start = true;
+  }
+  parked[0].goals = VertexId(0);
+  EXPECT_EQ(message(continuous::Instance::make(close, parked).value()),
+            "robot 0 and robot 1 overlap at their starts, which is not supported here");
+}
+
 // A long lane, which is begun, and another one that crosses it: by the plan the second robot is
 // there first, but it is late, and the first one has been allowed to go further than that leaves.
 TEST(Dispatcher, NewOrdersLeaveWhatWasAllowed) {

@@ -33,7 +33,8 @@ State state_of(const Dispatcher& dispatcher) {
 }
 
 TEST(NewOrigin, WhoeverIsLateThereIsAPlan) {
-  const std::uint32_t num_fleets = 20;
+  constexpr std::uint32_t kSteps = 500;
+  const std::size_t num_fleets = support::scaled(20);
   std::size_t num_plans = 0, num_in_lanes = 0, num_waits = 0, num_solved = 0;
   for (std::uint32_t seed = 0; seed < num_fleets; ++seed) {
     const auto roadmap = grid(5, 4, 180, seed);
@@ -43,7 +44,7 @@ TEST(NewOrigin, WhoeverIsLateThereIsAPlan) {
     options.patience = 1'000'000;  // Only here plans begin anew.
     SimulatedFleet fleet(roadmap, robots, options, {4, 60, {}}, seed);
     support::Random random(seed);
-    for (std::uint32_t step = 0; step < support::scaled(500); ++step) {
+    for (std::uint32_t step = 0; step < kSteps; ++step) {
       for (std::size_t i = 0; i < robots.size(); ++i)
         if (fleet.dispatcher().num_tasks(AgentId(i)) == 0)
           static_cast<void>(fleet.dispatcher().assign(AgentId(i), {VertexId(random.below(20))}));
@@ -77,10 +78,11 @@ TEST(NewOrigin, WhoeverIsLateThereIsAPlan) {
       }
     }
   }
-  EXPECT_EQ(num_plans, 2 * num_fleets * support::scaled(500));
+  RecordProperty("plans", static_cast<int>(num_plans));
+  EXPECT_EQ(num_plans, 2 * num_fleets * kSteps);
   EXPECT_GT(num_in_lanes, num_plans);
   EXPECT_GT(num_waits, num_plans / 2);
-  EXPECT_GT(num_solved, 2 * num_fleets * support::scaled(500) / 50 / 2);
+  EXPECT_GT(num_solved, 2 * num_fleets * kSteps / 50 / 2);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ import random
 
 import numpy as np
 import pytest
+from conftest import scaled
 
 import quadrille as q
 
@@ -91,6 +92,91 @@ def test_what_makes_no_sense_is_refused():
         q.Dispatcher(q.Fleet(q.Grid(np.ones((2, 2), dtype=bool)), [(0, 0)], [(1, 0)]))
     with pytest.raises(q.InputError, match="in the middle of a move"):
         q.Dispatcher(q.Fleet(crossings(), [q.Underway(0, 1, 0.5)], [1], radius=0.6))
+
+
+def test_what_is_not_heeded_is_refused():
+    fleet = dict(radius=0.6, names=["amr", "agv"])
+    for more, why in (
+        (dict(whole_moves=True), "plans for whole moves are not supported here"),
+        (dict(now=5), "a live fleet begins at time 0"),
+        (dict(release=[0, 4]), "'agv' is released later"),
+        (dict(leaves=[True, False]), "'amr' leaves at its goal"),
+        (dict(obstacles=[q.Obstacle([(90, 90, 0, 1)], radius=1)]), "they wait for nobody"),
+    ):
+        with pytest.raises(q.InputError, match=why):
+            q.Dispatcher(q.Fleet(crossings(), [0, 3], [1, 2], **fleet, **more))
+    graph = q.Graph(3, [(0, 1), (1, 2)])
+    for more, why in ((dict(now=5), "begin at timestep 0"), (dict(whole_moves=True), "know no rules")):
+        with pytest.raises(q.InputError, match=why):
+            q.GridDispatcher(q.Fleet(graph, [0], [2], **more))
+
+
+@pytest.mark.parametrize("urgent", [False, True])
+def test_deadlines_of_first_tasks_are_heeded(urgent):
+    goals = [[1, 4], [1, 4]]  # overlapping goals are no plan: each has another one
+    fleet = q.Fleet(crossings(), [0, 2], goals, radius=0.6, deadline=[np.inf, 60] if urgent else None)
+    dispatcher = q.Dispatcher(fleet)
+    dispatcher.tick(0.5)
+    assert dispatcher.course(1)["source"][-1] == (1 if urgent else 4)
+
+
+def test_who_obeys_the_order_needs_no_limits():
+    waits = 0
+    for seed in range(scaled(8)):
+        dispatcher, draw = q.Dispatcher(standing(), effort=0.005, improves=False), random.Random(seed)
+        for robot, goal in enumerate(draw.sample(range(12), 4)):
+            dispatcher.assign(robot, goal)
+        for _ in range(draw.randrange(1, 6)):
+            dispatcher.tick(0.5)
+            for robot in range(4):
+                dispatcher.report(robot, dispatcher.limit(robot) if draw.random() < 0.7 else dispatcher.clock(robot))
+        order = dispatcher.order()
+        after = [(order.nodes[a], order.nodes[b], a[0], b[0], kind["slack"])
+                 for a, b, kind in order.edges(data=True) if kind["kind"] == "after"]
+        courses = [dispatcher.course(robot) for robot in range(4)]
+        for robot, move in order.nodes:
+            end = order.nodes[robot, move]["end"]
+            assert order.nodes[robot, move]["target"] in courses[robot]["target"][courses[robot]["arrive"] == end]
+        clocks, ends = [dispatcher.clock(robot) for robot in range(4)], [c["arrive"][-1] for c in courses]
+        places = [dispatcher.at(robot, clocks[robot]) for robot in range(4)]
+        for _ in range(2000):
+            if all(clock >= end for clock, end in zip(clocks, ends)):
+                break
+            now = list(clocks)
+            for robot in range(4):
+                if draw.random() < 0.4:
+                    continue
+                clocks[robot] = min(now[robot] + 0.25, ends[robot])
+                for leader, follower, first, second, slack in after:
+                    most = max(follower["begin"], now[first] + slack)
+                    if second == robot and now[first] < leader["end"] and most < follower["end"]:
+                        waits += clocks[robot] > most
+                        clocks[robot] = max(now[robot], min(clocks[robot], most))
+            moved = [dispatcher.at(robot, clocks[robot]) for robot in range(4)]
+            for i in range(4):
+                for j in range(i):
+                    pair = np.array([places[i], places[j]]), np.array([moved[i], moved[j]])
+                    assert least_distance(*pair) > 1.2 - 1e-6
+            places = moved
+        assert all(clock >= end for clock, end in zip(clocks, ends))
+    assert waits > 0
+
+
+def test_the_order_of_a_grid_is_that_of_its_paths():
+    fleet = q.Fleet(q.Grid(np.ones((4, 4), dtype=bool)), [(0, 0), (3, 0), (0, 3)], [(3, 3), (0, 2), (2, 0)])
+    dispatcher = q.GridDispatcher(fleet, effort=0.002, window=8)
+    dispatcher.tick(held=[1])
+    order, compared = dispatcher.order(), 0
+    for agent in range(3):
+        path, number = dispatcher.path(agent).tolist(), 0
+        for step, (before, after) in enumerate(zip(path, path[1:])):
+            if before == after:
+                continue
+            move = order.nodes[agent, number]
+            assert (move["begin"], move["end"]) == (dispatcher.now + step, dispatcher.now + step + 1)
+            assert (move["source"], move["target"]) == (before[0] + 4 * before[1], after[0] + 4 * after[1])
+            number, compared = number + 1, compared + 1
+    assert compared == len(order) > 6
 
 
 def test_lanes_are_closed():

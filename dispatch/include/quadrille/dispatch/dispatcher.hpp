@@ -45,8 +45,13 @@ struct Options {
 /// is counted, so that the same calls give the same answers. For one thread at a time.
 class Dispatcher {
  public:
-  /// All stand at their starts, at time 0; of an agent, goals, release, deadline and the like do
-  /// not matter. Errors: those of Instance::make.
+  /// All stand at their starts. Goals and deadlines of agents are for `assign`. Errors:
+  /// invalid_instance for all that would not be heeded: a beginning other than 0, moving obstacles,
+  /// plans for whole moves, bodies that change, places where nobody may wait, and agents that are
+  /// released later, leave, begin in the middle of a move, or overlap at their starts.
+  [[nodiscard]] static Result<Dispatcher> make(const continuous::Instance& instance,
+                                               const Options& options = {});
+  /// The same of robots that need no goals. Errors: those of Instance::make, too.
   [[nodiscard]] static Result<Dispatcher> make(std::shared_ptr<const continuous::Roadmap> roadmap,
                                                std::vector<continuous::Agent> robots,
                                                continuous::Resolution resolution = {},

@@ -58,8 +58,9 @@ struct CourseStop {
 class Dispatcher {
  public:
   /// The robots stand at their starts, at 0 s on the clock of courses. Those that have goals have
-  /// them as their first task; else they need none. Errors: those of Fleet::instance;
-  /// invalid_instance for a robot in the middle of a move, and for moving obstacles.
+  /// them as their first task, by their deadline; else they need none. Lanes that are closed are.
+  /// Errors: those of Fleet::instance; invalid_instance for all that would not be heeded:
+  /// dispatch::Dispatcher::make.
   [[nodiscard]] static Result<Dispatcher> make(const Fleet& fleet, DispatchOptions options = {});
 
   /// Any one of these goals, after all that the robot has been told before; several tasks are
