@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterable, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,10 @@ from ._arrays import frozen, ints
 from ._errors import InputError
 from .fleet import Fleet
 from .graphs import Roadmap
-from .plans import StepPlan, TimedPlan
+from .plans import StepPlan, TimedPlan, order_graph
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 _STOP = np.dtype(
     [("source", "i4"), ("target", "i4"), ("fraction", "f8"), ("arrive", "f8"), ("depart", "f8")]
@@ -70,6 +73,12 @@ class _Dispatching:
         """Of what the agent has been told, nothing is left to do."""
         self._core.cancel(self._agent(agent))
 
+    def order(self) -> nx.DiGraph[Any]:
+        """In which order agents pass the places that they share, as courses and paths are now: the graph
+        of ``Plan.precedences``, without what nobody has to wait for any more. Agents that obey it may
+        go further than they have been told, and do not collide. networkx is needed."""
+        return order_graph(self._core.order(), self._fleet._cost)
+
     def num_tasks(self, agent: Union[int, str]) -> int:
         """Those that are not done yet."""
         return int(self._core.num_tasks(self._agent(agent)))
@@ -83,8 +92,10 @@ class Dispatcher(_Dispatching):
     courses for those that have new tasks, and says how far everybody may go until the next call.
 
     Args:
-        fleet: On a roadmap, without obstacles, all agents at vertices. Those that have a goal elsewhere
-            than where they start have it as their first task.
+        fleet: On a roadmap, all agents at vertices, from time 0 on. Those that have a goal elsewhere than
+            where they start have it as their first task, by their deadline. What a fleet may ask for and a
+            dispatcher does not heed is refused: obstacles, whole moves, releases, agents that leave,
+            overlap at their starts or have bodies that change, vertices where nobody may wait.
         effort: For looking for paths, per call: nominal seconds, counted in steps, so that the same
             calls give the same answers. With 0 nobody gets a new path.
         reach: How far an agent may go beyond where it was last seen, as time on its course; 0: any.
@@ -109,13 +120,10 @@ class Dispatcher(_Dispatching):
         self._fleet = fleet
         self._graph = fleet.graph
         self._tick = fleet.graph.resolution[1]
-        self._core: _core.Dispatcher = _core.Dispatcher(
-            fleet._timed("Dispatcher"), float(effort), float(reach), float(patience), bool(improves)
-        )
-        starts = fleet._timed("Dispatcher").starts()
-        for agent, goals in enumerate(fleet._timed("Dispatcher").goal_sets()):
-            if list(goals) != [starts[agent]]:
-                self._core.assign(agent, [int(goal) for goal in goals], 0.0, None)
+        with fleet._named():
+            self._core: _core.Dispatcher = _core.Dispatcher(
+                fleet._timed("Dispatcher"), float(effort), float(reach), float(patience), bool(improves)
+            )
 
     def assign(
         self,

@@ -9,7 +9,7 @@ import operator
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Iterator, Optional, Sequence, Union, cast
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Optional, Sequence, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -173,26 +173,7 @@ class Plan(Immutable):
         Raises:
             InputError: if the plan is not valid.
         """
-        import networkx
-
-        graph: nx.DiGraph[Any] = networkx.DiGraph()
-        order = self._precedences()
-        graph.graph["cycle"] = _cycle(order.node_order()[0])
-        time = self._fleet._cost
-        for agent, move, source, target, begin, end, goes_on in listed(order.moves()):
-            graph.add_node(
-                (agent, move),
-                source=source,
-                target=target,
-                begin=time(begin),
-                end=time(end),
-                goes_on=bool(goes_on),
-            )
-            if move > 0:
-                graph.add_edge((agent, move - 1), (agent, move), kind="next")
-        for leader, first, follower, second, slack in listed(order.list()):
-            graph.add_edge((leader, first), (follower, second), kind="after", slack=time(slack))
-        return graph
+        return order_graph(self._precedences(), self._fleet._cost)
 
     def node_order(self) -> NodeOrder:
         """Whether all arrive if robots are released move by move.
@@ -290,6 +271,28 @@ class Plan(Immutable):
 
     def _content(self) -> list[bytes]:
         raise NotImplementedError
+
+
+def order_graph(order: _core.Precedences, time: Callable[[int], float]) -> nx.DiGraph[Any]:
+    """As ``Plan.precedences`` says. ``time``: from that of the library to the user's unit."""
+    import networkx
+
+    graph: nx.DiGraph[Any] = networkx.DiGraph()
+    graph.graph["cycle"] = _cycle(order.node_order()[0])
+    for agent, move, source, target, begin, end, goes_on in listed(order.moves()):
+        graph.add_node(
+            (agent, move),
+            source=source,
+            target=target,
+            begin=time(begin),
+            end=time(end),
+            goes_on=bool(goes_on),
+        )
+        if move > 0:
+            graph.add_edge((agent, move - 1), (agent, move), kind="next")
+    for leader, first, follower, second, slack in listed(order.list()):
+        graph.add_edge((leader, first), (follower, second), kind="after", slack=time(slack))
+    return graph
 
 
 def _cycle(moves: npt.NDArray[np.int64]) -> list[tuple[int, int]]:

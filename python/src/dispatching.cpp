@@ -13,6 +13,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "news.hpp"
 #include "quadrille/continuous/quantise.hpp"
 #include "quadrille/core/decimal.hpp"
 #include "quadrille/dispatch/dispatcher.hpp"
@@ -29,21 +30,18 @@ class Dispatching {
   Dispatching(const TimedInstance& fleet, double effort, double reach, double patience,
               bool improves)
       : resolution_(fleet.resolution()) {
-    const auto& agents = fleet.instance().agents();
-    if (!fleet.instance().obstacles().empty()) refuse("moving obstacles wait for nobody");
-    std::vector<continuous::Agent> robots(agents.begin(), agents.end());
-    for (std::size_t i = 0; i < robots.size(); ++i)
-      if (fleet.instance().roadmap().lane_place(robots[i].start) != nullptr)
-        refuse("agent " + std::to_string(i) + " begins in the middle of a move");
     dispatch::Options options;
     options.effort = Effort::nanoseconds(static_cast<std::int64_t>(1e9 * effort));
     options.reach = ticks(reach, "reach", true);
     options.patience = ticks(patience, "patience", true);
     options.improves = improves;
-    auto made =
-        dispatch::Dispatcher::make(fleet.instance().shared_roadmap(), robots, resolution_, options);
-    if (!made) raise(made.error());
-    dispatcher_ = std::make_unique<dispatch::Dispatcher>(std::move(made).value());
+    dispatcher_ = std::make_unique<dispatch::Dispatcher>(
+        take(dispatch::Dispatcher::make(fleet.instance(), options)));
+    for (const AgentId i : fleet.instance().agent_ids()) {
+      const continuous::Agent& agent = fleet.instance().agent(i);
+      if (agent.goals == Goals(agent.start)) continue;
+      check(dispatcher_->assign(i, {agent.goals, 0, agent.deadline}));
+    }
   }
 
   [[nodiscard]] std::size_t size() const { return dispatcher_->num_robots(); }
@@ -57,24 +55,22 @@ class Dispatching {
     if (vertices.empty()) refuse("goals: there is none");
     dispatch::Task task{Goals(std::move(vertices)), ticks(service, "service", true), {}};
     if (deadline) task.deadline = ticks(*deadline, "deadline", false);
-    if (const auto error = dispatcher_->assign(AgentId(robot), std::move(task))) raise(*error);
+    check(dispatcher_->assign(AgentId(robot), std::move(task)));
   }
-  void cancel(std::size_t robot) {
-    if (const auto error = dispatcher_->cancel(AgentId(robot))) raise(*error);
-  }
+  void cancel(std::size_t robot) { check(dispatcher_->cancel(AgentId(robot))); }
   /// Lanes from one vertex to another one.
   void close(std::int64_t from, std::int64_t to) {
-    if (const auto error = dispatcher_->close(vertex(from), vertex(to))) raise(*error);
+    check(dispatcher_->close(vertex(from), vertex(to)));
   }
   void open(std::int64_t from, std::int64_t to) {
-    if (const auto error = dispatcher_->open(vertex(from), vertex(to))) raise(*error);
+    check(dispatcher_->open(vertex(from), vertex(to)));
   }
   void report(std::size_t robot, double clock) {
     // What differs from a whole tick by a millionth of one is meant to be that.
     const double whole = std::floor(clock / resolution_.time + 1e-6);
     if (!(std::abs(whole) < 1e18)) refuse("clock: " + decimal(clock) + " is no time");
     const Ticks tick(static_cast<std::int64_t>(whole));
-    if (const auto error = dispatcher_->report(AgentId(robot), tick)) raise(*error);
+    check(dispatcher_->report(AgentId(robot), tick));
   }
 
   py::dict tick(double duration, const std::optional<double>& wall) {
@@ -82,21 +78,8 @@ class Dispatching {
     if (time < 1) refuse("tick: time has to go on");
     quadrille::Limits limits;
     limits.wall_s = wall;
-    dispatch::News news;
-    {
-      const py::gil_scoped_release release;
-      news = dispatcher_->tick(time, limits);
-    }
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    py::dict made;
-    std::vector<std::size_t> served;
-    for (const AgentId robot : news.served) served.push_back(robot.index());
-    made["served"] = served;
-    made["waiting"] = news.num_waiting;
-    made["has_new_plan"] = news.has_new_plan;
-    made["cost"] = continuous::in_input_units(news.cost, resolution_);
-    made["lower_bound"] = continuous::in_input_units(news.lower_bound, resolution_);
-    return made;
+    return told_of([&] { return dispatcher_->tick(time, limits); },
+                   [this](Cost cost) { return continuous::in_input_units(cost, resolution_); });
   }
 
   [[nodiscard]] double now() const { return units(dispatcher_->now()); }
@@ -106,6 +89,7 @@ class Dispatching {
   [[nodiscard]] double limit(std::size_t robot) const {
     return units(dispatcher_->limit(AgentId(robot)));
   }
+  [[nodiscard]] execution::Precedences order() const { return dispatcher_->order(); }
   [[nodiscard]] std::size_t num_tasks(std::size_t robot) const {
     return dispatcher_->num_tasks(AgentId(robot));
   }
@@ -161,6 +145,7 @@ void bind_dispatching(py::module_& module) {
       .def("clock", &Dispatching::clock)
       .def("limit", &Dispatching::limit)
       .def("num_tasks", &Dispatching::num_tasks)
+      .def("order", &Dispatching::order)
       .def("course", &Dispatching::course);
 }
 

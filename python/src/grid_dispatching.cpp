@@ -11,6 +11,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "news.hpp"
 #include "quadrille/discrete/instance.hpp"
 #include "quadrille/dispatch/grid_dispatcher.hpp"
 #include "steps.hpp"
@@ -30,6 +31,7 @@ class GridDispatching {
     if (!fleet.is_plain())
       refuse(
           "agents that are sent about know no rules: releases, deadlines, obstacles and the like");
+    if (fleet.now() != 0) refuse("agents that are sent about on a grid begin at timestep 0");
     dispatch::GridOptions options;
     options.effort = Effort::nanoseconds(static_cast<std::int64_t>(1e9 * effort));
     options.window = window;
@@ -67,24 +69,12 @@ class GridDispatching {
     for (const std::size_t robot : held) robots.emplace_back(robot);
     quadrille::Limits limits;
     limits.wall_s = wall;
-    dispatch::News news;
-    {
-      const py::gil_scoped_release release;
-      news = dispatcher_->tick(robots, limits);
-    }
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    py::dict made;
-    std::vector<std::size_t> served;
-    for (const AgentId robot : news.served) served.push_back(robot.index());
-    made["served"] = served;
-    made["waiting"] = news.num_waiting;
-    made["has_new_plan"] = news.has_new_plan;
-    made["cost"] = static_cast<double>(news.cost);
-    made["lower_bound"] = static_cast<double>(news.lower_bound);
-    return made;
+    return told_of([&] { return dispatcher_->tick(robots, limits); },
+                   [](Cost cost) { return static_cast<double>(cost); });
   }
 
   [[nodiscard]] Timestep now() const { return dispatcher_->now(); }
+  [[nodiscard]] execution::Precedences order() const { return dispatcher_->order(); }
   [[nodiscard]] std::size_t num_tasks(std::size_t robot) const {
     return dispatcher_->num_tasks(AgentId(robot));
   }
@@ -98,9 +88,6 @@ class GridDispatching {
   }
 
  private:
-  static void check(const std::optional<Error>& error) {
-    if (error) raise(*error);
-  }
   [[nodiscard]] VertexId end(const Ints& ends, std::size_t at) const {
     return vertex_of(*graph_, ends.data() + at * place_size(*graph_), "edge");
   }
@@ -131,6 +118,7 @@ void bind_grid_dispatching(py::module_& module) {
       .def("open", &GridDispatching::open)
       .def("tick", &GridDispatching::tick)
       .def("now", &GridDispatching::now)
+      .def("order", &GridDispatching::order)
       .def("num_tasks", &GridDispatching::num_tasks)
       .def("places", &GridDispatching::places)
       .def("path", &GridDispatching::path);
