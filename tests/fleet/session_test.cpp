@@ -89,7 +89,7 @@ class Twins {
  private:
   static Session begin(std::uint32_t seed) {
     Fleet fleet = test::random_fleet(seed, 3);
-    fleet.release_whole_moves(seed % 4 == 0);
+    fleet.release_whole_moves(seed % 2 == 1);
     fleet.begins_at((seed % 3) * 1_s);
     if (seed % 2 == 0) fleet[AgentId(1)].leaves();
     return Session::make(std::move(fleet)).value();
@@ -347,6 +347,34 @@ TEST_F(OnARoad, TimeGoesOn) {
   Fleet coarse(test::line(4, {.length = 1_cm, .time = 100_ms}));
   coarse.robot({.body = Disc(0.3_m), .speed = 1_mps}).from(b).to(a);
   EXPECT_EQ(why(session_.advance_to(2_s, *solve(coarse)->plan)), "the plan has another resolution");
+}
+
+// Rules of the fleet, and robots that begin in the middle of a move, are those of the session.
+TEST(FleetSessions, HaveWhatTheFleetHas) {
+  for (const bool is_whole : {false, true})
+    for (const bool has_obstacle : {false, true})
+      for (const bool is_closed : {false, true}) {
+        Fleet fleet(test::line(4));
+        const VertexId a(0), b(1), c(2), d(3);
+        fleet.begins_at(2_s);
+        fleet.release_whole_moves(is_whole);
+        const Robot first = fleet.robot({.body = Disc(0.1_m), .speed = 1_mps}).from(a).to(c);
+        if (!is_whole) first.from_edge(a, b, 0.5);
+        fleet.robot({.body = Disc(0.1_m), .speed = 1_mps}).from(b).to(d);
+        if (has_obstacle)
+          fleet.obstacle({.body = Disc(0.1_m), .path = {{{3_m, 0_m}, 0_s, 9_s}}, .leaves = true});
+        if (is_closed) {
+          EXPECT_FALSE(fleet.close(d, c));
+        }
+        const SolveOutcome cold = solve(fleet).value();
+        const Seconds one_by_one = has_obstacle ? 15.4_s : 5_s;
+        EXPECT_EQ(cold.cost, is_whole ? one_by_one : has_obstacle ? 13.6_s : 3.5_s);
+        Session session = Session::make(fleet).value();
+        const SolveOutcome warm = session.solve().value();
+        ASSERT_EQ(warm.cost, cold.cost);
+        EXPECT_EQ(warm.plan->in_units(), cold.plan->in_units());
+        EXPECT_EQ(session.open(d, c).has_value(), !is_closed);
+      }
 }
 
 // A lane that is closed in a fleet is closed to all, and keeps its pace for those who are on it.

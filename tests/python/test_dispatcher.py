@@ -113,18 +113,18 @@ def test_what_is_not_heeded_is_refused():
 
 @pytest.mark.parametrize("urgent", [False, True])
 def test_deadlines_of_first_tasks_are_heeded(urgent):
-    goals = [[1, 4], [1, 4]]  # overlapping goals are no plan: each has another one
-    fleet = q.Fleet(crossings(), [0, 2], goals, radius=0.6, deadline=[np.inf, 60] if urgent else None)
+    fleet = q.Fleet(crossings(), [0, 2], [1, 2], radius=0.6, deadline=[50, np.nan] if urgent else None)
     dispatcher = q.Dispatcher(fleet)
+    dispatcher.assign(1, 1, deadline=60)  # the same place: one after the other
     dispatcher.tick(0.5)
-    assert dispatcher.course(1)["source"][-1] == (1 if urgent else 4)
+    assert [dispatcher.course(agent)["source"][-1] for agent in range(2)] == ([1, 2] if urgent else [0, 1])
 
 
 def test_who_obeys_the_order_needs_no_limits():
     waits = 0
     for seed in range(scaled(8)):
         dispatcher, draw = q.Dispatcher(standing(), effort=0.005, improves=False), random.Random(seed)
-        for robot, goal in enumerate(draw.sample(range(12), 4)):
+        for robot, goal in enumerate(draw.sample(range(4), 4)):
             dispatcher.assign(robot, goal)
         for _ in range(draw.randrange(1, 6)):
             dispatcher.tick(0.5)
@@ -139,12 +139,12 @@ def test_who_obeys_the_order_needs_no_limits():
             assert order.nodes[robot, move]["target"] in courses[robot]["target"][courses[robot]["arrive"] == end]
         clocks, ends = [dispatcher.clock(robot) for robot in range(4)], [c["arrive"][-1] for c in courses]
         places = [dispatcher.at(robot, clocks[robot]) for robot in range(4)]
-        for _ in range(2000):
+        for step in range(2000):
             if all(clock >= end for clock, end in zip(clocks, ends)):
                 break
             now = list(clocks)
             for robot in range(4):
-                if draw.random() < 0.4:
+                if draw.random() < 0.4 or robot == seed % 4 and step < 100:
                     continue
                 clocks[robot] = min(now[robot] + 0.25, ends[robot])
                 for leader, follower, first, second, slack in after:
