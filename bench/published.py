@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs bench/campaigns/published.yaml and published-makespan.yaml and prints Markdown tables: how the
-published systems compare.
+"""Runs bench/campaigns/published.yaml and published-makespan.yaml and prints Markdown tables: how
+the published systems compare.
 
 usage: bench/published.py PROGRAM DATA FOLDER [OPTION of campaign run]..
 
-FOLDER gets five scenarios of DATA and five by `quadrille generate` for each map, and the campaigns. What
-it has already is not run again.
+FOLDER gets five scenarios of DATA and five by `quadrille generate` for each map, and the campaigns.
+What it has already is not run again.
 """
 import collections
 import math

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs bench/campaigns/records.yaml and prints a Markdown table of its cells.
+"""Runs bench/campaigns/records.yaml and prints a Markdown table of maps, neighbourhoods and radii.
 
 usage: bench/records.py PROGRAM DATA FOLDER [OPTION of campaign run]..
 
@@ -48,22 +48,35 @@ def cell(row):
     words = row["variant"].split()
     value = dict(zip(words[::2], words[1::2]))
     name = pathlib.PurePath(row["map"]).stem
-    return (name, int(value["--neighbourhood"]), RADII[value["--radius"]], int(row["agents"]))
+    return name, int(value["--neighbourhood"]), RADII[value["--radius"]]
+
+
+def is_closed(row):
+    return row["status"] == "optimal"
+
+
+def left_open(rows):
+    """Numbers of agents of which not all instances are closed, and how many are."""
+    ladder = collections.defaultdict(list)
+    for row in rows:
+        ladder[int(row["agents"])].append(is_closed(row))
+    return ", ".join(f"{agents}: {sum(closed)} of {len(closed)}"
+                     for agents, closed in sorted(ladder.items()) if not all(closed))
 
 
 def show(rows):
-    cells = collections.defaultdict(list)
+    groups = collections.defaultdict(list)
     for row in rows:
-        cells[cell(row)].append(row)
-    print("| map | k | radius | agents | instances | closed | mean CPU (s) | worst gap |")
+        groups[cell(row)].append(row)
+    print("| map | k | radius | instances | closed | agents of which some stay open | "
+          "mean CPU (s) | worst gap |")
     print("|---|---|---|---|---|---|---|---|")
-    for key, found in cells.items():
-        closed = [row for row in found if row["status"] == "optimal"]
+    for key, found in sorted(groups.items()):
         cpu = sum(float(row["process_cpu_s"]) for row in found) / len(found)
-        gaps = [gap(row) for row in found if row["status"] != "optimal"]
+        gaps = [gap(row) for row in found if not is_closed(row)]
         worst = "no plan" if None in gaps else f"{max(gaps):.2f} %" if gaps else ""
-        print("| " + " | ".join(map(str, key)) +
-              f" | {len(found)} | {len(closed)} | {cpu:.1f} | {worst} |")
+        cells = (*key, len(found), sum(map(is_closed, found)), left_open(found), f"{cpu:.1f}", worst)
+        print("| " + " | ".join(map(str, cells)) + " |")
 
 
 def main():
