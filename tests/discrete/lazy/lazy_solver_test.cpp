@@ -8,6 +8,7 @@
 #include <random>
 
 #include "quadrille/discrete/solver.hpp"
+#include "support/environment.hpp"
 #include "support/generators.hpp"
 #include "support/tuned_options.hpp"
 
@@ -86,8 +87,9 @@ TEST_P(LazySolver, AgreesWithTheMddModelAndPassesItsAudit) {
 // Without first plans, in which a seed may have its say too.
 TEST(LazySolverSeeds, ReachTheProof) {
   quadrille::support::Random random(2);
+  const auto rounds = static_cast<int>(quadrille::support::scaled(30));
   int hard = 0, different = 0;
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     SCOPED_TRACE(round);
     const Instance instance = support::random_grid(random, {6, 8, 15, 12, 18});
     TunedOptions options;
@@ -108,6 +110,7 @@ TEST(LazySolverSeeds, ReachTheProof) {
     EXPECT_EQ(*again.plan, *outcome.plan);
     if (outcome.statistics.conflicts != usual.statistics.conflicts) ++different;
   }
+  if (rounds < 30) return;
   EXPECT_GE(hard, 10);
   EXPECT_GE(2 * different, hard);
 }
