@@ -120,9 +120,9 @@ TEST_F(ExplainTest, NothingIsSearchedWhenTimeIsUp) {
   // Long enough for a few bounds, after the first plan.
   const std::string seconds = support::kAddressSanitizer ? "20" : "3";
   const Finished finished = run({"explain", "--map", map, "--scen", scen, "--agents", "250",
-                                 "--time-limit", seconds, "--json", path("result.json")});
+                                 "--cpu-limit", seconds, "--json", path("result.json")});
   const json result = json::parse(read("result.json"));
-  ASSERT_EQ(result["stop_reason"], "wall-time") << finished.out;
+  ASSERT_EQ(result["stop_reason"], "cpu-time") << finished.out;
   ASSERT_FALSE(result["reasons"].empty());
   for (const json& reason : result["reasons"]) EXPECT_EQ(reason["checked"], false);
 }
