@@ -71,7 +71,9 @@ def show(rows):
     print("| map | k | radius | instances | closed | agents of which some stay open | "
           "mean CPU (s) | worst gap |")
     print("|---|---|---|---|---|---|---|---|")
-    for key, found in sorted(groups.items()):
+    radii = list(RADII.values())
+    by_size = sorted(groups.items(), key=lambda of: (*of[0][:2], radii.index(of[0][2])))
+    for key, found in by_size:
         cpu = sum(float(row["process_cpu_s"]) for row in found) / len(found)
         gaps = [gap(row) for row in found if not is_closed(row)]
         worst = "no plan" if None in gaps else f"{max(gaps):.2f} %" if gaps else ""

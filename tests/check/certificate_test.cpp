@@ -120,9 +120,8 @@ TEST(Certificate, ProvesCoresThatRaiseTheBoundByMoreThanOne) {
     EXPECT_EQ(answer.verdict.bound, *outcome.cost);
     EXPECT_EQ(answer.verdict.cost, *outcome.cost);
     const auto records = records_of(outcome.certificate->bytes);
-    with_levels += std::ranges::any_of(records, [](const Record& record) {
-      return record.tag == 'n' && record.values[1] == 4;
-    });
+    with_levels += std::ranges::any_of(
+        records, [](const Record& record) { return record.tag == 'n' && record.values[1] == 4; });
   }
   RecordProperty("with_levels", static_cast<int>(with_levels));
   if (scaled(100) < 100) return;
