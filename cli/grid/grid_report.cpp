@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "answers/report.hpp"
+#include "asked/request_json.hpp"
 #include "quadrille/discrete/plan_formats.hpp"
 
 namespace quadrille::cli {
@@ -33,17 +34,7 @@ Json options_json(const SolveArguments& arguments) {
   if (options.lazy.chronological)
     json["backtracking"] = *options.lazy.chronological ? "chronological" : "jump";
   json["first_plan"] = options.first_plan;
-  json["initial_plan"] = text_or_null(arguments.initial_plan);
-  json["known_bound"] = or_null(arguments.known_bound);
-  json["gap"] = or_null(options.gap_percent);
-  json["threads"] = options.threads;
-  json["race"] = options.race;
-  json["explain"] = options.explain;
-  json["proof"] = text_or_null(arguments.proof);
-  json["seed"] = options.seed;
-  add_limits(json, options.limits);
-  json["audit"] = options.debug.audit;
-  json["known_plan"] = text_or_null(arguments.known_plan);
+  add_request(json, arguments, options);
   return json;
 }
 

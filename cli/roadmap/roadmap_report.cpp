@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "answers/report.hpp"
+#include "asked/request_json.hpp"
 #include "quadrille/continuous/duration_error.hpp"
 #include "quadrille/continuous/plan_files.hpp"
 #include "quadrille/continuous/quantise.hpp"
@@ -88,17 +89,7 @@ Json options_json(const SolveArguments& arguments, const continuous::SolveOption
   json["resolution"] = or_null(arguments.roadmap.resolution);
   json["objective"] = to_string(options.objective);
   json["system"] = to_string(options.system);
-  json["initial_plan"] = text_or_null(arguments.initial_plan);
-  json["known_bound"] = or_null(arguments.known_bound);
-  json["gap"] = or_null(options.gap_percent);
-  json["threads"] = options.threads;
-  json["race"] = options.race;
-  json["explain"] = options.explain;
-  json["proof"] = text_or_null(arguments.proof);
-  json["seed"] = options.seed;
-  add_limits(json, options.limits);
-  json["audit"] = options.debug.audit;
-  json["known_plan"] = text_or_null(arguments.known_plan);
+  add_request(json, arguments, options);
   return json;
 }
 
