@@ -40,7 +40,7 @@ PairContacts::Reach PairContacts::reach(const Party& party) {
     queue.pop();
     if (time > reach.arrivals[v.index()]) continue;
     for (const EdgeId e : instance.out_edges(c, v)) {
-      const VertexId to = roadmap.edge(e).to;
+      const VertexId to = roadmap.to(e);
       const Ticks duration = instance.duration(c, e);
       if (rest[to] >= kForever) continue;
       const Ticks last = as_ticks(party.most) - duration - rest[to];

@@ -22,7 +22,7 @@ std::vector<VertexId> find_way(const Instance& instance, AgentId agent,
   std::size_t at = 0;
   for (; at < queue.size() && !goals.contains(queue[at]); ++at)
     for (const EdgeId e : roadmap.out_edges(queue[at])) {
-      const VertexId w = roadmap.edge(e).to;
+      const VertexId w = roadmap.to(e);
       if (before[w] || w == left_out) continue;
       before[w] = queue[at];
       queue.push_back(w);

@@ -43,7 +43,7 @@ Ticks move_duration(const Instance& instance, AgentId agent, VertexId from, Vert
                     Ticks ticks) {
   const ClassId c = instance.class_of(agent);
   for (const EdgeId e : instance.out_edges(c, from)) {
-    if (instance.roadmap().edge(e).to != to) continue;
+    if (instance.roadmap().to(e) != to) continue;
     const Ticks exact = instance.duration(c, e);
     if (abs(exact - ticks) <= kMoveTolerance) return exact;
   }
@@ -237,7 +237,7 @@ class LogReader {
     if (has(expected)) return expected;
     if (near.moves)
       for (const EdgeId e : instance_.roadmap().out_edges(expected))
-        if (has(instance_.roadmap().edge(e).to)) return instance_.roadmap().edge(e).to;
+        if (has(instance_.roadmap().to(e))) return instance_.roadmap().to(e);
     if (found.empty()) return std::nullopt;
     return found.front();
   }

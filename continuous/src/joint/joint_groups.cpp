@@ -71,7 +71,7 @@ class Whereabouts {
       const VertexId v = open.back();
       open.pop_back();
       for (const EdgeId e : instance_.out_edges(c, v)) {
-        const VertexId to = instance_.roadmap().edge(e).to;
+        const VertexId to = instance_.roadmap().to(e);
         if (distances[to] >= kForever) continue;
         use(i, place_of(c, e));
         use(i, place_of(c, to));
@@ -115,7 +115,7 @@ bool are_in_one_component(const Instance& instance) {
   const Roadmap& roadmap = instance.roadmap();
   Grouping components(roadmap.num_vertices());
   for (const EdgeId e : IdRange<EdgeId>(roadmap.num_edges()))
-    components.join(roadmap.edge(e).from.index(), roadmap.edge(e).to.index());
+    components.join(roadmap.from(e).index(), roadmap.to(e).index());
   std::set<std::size_t> roots;
   for (const Agent& agent : instance.agents()) roots.insert(components.root(agent.start.index()));
   return roots.size() <= 1;

@@ -226,7 +226,7 @@ class JointSearch {
       std::size_t since = kNow;
       if (space_.is_moving(node.places, k)) {
         const EdgeId e = space_.edge(node.places, k);
-        to_go = space_.duration(k, e) + distance(k, instance_.roadmap().edge(e).to);
+        to_go = space_.duration(k, e) + distance(k, instance_.roadmap().to(e));
         since = variable(k);
       } else if (!space_.is_at_goal(node.places, k)) {
         to_go = distance(k, space_.vertex(node.places, k));

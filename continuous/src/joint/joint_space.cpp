@@ -54,7 +54,7 @@ bool JointSpace::leaves_after(const JointStep& step) const {
 ClockSpan JointSpace::when(const JointStep& step) const {
   const EdgeId e(step.edge);
   if (step.begins) return clock_.starts(step.agent, e)[step.span];
-  const VertexId to = instance_.roadmap().edge(e).to;
+  const VertexId to = instance_.roadmap().to(e);
   ClockSpan span = leaves_after(step) ? ClockSpan() : clock_.stays(step.agent, to)[step.span];
   span.until = std::min(span.until, clock_.latest(step.agent, to));
   return span;
@@ -79,7 +79,7 @@ std::optional<TickInterval> JointSpace::bad_ages(const JointPlaces& places, cons
     return offsets ? std::optional(TickInterval{offsets->begin - 1, offsets->end}) : std::nullopt;
   }
   // A stay begins, which has to end before the contact, or to begin after it.
-  return contacts_.window(a, e, b, instance_.roadmap().edge(f).to);
+  return contacts_.window(a, e, b, instance_.roadmap().to(f));
 }
 
 Ticks JointSpace::latest_leave(const JointPlaces& places, std::size_t mover, std::size_t k) {
@@ -95,7 +95,7 @@ void JointSpace::list_steps(const JointPlaces& places, std::vector<JointStep>& s
     if (is_moving(places, k)) {
       const EdgeId e = edge(places, k);
       const JointStep step{k, e.value(), false, 0, 0};
-      const VertexId to = instance_.roadmap().edge(e).to;
+      const VertexId to = instance_.roadmap().to(e);
       add_variants(places, step, leaves_after(step) ? 1 : clock_.stays(k, to).size(), steps);
       continue;
     }

@@ -31,7 +31,7 @@ std::optional<Ticks> free_cost(const Instance& instance, AgentId agent) {
     if (goals.contains(v)) return tick;
     if (tick > arrival[v.index()]) continue;
     for (const EdgeId e : instance.out_edges(kind, v))
-      reach(roadmap.edge(e).to, tick + instance.duration(kind, e));
+      reach(roadmap.to(e), tick + instance.duration(kind, e));
   }
   return std::nullopt;
 }

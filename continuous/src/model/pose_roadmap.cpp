@@ -88,9 +88,8 @@ std::optional<Error> why_not(const Roadmap& places, const HeadingRules& rules) {
     }
   for (const HeadingRules::Lane& told : rules.lanes) {
     const bool is_lane = exists(told.from) && exists(told.to) &&
-                         std::ranges::any_of(places.out_edges(told.from), [&](EdgeId e) {
-                           return places.edge(e).to == told.to;
-                         });
+                         std::ranges::any_of(places.out_edges(told.from),
+                                             [&](EdgeId e) { return places.to(e) == told.to; });
     if (!is_lane) return invalid("there is a heading on a lane that the roadmap does not have");
     if (!std::isfinite(told.heading))
       return out_of_range("a heading from vertex " + number(told.from) + " to vertex " +

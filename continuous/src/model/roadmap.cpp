@@ -207,6 +207,8 @@ Roadmap::Roadmap(std::vector<Point> positions, std::vector<Edge> edges,
                            [](const Point& point) { return point.z == 0; })),
       out_(positions_.size(), edges_, &Edge::from, std::nullopt),
       in_(positions_.size(), edges_, &Edge::to, std::nullopt) {
+  ends_.reserve(edges_.size());
+  for (const Edge& edge : edges_) ends_.push_back({edge.from, edge.to});
   if (!no_waiting_.empty()) is_no_waiting_.assign(positions_.size(), 0);
   for (const VertexId v : no_waiting_) is_no_waiting_[v.index()] = 1;
   for (const ShapeId shape : shapes_) num_shapes_ = std::max(num_shapes_, shape.index() + 1);

@@ -64,7 +64,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
         static_cast<std::uint32_t>(side.edges.size());
     if (agent.leaves && v == agent.goal()) continue;
     for (const EdgeId e : instance.out_edges(side.c, v)) {
-      const Ticks rest = distances[roadmap.edge(e).to], duration = instance.duration(side.c, e);
+      const Ticks rest = distances[roadmap.to(e)], duration = instance.duration(side.c, e);
       if (rest >= kForever) continue;
       const Ticks by_cap = party.cap - rest - duration;
       TimedEdge edge{e, ticks, by_cap + raise, by_cap};
@@ -79,7 +79,7 @@ bool PairSearch::collect_edges(const Party& party, Ticks raise, const Party& oth
       }
       if (edge.last < ticks) continue;
       side.edges.push_back(edge);
-      reach(roadmap.edge(e).to, ticks + duration);
+      reach(roadmap.to(e), ticks + duration);
     }
     side.end_edge[v.index()] = static_cast<std::uint32_t>(side.edges.size());
     if (side.edges.size() > kMaxEdges) return false;
@@ -234,7 +234,7 @@ void PairSearch::make_elements(Side& side) {
     const VertexId v(stack_.back());
     stack_.pop_back();
     for (const EdgeId e : instance.in_edges(side.c, v)) {
-      const VertexId u = roadmap.edge(e).from;
+      const VertexId u = roadmap.from(e);
       if (side.from_start[u.index()] >= kForever || side.may_matter_later[u.index()] != 0) continue;
       side.may_matter_later[u.index()] = 1;
       stack_.push_back(u.value());

@@ -24,7 +24,7 @@ std::vector<Ticks> earliest_visits(const Instance& instance, AgentId agent) {
     open.pop();
     if (tick > ticks[v]) continue;
     for (const EdgeId e : instance.out_edges(c, VertexId(v)))
-      visit(roadmap.edge(e).to, tick + instance.duration(c, e));
+      visit(roadmap.to(e), tick + instance.duration(c, e));
   }
   return ticks;
 }

@@ -21,7 +21,7 @@ GoalDistances::GoalDistances(const Instance& instance, AgentId agent)
     queue.pop();
     if (ticks > ticks_[v.index()]) continue;
     for (const EdgeId e : instance.in_edges(c, v)) {
-      const VertexId u = instance.roadmap().edge(e).from;
+      const VertexId u = instance.roadmap().from(e);
       const Ticks via = ticks + instance.duration(c, e);
       if (via >= ticks_[u.index()]) continue;
       ticks_[u.index()] = via;
@@ -41,7 +41,7 @@ std::span<const Detours::Detour> Detours::from(VertexId v) {
     const ClassId c = instance_.class_of(agent_);
     range.begin = static_cast<std::uint32_t>(detours_.size());
     for (const EdgeId e : instance_.out_edges(c, v)) {
-      const VertexId w = roadmap.edge(e).to;
+      const VertexId w = roadmap.to(e);
       const Ticks duration = instance_.duration(c, e);
       if (distances_[w] >= kForever) continue;
       detours_.push_back({e, w, duration, duration + distances_[w] - distances_[v]});

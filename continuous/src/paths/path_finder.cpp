@@ -168,7 +168,7 @@ void PathFinder::expand(const PathTask& task, BanTable& bans, std::uint32_t inde
 void PathFinder::pass(const PathTask& task, BanTable& bans, std::uint32_t index, EdgeId e,
                       Ticks bound) {
   const Node node = nodes_[index];
-  const VertexId w = instance_.roadmap().edge(e).to;
+  const VertexId w = instance_.roadmap().to(e);
   const Ticks duration = instance_.duration(instance_.class_of(task.agent), e);
   const Ticks rest = task.distances[w];
   const std::uint32_t start_place = bans.starts_of(e, node.arrive), stay_place = bans.stays_of(w);

@@ -14,7 +14,7 @@ namespace {
 EdgeId edge_between(const Instance& instance, ClassId c, const Stop& from, const Stop& to) {
   const auto find_in = [&](const auto& edges) -> std::optional<EdgeId> {
     for (const EdgeId e : edges)
-      if (instance.roadmap().edge(e).to == to.vertex &&
+      if (instance.roadmap().to(e) == to.vertex &&
           instance.duration(c, e) == to.arrive - from.depart)
         return e;
     return std::nullopt;

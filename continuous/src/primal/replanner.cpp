@@ -32,7 +32,7 @@ Goals places_near(const Instance& instance, AgentId i) {
   std::vector<VertexId> places{instance.agent(i).start};
   for (std::size_t k = 0; k < places.size() && places.size() < kPlacesAside; ++k)
     for (const EdgeId e : instance.out_edges(c, places[k])) {
-      const VertexId to = instance.roadmap().edge(e).to;
+      const VertexId to = instance.roadmap().to(e);
       if (std::find(places.begin(), places.end(), to) == places.end()) places.push_back(to);
     }
   // A place in the middle of a move is left, and no goal.

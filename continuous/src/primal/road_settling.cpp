@@ -88,7 +88,7 @@ class RoadGraph {
   [[nodiscard]] std::optional<EdgeId> edge_of(ClassId c, VertexId from, VertexId to) {
     for (const EdgeId e : instance_.out_edges(c, from)) {
       ++effort_;
-      if (instance_.roadmap().edge(e).to == to && bodies_.may_use(c, e)) return e;
+      if (instance_.roadmap().to(e) == to && bodies_.may_use(c, e)) return e;
     }
     return std::nullopt;
   }
@@ -99,7 +99,7 @@ class RoadGraph {
       limits_.check();
       std::vector<VertexId> ends;
       for (const EdgeId e : roadmap.out_edges(a)) {
-        const VertexId b = roadmap.edge(e).to;
+        const VertexId b = roadmap.to(e);
         if (b <= a || std::find(ends.begin(), ends.end(), b) != ends.end()) continue;
         ends.push_back(b);
         bool is_open = true;

@@ -266,7 +266,7 @@ class Timetable {
     const ClassId c = instance_.class_of(i);
     paths_[i].back().depart = start;
     const Ticks end = start + instance_.duration(c, e);
-    paths_[i].push_back({instance_.roadmap().edge(e).to, end, end});
+    paths_[i].push_back({instance_.roadmap().to(e), end, end});
     latest_[key(c, e)].add(i, start);
   }
 

@@ -69,7 +69,7 @@ void SerialSearch::find_distances() {
     distance[queue.front().index()] = 0;
     for (std::size_t head = 0; head < queue.size(); ++head)
       for (const EdgeId e : roadmap.in_edges(queue[head])) {
-        const VertexId from = roadmap.edge(e).from;
+        const VertexId from = roadmap.from(e);
         if (distance[from.index()] != kFar || !bodies_.may_use(c, e)) continue;
         distance[from.index()] = distance[queue[head].index()] + 1;
         queue.push_back(from);
@@ -175,7 +175,7 @@ void SerialSearch::expand(Node node) {
     const ClassId c = instance_.class_of(agent);
     for (const EdgeId e : instance_.roadmap().out_edges(standing_.vertex_of(agent))) {
       ++effort_;
-      const VertexId to = instance_.roadmap().edge(e).to;
+      const VertexId to = instance_.roadmap().to(e);
       if (distances_[i][to.index()] == kFar || !bodies_.may_use(c, e) ||
           !standing_.can_move({agent, e}, effort_))
         continue;

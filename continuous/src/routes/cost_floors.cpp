@@ -34,7 +34,7 @@ Ticks last_pass(Scene& scene, AgentId resident, AgentId passer, const std::vecto
     const VertexId v = stack.back();
     stack.pop_back();
     for (const EdgeId e : instance.in_edges(mover, v)) {
-      const VertexId from = roadmap.edge(e).from;
+      const VertexId from = roadmap.from(e);
       if (is_past[from.index()] || touches(e)) continue;
       is_past[from.index()] = true;
       stack.push_back(from);
@@ -43,8 +43,7 @@ Ticks last_pass(Scene& scene, AgentId resident, AgentId passer, const std::vecto
   if (is_past[instance.agent(passer).start.index()]) return 0;
   Ticks end = kForever;
   for (const auto& [e, last] : touching)
-    if (is_past[roadmap.edge(e).to.index()])
-      end = std::min(end, visits[roadmap.edge(e).from.index()] + last);
+    if (is_past[roadmap.to(e).index()]) end = std::min(end, visits[roadmap.from(e).index()] + last);
   return end == kForever ? Ticks{0} : end;
 }
 

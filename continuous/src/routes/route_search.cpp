@@ -149,7 +149,7 @@ class RouteSearch {
     }
     for (const EdgeId e : instance_.out_edges(instance_.class_of(t.agent), v)) {
       work_ -= kWorkPerMove;
-      const VertexId to = instance_.roadmap().edge(e).to;
+      const VertexId to = instance_.roadmap().to(e);
       const Ticks wait = route.edges.empty() ? instance_.agent(t.agent).release : Ticks{0};
       const Ticks duration = wait + instance_.duration(instance_.class_of(t.agent), e);
       const Ticks to_go = scene_.task(t.agent).distances[to];

@@ -14,7 +14,7 @@ bool AnswerDomain::adopt(Path& path, const Instance& instance, AgentId agent) {
   for (std::size_t k = 1; k < path.size(); ++k) {
     const auto out = instance.out_edges(c, path[k - 1].vertex);
     const bool fits = std::any_of(out.begin(), out.end(), [&](EdgeId e) {
-      return instance.roadmap().edge(e).to == path[k].vertex &&
+      return instance.roadmap().to(e) == path[k].vertex &&
              instance.duration(c, e) == path[k].arrive - path[k - 1].depart;
     });
     if (!fits) return false;

@@ -44,7 +44,7 @@ Task rest_of(const Task& task, const Later& done, const Instance& instance, Agen
   const Ticks whole = done.begun + done.rest[1].arrive;
   const auto out = instance.out_edges(c, done.at);
   const auto edge = std::find_if(out.begin(), out.end(), [&](EdgeId e) {
-    return instance.roadmap().edge(e).to == done.to && instance.duration(c, e) == whole;
+    return instance.roadmap().to(e) == done.to && instance.duration(c, e) == whole;
   });
   QUADRILLE_REQUIRE(edge != out.end(), "a valid plan moves along edges");
   rest.agent.start = done.at;

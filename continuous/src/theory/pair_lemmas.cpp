@@ -105,7 +105,7 @@ Ticks PairLemmas::passing_time(AgentId i, AgentId j) {
   for (const auto& [mover, stander] : {std::pair{i, j}, std::pair{j, i}}) {
     const ClassId c = instance.class_of(mover), d = instance.class_of(stander);
     for (const EdgeId e : instance.out_edges(c, instance.agent(mover).start)) {
-      const VertexId to = instance.roadmap().edge(e).to;
+      const VertexId to = instance.roadmap().to(e);
       if (const auto w = model_.scene().contacts().window(c, e, d, to))
         least = std::min(least, w->end - w->begin);
     }

@@ -73,7 +73,7 @@ bool PathReplay::has_path(Ticks bound) {
 }
 
 void PathReplay::take(const Place& from, EdgeId e) {
-  const VertexId w = instance_.roadmap().edge(e).to;
+  const VertexId w = instance_.roadmap().to(e);
   const Ticks duration = instance_.duration(instance_.class_of(id_), e);
   for (std::size_t l = 0; l < stays_[w].size(); ++l) {
     const SafeStay& stay = stays_[w][l];

@@ -78,7 +78,7 @@ GoalDistances SceneStore::distances(const Instance& instance, AgentId agent) {
   ticks.resize(instance.roadmap().num_vertices(), kForever);
   for (std::size_t v = base_->num_vertices(); v < ticks.size(); ++v)
     for (const EdgeId e : instance.out_edges(c, VertexId(v))) {
-      const Ticks on = ticks[instance.roadmap().edge(e).to.index()];
+      const Ticks on = ticks[instance.roadmap().to(e).index()];
       if (on < kForever) ticks[v] = std::min(ticks[v], on + instance.duration(c, e));
     }
   return GoalDistances(std::move(ticks));

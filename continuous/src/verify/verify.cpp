@@ -101,7 +101,7 @@ class PathCheck {
     Ticks takes = 0;
     const ClassId c = instance_.class_of(i_);
     for (const EdgeId e : instance_.roadmap().out_edges(a.vertex)) {
-      if (instance_.roadmap().edge(e).to != b.vertex) continue;
+      if (instance_.roadmap().to(e) != b.vertex) continue;
       is_adjacent = true;
       if (!instance_.roadmap().edge(e).open_to.contains(instance_.agent(i_).group)) continue;
       is_open = true;

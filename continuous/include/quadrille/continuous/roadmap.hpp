@@ -167,6 +167,9 @@ class Roadmap {
   /// By vertex.
   [[nodiscard]] const std::vector<LanePlace>& lane_places() const noexcept { return lane_places_; }
   [[nodiscard]] const Edge& edge(EdgeId e) const { return edges_[e.index()]; }
+  /// The ends of an edge, in less memory than the edge: for searches over large roadmaps.
+  [[nodiscard]] VertexId from(EdgeId e) const { return ends_[e.index()].from; }
+  [[nodiscard]] VertexId to(EdgeId e) const { return ends_[e.index()].to; }
   /// Whether no vertex has a height: all of them are in the plane z = 0.
   [[nodiscard]] bool is_flat() const noexcept { return is_flat_; }
   /// Whoever they are open to, by edge id.
@@ -181,7 +184,12 @@ class Roadmap {
           std::vector<ShapeId> shapes, std::vector<VertexId> no_waiting);
 
   std::vector<Point> positions_;
+  struct Ends {
+    VertexId from, to;
+  };
+
   std::vector<Edge> edges_;
+  std::vector<Ends> ends_;  // by edge
   std::vector<LanePlace> lane_places_;
   std::vector<ShapeId> shapes_;
   std::vector<VertexId> no_waiting_;
