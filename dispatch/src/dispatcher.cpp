@@ -215,17 +215,20 @@ class Dispatcher::Parts {
 
   void send(const Work& work) {
     sent_.clear();
+    std::vector<char> is_on_its_way;  // to its first task
+    for (const Robot& robot : robots_) is_on_its_way.push_back(robot.is_bound ? 1 : 0);
     for (const AgentId i : work.order) {
       if (replanner_.effort() >= options_.effort) break;
       const Robot& robot = robots_[i.index()];
       const auto may_push = [&](AgentId j) {
         const Robot& other = robots_[j.index()];
         if (other.busy_until) return false;
-        return !other.is_bound || is_more_urgent(robot, other);
+        return is_on_its_way[j.index()] == 0 || is_more_urgent(robot, other);
       };
       const bool may_ask = robot.wants_path() || robot.is_barred;
       const bool is_sent = may_ask ? replanner_.send(i, may_push) : replanner_.send(i);
       sent_.emplace_back(i, is_sent);
+      if (is_sent && robot.wants_path()) is_on_its_way[i.index()] = 1;
     }
   }
 

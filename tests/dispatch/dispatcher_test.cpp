@@ -244,6 +244,25 @@ TEST(Dispatcher, OnePlaceIsForOneAtATime) {
   }
 }
 
+// The other one has to go by where the first one is sent to, in the same call.
+TEST(Dispatcher, NobodyIsPushedAwayFromWhereItHasJustBeenSent) {
+  const auto roadmap = grid(5, 1, 0, 1);
+  std::vector<Agent> robots = robots_on(*roadmap, 2, 3);
+  robots[0].start = VertexId(0);
+  robots[1].start = VertexId(1);
+  SimulatedFleet fleet(roadmap, robots, {}, {}, 3);
+  Dispatcher& dispatcher = fleet.dispatcher();
+  EXPECT_FALSE(dispatcher.assign(AgentId(0), {VertexId(3)}));
+  EXPECT_FALSE(dispatcher.assign(AgentId(1), {VertexId(2), 0, Ticks(100)}));
+  static_cast<void>(fleet.step(10));
+  EXPECT_EQ(dispatcher.course(AgentId(1)).back().spot, Spot(VertexId(2)));
+  EXPECT_EQ(dispatcher.course(AgentId(0)).back().spot, Spot(VertexId(0)));
+  std::vector<AgentId> served;
+  for (int step = 0; step < 60; ++step)
+    for (const AgentId robot : fleet.step(10).served) served.push_back(robot);
+  EXPECT_EQ(served, (std::vector{AgentId(1), AgentId(0)}));
+}
+
 TEST(Dispatcher, WhoIsUrgentGoesFirst) {
   const auto roadmap = grid(3, 2, 0, 1);
   std::vector<Agent> robots = robots_on(*roadmap, 2, 3);
