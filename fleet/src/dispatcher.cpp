@@ -12,6 +12,7 @@ namespace quadrille::fleet {
 namespace {
 
 Error invalid(const std::string& message) { return {ErrorCode::invalid_instance, message, {}}; }
+Error out_of_range(const std::string& message) { return {ErrorCode::out_of_range, message, {}}; }
 
 /// Nominal, in elementary steps.
 Effort effort_of(Seconds effort) {
@@ -47,7 +48,9 @@ Result<Dispatcher> Dispatcher::make(const Fleet& fleet, DispatchOptions options)
   made.improves = options.improves;
   auto dispatcher = dispatch::Dispatcher::make(*instance, made);
   if (!dispatcher) return dispatcher.error();
-  Dispatcher live(fleet.roadmap(), std::move(dispatcher).value());
+  std::vector<std::string> names;
+  for (const AgentId robot : fleet.robot_ids()) names.push_back("'" + fleet.name(robot) + "'");
+  Dispatcher live(fleet.roadmap(), std::move(names), std::move(dispatcher).value());
   for (const AgentId robot : fleet.robot_ids())
     if (const auto& goals = fleet.goals(robot))
       if (auto error = live.assign(robot, {goals->vertices().begin(), goals->vertices().end()},
@@ -70,8 +73,9 @@ std::optional<Error> Dispatcher::assign(AgentId robot, std::vector<VertexId> goa
   const auto service = time(spec.service);
   if (service) task.service = *service;
   if (spec.deadline) task.deadline = time(*spec.deadline);
-  if (!service || (spec.deadline && !task.deadline))
-    return Error{ErrorCode::out_of_range, "a task has a time that is negative or too long", {}};
+  if (robot.index() < names_.size() && (!service || (spec.deadline && !task.deadline)))
+    return out_of_range("the task of " + names_[robot.index()] +
+                        " has a time that is negative or too long");
   return dispatcher_.assign(robot, std::move(task));
 }
 
@@ -87,9 +91,15 @@ std::optional<Error> Dispatcher::open(VertexId from, VertexId to) {
 std::optional<Error> Dispatcher::report(AgentId robot, Seconds clock) {
   // What differs from a whole step by a millionth of one is meant to be that.
   const double ticks = std::floor(clock.value() / roadmap_.resolution().time.value() + 1e-6);
-  if (!(std::abs(ticks) < 1e18))
-    return Error{ErrorCode::out_of_range, "a clock shows " + to_string(clock), {}};
-  return dispatcher_.report(robot, continuous::Ticks(static_cast<std::int64_t>(ticks)));
+  if (!(std::abs(ticks) < 1e18)) return out_of_range("a clock shows " + to_string(clock));
+  auto error = dispatcher_.report(robot, continuous::Ticks(static_cast<std::int64_t>(ticks)));
+  if (!error || robot.index() >= names_.size()) return error;
+  const std::string& name = names_[robot.index()];
+  if (clock < this->clock(robot))
+    return out_of_range("the clock of " + name + " goes back from " +
+                        to_string(this->clock(robot)) + " to " + to_string(clock));
+  return out_of_range(name + " has gone on to " + to_string(clock) + ", and was allowed to go to " +
+                      to_string(limit(robot)));
 }
 
 Orders Dispatcher::tick(Seconds duration, std::optional<Seconds> wall) {

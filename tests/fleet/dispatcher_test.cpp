@@ -87,5 +87,24 @@ TEST(FleetDispatcher, LanesOfTheFleetThatAreClosedAreOpenedAgain) {
   EXPECT_TRUE(dispatcher.open(a, b));
 }
 
+TEST(FleetDispatcher, RefusesClocksAndTasksInTheFleetsWords) {
+  Dispatcher dispatcher = Dispatcher::make(on_a_road()).value();
+  const auto message = [](const std::optional<Error>& error) {
+    return error ? error->message : "";
+  };
+  EXPECT_EQ(message(dispatcher.report(AgentId(0), 1.5_s)),
+            "'amr' has gone on to 1.5 s, and was allowed to go to 0 s");
+  static_cast<void>(dispatcher.tick(500_ms));
+  const Seconds limit = dispatcher.limit(AgentId(0));
+  EXPECT_EQ(message(dispatcher.report(AgentId(0), limit)), "");
+  EXPECT_EQ(
+      message(dispatcher.report(AgentId(0), limit - 0.25_s)),
+      "the clock of 'amr' goes back from " + to_string(limit) + " to " + to_string(limit - 0.25_s));
+  EXPECT_EQ(message(dispatcher.report(AgentId(2), 0_s)), "there is no robot 2");
+  EXPECT_EQ(message(dispatcher.assign(AgentId(1), a, {.deadline = -(1_s)})),
+            "the task of 'agv' has a time that is negative or too long");
+  EXPECT_EQ(message(dispatcher.assign(AgentId(2), a, {.deadline = -(1_s)})), "there is no robot 2");
+}
+
 }  // namespace
 }  // namespace quadrille::fleet

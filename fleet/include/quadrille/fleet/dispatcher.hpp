@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "quadrille/core/export.hpp"
@@ -100,11 +101,14 @@ class Dispatcher {
   [[nodiscard]] Seconds now() const;
 
  private:
-  Dispatcher(Roadmap roadmap, dispatch::Dispatcher dispatcher)
-      : roadmap_(std::move(roadmap)), dispatcher_(std::move(dispatcher)) {}
+  Dispatcher(Roadmap roadmap, std::vector<std::string> names, dispatch::Dispatcher dispatcher)
+      : roadmap_(std::move(roadmap)),
+        names_(std::move(names)),
+        dispatcher_(std::move(dispatcher)) {}
   [[nodiscard]] Seconds seconds(continuous::Ticks ticks) const;
 
   Roadmap roadmap_;
+  std::vector<std::string> names_;  // by robot
   dispatch::Dispatcher dispatcher_;
 };
 
