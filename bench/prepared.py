@@ -16,10 +16,11 @@ def link_data(data, folder):
     return link
 
 
-def run(program, name, folder, options):
-    """Runs what is left of campaigns/`name`.yaml, in `folder`/`name`; the rows of its table."""
+def run(program, name, folder, options, data=None):
+    """Runs what is left of campaigns/`name`.yaml, in `folder`/`name`; the rows of its table.
+    The instances are those of `data`, or of `folder`."""
     manifest, campaign = str(CAMPAIGNS / f"{name}.yaml"), folder / name
-    common = [manifest, "--data", str(folder), "--folder", str(campaign)]
+    common = [manifest, "--data", str(data or folder), "--folder", str(campaign)]
     subprocess.run([program, "campaign", "run", *common, *options], check=True)
     subprocess.run([program, "campaign", "merge", *common], check=True, stdout=subprocess.DEVNULL)
     with open(campaign / "merged" / "table.csv", newline="", encoding="utf-8") as table:
