@@ -3,6 +3,7 @@
 import csv
 import pathlib
 import subprocess
+import sys
 
 CAMPAIGNS = pathlib.Path(__file__).resolve().parent / "campaigns"
 
@@ -21,7 +22,7 @@ def run(program, name, folder, options, data=None):
     The instances are those of `data`, or of `folder`."""
     manifest, campaign = str(CAMPAIGNS / f"{name}.yaml"), folder / name
     common = [manifest, "--data", str(data or folder), "--folder", str(campaign)]
-    subprocess.run([program, "campaign", "run", *common, *options], check=True)
+    subprocess.run([program, "campaign", "run", *common, *options], check=True, stdout=sys.stderr)
     subprocess.run([program, "campaign", "merge", *common], check=True, stdout=subprocess.DEVNULL)
     with open(campaign / "merged" / "table.csv", newline="", encoding="utf-8") as table:
         return list(csv.DictReader(table))
