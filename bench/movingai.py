@@ -13,15 +13,7 @@ import statistics
 import sys
 
 import prepared
-
-
-def is_closed(row):
-    return row["status"] == "optimal"
-
-
-def gap(row):
-    """In per cent; None without a plan."""
-    return 100 * (float(row["cost"]) / float(row["lower_bound"]) - 1) if row["cost"] else None
+from prepared import gap_cell, is_closed
 
 
 def time(row):
@@ -35,10 +27,9 @@ def show_map(name, rows):
     largest = [max((int(row["agents"]) for row in ladder if is_closed(row)), default=0)
                for ladder in ladders.values()]
     span = str(min(largest)) if len(set(largest)) == 1 else f"{min(largest)} to {max(largest)}"
-    gaps = [gap(row) for row in rows if not is_closed(row)]
-    ends = "no plan" if None in gaps else f"{statistics.median(gaps):.2f} %" if gaps else ""
     cells = (name, len(ladders), len(rows), sum(map(is_closed, rows)), span,
-             round(statistics.mean(largest)), f"{statistics.mean(map(time, rows)):.1f}", ends)
+             round(statistics.mean(largest)), f"{statistics.mean(map(time, rows)):.1f}",
+             gap_cell(rows, statistics.median))
     print("| " + " | ".join(map(str, cells)) + " |")
 
 

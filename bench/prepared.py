@@ -26,3 +26,18 @@ def run(program, name, folder, options, data=None):
     subprocess.run([program, "campaign", "merge", *common], check=True, stdout=subprocess.DEVNULL)
     with open(campaign / "merged" / "table.csv", newline="", encoding="utf-8") as table:
         return list(csv.DictReader(table))
+
+
+def is_closed(row):
+    return row["status"] == "optimal"
+
+
+def gap(row):
+    """In per cent; None without a plan."""
+    return 100 * (float(row["cost"]) / float(row["lower_bound"]) - 1) if row["cost"] else None
+
+
+def gap_cell(rows, of_all):
+    """A cell of a table: `of_all` gaps of what is not closed; empty if all is."""
+    gaps = [gap(row) for row in rows if not is_closed(row)]
+    return "no plan" if None in gaps else f"{of_all(gaps):.2f} %" if gaps else ""

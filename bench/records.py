@@ -12,6 +12,7 @@ import pathlib
 import sys
 
 import prepared
+from prepared import gap_cell, is_closed
 
 SCENARIOS = range(1, 6)
 RADII = {"0.3535533905932738": "√2/4", "0.1767766952966369": "√2/8", "0.08838834764831845": "√2/16"}
@@ -37,22 +38,11 @@ def prepare(data, folder):
                folder / "doubled" / f"empty-32-32-random-{k}.scen")
 
 
-def gap(row):
-    """In per cent; None without a plan."""
-    if not row["cost"]:
-        return None
-    return 100 * (float(row["cost"]) / float(row["lower_bound"]) - 1)
-
-
 def cell(row):
     words = row["variant"].split()
     value = dict(zip(words[::2], words[1::2]))
     name = pathlib.PurePath(row["map"]).stem
     return name, int(value["--neighbourhood"]), RADII[value["--radius"]]
-
-
-def is_closed(row):
-    return row["status"] == "optimal"
 
 
 def left_open(rows):
@@ -75,9 +65,8 @@ def show(rows):
     by_size = sorted(groups.items(), key=lambda of: (*of[0][:2], radii.index(of[0][2])))
     for key, found in by_size:
         cpu = sum(float(row["process_cpu_s"]) for row in found) / len(found)
-        gaps = [gap(row) for row in found if not is_closed(row)]
-        worst = "no plan" if None in gaps else f"{max(gaps):.2f} %" if gaps else ""
-        cells = (*key, len(found), sum(map(is_closed, found)), left_open(found), f"{cpu:.1f}", worst)
+        cells = (*key, len(found), sum(map(is_closed, found)), left_open(found), f"{cpu:.1f}",
+                 gap_cell(found, max))
         print("| " + " | ".join(map(str, cells)) + " |")
 
 
